@@ -1,0 +1,189 @@
+"""What flows out of the description room: parts with their origins, and sites that can be edited.
+
+All values are plain and frozen, so that they cross the worker's pipe as msgpack.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from studio.problems import MacroCall, Place, Problem  # noqa: TC001 - msgspec reads them
+
+
+class SiteKind(StrEnum):
+    """What an editable text is in its file."""
+
+    ARG = "arg"
+    PROPERTY = "property"
+    YAML = "yaml"
+    PARAM_DEFAULT = "param_default"
+    LITERAL = "literal"
+
+
+class WidgetKind(StrEnum):
+    """How a site is best turned: `VECTOR` is two or more numbers separated by blanks."""
+
+    SLIDER = "slider"
+    SWITCH = "switch"
+    CHOICE = "choice"
+    VECTOR = "vector"
+    TEXT = "text"
+
+
+@dataclass(frozen=True, slots=True)
+class Widget:
+    """How to turn a site; `minimum`, `maximum` and `step` are in `unit`, the unit of the file."""
+
+    kind: WidgetKind
+    minimum: float | None = None
+    maximum: float | None = None
+    step: float | None = None
+    unit: str = ""
+    """m, rad, kg, N m, rad/s ... ; empty when not known. Angles are in rad here, as in the file."""
+    choices: tuple[str, ...] = ()
+    help: str = ""
+    annotated: bool = False
+    """A comment in the file gives the range or choices; else they are inferred."""
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """Where a site's raw bytes stand: `start` and `end` are byte offsets in the file as it is now.
+
+    `syntax` says how text is written there: `"` or `'` (an XML attribute in those quotes),
+    `yaml` (a scalar, its quotes if any inside the span), `param` (one default inside the
+    `params` attribute of a macro, whose quote is `"`), `param'` (the same in `'`).
+    """
+
+    start: int
+    end: int
+    syntax: str
+
+
+@dataclass(frozen=True, slots=True)
+class Site:
+    """One text in a source file that can be edited, and what it came to in the last run."""
+
+    id: str
+    """Stable over edits of its own and other texts, e.g. `/p/urdf/a.xacro#12@value`."""
+    kind: SiteKind
+    name: str
+    """Property or arg name; dotted key path; or `<element path> @attribute` for a literal."""
+    place: Place
+    span: Span
+    text: str
+    """The text as written, entities resolved."""
+    value: str
+    """What it came to, as xacro prints it; empty when it was not read in this configuration."""
+    number: float | None
+    """`value` as a number, when it is one."""
+    reads: int
+    """How many texts read it in this run; 0: no effect in this configuration."""
+    widget: Widget
+    group: str
+    """Heading it is listed under: a section comment of the file, or a link or joint name."""
+    owner: str = ""
+    """For a literal: `link:<name>` or `joint:<name>` that it shapes, when it is one only."""
+    values: tuple[str, ...] = ()
+    """All distinct values seen, when there was more than one."""
+
+
+@dataclass(frozen=True, slots=True)
+class Edit:
+    """Replace the bytes [start, end) of a file by `new`: the one edit primitive."""
+
+    file: str
+    start: int
+    end: int
+    new: bytes
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """One top-level element of the expanded robot: a link, joint, material, or anything else."""
+
+    key: str
+    """`link:base_link`, `joint:wheel`, `material:red`, else `other:<n>`; a repeat ends in `#2`."""
+    xml: str
+    """The element as URDF text, no xacro left in it."""
+    place: Place
+    calls: tuple[MacroCall, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Expansion:
+    """What a run changed against the run before it (everything, for the first one).
+
+    `part_order` and `site_order` are None when they stayed as they were.
+    """
+
+    robot_name: str
+    root_attributes: tuple[tuple[str, str], ...]
+    part_order: tuple[str, ...] | None
+    changed_parts: tuple[Part, ...]
+    site_order: tuple[str, ...] | None
+    changed_sites: tuple[Site, ...]
+    files: tuple[str, ...]
+    """Every file that was read, the entry point first: what must be watched."""
+    include_tree: tuple[tuple[str, str], ...]
+    """(includer, included) pairs."""
+    warnings: tuple[Problem, ...]
+    evaluator: str
+    """`studio`, or `xacro` when a construct needed the stock library."""
+    fallback_reason: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Failure:
+    """A run that gave no robot; the run before it still stands. Sites stay as they were."""
+
+    problem: Problem
+    files: tuple[str, ...]
+    """What was read before it failed, so that a change on disk of any of them tries again."""
+
+
+@dataclass(frozen=True, slots=True)
+class ReadPolicy:
+    """What a description may read: given to the worker once, checked at its one open.
+
+    `packages` maps a name to its folders, the wanted one for `entry` first; `duplicates` are
+    resolved per asking file by the longest shared path. `environment` is what `$(env)` sees.
+    """
+
+    roots: tuple[str, ...]
+    packages: dict[str, tuple[str, ...]]
+    environment: dict[str, str]
+    trusted: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class OpenRequest:
+    """Start a session on `entry` and run it. `overlay` holds unsaved texts by absolute path."""
+
+    entry: str
+    arguments: dict[str, str]
+    policy: ReadPolicy
+    overlay: dict[str, bytes]
+
+
+@dataclass(frozen=True, slots=True)
+class EditRequest:
+    """Apply edits to the in-memory texts, in order, then run."""
+
+    edits: tuple[Edit, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class ArgumentsRequest:
+    """Run again with these arguments."""
+
+    arguments: dict[str, str]
+
+
+@dataclass(frozen=True, slots=True)
+class ReloadRequest:
+    """Forget the in-memory texts of these files, take the overlay or the disk, then run."""
+
+    files: tuple[str, ...]
+    overlay: dict[str, bytes]

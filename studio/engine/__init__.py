@@ -1,0 +1,1 @@
+"""The open documents: commands in, events out, undo, the tick."""

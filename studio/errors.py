@@ -1,0 +1,209 @@
+"""Every error the studio raises, in one tree.
+
+StudioError
+    SettingsError
+        PortTakenError
+        DataFolderError
+    PackageError
+        PackageNotFoundError
+        OutsideRootsError
+        UnreadableFileError
+        UnsafeArchiveError
+    DescriptionError
+        ExpansionError
+            RefusedError
+        EditError
+            StaleEditError
+            SaveConflictError
+    RobotError
+        MeshError
+    SceneError
+    WorkerError
+        WorkerTimeoutError
+        WorkerDiedError
+    AccessError
+        NotAllowedError
+    CommandError
+        UnknownDocumentError
+
+Each keeps its data and says in one sentence what is wrong, where, and what to do.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from studio.problems import Problem
+
+
+class StudioError(Exception):
+    """Anything that the studio can say in one sentence; the root of the tree."""
+
+
+class SettingsError(StudioError):
+    """The command line or the environment asks for something that cannot be."""
+
+
+class PortTakenError(SettingsError):
+    """The port that was asked for by number is held by another program."""
+
+    def __init__(self, host: str, port: int) -> None:
+        super().__init__(
+            f"Port {port} on {host} is taken by another program: choose another --port."
+        )
+        self.host, self.port = host, port
+
+
+class DataFolderError(SettingsError):
+    """The data folder cannot be made or written."""
+
+    def __init__(self, path: str, reason: str) -> None:
+        super().__init__(f"The data folder {path} cannot be used ({reason}): choose --data-dir.")
+        self.path, self.reason = path, reason
+
+
+class PackageError(StudioError):
+    """A package, a file of one, or a folder of them is not as it must be."""
+
+
+class PackageNotFoundError(PackageError):
+    """No package of that name lies below the folders that may be read."""
+
+    def __init__(self, name: str, asked_by: str | None = None) -> None:
+        where = f"{asked_by}: " if asked_by else ""
+        super().__init__(
+            f'{where}package "{name}" was not found below the opened folders: '
+            "choose its folder or give --package-path."
+        )
+        self.name, self.asked_by = name, asked_by
+
+
+class OutsideRootsError(PackageError):
+    """A path leads out of the folders that may be read, symlinks resolved."""
+
+    def __init__(self, path: str) -> None:
+        super().__init__(
+            f"{path} lies outside the opened folders and was not read: "
+            "open a folder that holds it or give --package-path."
+        )
+        self.path = path
+
+
+class UnreadableFileError(PackageError):
+    """A file is missing, no regular file, too large, or of no known encoding."""
+
+    def __init__(self, path: str, reason: str) -> None:
+        super().__init__(f"{path}: {reason}")
+        self.path, self.reason = path, reason
+
+
+class UnsafeArchiveError(PackageError):
+    """A zip would write outside its folder, or unpack to more than it may."""
+
+    def __init__(self, path: str, reason: str) -> None:
+        super().__init__(f"{path} was not unpacked: {reason}")
+        self.path, self.reason = path, reason
+
+
+class DescriptionError(StudioError):
+    """A robot description cannot be expanded, edited or saved."""
+
+
+class ExpansionError(DescriptionError):
+    """Xacro could not expand a file; `problem` holds the place, include chain and macro stack."""
+
+    def __init__(self, problem: Problem) -> None:
+        super().__init__(str(problem))
+        self.problem = problem
+
+
+class RefusedError(ExpansionError):
+    """A file asked for something unsafe or over budget; final, no other evaluator is tried."""
+
+
+class EditError(DescriptionError):
+    """An edit cannot be applied as asked."""
+
+
+class StaleEditError(EditError):
+    """The site is no longer where the asker saw it."""
+
+    def __init__(self, site: str) -> None:
+        super().__init__(
+            f"{site} is no longer in the source: the file was changed meanwhile, edit it again."
+        )
+        self.site = site
+
+
+class SaveConflictError(EditError):
+    """The file on disk is no longer the one that was read."""
+
+    def __init__(self, path: str) -> None:
+        super().__init__(
+            f"{path} was changed on disk since it was read and was not overwritten: "
+            "reload it first."
+        )
+        self.path = path
+
+
+class RobotError(StudioError):
+    """A URDF does not describe a robot."""
+
+
+class MeshError(RobotError):
+    """A mesh file cannot be shown."""
+
+    def __init__(self, uri: str, reason: str) -> None:
+        super().__init__(f"{uri}: {reason}")
+        self.uri, self.reason = uri, reason
+
+
+class SceneError(StudioError):
+    """The 3D view cannot be served."""
+
+
+class WorkerError(StudioError):
+    """A worker process did not answer."""
+
+
+class WorkerTimeoutError(WorkerError):
+    """A worker did not answer in time and was ended."""
+
+    def __init__(self, worker: str, timeout_s: float) -> None:
+        super().__init__(
+            f"The {worker} worker gave no answer within {timeout_s:g} s and was restarted."
+        )
+        self.worker, self.timeout_s = worker, timeout_s
+
+
+class WorkerDiedError(WorkerError):
+    """A worker ended in the middle of a request."""
+
+    def __init__(self, worker: str, exit_code: int | None) -> None:
+        super().__init__(f"The {worker} worker ended (exit code {exit_code}) and was restarted.")
+        self.worker, self.exit_code = worker, exit_code
+
+
+class AccessError(StudioError):
+    """Somebody asked for what is not theirs."""
+
+
+class NotAllowedError(AccessError):
+    """The role may not do this."""
+
+    def __init__(self, role: str, command: str) -> None:
+        super().__init__(f"A {role} may not {command.replace('_', ' ')}: ask the presenter.")
+        self.role, self.command = role, command
+
+
+class CommandError(StudioError):
+    """A command of the browser is malformed or names what does not exist."""
+
+
+class UnknownDocumentError(CommandError):
+    """No open document has that id."""
+
+    def __init__(self, document: str) -> None:
+        super().__init__(f'No document "{document}" is open: open its file again.')
+        self.document = document

@@ -1,0 +1,70 @@
+"""A Problem: what is wrong, where, and what mends it, as every room reports it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+
+class Severity(StrEnum):
+    """How much a Problem hinders: an error keeps the last good model, a warning does not."""
+
+    ERROR = "error"
+    WARNING = "warning"
+    INFO = "info"
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A place in a source file; `line` and `column` are 1-based, 0 when not known."""
+
+    file: str
+    line: int = 0
+    column: int = 0
+
+    def __str__(self) -> str:
+        """Write `file:line:column`, as far as it is known."""
+        parts = [self.file, *(str(n) for n in (self.line, self.column) if n)]
+        return ":".join(parts)
+
+
+@dataclass(frozen=True, slots=True)
+class MacroCall:
+    """One macro on the way to a place: its name and where it was called."""
+
+    macro: str
+    called_at: Place
+
+
+@dataclass(frozen=True, slots=True)
+class Fix:
+    """One click that mends a Problem: `action` names it, `target` is what it works on.
+
+    Actions: `choose_package` (target: package name), `undo` (target: empty),
+    `open_file` (target: path).
+    """
+
+    label: str
+    action: str
+    target: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Problem:
+    """One finding. `sentence` stands alone; `code` is stable, kebab-case, for tests and tools.
+
+    `include_chain` runs from the opened file down to (not including) `place`; `macro_stack` from
+    the outermost call to the innermost.
+    """
+
+    severity: Severity
+    code: str
+    sentence: str
+    place: Place | None = None
+    include_chain: tuple[Place, ...] = ()
+    macro_stack: tuple[MacroCall, ...] = ()
+    fix: Fix | None = None
+
+    def __str__(self) -> str:
+        """Write the sentence behind its place."""
+        return f"{self.place}: {self.sentence}" if self.place else self.sentence

@@ -1,0 +1,1 @@
+"""Links, joints, kinematics, meshes: the only room that imports yourdfpy and trimesh."""

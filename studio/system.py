@@ -1,0 +1,44 @@
+"""Calls that not every system has, each with what happens where it is missing."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import sys
+import threading
+import time
+
+_WATCH_INTERVAL_S = 0.2
+
+
+def limit_memory(limit_bytes: int) -> None:
+    """Bound this process's memory: by address space on Linux, by a watching thread elsewhere.
+
+    Linux refuses the allocation (MemoryError); elsewhere the process ends with code 137.
+    """
+    if sys.platform == "linux":
+        import resource  # noqa: PLC0415 - Unix only
+
+        resource.setrlimit(resource.RLIMIT_AS, (limit_bytes, limit_bytes))
+        return
+    threading.Thread(target=_watch_memory, args=(limit_bytes,), daemon=True).start()
+
+
+def _watch_memory(limit_bytes: int) -> None:
+    """End the process when its peak resident size passes the limit."""
+    try:
+        import resource  # noqa: PLC0415 - Unix only
+    except ImportError:  # Windows: the parent's time budget is the only bound
+        return
+    unit = 1 if sys.platform == "darwin" else 1024  # macOS counts bytes, the BSDs kilobytes
+    while resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit < limit_bytes:
+        time.sleep(_WATCH_INTERVAL_S)
+    os._exit(137)
+
+
+def ignore_interrupt() -> None:
+    """Leave Ctrl-C to the parent: a worker ends when its pipe closes."""
+    import signal  # noqa: PLC0415 - keeps the import of this module cheap
+
+    with contextlib.suppress(ValueError, AttributeError):
+        signal.signal(signal.SIGINT, signal.SIG_IGN)

@@ -1,0 +1,190 @@
+"""Worker processes over pipes: one request, one answer, a time limit, a fresh process after a fall.
+
+A worker is `python -m studio.<room>.worker`, never a fork (unsafe beside uvloop, viser and zenoh
+threads) and never multiprocessing's spawn (it imports the command again). Messages are frozen
+dataclasses as msgpack behind a 4-byte length; nothing is unpickled. A worker ends when its pipe
+closes.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import os
+import struct
+import sys
+from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
+
+import msgspec
+
+from studio.errors import WorkerDiedError, WorkerTimeoutError
+from studio.system import ignore_interrupt, limit_memory
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+_LENGTH = struct.Struct("<I")
+_ENVELOPE = msgspec.msgpack.Decoder(tuple[str, msgspec.Raw])
+
+Answer = TypeVar("Answer")
+
+
+class Codec:
+    """Packs the messages of one worker: each behind its class name."""
+
+    def __init__(self, *types: type) -> None:
+        self._decoders: dict[str, msgspec.msgpack.Decoder[Any]] = {
+            one.__name__: msgspec.msgpack.Decoder(one) for one in types
+        }
+
+    def pack(self, message: object) -> bytes:
+        """Length, then [class name, message]."""
+        name = type(message).__name__
+        body = msgspec.msgpack.encode((name, msgspec.Raw(msgspec.msgpack.encode(message))))
+        return _LENGTH.pack(len(body)) + body
+
+    def unpack(self, body: bytes) -> Any:  # noqa: ANN401 - one of the codec's types
+        """Undo `pack`, without the length.
+
+        Raises:
+            KeyError: The class is none of this codec's.
+            msgspec.ValidationError: The fields do not fit the class.
+        """
+        name, raw = _ENVELOPE.decode(body)
+        return self._decoders[name].decode(raw)
+
+
+class Worker:
+    """The parent's end of one worker process; started at the first `ask` or by `warm`.
+
+    Requests queue up; one is under way at a time. A late or dead worker is ended, the asker gets
+    the error, and the next `ask` starts a fresh one: `generation` counts them, so that a caller
+    with state in the worker knows that it is gone.
+    """
+
+    def __init__(self, name: str, module: str, codec: Codec, *arguments: str) -> None:
+        self.name, self.generation = name, 0
+        self._command = (sys.executable, "-m", module, *arguments)
+        self._codec = codec
+        self._process: asyncio.subprocess.Process | None = None
+        self._lock = asyncio.Lock()
+
+    @property
+    def pid(self) -> int | None:
+        """Process id while it runs."""
+        return self._process.pid if self._process else None
+
+    async def warm(self) -> None:
+        """Start the process without asking it anything."""
+        async with self._lock:
+            await self._ensure_process()
+
+    async def ask(self, request: object, answer: type[Answer], timeout_s: float) -> Answer:
+        """Send one request and wait for its answer.
+
+        Raises:
+            WorkerTimeoutError: No answer in time; the process was ended.
+            WorkerDiedError: The process ended, or answered what is not `answer`.
+        """
+        async with self._lock:
+            process = await self._ensure_process()
+            try:
+                body = await asyncio.wait_for(self._exchange(process, request), timeout_s)
+                message = self._codec.unpack(body)
+            except TimeoutError as error:
+                await self._end()
+                raise WorkerTimeoutError(self.name, timeout_s) from error
+            except (asyncio.IncompleteReadError, ConnectionError, KeyError, ValueError) as error:
+                raise WorkerDiedError(self.name, await self._end()) from error
+            except asyncio.CancelledError:
+                await self._end()  # its late answer must not be taken for the next one's
+                raise
+        if not isinstance(message, answer):
+            raise WorkerDiedError(self.name, None)
+        return message
+
+    async def close(self) -> None:
+        """End the process; safe to call twice. A request under way fails."""
+        await self._end()
+
+    async def _ensure_process(self) -> asyncio.subprocess.Process:
+        if self._process is None or self._process.returncode is not None:
+            self._process = await asyncio.create_subprocess_exec(
+                *self._command,
+                stdin=asyncio.subprocess.PIPE,
+                stdout=asyncio.subprocess.PIPE,
+                limit=1 << 20,
+            )
+            self.generation += 1
+        return self._process
+
+    async def _exchange(self, process: asyncio.subprocess.Process, request: object) -> bytes:
+        assert process.stdin is not None
+        assert process.stdout is not None
+        process.stdin.write(self._codec.pack(request))
+        await process.stdin.drain()
+        (length,) = _LENGTH.unpack(await process.stdout.readexactly(_LENGTH.size))
+        return await process.stdout.readexactly(length)
+
+    async def _end(self) -> int | None:
+        process, self._process = self._process, None
+        if process is None:
+            return None
+        with contextlib.suppress(ProcessLookupError):
+            process.kill()
+        return await process.wait()
+
+
+class WorkerPool:
+    """Several workers of one kind for independent requests; the least busy one is asked."""
+
+    def __init__(self, size: int, make: Callable[[int], Worker]) -> None:
+        self._workers = [make(number) for number in range(size)]
+        self._waiting = [0] * size
+
+    async def warm(self) -> None:
+        """Start all processes."""
+        await asyncio.gather(*(worker.warm() for worker in self._workers))
+
+    async def ask(self, request: object, answer: type[Answer], timeout_s: float) -> Answer:
+        """Ask the worker with the fewest requests under way; errors as `Worker.ask`."""
+        index = min(range(len(self._workers)), key=self._waiting.__getitem__)
+        self._waiting[index] += 1
+        try:
+            return await self._workers[index].ask(request, answer, timeout_s)
+        finally:
+            self._waiting[index] -= 1
+
+    async def close(self) -> None:
+        """End all processes."""
+        await asyncio.gather(*(worker.close() for worker in self._workers))
+
+
+def serve(codec: Codec, handle: Callable[[Any], object], memory_limit_bytes: int) -> None:
+    """The worker's whole life: answer requests from stdin until it closes.
+
+    Whatever the room's libraries print goes to stderr; only answers go to the pipe. An error that
+    `handle` does not turn into an answer ends the process, and the parent says so.
+    """
+    ignore_interrupt()
+    requests, answers = _take_over_pipes()
+    limit_memory(memory_limit_bytes)
+    while (body := _read_message(requests)) is not None:
+        answers.write(codec.pack(handle(codec.unpack(body))))
+        answers.flush()
+
+
+def _take_over_pipes() -> tuple[BinaryIO, BinaryIO]:
+    """Keep the real stdout for answers, and point fd 1 at stderr for everyone else."""
+    answers = os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)
+    return sys.stdin.buffer, answers
+
+
+def _read_message(stream: BinaryIO) -> bytes | None:
+    head = stream.read(_LENGTH.size)
+    if len(head) < _LENGTH.size:
+        return None
+    (length,) = _LENGTH.unpack(head)
+    body = stream.read(length)
+    return body if len(body) == length else None
