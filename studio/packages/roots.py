@@ -49,12 +49,14 @@ class ServedRoots:
 
         Raises:
             OutsideRootsError: It leads out of the served folders.
-            UnreadableFileError: It cannot be a file name.
+            UnreadableFileError: It cannot be a file name, or vanished while it was followed.
         """
         try:
             real = Path(os.path.realpath(path))
         except ValueError as error:  # a NUL character
             raise UnreadableFileError(repr(str(path)), "is no file name.") from error
+        except OSError as error:
+            raise UnreadableFileError(str(path), _os_reason(error)) from error
         if self.root_of(real) is None:
             raise OutsideRootsError(str(path))
         return real
@@ -203,6 +205,8 @@ _NOT_REGULAR: Final = "is no regular file but a pipe, device or socket, and was 
 
 
 def _what_it_is(real: Path) -> str:
+    if real.is_symlink():  # all links were followed, so this one never ends
+        return "is a link that leads back to itself."
     return "is a folder, not a file." if real.is_dir() else _NOT_REGULAR
 
 
