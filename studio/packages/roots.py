@@ -2,25 +2,18 @@
 
 from __future__ import annotations
 
+import errno
 import os
-import stat
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from studio.errors import OutsideRootsError, UnreadableFileError
+from studio.packages.opening import NotRegularError, open_regular
 from studio.settings import SOURCE_SIZE_LIMIT_BYTES
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-# O_NONBLOCK: a pipe that took the file's place must not hang us. Windows has neither flag.
-_OPEN_FLAGS: Final = (
-    os.O_RDONLY
-    | getattr(os, "O_NONBLOCK", 0)
-    | getattr(os, "O_NOFOLLOW", 0)
-    | getattr(os, "O_CLOEXEC", 0)
-    | getattr(os, "O_BINARY", 0)
-)
 _CHUNK_BYTES: Final = 1 << 20
 _MARKER_LEVELS: Final = 3
 
@@ -51,15 +44,7 @@ class ServedRoots:
             OutsideRootsError: It leads out of the served folders.
             UnreadableFileError: It cannot be a file name, or vanished while it was followed.
         """
-        try:
-            real = Path(os.path.realpath(path))
-        except ValueError as error:  # a NUL character
-            raise UnreadableFileError(repr(str(path)), "is no file name.") from error
-        except OSError as error:
-            raise UnreadableFileError(str(path), _os_reason(error)) from error
-        if self.root_of(real) is None:
-            raise OutsideRootsError(str(path))
-        return real
+        return self._locate(path)[0]
 
     def serves(self, path: Path | str) -> bool:
         """Whether `resolve` lets a path through."""
@@ -81,16 +66,15 @@ class ServedRoots:
             OutsideRootsError: It leads out of the served folders.
             UnreadableFileError: Missing, no regular file, not permitted, or over `limit_bytes`.
         """
-        real = self.resolve(path)
+        real, root = self._locate(path)
         try:
-            if not stat.S_ISREG(os.lstat(real).st_mode):  # opening a device may already act on it
-                raise UnreadableFileError(str(path), _what_it_is(real))
-            descriptor = os.open(real, _OPEN_FLAGS)
+            descriptor = open_regular(root, real)
             try:
-                self._check_opened(descriptor, path)
                 return _read_all(descriptor, str(path), limit_bytes)
             finally:
                 os.close(descriptor)
+        except NotRegularError as error:
+            raise UnreadableFileError(str(path), _what_it_is(real)) from error
         except OSError as error:
             raise UnreadableFileError(str(path), _os_reason(error)) from error
 
@@ -100,23 +84,25 @@ class ServedRoots:
         A save renames a new file into place, so the folder must be writable as well.
         """
         try:
-            real = self.resolve(path)
+            real, root = self._locate(path)
         except (OutsideRootsError, UnreadableFileError):
             return False
-        if self.root_of(real) not in self.writable or not os.access(real.parent, os.W_OK):
+        if root not in self.writable or not os.access(real.parent, os.W_OK):
             return False
         return not real.exists() or (real.is_file() and os.access(real, os.W_OK))
 
-    def _check_opened(self, descriptor: int, path: Path | str) -> None:
-        """See that what was opened is what the path means now: nothing was swapped meanwhile.
-
-        A swap of any folder on the way shows either here as a path outside or as another file.
-        """
-        opened = os.fstat(descriptor)
-        if not stat.S_ISREG(opened.st_mode):
-            raise UnreadableFileError(str(path), _NOT_REGULAR)
-        if not os.path.samestat(opened, os.lstat(self.resolve(path))):
-            raise UnreadableFileError(str(path), "was replaced while it was opened: try again.")
+    def _locate(self, path: Path | str) -> tuple[Path, Path]:
+        """The real path, and the innermost root that holds it."""
+        try:
+            real = Path(os.path.realpath(path))
+        except ValueError as error:  # a NUL character
+            raise UnreadableFileError(repr(str(path)), "is no file name.") from error
+        except OSError as error:
+            raise UnreadableFileError(str(path), _os_reason(error)) from error
+        root = self.root_of(real)
+        if root is None:
+            raise OutsideRootsError(str(path))
+        return real, root
 
 
 def is_below(path: Path, folder: Path) -> bool:
@@ -201,13 +187,12 @@ def _resolved(folders: Iterable[Path]) -> tuple[Path, ...]:
     return tuple(dict.fromkeys(Path(os.path.realpath(one)) for one in folders))
 
 
-_NOT_REGULAR: Final = "is no regular file but a pipe, device or socket, and was not read."
-
-
 def _what_it_is(real: Path) -> str:
     if real.is_symlink():  # all links were followed, so this one never ends
         return "is a link that leads back to itself."
-    return "is a folder, not a file." if real.is_dir() else _NOT_REGULAR
+    if real.is_dir():
+        return "is a folder, not a file."
+    return "is no regular file but a pipe, device or socket, and was not read."
 
 
 def _os_reason(error: OSError) -> str:
@@ -215,6 +200,8 @@ def _os_reason(error: OSError) -> str:
         return "does not exist."
     if isinstance(error, PermissionError):
         return "may not be read: its permissions forbid it."
+    if error.errno == errno.ELOOP:  # a link that was none a moment ago
+        return "was replaced while it was opened: try again."
     return f"cannot be read ({error.strerror or type(error).__name__})."
 
 
