@@ -1,0 +1,233 @@
+"""Parts in, robot out: parses only what changed and says which links and joints did."""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from studio.problems import Problem, Severity
+from studio.robot.elements import ParsedElement, parse_element
+from studio.robot.structure import Structure
+from studio.robot.values import Joint, Link, Material, Robot, Visual
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+    from studio.description.values import Part
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """What `Assembly.apply` came to, against the robot before it."""
+
+    robot: Robot
+    changed_links: frozenset[str]
+    """Links that are new or look, touch or weigh different; not those that only moved."""
+    changed_joints: frozenset[str]
+    structural: bool
+    """Links or joints came, went, changed order, type, parent, child or leader."""
+    problems: tuple[Problem, ...]
+    """All problems of the robot now, not only new ones."""
+    kept_last_good: bool
+    """The parts make no robot (no link, a cycle): `robot` is the one before."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Element:
+    """A part as parsed, and the value that stands for it: while it is broken, its last good one."""
+
+    part: Part
+    parsed: ParsedElement
+    value: Link | Joint | Material | None
+
+
+class Assembly:
+    """Holds the elements of one robot by part key.
+
+    Severities: an error means that something last good is shown (a broken element keeps its last
+    good value, a cycle keeps the whole robot) or, when there is none, that the broken sub-element
+    is left out. A warning means that the robot is drawn as far as it makes sense, although ROS may
+    reject the file.
+    """
+
+    def __init__(self, name: str = "") -> None:
+        self.robot = Robot(name)
+        self._name = name
+        self._order: tuple[str, ...] = ()
+        self._elements: dict[str, _Element] = {}
+        self._structure = Structure.of(self.robot)
+        self._resolved: dict[str, tuple[Link, tuple[Material | None, ...], Link]] = {}
+
+    def rename(self, name: str) -> None:
+        """The robot's name from the next `apply` on."""
+        self._name = name
+
+    def part(self, key: str) -> Part | None:
+        """Where an element was written; keys as in `Part.key`."""
+        element = self._elements.get(key)
+        return element.part if element else None
+
+    def apply(self, order: tuple[str, ...] | None, changed_parts: Iterable[Part]) -> Change:
+        """Take in changed parts; `order` lists all keys, or is None when it stayed as it was."""
+        for part in changed_parts:
+            self._elements[part.key] = self._parse(part)
+        if order is not None:
+            self._order = order
+            self._elements = {key: self._elements[key] for key in order if key in self._elements}
+        return self._assemble()
+
+    def _parse(self, part: Part) -> _Element:
+        before = self._elements.get(part.key)
+        parsed = parse_element(part.xml)
+        keep = bool(parsed.faults) and before is not None and before.value is not None
+        return _Element(part, parsed, before.value if keep and before else parsed.value)
+
+    def _assemble(self) -> Change:
+        problems = [*self._element_problems()]
+        written, repeats = self._written()
+        structure = self._structure
+        if not structure.fits(written):
+            structure = Structure.of(written)
+        problems += repeats
+        problems += (self._located(one, key) for one, key in structure.findings)
+        if structure.broken:
+            return _unchanged(self.robot, tuple(problems))
+        self._structure = structure
+        before, self.robot = self.robot, structure.pruned(written)
+        return _compare(before, self.robot, tuple(problems))
+
+    def _element_problems(self) -> Iterable[Problem]:
+        for element in self._elements.values():
+            for fault in element.parsed.faults:
+                yield _problem(Severity.ERROR, "bad-element", str(fault), element.part)
+            for note in element.parsed.notes:
+                yield _problem(Severity.WARNING, "bad-joint", str(note), element.part)
+
+    def _written(self) -> tuple[Robot, list[Problem]]:
+        """The robot as its parts say, first of a name wins, materials resolved."""
+        links: dict[str, Link] = {}
+        joints: dict[str, Joint] = {}
+        materials: dict[str, Material] = {}
+        problems: list[Problem] = []
+        for element in self._elements.values():
+            match element.value:
+                case Link() as link if link.name not in links:
+                    links[link.name] = link
+                case Joint() as joint if joint.name not in joints:
+                    joints[joint.name] = joint
+                case Material() as material:
+                    # gazebo and rviz users repeat materials freely; the first one wins, as in ROS
+                    materials.setdefault(material.name, material)
+                case None:
+                    pass
+                case Link() | Joint() as repeat:
+                    problems.append(_repeated(repeat, element.part))
+        _add_inline_materials(links.values(), materials)
+        resolved = {name: self._resolve(link, materials, problems) for name, link in links.items()}
+        return Robot(self._name, resolved, joints, materials), problems
+
+    def _resolve(
+        self, link: Link, materials: Mapping[str, Material], problems: list[Problem]
+    ) -> Link:
+        """The link with each named material looked up; the same object while nothing changed."""
+        found = tuple(_lookup(visual, materials) for visual in link.visuals)
+        for visual, material in zip(link.visuals, found, strict=True):
+            if visual.material is not None and material is None:
+                problems.append(self._undefined_material(link, visual.material.name))
+        known = self._resolved.get(link.name)
+        if known is not None and known[0] is link and known[1] == found:
+            return known[2]
+        visuals = tuple(
+            dataclasses.replace(visual, material=material)
+            for visual, material in zip(link.visuals, found, strict=True)
+        )
+        resolved = dataclasses.replace(link, visuals=visuals)
+        self._resolved[link.name] = (link, found, resolved)
+        return resolved
+
+    def _undefined_material(self, link: Link, name: str) -> Problem:
+        sentence = (
+            f'Link "{link.name}" uses the material "{name}", which is not defined: '
+            f'add <material name="{name}"> with a color.'
+        )
+        problem = Problem(Severity.WARNING, "undefined-material", sentence)
+        return self._located(problem, f"link:{link.name}")
+
+    def _located(self, problem: Problem, key: str) -> Problem:
+        part = self.part(key)
+        if part is None:
+            return problem
+        return dataclasses.replace(problem, place=part.place, macro_stack=part.calls)
+
+
+def _problem(severity: Severity, code: str, sentence: str, part: Part) -> Problem:
+    return Problem(severity, code, sentence, part.place, macro_stack=part.calls)
+
+
+def _repeated(value: Link | Joint, part: Part) -> Problem:
+    kind = "link" if isinstance(value, Link) else "joint"
+    sentence = (
+        f'A second {kind} is named "{value.name}" and was left out; ROS rejects this: '
+        "give it a name of its own."
+    )
+    return _problem(Severity.WARNING, f"duplicate-{kind}", sentence, part)
+
+
+def _add_inline_materials(links: Iterable[Link], materials: dict[str, Material]) -> None:
+    """A material written inside a visual defines its name for the links after it, as in ROS."""
+    for link in links:
+        for visual in link.visuals:
+            material = visual.material
+            if material is not None and material.name and _has_looks(material):
+                materials.setdefault(material.name, material)
+
+
+def _lookup(visual: Visual, materials: Mapping[str, Material]) -> Material | None:
+    """What a visual is drawn in: a name that is defined wins over what stands beside it."""
+    material = visual.material
+    if material is None:
+        return None
+    known = materials.get(material.name) if material.name else None
+    return known or (material if _has_looks(material) or not material.name else None)
+
+
+def _has_looks(material: Material) -> bool:
+    return material.rgba is not None or bool(material.texture_uri)
+
+
+def _unchanged(robot: Robot, problems: tuple[Problem, ...]) -> Change:
+    return Change(
+        robot,
+        changed_links=frozenset(),
+        changed_joints=frozenset(),
+        structural=False,
+        problems=problems,
+        kept_last_good=True,
+    )
+
+
+def _compare(before: Robot, after: Robot, problems: tuple[Problem, ...]) -> Change:
+    return Change(
+        after,
+        changed_links=_differing(before.links, after.links),
+        changed_joints=_differing(before.joints, after.joints),
+        structural=_skeleton(before) != _skeleton(after),
+        problems=problems,
+        kept_last_good=False,
+    )
+
+
+def _differing(before: Mapping[str, object], after: Mapping[str, object]) -> frozenset[str]:
+    return frozenset(
+        name
+        for name, value in after.items()
+        if (known := before.get(name)) is not value and known != value
+    )
+
+
+def _skeleton(robot: Robot) -> object:
+    return tuple(robot.links), [
+        (one.name, one.type, one.parent, one.child, one.mimic and one.mimic.joint)
+        for one in robot.joints.values()
+    ]

@@ -1,0 +1,282 @@
+"""Forward kinematics over arrays: joint positions in, link poses out.
+
+Matrices are named `a_from_b`: they express points of frame b in frame a. A joint's own frame lies
+at its origin in the parent link; moving the joint moves the child link in that frame.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+
+from studio.robot.rotations import (
+    cross_matrices,
+    matrix_from_rpy,
+    unit_vectors,
+    wxyz_from_matrices,
+)
+from studio.robot.values import JointType
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from numpy.typing import NDArray
+
+    from studio.robot.values import Joint, Robot
+
+Floats: TypeAlias = "NDArray[np.float64]"
+
+_TURNS = (JointType.REVOLUTE, JointType.CONTINUOUS)
+_MOVES = (*_TURNS, JointType.PRISMATIC)
+_UNLIMITED_SWING = {JointType.REVOLUTE: math.pi / 2, JointType.PRISMATIC: 0.1}
+"""Half the range, rad or m, of a joint whose limits are missing or upside down."""
+_SWING_PERIOD_S = 4.0
+
+
+class Kinematics:
+    """The kinematics of one robot; immutable, rebuilt when a joint changes.
+
+    Positions are arrays of shape (..., J) in the order of `movable`: revolute, continuous and
+    prismatic joints with the followers of mimic among them, in document order. Planar and floating
+    joints stand still at their origin. A joint whose axis is zero does not move, as in ROS.
+    """
+
+    def __init__(self, robot: Robot) -> None:
+        self.link_names = tuple(robot.links)
+        joints = tuple(robot.joints.values())
+        moving = [joint for joint in joints if joint.type in _MOVES]
+        self.movable = tuple(joint.name for joint in moving)
+        self.free = tuple(joint.name for joint in moving if joint.mimic is None)
+        self._index = {name: index for index, name in enumerate(self.movable)}
+        self._joints = {joint.name: joint for joint in moving}
+        self.lower, self.upper = _limits(moving)
+        self._lead_in(robot)
+        self._lay_out(joints)
+        self._link_up(joints)
+
+    def clamp(self, name: str, value: float) -> float:
+        """The nearest position within the limits of a movable joint.
+
+        Raises:
+            KeyError: No movable joint has that name.
+            ValueError: `value` is not finite.
+        """
+        if not math.isfinite(value):
+            raise ValueError(f'Position {value} of joint "{name}" is not a finite number.')
+        index = self._index[name]
+        return float(min(max(value, self.lower[index]), self.upper[index]))
+
+    def positions_with_mimic(self, positions: Mapping[str, float] | Floats) -> Floats:
+        """Positions of all movable joints, (J,), followers computed from their leaders.
+
+        Args:
+            positions: By name (missing joints stand at zero, names of followers and unknown names
+                are skipped), or an array (..., number of `free`) in the order of `free`.
+        """
+        if isinstance(positions, np.ndarray):
+            free = positions
+        else:
+            free = np.array([positions.get(name, 0.0) for name in self.free], dtype=np.float64)
+        leaders = np.concatenate((free, np.zeros((*free.shape[:-1], 1))), axis=-1)
+        return leaders[..., self._leader] * self._multiplier + self._offset
+
+    def world_from_links(self, positions: Floats) -> Floats:
+        """Pose of every link, (..., L, 4, 4); roots stand at the identity."""
+        return self._chain(self._parent_from_child(positions))[..., :-1, :, :]
+
+    def wxyz_xyz(self, positions: Floats) -> Floats:
+        """Pose of every link, (..., L, 7): unit quaternion with w >= 0, then metres."""
+        world_from_links = self.world_from_links(positions)
+        return np.concatenate(
+            (wxyz_from_matrices(world_from_links[..., :3, :3]), world_from_links[..., :3, 3]),
+            axis=-1,
+        )
+
+    def joint_frames(self, positions: Floats) -> Floats:
+        """Pose of each movable joint's frame before it moves, (..., J, 4, 4)."""
+        world_from_links = self._chain(self._parent_from_child(positions))
+        return world_from_links[..., self._movable_parent, :, :] @ self._parent_from_joint[self._at]
+
+    @property
+    def axes(self) -> Floats:
+        """Unit axis of each movable joint in its own frame, (J, 3); zero where none is given."""
+        return self._axes
+
+    def zero_positions(self) -> Floats:
+        """Zero for every movable joint, or the nearest position within its limits."""
+        return self._followed(np.clip(0.0, self.lower, self.upper))
+
+    def random_positions(self, rng: np.random.Generator) -> Floats:
+        """A position within the limits for every joint; a whole turn where there are none."""
+        middle, half = self._swing_range()
+        return self._followed(middle + half * rng.uniform(-1.0, 1.0, len(self.movable)))
+
+    def swing(self, t_s: float, start: Floats | None = None) -> Floats:
+        """Positions at time `t_s` of an endless smooth swing that begins at `start` (or zero).
+
+        A limited joint goes to and fro between its limits; a continuous one turns.
+        """
+        begin = self.zero_positions() if start is None else start
+        middle, half = self._swing_range()
+        omega = 2 * math.pi / _SWING_PERIOD_S
+        reach = np.where(half > 0, half, 1.0)
+        phase = np.arcsin(np.clip((begin - middle) / reach, -1.0, 1.0))
+        to_and_fro = middle + half * np.sin(omega * t_s + phase)
+        turned = (begin + omega * t_s + math.pi) % (2 * math.pi) - math.pi
+        return self._followed(np.where(self._turns, turned, to_and_fro))
+
+    def _followed(self, positions: Floats) -> Floats:
+        free = positions[[self._index[name] for name in self.free]]
+        return self.positions_with_mimic(free)
+
+    def _swing_range(self) -> tuple[Floats, Floats]:
+        """Middle and half of each joint's range, rad or m."""
+        limited = np.isfinite(self.lower) & np.isfinite(self.upper)
+        lower = np.where(limited, self.lower, -self._default_half)
+        upper = np.where(limited, self.upper, self._default_half)
+        return (lower + upper) / 2, (upper - lower) / 2
+
+    def _lead_in(self, robot: Robot) -> None:
+        """Find for each movable joint the free joint that leads it: q = multiplier * lead + offset.
+
+        A leader that cannot move counts as a free joint that stands at zero.
+        """
+        place = {name: index for index, name in enumerate(self.free)}
+        found = [_leading(self._joints[name], robot.joints) for name in self.movable]
+        self._leader = np.array(
+            [place.get(name, len(place)) for name, _, _ in found], dtype=np.intp
+        )
+        self._multiplier = np.array([multiplier for _, multiplier, _ in found], dtype=np.float64)
+        self._offset = np.array([offset for _, _, offset in found], dtype=np.float64)
+        types = [self._joints[name].type for name in self.movable]
+        self._turns = np.array([one is JointType.CONTINUOUS for one in types], dtype=np.bool_)
+        self._default_half = np.array([_UNLIMITED_SWING.get(one, math.pi) for one in types])
+
+    def _lay_out(self, joints: tuple[Joint, ...]) -> None:
+        """Each joint's motion as matrices: R(q) = A + sin(q) B + (1 - cos(q)) C, t(q) = t + q d."""
+        count = len(joints)
+        self._parent_from_joint = np.zeros((count, 4, 4))
+        self._parent_from_joint[:, :3, :3] = matrix_from_rpy(
+            np.array([joint.origin.rpy for joint in joints], dtype=np.float64).reshape(-1, 3)
+        )
+        self._parent_from_joint[:, :3, 3] = np.reshape([one.origin.xyz for one in joints], (-1, 3))
+        self._parent_from_joint[:, 3, 3] = 1.0
+        axes = unit_vectors(np.array([one.axis for one in joints], dtype=np.float64).reshape(-1, 3))
+        self._at = np.array(
+            [i for i, one in enumerate(joints) if one.type in _MOVES], dtype=np.intp
+        )
+        self._axes = axes[self._at]
+        turns = np.array([one.type in _TURNS for one in joints], dtype=np.bool_)[self._at]
+        rotations = self._parent_from_joint[self._at, :3, :3]
+        cross = cross_matrices(self._axes) * turns[:, None, None]
+        self._sine = rotations @ cross
+        self._versine = self._sine @ cross
+        self._slide = np.einsum("jab,jb->ja", rotations, self._axes) * ~turns[:, None]
+
+    def _link_up(self, joints: tuple[Joint, ...]) -> None:
+        """Index arrays of the tree; index L stands for the world, above all roots."""
+        place = {name: index for index, name in enumerate(self.link_names)}
+        world = len(place)
+        self._child = np.array([place[one.child] for one in joints], dtype=np.intp)
+        parent = np.full(world + 1, world, dtype=np.intp)
+        parent[self._child] = [place[one.parent] for one in joints]
+        self._movable_parent = parent[self._child[self._at]]
+        self._jumps: list[NDArray[np.intp]] = []
+        while np.any(parent != world):
+            self._jumps.append(parent)
+            if len(self._jumps) > world.bit_length():
+                raise ValueError("The joints form a cycle.")
+            parent = parent[parent]
+
+    def _parent_from_child(self, positions: Floats) -> Floats:
+        """Pose of each link in its parent, (..., L + 1, 4, 4); roots and the world: identity."""
+        batch = positions.shape[:-1]
+        moved = np.broadcast_to(
+            self._parent_from_joint, (*batch, *self._parent_from_joint.shape)
+        ).copy()
+        moved[..., self._at, :3, :3] += (
+            np.sin(positions)[..., None, None] * self._sine
+            + (1.0 - np.cos(positions))[..., None, None] * self._versine
+        )
+        moved[..., self._at, :3, 3] += positions[..., None] * self._slide
+        links = np.empty((*batch, len(self.link_names) + 1, 4, 4))
+        links[...] = np.eye(4)
+        links[..., self._child, :, :] = moved
+        return links
+
+    def _chain(self, parent_from_child: Floats) -> Floats:
+        """Multiply down the tree by doubling: log2(depth) products of all links at once."""
+        world_from_links = parent_from_child
+        for jump in self._jumps:
+            world_from_links = world_from_links[..., jump, :, :] @ world_from_links
+        return world_from_links
+
+
+def planar_motion(x_m: float, y_m: float, yaw_rad: float, axis: Floats) -> Floats:
+    """Motion (4, 4) of a planar joint: x and y in the plane across `axis`, then turned about it.
+
+    The plane's x and y are those of the joint frame turned by the shortest way that takes z to
+    `axis`, so that axis (0, 0, 1) moves along the frame's own x and y.
+    """
+    normal = unit_vectors(axis)
+    frame_from_plane = _shortest_turn_from_z(normal)
+    motion = np.eye(4)
+    motion[:3, :3] = _turn(normal, yaw_rad)
+    motion[:3, 3] = frame_from_plane @ np.array([x_m, y_m, 0.0])
+    return motion
+
+
+def floating_motion(xyz_m: Floats, wxyz: Floats) -> Floats:
+    """Motion (4, 4) of a floating joint; the quaternion need not be normalised, but not zero."""
+    w, x, y, z = wxyz / np.linalg.norm(wxyz)
+    motion = np.eye(4)
+    motion[:3, :3] = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+    ]
+    motion[:3, 3] = xyz_m
+    return motion
+
+
+def _turn(unit_axis: Floats, angle_rad: float) -> Floats:
+    cross = cross_matrices(unit_axis)
+    return np.eye(3) + math.sin(angle_rad) * cross + (1 - math.cos(angle_rad)) * cross @ cross
+
+
+def _shortest_turn_from_z(unit_axis: Floats) -> Floats:
+    if unit_axis[2] < -1 + 1e-12:
+        return np.diag([1.0, -1.0, -1.0])
+    cross = cross_matrices(np.array([-unit_axis[1], unit_axis[0], 0.0]))
+    return np.eye(3) + cross + cross @ cross / (1 + unit_axis[2])
+
+
+def _limits(joints: list[Joint]) -> tuple[Floats, Floats]:
+    """Least and greatest position; infinite where nothing limits the joint."""
+    pairs = [_range(joint) for joint in joints]
+    lower, upper = np.array(pairs, dtype=np.float64).reshape(-1, 2).T
+    return lower, upper
+
+
+def _range(joint: Joint) -> tuple[float, float]:
+    limit = joint.limit
+    if joint.type is JointType.CONTINUOUS or limit is None or limit.lower > limit.upper:
+        return -math.inf, math.inf
+    return limit.lower, limit.upper
+
+
+def _leading(joint: Joint, joints: Mapping[str, Joint]) -> tuple[str, float, float]:
+    """The free joint at the head of a chain of mimics, and the chain as one multiplier, offset."""
+    multiplier, offset = 1.0, 0.0
+    for _ in range(len(joints)):
+        mimic = joint.mimic
+        if mimic is None:
+            return joint.name, multiplier, offset
+        offset += multiplier * mimic.offset
+        multiplier *= mimic.multiplier
+        if mimic.joint not in joints:
+            return mimic.joint, multiplier, offset
+        joint = joints[mimic.joint]
+    raise ValueError(f'Joint "{joint.name}" mimics itself in a round.')
