@@ -1,0 +1,155 @@
+"""Packages by name: which folder a name means for a file that asks."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from dataclasses import dataclass
+from enum import IntEnum
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from studio.errors import PackageNotFoundError
+from studio.packages.discovery import Origin
+from studio.packages.roots import is_below
+from studio.problems import Place, Problem, Severity
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping, Sequence
+
+    from studio.packages.discovery import Package
+
+
+class Standing(IntEnum):
+    """How near a package is to the user; a name is served by the lowest that has it."""
+
+    OPENED = 0
+    """A source package below an opened folder or a `--package-path`."""
+    NESTED = 1
+    """Inside another package: an example or a template."""
+    ENVIRONMENT = 2
+    """A source package of ROS_PACKAGE_PATH."""
+    INSTALLED = 3
+    """In an install space: what has no source."""
+
+
+@dataclass(frozen=True, slots=True)
+class Indexed:
+    """One folder for a name. `order`: place in the environment's list, earlier overlays later."""
+
+    name: str
+    folder: Path
+    standing: Standing
+    order: int = 0
+
+    @classmethod
+    def found(cls, package: Package, *, from_environment: bool = False, order: int = 0) -> Indexed:
+        """Rank what `discover` found."""
+        standing = _STANDINGS[package.origin]
+        if from_environment:
+            standing = max(standing, Standing.ENVIRONMENT)
+        return cls(package.name, package.folder, standing, order)
+
+
+_STANDINGS = {
+    Origin.SOURCE: Standing.OPENED,
+    Origin.NESTED: Standing.NESTED,
+    Origin.INSTALLED: Standing.INSTALLED,
+}
+
+
+class PackageIndex:
+    """All packages that were found, and the folders that a person chose for some names."""
+
+    def __init__(
+        self, packages: Iterable[Indexed], chosen: Mapping[str, Path] | None = None
+    ) -> None:
+        self.packages = tuple(packages)
+        self.chosen = dict(chosen or {})
+        self._by_name: dict[str, list[Indexed]] = defaultdict(list)
+        for one in self.packages:
+            self._by_name[one.name].append(one)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.chosen or name in self._by_name
+
+    @property
+    def names(self) -> frozenset[str]:
+        """Every name that can be found."""
+        return frozenset(self._by_name) | frozenset(self.chosen)
+
+    def candidates(self, name: str, asking_file: Path | str) -> tuple[Path, ...]:
+        """The folders that may serve a name, the one that does first; empty when there is none.
+
+        A chosen folder is the only one. Else those nearest to the user (see `Standing`); the
+        package that the asking file itself lies in counts as opened though it be nested.
+        """
+        if name in self.chosen:
+            return (self.chosen[name],)
+        asking = Path(asking_file)
+        ranked = [(_standing_for(one, asking), one) for one in self._by_name.get(name, ())]
+        lowest = min(((standing, one.order) for standing, one in ranked), default=None)
+        serving = [one.folder for standing, one in ranked if (standing, one.order) == lowest]
+        return tuple(sorted(serving, key=lambda folder: _distance(folder, asking)))
+
+    def best(self, name: str, asking_file: Path | str) -> Path:
+        """The folder that a name means for a file.
+
+        Raises:
+            PackageNotFoundError: No folder has that name.
+        """
+        folders = self.candidates(name, asking_file)
+        if not folders:
+            raise PackageNotFoundError(name, str(asking_file))
+        return folders[0]
+
+    def mapping_for(self, entry: Path | str) -> dict[str, tuple[str, ...]]:
+        """Every name with its folders, best first, as a file's reading policy holds them."""
+        names = sorted(self.names)
+        return {name: tuple(map(str, self.candidates(name, entry))) for name in names}
+
+    def duplicates(
+        self, asking_file: Path | str, names: Iterable[str] | None = None
+    ) -> list[Problem]:
+        """A warning for each name (of all, or of these) that several folders could serve."""
+        wanted = sorted(self.names if names is None else set(names) & self.names)
+        found = ((name, self.candidates(name, asking_file)) for name in wanted)
+        return [_duplicate(name, folders) for name, folders in found if len(folders) > 1]
+
+    def with_chosen(self, name: str, folder: Path) -> PackageIndex:
+        """The same index with one more choice."""
+        return PackageIndex(self.packages, {**self.chosen, name: folder})
+
+
+def nearest(folders: Sequence[str], asking_file: str) -> str:
+    """Of several folders of one name, the one that shares the longest path with the asking file.
+
+    Among equals the first: `folders` come best first, as in `mapping_for`.
+    """
+    asking = Path(asking_file).parts
+    return max(folders, key=lambda folder: _shared_parts(Path(folder).parts, asking))
+
+
+def _standing_for(one: Indexed, asking_file: Path) -> Standing:
+    if one.standing is Standing.NESTED and is_below(asking_file, one.folder):
+        return Standing.OPENED
+    return one.standing
+
+
+def _distance(folder: Path, asking_file: Path) -> tuple[int, int, str]:
+    shared = _shared_parts(folder.parts, asking_file.parts)
+    return -shared, len(folder.parts), str(folder)
+
+
+def _shared_parts(one: Sequence[str], other: Sequence[str]) -> int:
+    pairs = zip(one, other, strict=False)
+    return next((n for n, (a, b) in enumerate(pairs) if a != b), min(len(one), len(other)))
+
+
+def _duplicate(name: str, folders: Sequence[Path]) -> Problem:
+    others = " and ".join(map(str, folders[1:]))
+    return Problem(
+        Severity.WARNING,
+        "duplicate-package",
+        f'Package "{name}" exists {len(folders)} times: {folders[0]} is used, {others} is not.',
+        place=Place(str(folders[0] / "package.xml")),
+    )
