@@ -1,0 +1,64 @@
+"""What every test may ask for: the corpus, a browser, and a data folder that is nobody's home."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from playwright.sync_api import Browser, Page
+
+REPOSITORY = Path(__file__).resolve().parents[1]
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Browser tests share one process of a parallel run: one Chromium, not one per core."""
+    for item in items:
+        if item.get_closest_marker("browser"):
+            item.add_marker(pytest.mark.xdist_group("browser"))
+
+
+@pytest.fixture(autouse=True, scope="session")
+def _own_data_folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """No test reads or writes the data folder of whoever runs it."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("STUDIO_DATA_DIR", str(tmp_path_factory.mktemp("studio-data")))
+        yield
+
+
+@pytest.fixture(scope="session")
+def corpus() -> Path:
+    """The folder of public robot descriptions; the test is skipped without it."""
+    named = os.environ.get("STUDIO_CORPUS")
+    if not named:
+        pytest.skip("STUDIO_CORPUS names no folder of robot descriptions")
+    folder = Path(named).resolve()
+    assert folder.is_dir(), f"STUDIO_CORPUS={named} is no folder"
+    return folder
+
+
+@pytest.fixture(scope="session")
+def models() -> Path:
+    """The folder of the shipped models."""
+    return REPOSITORY / "models"
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Browser]:
+    """A headless Chromium for one file of tests."""
+    from tests.support.browser import open_browser
+
+    yield from open_browser()
+
+
+@pytest.fixture
+def page(browser: Browser) -> Iterator[Page]:
+    """A fresh page of 1600 x 950 in a context of its own."""
+    context = browser.new_context(viewport={"width": 1600, "height": 950})
+    yield context.new_page()
+    context.close()

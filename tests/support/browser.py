@@ -1,0 +1,130 @@
+"""Finds a Chromium for the browser tests, or installs one: `python -m tests.support.browser`.
+
+Looked for in this order: $STUDIO_CHROMIUM, the PATH, playwright's own folder. Installed, when there
+is none, by apt (as root), else by `playwright install chromium`.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from playwright.sync_api import Browser, sync_playwright
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
+
+# WebGL without a GPU; the rest keeps Chromium from calling home.
+FLAGS = (
+    "--headless=new",
+    "--no-sandbox",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--no-first-run",
+    "--disable-dev-shm-usage",
+)
+
+HOW_TO = (
+    "The browser tests found no Chromium and could install none: "
+    "run `playwright install --with-deps chromium`, or set STUDIO_CHROMIUM to one."
+)
+
+
+class NoChromiumError(Exception):
+    """There is no Chromium and none could be installed; the text says the command."""
+
+
+def find_chromium() -> Path | None:
+    """The first Chromium that answers to --version.
+
+    Raises:
+        NoChromiumError: STUDIO_CHROMIUM names something else.
+    """
+    named = os.environ.get("STUDIO_CHROMIUM")
+    if named:
+        if _answers(Path(named)):
+            return Path(named)
+        message = f"STUDIO_CHROMIUM={named} is no Chromium that runs: name another or unset it."
+        raise NoChromiumError(message)
+    found = [Path(path) for name in NAMES if (path := shutil.which(name))]
+    return next((path for path in (*found, _playwright_chromium()) if _answers(path)), None)
+
+
+def ensure_chromium() -> Path:
+    """Find Chromium, or install it.
+
+    Raises:
+        NoChromiumError: Neither could be done.
+    """
+    for install in (None, _install_by_apt, _install_by_playwright):
+        if install is not None:
+            install()
+        if path := find_chromium():
+            return path
+    raise NoChromiumError(HOW_TO)
+
+
+def open_browser() -> Iterator[Browser]:
+    """A running headless Chromium, closed afterwards.
+
+    Playwright leaves its event loop running in this thread until it is stopped, so keep it no
+    longer than one file of tests.
+    """
+    path = ensure_chromium()
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=str(path), args=list(FLAGS))
+        yield browser
+        browser.close()
+
+
+def _playwright_chromium() -> Path:
+    """Where `playwright install chromium` would put it, there or not."""
+    with sync_playwright() as playwright:
+        return Path(playwright.chromium.executable_path)
+
+
+def _answers(path: Path) -> bool:
+    """Whether it runs: Ubuntu's chromium-browser may be a stub that only asks for a snap."""
+    try:
+        answer = subprocess.run(
+            [path, "--version"], capture_output=True, text=True, timeout=30, check=False
+        )
+    except (OSError, subprocess.TimeoutExpired):
+        return False
+    return answer.returncode == 0 and "Chrom" in answer.stdout
+
+
+def _install_by_apt() -> None:
+    """Install Debian's chromium; needs root and apt, else does nothing."""
+    if not hasattr(os, "geteuid") or os.geteuid() != 0 or not shutil.which("apt-get"):
+        return
+    quiet = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
+    for command in (["update"], ["install", "-y", "--no-install-recommends", "chromium"]):
+        subprocess.run(
+            ["apt-get", "-q", *command], env=quiet, stdout=sys.stderr, timeout=600, check=False
+        )
+
+
+def _install_by_playwright() -> None:
+    subprocess.run(
+        [sys.executable, "-m", "playwright", "install", "chromium"],
+        stdout=sys.stderr,
+        timeout=600,
+        check=False,
+    )
+
+
+if __name__ == "__main__":
+    try:
+        sys.stdout.write(f"Chromium: {ensure_chromium()}\n")
+    except NoChromiumError as error:
+        sys.exit(str(error))
