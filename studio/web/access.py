@@ -1,0 +1,89 @@
+"""Who may do what: one table and one function for every lane.
+
+A deed is named by the lane it comes through: a control command by its `type`, a route by
+`ROUTE_DEEDS`, a message on viser's websocket by `viser:<MessageType>`. What the table does not
+name, nobody may do.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+from studio.engine.roles import Role
+from studio.errors import NotAllowedError
+
+ROUTE_DEEDS: Final = {
+    "/": "page",
+    "/d/{document}": "page",
+    "/d/{document}/viser/": "scene_page",
+    "/d/{document}/viser": "scene",
+    "/control": "control",
+    "/api/health": "health",
+    "/api/openapi.json": "openapi",
+    "/api/documents": "documents",
+    "/api/documents/{document}/urdf": "get_urdf",
+    "/api/commands": "command",
+}
+"""Deed of every route that needs a role. `command` opens the door; each command is asked again."""
+
+PUBLIC_ROUTES: Final = frozenset({"/a/{tree}/{path:path}", "/favicon.ico"})
+"""Routes without secrets: the files of the page, the same for everyone."""
+
+_LOOK: Final = frozenset(
+    {
+        "page",
+        "scene_page",
+        "scene",
+        "control",
+        "health",
+        "openapi",
+        "documents",
+        "command",
+        "watch",
+        "get_urdf",
+        "viser:ViewerCameraMessage",
+    }
+)
+_CONTROL: Final = frozenset(
+    {
+        "open_path",
+        "close_document",
+        "list_folder",
+        "edit_site",
+        "reset_site",
+        "set_argument",
+        "undo",
+        "redo",
+        "save",
+        "reload",
+        "set_joints",
+        "zero_joints",
+        "randomize_joints",
+        "animate_joints",
+        "set_display",
+        "choose_package",
+        "viser:SceneNodeClickMessage",
+        "viser:SceneNodeDragMessage",
+        "viser:ScenePointerMessage",
+        "viser:TransformControlsDragStartMessage",
+        "viser:TransformControlsUpdateMessage",
+        "viser:TransformControlsDragEndMessage",
+        "viser:GetRenderResponseMessage",
+    }
+)
+_ALLOWED: Final = {Role.VIEWER: _LOOK, Role.PRESENTER: _LOOK | _CONTROL}
+
+
+def may(role: Role | None, deed: str) -> bool:
+    """Whether this role may do this; nobody (None) may do nothing."""
+    return role is not None and deed in _ALLOWED[role]
+
+
+def demand(role: Role | None, deed: str) -> None:
+    """Pass, or refuse.
+
+    Raises:
+        NotAllowedError: `may` says no.
+    """
+    if not may(role, deed):
+        raise NotAllowedError(role or "stranger", deed)

@@ -1,0 +1,53 @@
+"""The control lane: commands in, events out, as JSON text; joint streams out as binary frames."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import TYPE_CHECKING, Final
+
+from studio.hub import Outlet
+from studio.web.commands import answer
+from studio.web.lane import FrameTransport, binary_frame, text_frame
+
+if TYPE_CHECKING:
+    from studio.engine.messages import Hello
+    from studio.engine.roles import Role
+    from studio.web.lane import Lane
+    from studio.web.surface import OpenDocuments
+
+_UNDER_WAY_LIMIT: Final = 64
+"""Commands of one browser that may wait for the engine; then its socket is not read."""
+_TOO_SLOW: Final = 1013
+"""Close code `try again later`: the page connects anew and gets the whole state."""
+
+
+class ControlLane:
+    """One browser's control lane: the Listener that the engine posts to."""
+
+    def __init__(self, lane: Lane, role: Role) -> None:
+        self.role = role
+        self._lane = lane
+        self._outlet = Outlet(FrameTransport(lane), on_hopeless=lambda: lane.close(_TOO_SLOW))
+        lane.on_drain(self._outlet.resume)
+
+    def post(self, data: bytes, *, binary: bool = False, key: str | None = None) -> None:
+        """Queue one message without waiting; of one `key` only the newest need arrive."""
+        self._outlet.post(binary_frame(data) if binary else text_frame(data), key)
+
+    async def serve(self, engine: OpenDocuments, hello: Hello) -> None:
+        """Greet, then answer commands until the browser leaves.
+
+        Commands start in their order but do not wait for each other: a slow one stops no slider.
+        """
+        self.post(hello.model_dump_json().encode())
+        engine.attach(self)
+        room = asyncio.Semaphore(_UNDER_WAY_LIMIT)
+        try:
+            async with asyncio.TaskGroup() as under_way:
+                while (text := await self._lane.receive()) is not None:
+                    await room.acquire()
+                    task = under_way.create_task(answer(engine, self, text))
+                    task.add_done_callback(lambda _: room.release())
+        finally:
+            engine.detach(self)
+            self._outlet.close()

@@ -1,0 +1,79 @@
+"""One open websocket as the lanes use it: bytes in by `receive`, bytes out without waiting."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+from typing import TYPE_CHECKING, Final
+
+from starlette.websockets import WebSocketState
+
+from studio.web.protocol import Framer, socket_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from starlette.websockets import WebSocket
+
+_FRAMER: Final = Framer()
+"""One for all lanes, because one message goes to many of them in a row."""
+
+
+def text_frame(payload: bytes) -> bytes:
+    """The frame of one text message."""
+    return _FRAMER.frame(payload, binary=False)
+
+
+def binary_frame(payload: bytes) -> bytes:
+    """The frame of one binary message."""
+    return _FRAMER.frame(payload, binary=True)
+
+
+class Lane:
+    """The two ends of a websocket that was accepted; all of it runs on the loop's thread."""
+
+    def __init__(self, websocket: WebSocket) -> None:
+        self._websocket = websocket
+        self._socket = socket_of(websocket.scope)
+        self._closing: asyncio.Task[None] | None = None
+
+    async def receive(self) -> bytes | None:
+        """The next whole message, text as UTF-8; None once the other side is gone."""
+        message = await self._websocket.receive()
+        if message["type"] == "websocket.disconnect":
+            return None
+        text = message.get("text")
+        return text.encode() if text is not None else message["bytes"]
+
+    def write(self, data: bytes, /) -> None:
+        """Send one whole binary message."""
+        self._socket.write_frame(binary_frame(data))
+
+    def write_frame(self, frame: bytes, /) -> None:
+        """Send one message that is framed already."""
+        self._socket.write_frame(frame)
+
+    def pending_bytes(self) -> int:
+        """Bytes written and not yet taken by the system."""
+        return self._socket.pending_bytes()
+
+    def on_drain(self, resume: Callable[[], object]) -> None:
+        """Call `resume` whenever a full write buffer has emptied."""
+        self._socket.on_drain = resume
+
+    def close(self, code: int = 1000) -> None:
+        """Begin the closing handshake; `receive` then answers None."""
+        if self._closing is None and self._websocket.client_state is WebSocketState.CONNECTED:
+            self._closing = asyncio.create_task(self._close(code))
+
+    async def _close(self, code: int) -> None:
+        with contextlib.suppress(RuntimeError):  # the other side went first
+            await self._websocket.close(code)
+
+
+class FrameTransport:
+    """A lane as a hub's Transport of whole frames, so that text and binary keep their order."""
+
+    def __init__(self, lane: Lane) -> None:
+        self.write = lane.write_frame
+        self.pending_bytes = lane.pending_bytes

@@ -1,0 +1,86 @@
+"""uvicorn as the studio runs it: one port, shared bytes, an end within two seconds."""
+
+from __future__ import annotations
+
+import os
+import threading
+from contextlib import suppress
+from typing import TYPE_CHECKING, Final
+
+import uvicorn
+
+from studio.web.protocol import StudioSocket
+
+if TYPE_CHECKING:
+    import socket
+    from collections.abc import Awaitable, Callable
+    from types import FrameType
+
+    from starlette.types import ASGIApp
+
+_MESSAGE_LIMIT_BYTES: Final = 64 << 20
+_PING_INTERVAL_S: Final = 20.0
+_PING_TIMEOUT_S: Final = 60.0
+_END_DEADLINE_S: Final = 1.7
+"""From the signal to the last resort: the process leaves without waiting for a stuck thread."""
+
+
+class Server(uvicorn.Server):
+    """uvicorn that says when it answers, and ends what works before it waits for connections.
+
+    Args:
+        app: The application.
+        answering: Awaited once, when the port answers.
+        ending: Awaited once, when the port is about to close.
+    """
+
+    def __init__(
+        self,
+        app: ASGIApp,
+        answering: Callable[[], Awaitable[None]],
+        ending: Callable[[], Awaitable[None]],
+    ) -> None:
+        super().__init__(_configuration(app))
+        self._answering, self._ending = answering, ending
+
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        """Listen, then go on with what needs a listening port."""
+        await super().startup(sockets)
+        await self._answering()
+
+    async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+        """End the work first: nobody then waits for an answer of a worker that is gone."""
+        await self._ending()
+        await super().shutdown(sockets)
+
+    def handle_exit(self, sig: int, frame: FrameType | None) -> None:
+        """End at the first signal; at the second one without waiting."""
+        del sig, frame  # not kept: uvicorn would raise the signal again after an orderly end
+        self.force_exit = self.should_exit
+        self.should_exit = True
+        last_resort = threading.Timer(_END_DEADLINE_S, _leave)
+        last_resort.daemon = True
+        last_resort.start()
+
+
+def _configuration(app: ASGIApp) -> uvicorn.Config:
+    return uvicorn.Config(
+        app,
+        log_config=None,
+        access_log=False,  # it would write the token of the first request
+        lifespan="off",
+        ws=StudioSocket,
+        ws_per_message_deflate=False,
+        ws_max_size=_MESSAGE_LIMIT_BYTES,
+        ws_ping_interval=_PING_INTERVAL_S,
+        ws_ping_timeout=_PING_TIMEOUT_S,
+        server_header=False,
+        timeout_graceful_shutdown=1,
+    )
+
+
+def _leave() -> None:
+    """Go at once: a save is a rename, so there is nothing that this could cut in two."""
+    with suppress(OSError):
+        os.write(2, b"The studio left without waiting for a task that did not end.\n")
+    os._exit(0)

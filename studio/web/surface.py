@@ -1,0 +1,71 @@
+"""What the web room uses of the engine and of a document's 3D view."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Protocol
+
+if TYPE_CHECKING:
+    from collections.abc import Awaitable, Callable, Mapping
+
+    from studio.engine.listeners import Listener
+    from studio.engine.messages import Command
+    from studio.scene.connection import Connection
+
+
+class OpenScene(Protocol):
+    """The 3D view of one document."""
+
+    def viser_page(self, assets_prefix: str) -> bytes:
+        """The HTML of viser's page with our script in it."""
+        ...
+
+    def serve(self, connection: Connection, allowed: Callable[[str], bool]) -> Awaitable[None]:
+        """Speak viser's protocol until the connection ends."""
+        ...
+
+
+class OpenDocument(Protocol):
+    """One document."""
+
+    @property
+    def scene(self) -> OpenScene:
+        """Its 3D view."""
+        ...
+
+
+class OpenDocuments(Protocol):
+    """The engine."""
+
+    @property
+    def default_document(self) -> str | None:
+        """Id of the document that `/` leads to."""
+        ...
+
+    @property
+    def documents(self) -> Mapping[str, OpenDocument]:
+        """Every open document by its id."""
+        ...
+
+    def document(self, id: str, /) -> OpenDocument:  # noqa: A002 - the engine's own word
+        """One document.
+
+        Raises:
+            UnknownDocumentError: No open document has that id.
+        """
+        ...
+
+    def attach(self, listener: Listener, /) -> None:
+        """Let it hear the list of documents, now and whenever it changes."""
+        ...
+
+    def detach(self, listener: Listener, /) -> None:
+        """Forget it, whatever it watched."""
+        ...
+
+    async def execute(self, command: Command, listener: Listener, /) -> None:
+        """Carry out one command and answer its listener.
+
+        Raises:
+            StudioError: It cannot be done.
+        """
+        ...
