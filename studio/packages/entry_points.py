@@ -1,0 +1,194 @@
+"""Which files of a folder describe a whole robot, best first, and why the others do not."""
+
+from __future__ import annotations
+
+import os
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Final, Literal, TypeAlias
+
+from studio.errors import PackageError
+from studio.packages.includes import Includes
+from studio.packages.manifest import FILE_NAME, SIZE_LIMIT_BYTES, package_name
+from studio.packages.outline import Outline, read_outline
+from studio.packages.roots import package_folder_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator
+
+    from studio.packages.roots import ServedRoots
+
+FILE_LIMIT: Final = 20_000
+_SUFFIXES: Final = (".xacro", ".urdf", ".xml")
+_NOT_ENTERED: Final = frozenset(
+    {"build", "install", "log", "devel", "node_modules", "__pycache__", "site-packages"}
+)
+_IGNORE_MARKERS: Final = frozenset({"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"})
+_ASIDE: Final = frozenset({"test", "tests", "example", "examples", "gazebo", "moveit", "demo"})
+_PACKAGE_ENDINGS: Final = re.compile(
+    r"_(descriptions?|support|tutorial|simple|bringup|robot|model)$"
+)
+_ALL_SUFFIXES: Final = re.compile(r"(\.urdf|\.xacro|\.xml|\.robot)+$")
+
+Kind: TypeAlias = Literal["xacro", "urdf"]
+
+
+@dataclass(frozen=True, slots=True)
+class EntryPoint:
+    """A file that is, or might be taken for, a robot description."""
+
+    path: Path
+    kind: Kind
+    title: str
+    """The robot's name, or the file's when the name is only known after expansion."""
+    package: str
+    """Name of the package that it lies in; empty when it is in none."""
+    openable: bool
+    reason: str = ""
+    """Why it cannot be opened as a robot, in words; empty when it can."""
+
+
+def entry_points(
+    folder: Path, roots: ServedRoots, progress: Callable[[int, int], None] | None = None
+) -> list[EntryPoint]:
+    """Every file below a folder that looks like a robot description: the best to open first.
+
+    `progress` is told (files read, files to read).
+    """
+    return survey(list(_robot_files(folder)), roots, progress)
+
+
+def survey(
+    files: Iterable[Path], roots: ServedRoots, progress: Callable[[int, int], None] | None = None
+) -> list[EntryPoint]:
+    """Judge these files, each in the light of the others."""
+    return _Survey(roots).run(list(files), progress)
+
+
+class _Survey:
+    def __init__(self, roots: ServedRoots) -> None:
+        self._roots = roots
+        self._packages: dict[Path, tuple[str, Path | None]] = {}
+        """Name and folder of the package, by folder of a file."""
+
+    def run(
+        self, files: list[Path], progress: Callable[[int, int], None] | None
+    ) -> list[EntryPoint]:
+        outlines: dict[Path, Outline] = {}
+        for done, path in enumerate(files, start=1):
+            outlines[path] = self._outline(path)
+            if progress is not None:
+                progress(done, len(files))
+        packages = {path: self._package_of(path.parent) for path in files}
+        includes = Includes(outlines, packages)
+        points = [
+            self._judge(path, outline, includes)
+            for path, outline in outlines.items()
+            if path.suffix != ".xml" or outline.root == "robot"
+        ]
+        return sorted(points, key=lambda one: self._rank(one, includes))
+
+    def _outline(self, path: Path) -> Outline:
+        try:
+            return read_outline(self._roots.read(path))
+        except PackageError as error:
+            reason = str(error).removeprefix(f"{path}").removeprefix(": ").rstrip(".")
+            return Outline(error=reason)
+
+    def _package_of(self, folder: Path) -> tuple[str, Path | None]:
+        if folder not in self._packages:
+            package = package_folder_of(folder)
+            name = None
+            if package is not None and self._roots.serves(package / FILE_NAME):
+                name = self._name_in(package / FILE_NAME)
+            self._packages[folder] = (name or "", package)
+        return self._packages[folder]
+
+    def _name_in(self, manifest: Path) -> str | None:
+        try:
+            return package_name(self._roots.read(manifest, SIZE_LIMIT_BYTES))
+        except PackageError:
+            return None
+
+    def _judge(self, path: Path, outline: Outline, includes: Includes) -> EntryPoint:
+        reason = _why_not(path, outline, includes)
+        name = outline.name
+        return EntryPoint(
+            path=path,
+            kind="xacro" if outline.is_xacro else "urdf",
+            title=path.name if not name or "$" in name else name,
+            package=self._package_of(path.parent)[0],
+            openable=not reason,
+            reason=reason,
+        )
+
+    def _rank(self, point: EntryPoint, includes: Includes) -> tuple[bool | int | str, ...]:
+        """Openable first; then what a person would try first."""
+        _, package_folder = self._package_of(point.path.parent)
+        inside = point.path.relative_to(package_folder) if package_folder else point.path
+        return (
+            not point.openable,
+            any(_words(step) & _ASIDE for step in inside.parts),
+            "description" not in point.package and "support" not in point.package,
+            _name_mismatch(point),
+            bool(includes.includers(point.path)),
+            not point.path.name.endswith(".urdf.xacro"),
+            len(point.path.parts),
+            str(point.path),
+        )
+
+
+def _why_not(path: Path, outline: Outline, includes: Includes) -> str:
+    """The picker's rule; empty when the file is a robot."""
+    if outline.error:
+        return f"not readable: {outline.error}"
+    if outline.root != "robot":
+        return f"root is <{outline.root}>"
+    if ".srdf" in path.suffixes:
+        return "an SRDF: says how a robot is used, not what it is"
+    if not outline.has_content and not includes.bring_content(path):
+        return _without_content(outline)
+    includers = includes.includers(path)
+    if not outline.name and includers:
+        return f"included by {includers[0].name}"
+    return ""
+
+
+def _without_content(outline: Outline) -> str:
+    if outline.defines_macros:
+        return "only macros, meant to be included"
+    if outline.includes:
+        return "includes only macros and properties"
+    return "holds no link and calls no macro"
+
+
+def _name_mismatch(point: EntryPoint) -> int:
+    """0 when the file is named like its package, 1 when it begins like it, else 2."""
+    file = _ALL_SUFFIXES.sub("", point.path.name)
+    base = _PACKAGE_ENDINGS.sub("", _PACKAGE_ENDINGS.sub("", point.package))
+    if not base:
+        return 2
+    return 0 if file in (base, point.package, "robot") else 1 if file.startswith(base) else 2
+
+
+def _words(step: str) -> set[str]:
+    return set(re.split(r"[^a-z]+", step.lower()))
+
+
+def _robot_files(folder: Path) -> Iterator[Path]:
+    """Files by suffix, where colcon would look, at most FILE_LIMIT of them."""
+    found = 0
+    for path, folders, names in os.walk(folder):
+        if path != str(folder) and not _IGNORE_MARKERS.isdisjoint(names):
+            folders.clear()
+            continue
+        folders[:] = sorted(name for name in folders if _is_entered(name))
+        for name in sorted(names):
+            if name.lower().endswith(_SUFFIXES) and name != FILE_NAME and found < FILE_LIMIT:
+                found += 1
+                yield Path(path, name)
+
+
+def _is_entered(name: str) -> bool:
+    return not name.startswith(".") and name not in _NOT_ENTERED
