@@ -1,0 +1,135 @@
+"""The DocumentScene: the 3D view of one open document, shared by all who look at it."""
+
+from __future__ import annotations
+
+from copy import deepcopy
+from typing import TYPE_CHECKING
+
+from studio.scene import node
+from studio.scene.connection import SUBPROTOCOL
+from studio.scene.displays import DISPLAY_DEFAULTS, checked
+from studio.scene.graph import Graph
+from studio.scene.host import make_server
+from studio.scene.naming import GRID
+from studio.scene.pose_writer import PoseWriter
+from studio.scene.robot_drawing import RobotDrawing
+
+if TYPE_CHECKING:
+    import asyncio
+    from collections.abc import Callable, Sequence
+
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from studio.robot.loaded_mesh import LoadedMesh
+    from studio.robot.values import Robot
+    from studio.scene.connection import Connection
+    from studio.scene.displays import Value
+
+_BAD_VERSION = 1002
+
+
+class DocumentScene:
+    """One viser engine, without a port. All calls are made on the thread of `loop`.
+
+    Nothing of one person's own is here: camera, selection, hover and the visibility of single
+    links live in the page.
+    """
+
+    def __init__(self, loop: asyncio.AbstractEventLoop) -> None:
+        self.viser, self._server = make_server(loop)
+        self._graph = Graph(self._server)
+        self._poses = PoseWriter(self._graph)
+        self._robot = RobotDrawing(self._graph, self._poses.forget)
+        self._settings = deepcopy(DISPLAY_DEFAULTS)
+        self._put_grid()
+
+    def show(self, robot: Robot, changed_links: frozenset[str] | None) -> None:
+        """Draw a new state of the robot in one atomic batch.
+
+        Args:
+            robot: The whole robot as it is now.
+            changed_links: Links whose visuals, collisions, inertial or used materials differ from
+                the robot shown before; None when it is not known, which looks at all of them.
+                Links that came, went or hang on another joint are found by themselves. A link
+                that came stands at the origin until `set_poses`.
+        """
+        self._robot.show(robot, changed_links)
+
+    def missing_meshes(self) -> set[str]:
+        """URIs of meshes to load and `provide`; changes with `show` and `set_display`."""
+        return self._robot.missing_meshes()
+
+    def provide_mesh(self, uri: str, mesh: LoadedMesh | None) -> None:
+        """Draw a mesh that came; None marks one that cannot be loaded by a box of wire."""
+        self._robot.provide_mesh(uri, mesh)
+
+    def set_poses(self, link_names: Sequence[str], wxyz_xyz: NDArray[np.floating]) -> None:
+        """Move the links that moved, in one atomic batch.
+
+        Args:
+            link_names: L names; those not shown are skipped.
+            wxyz_xyz: Shape (L, 7): quaternion w, x, y, z, then x, y, z in m, in the root frame.
+        """
+        self._poses.write(link_names, wxyz_xyz, self._robot.links)
+
+    def set_display(self, display: str, name: str, value: Value) -> None:
+        """Change a setting of a shared display; ask `missing_meshes` afterwards.
+
+        Raises:
+            SceneError: No such setting, or a value of the wrong kind.
+        """
+        value = checked(display, name, value)
+        self._settings[display][name] = value
+        if display == "grid":
+            self._put_grid()
+        elif name == "opacity":
+            self._robot.fade(float(value))
+        else:
+            self._robot.switch(name, shown=bool(value))
+
+    def displays(self) -> dict[str, dict[str, Value]]:
+        """All settings as they are now: by display, then name."""
+        return deepcopy(self._settings)
+
+    def flush(self) -> None:
+        """Send what is queued now instead of with the next window of 1/60 s."""
+        self._server.flush()
+
+    async def serve(
+        self,
+        connection: Connection,
+        allowed: Callable[[str], bool],
+        subprotocol: str | None = SUBPROTOCOL,
+    ) -> None:
+        """Serve viser's page over one accepted websocket until it or the document closes.
+
+        Args:
+            connection: The websocket; its socket is closed by whoever accepted it.
+            allowed: Asked with the type name of each message from the page; a page that only
+                looks needs VIEWER_MESSAGES.
+            subprotocol: What the websocket was accepted with; closed at once when it is not
+                SUBPROTOCOL, e.g. for an old page in a browser's cache.
+        """
+        if subprotocol != SUBPROTOCOL:
+            connection.close(_BAD_VERSION)
+            return
+        await self._server.serve(connection, allowed)
+
+    def close(self) -> None:
+        """End all connections and forget everything."""
+        self.viser.stop()
+
+    def _put_grid(self) -> None:
+        grid = self._settings["grid"]
+        shadow = bool(grid["shadow"])
+        self._graph.put(
+            GRID,
+            node.grid(
+                float(grid["cell_m"]),
+                float(grid["extent_m"]),
+                shadow=shadow,
+                visible=bool(grid["visible"]),
+            ),
+        )
+        self.viser.scene.configure_default_lights(enabled=True, cast_shadow=shadow)

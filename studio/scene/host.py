@@ -1,0 +1,330 @@
+"""viser's engine in our process and on our loop: no thread, no port, one encoding for all pages.
+
+viser opens a socket of its own and encodes every window once per client; here its server class is
+replaced by one that has no socket, is fed connections by `serve`, and encodes once for all.
+"""
+
+# viser's insides are met here and in wire.py only.
+# pyright: reportPrivateUsage=false, reportUnknownMemberType=false, reportUnknownArgumentType=false
+from __future__ import annotations
+
+import asyncio
+import inspect
+import itertools
+import logging
+from contextlib import contextmanager, suppress
+from functools import partial
+from typing import TYPE_CHECKING, Any, cast
+
+import rich
+import viser
+import viser.infra
+from typing_extensions import override
+from viser import _messages
+from viser.infra import _infra
+from viser.infra._async_message_buffer import AsyncMessageBuffer
+
+from studio.errors import SceneError
+from studio.scene.camera_gate import CameraGate
+from studio.scene.connection import NEVER_ALLOWED, VISER_VERSION
+from studio.scene.seat import Seat
+from studio.scene.wire import Encoder, message_type
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Generator
+
+    from studio.scene.connection import Connection
+
+WINDOW_S = 1 / 60
+"""Frames follow each other no faster than this, but for `flush`."""
+_RETRY_S = 1 / 30
+"""How often a page that fell behind is looked at."""
+_MESSAGE_LIMIT_BYTES = 1 << 20
+_WINDOW_SIZE = 1 << 14  # messages: an atomic batch is never split over two frames
+_INVALID, _TOO_BIG = 1007, 1009
+
+logger = logging.getLogger(__name__)
+
+
+def check_version() -> None:
+    """Refuse any viser but the one whose insides we know.
+
+    Raises:
+        SceneError: Another version is installed.
+    """
+    if viser.__version__ != VISER_VERSION:
+        raise SceneError(
+            f"viser {viser.__version__} is installed, but the 3D view needs {VISER_VERSION}: "
+            f"install viser=={VISER_VERSION}."
+        )
+
+
+def make_server(loop: asyncio.AbstractEventLoop) -> tuple[viser.ViserServer, HostedServer]:
+    """A viser server that opens no port and prints nothing; call on the loop's thread.
+
+    Raises:
+        SceneError: Another version of viser is installed.
+    """
+    check_version()
+    with _hosted(loop):
+        server = viser.ViserServer(verbose=False)
+    hosted = cast("HostedServer", server._websock_server)
+    for refused in (_messages.ShareUrlRequest, _messages.ShareUrlDisconnect):
+        hosted.unregister_handler(refused)
+    server.gui.configure_theme(show_logo=False, show_share_button=False)
+    return server, hosted
+
+
+@contextmanager
+def _hosted(loop: asyncio.AbstractEventLoop) -> Generator[None]:
+    """Within: viser builds its server from our class and keeps its banner to itself."""
+    server_class, show = viser.infra.WebsockServer, rich.print
+
+    viser.infra.WebsockServer = partial(HostedServer, loop)  # pyright: ignore[reportAttributeAccessIssue]
+    rich.print = _silence  # pyright: ignore[reportAttributeAccessIssue]
+    try:
+        yield
+    finally:
+        viser.infra.WebsockServer = server_class
+        rich.print = show
+
+
+def _silence(*_: object, **__: object) -> None:
+    return
+
+
+class HostedServer(viser.infra.WebsockServer):
+    """viser's server without a socket. Everything runs on `loop`, whose thread calls `start`."""
+
+    def __init__(self, loop: asyncio.AbstractEventLoop, **arguments: Any) -> None:  # noqa: ANN401
+        super().__init__(**arguments)
+        self._loop = loop
+        self._seats: dict[int, Seat] = {}
+        self._ids = itertools.count()
+        self._encoder = Encoder()
+        self._published = -1
+        self._replay: tuple[int, bytes] | None = None
+        self._tasks: set[asyncio.Task[Any]] = set()
+        self._pump: asyncio.Task[None] | None = None
+        self._stopped = False
+
+    @override
+    def start(self) -> None:
+        """Begin to send; no thread, no port."""
+        self._background_event_loop = self._loop
+        self._stop_event = asyncio.Event()
+        self._broadcast_buffer = AsyncMessageBuffer(
+            self._loop, persistent_messages=True, max_window_size=_WINDOW_SIZE
+        )
+        self._pump = self._loop.create_task(self._send_forever())
+
+    @override
+    def stop(self) -> None:
+        """End all pages' connections on our side; web closes their sockets."""
+        self._stopped = True
+        self._broadcast_buffer.set_done()
+        for task in (self._pump, *self._tasks):
+            if task is not None:
+                task.cancel()
+
+    @override
+    def flush(self) -> None:
+        """Send what is queued at once; on the loop's thread before this returns."""
+        self.send_window()
+
+    async def serve(self, connection: Connection, allowed: Callable[[str], bool]) -> None:
+        """Serve one page until it or the document closes; never raises for what the page sends.
+
+        Args:
+            connection: An accepted websocket.
+            allowed: Asked with the type name of each message from the page.
+        """
+        serving = self._loop.create_task(self._serve(connection, allowed))
+        self._tasks.add(serving)
+        try:
+            await serving
+        except asyncio.CancelledError:
+            if not self._stopped:
+                raise
+        finally:
+            serving.cancel()
+            self._tasks.discard(serving)
+
+    async def _serve(self, connection: Connection, allowed: Callable[[str], bool]) -> None:
+        client_id = _infra.ClientId(next(self._ids))
+        state = _infra._ClientHandleState(
+            AsyncMessageBuffer(self._loop, persistent_messages=False), self._loop
+        )
+        client = _infra.WebsockClientConnection(client_id, state)
+        self._client_state_from_id[client_id] = state
+        seat = Seat(client_id, connection, self._catch_up)
+        private = self._loop.create_task(
+            _infra._message_producer(cast("Any", seat), state.message_buffer, client_id)
+        )
+        try:
+            await _call_all(self._client_connect_cb, client)
+            self._join(seat)
+            await self._listen(connection, allowed, client)
+        finally:
+            private.cancel()
+            self._leave(seat)
+            state.message_buffer.set_done()
+            self._client_state_from_id.pop(client_id, None)
+            await _call_all(self._client_disconnect_cb, client)
+
+    def _join(self, seat: Seat) -> None:
+        self._seats[seat.id] = seat
+        if self._broadcast_buffer.atomic_counter == 0:
+            seat.resync()
+        self._broadcast_buffer.message_event.set()
+
+    def _leave(self, seat: Seat) -> None:
+        self._seats.pop(seat.id, None)
+        seat.outlet.close()
+        self._broadcast_buffer.generator_cursors.pop(seat.id, None)
+
+    async def _listen(
+        self,
+        connection: Connection,
+        allowed: Callable[[str], bool],
+        client: _infra.WebsockClientConnection,
+    ) -> None:
+        def deliver(message: _messages.Message) -> None:
+            task = self._loop.create_task(self._handle(client, message))
+            self._tasks.add(task)
+            task.add_done_callback(self._tasks.discard)
+
+        cameras = CameraGate(self._loop, deliver)
+        try:
+            while (raw := await connection.receive()) is not None:
+                if len(raw) > _MESSAGE_LIMIT_BYTES:
+                    connection.close(_TOO_BIG)
+                    return
+                message = _understood(raw, allowed)
+                if isinstance(message, _messages.ViewerCameraMessage):
+                    cameras.offer(message)
+                elif message is not None:
+                    deliver(message)
+        except SceneError as error:
+            logger.info("%s", error)
+            connection.close(_INVALID)
+        finally:
+            cameras.close()
+
+    async def _handle(
+        self, client: _infra.WebsockClientConnection, message: _messages.Message
+    ) -> None:
+        """Run the handlers of the document, then those of this client."""
+        client_id = cast("_infra.ClientId", client.client_id)
+        try:
+            await self._handle_incoming_message(client_id, message)
+            await client._handle_incoming_message(client_id, message)
+        except Exception:
+            # A page may send what a handler does not expect; it must not end the page's socket.
+            logger.exception("A handler of %s failed.", type(message).__name__)
+
+    async def _send_forever(self) -> None:
+        buffer = self._broadcast_buffer
+        while True:
+            behind = any(seat.outlet.holds_back for seat in self._seats.values())
+            with suppress(TimeoutError):
+                await asyncio.wait_for(buffer.message_event.wait(), _RETRY_S if behind else None)
+            buffer.message_event.clear()
+            try:
+                sent = self.send_window()
+            except Exception:
+                # One drawing that cannot be encoded must not freeze the view for good.
+                logger.exception("A frame for the 3D view could not be made.")
+                self._published, sent = buffer.message_counter - 1, True
+            if sent:
+                await asyncio.sleep(WINDOW_S)
+
+    def send_window(self) -> bool:
+        """Send what is queued, unless somebody is in the middle of an atomic batch.
+
+        Returns whether there was anything to send.
+        """
+        buffer = self._broadcast_buffer
+        if buffer.atomic_counter > 0:
+            return False
+        newest = buffer.message_counter - 1
+        window = self._since(self._published, newest)
+        excluded = {message.excluded_self_client for message in window}
+        frame = self._encoder.frame(window) if window and self._seats else b""
+        for seat in self._seats.values():
+            self._advance(seat, frame, newest, alone=seat.id in excluded)
+        self._published = newest
+        return bool(window)
+
+    def _advance(self, seat: Seat, frame: bytes, newest: int, *, alone: bool) -> None:
+        """Bring one page to `newest`, by the shared frame where it fits."""
+        if seat.cursor == self._published and not alone:
+            if frame:
+                seat.follow(frame, newest)
+            else:
+                seat.cursor = max(seat.cursor, newest)
+        elif seat.outlet.holds_back:
+            seat.outlet.resume()
+        else:
+            seat.resync()
+        self._broadcast_buffer.generator_cursors[seat.id] = seat.cursor
+
+    def _catch_up(self, seat: Seat) -> bytes:
+        """All that this page misses and that still counts; for a new page, the whole state."""
+        newest = self._broadcast_buffer.message_counter - 1
+        if seat.cursor < 0 and self._replay is not None and self._replay[0] == newest:
+            frame = self._replay[1]
+        else:
+            frame = self._frame_for(seat, newest)
+        seat.cursor, seat.replayed = newest, True
+        return frame
+
+    def _frame_for(self, seat: Seat, newest: int) -> bytes:
+        missed = self._since(seat.cursor, newest)
+        wanted = [m for m in missed if m.excluded_self_client != seat.id]
+        if not seat.replayed and self._backlog_done_message is not None:
+            wanted.append(self._backlog_done_message)
+        if not wanted:
+            return b""
+        frame = self._encoder.frame(wanted)
+        if seat.cursor < 0 and len(wanted) == len(missed) + 1:
+            # A class of thirty that opens the page at once is served from one encoding.
+            self._replay = (newest, frame)
+        return frame
+
+    def _since(self, cursor: int, newest: int) -> list[viser.infra.Message]:
+        """Messages newer than `cursor` that no later one has replaced, oldest first."""
+        buffer = self._broadcast_buffer
+        if self._replay is not None and self._replay[0] != newest:
+            self._replay = None
+        with buffer.buffer_lock:
+            if newest - cursor > len(buffer.message_from_id):
+                ids = [i for i in buffer.message_from_id if cursor < i <= newest]
+            else:
+                ids = [i for i in range(cursor + 1, newest + 1) if i in buffer.message_from_id]
+            return [buffer.message_from_id[i] for i in ids]
+
+
+def _understood(raw: bytes, allowed: Callable[[str], bool]) -> _messages.Message | None:
+    """The message, or None when this page may not send its kind.
+
+    Raises:
+        SceneError: It is none of viser's, or its fields are not what they must be.
+    """
+    name = message_type(raw)
+    if name in NEVER_ALLOWED or not allowed(name):
+        return None
+    try:
+        return cast("_messages.Message", _messages.Message.deserialize(raw))
+    except (KeyError, TypeError, ValueError, AttributeError, IndexError) as error:
+        raise SceneError(f"A {name} to the 3D view is malformed ({error}).") from error
+
+
+async def _call_all(
+    callbacks: list[Callable[[_infra.WebsockClientConnection], Any]],
+    client: _infra.WebsockClientConnection,
+) -> None:
+    for callback in tuple(callbacks):
+        answer = callback(client)
+        if inspect.isawaitable(answer):
+            await answer

@@ -1,0 +1,174 @@
+"""A Node: one thing in the 3D view as viser is told of it, and makers for those we draw."""
+
+# The property classes of viser's messages are met here and in graph.py only.
+# pyright: reportPrivateUsage=false
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+from viser import _messages
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from studio.robot.loaded_mesh import LoadedMesh
+    from studio.robot.values import Vector3
+
+Quaternion: TypeAlias = tuple[float, float, float, float]
+"""w, x, y, z; unit length."""
+Rgb: TypeAlias = tuple[int, int, int]
+"""sRGB, 0 to 255."""
+
+NO_TURN: Quaternion = (1.0, 0.0, 0.0, 0.0)
+ORIGIN: Vector3 = (0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """Colour and opacity (1: opaque) of a surface."""
+
+    rgb: Rgb
+    opacity: float = 1.0
+    wireframe: bool = False
+    shadow: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class Node:
+    """What stands under one name; equal means that nothing need be sent.
+
+    `content` names the arrays of a node by their digest: they are sent again only when it changes,
+    while the small properties in `props` are updated in place.
+    """
+
+    kind: type[_messages._CreateSceneNodeMessage]
+    props: dict[str, Any]
+    wxyz: Quaternion = NO_TURN
+    position: Vector3 = ORIGIN
+    visible: bool = True
+    content: str = ""
+    arrays: dict[str, NDArray[Any]] = field(
+        default_factory=dict[str, "NDArray[Any]"], compare=False
+    )
+
+
+def _surface(look: Look) -> dict[str, Any]:
+    return {
+        "color": look.rgb,
+        "opacity": None if look.opacity >= 1.0 else look.opacity,
+        "wireframe": look.wireframe,
+        "flat_shading": False,
+        "side": "front",
+        "material": "standard",
+        "cast_shadow": look.shadow,
+        "receive_shadow": look.shadow,
+        "scale": 1.0,
+    }
+
+
+def group(wxyz: Quaternion = NO_TURN, position: Vector3 = ORIGIN, *, visible: bool = True) -> Node:
+    """A frame that is not drawn itself."""
+    return _frame(0.0, wxyz, position, visible=visible)
+
+
+def axes(length_m: float, *, visible: bool = True) -> Node:
+    """Red, green and blue arrows along x, y and z."""
+    return _frame(length_m, NO_TURN, ORIGIN, visible=visible)
+
+
+def _frame(length_m: float, wxyz: Quaternion, position: Vector3, *, visible: bool) -> Node:
+    props = {
+        "show_axes": length_m > 0,
+        "axes_length": length_m,
+        "axes_radius": length_m / 30,
+        "origin_radius": length_m / 18,
+        "origin_color": (236, 236, 236),
+        "scale": 1.0,
+    }
+    return Node(_messages.FrameMessage, props, wxyz, position, visible)
+
+
+def box(size_m: Vector3, look: Look, wxyz: Quaternion = NO_TURN, at: Vector3 = ORIGIN) -> Node:
+    """A box centred on its pose."""
+    return Node(_messages.BoxMessage, {**_surface(look), "dimensions": size_m}, wxyz, at)
+
+
+def cylinder(radius_m: float, length_m: float, look: Look, wxyz: Quaternion, at: Vector3) -> Node:
+    """A cylinder along z, centred on its pose."""
+    size = {"radius": radius_m, "height": length_m, "radial_segments": 48}
+    return Node(_messages.CylinderMessage, {**_surface(look), **size}, wxyz, at)
+
+
+def sphere(radius_m: float, look: Look, wxyz: Quaternion, at: Vector3) -> Node:
+    """A ball."""
+    size = {"radius": radius_m, "subdivisions": 3}
+    return Node(_messages.IcosphereMessage, {**_surface(look), **size}, wxyz, at)
+
+
+def mesh(loaded: LoadedMesh, scale: Vector3, look: Look, wxyz: Quaternion, at: Vector3) -> Node:
+    """Triangles in one colour, whatever colours the file has."""
+    props = {**_surface(look), "side": "double", "scale": scale}
+    arrays: dict[str, NDArray[Any]] = {"vertices": loaded.vertices, "faces": loaded.faces}
+    return Node(_messages.MeshMessage, props, wxyz, at, content=loaded.digest, arrays=arrays)
+
+
+def colored_mesh(loaded: LoadedMesh, scale: Vector3, wxyz: Quaternion, at: Vector3) -> Node:
+    """A mesh with the materials of its own file."""
+    props = {"scale": scale, "cast_shadow": True, "receive_shadow": True}
+    # As an array the GLB travels beside the compressed part of the frame, as it is.
+    arrays: dict[str, NDArray[Any]] = {"glb_data": np.frombuffer(loaded.glb, np.uint8)}
+    return Node(_messages.GlbMessage, props, wxyz, at, content=loaded.digest, arrays=arrays)
+
+
+def label(text: str, *, visible: bool = True) -> Node:
+    """Text of constant size on the screen."""
+    props = {
+        "text": text,
+        "font_size_mode": "screen",
+        "font_screen_scale": 0.85,
+        "font_scene_height": 0.05,
+        "depth_test": False,
+        "anchor": "bottom-center",
+    }
+    return Node(_messages.LabelMessage, props, visible=visible)
+
+
+def arrow(tail: Vector3, tip: Vector3, rgb: Rgb, *, visible: bool = True) -> Node:
+    """An arrow as thick as becomes its length."""
+    points = np.array([[tail, tip]], dtype=np.float32)
+    length = float(np.linalg.norm(points[0, 1] - points[0, 0]))
+    props = {
+        "shaft_radius": length / 40,
+        "head_radius": length / 14,
+        "head_length": length / 5,
+        "scale": 1.0,
+    }
+    arrays: dict[str, NDArray[Any]] = {"points": points, "colors": np.array([rgb], dtype=np.uint8)}
+    content = f"{tail}{tip}{rgb}"
+    return Node(_messages.ArrowMessage, props, visible=visible, content=content, arrays=arrays)
+
+
+def grid(cell_m: float, extent_m: float, *, shadow: bool, visible: bool) -> Node:
+    """Squares on the ground with a stronger line every four; the page gives it its colours."""
+    props = {
+        "width": extent_m,
+        "height": extent_m,
+        "plane": "xy",
+        "cell_color": (120, 130, 145),
+        "cell_thickness": 0.8,
+        "cell_size": cell_m,
+        "section_color": (120, 130, 145),
+        "section_thickness": 1.2,
+        "section_size": 4 * cell_m,
+        "infinite_grid": extent_m <= 0,
+        "fade_distance": 100.0,
+        "fade_strength": 1.0,
+        "fade_from": "camera",
+        "shadow_opacity": 0.3 if shadow else 0.0,
+        "plane_color": (255, 255, 255),
+        "plane_opacity": 0.0,
+        "scale": 1.0,
+    }
+    return Node(_messages.GridMessage, props, visible=visible)

@@ -1,0 +1,72 @@
+"""The PoseWriter: poses of all links at once, of which only those that moved are sent."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from studio.scene.naming import link_node
+
+if TYPE_CHECKING:
+    from collections.abc import Container, Sequence
+
+    from numpy.typing import NDArray
+
+    from studio.scene.graph import Graph
+
+STEP = 1e-6
+"""Absolute: metres, and parts of a unit quaternion; a smaller move is none."""
+
+
+class PoseWriter:
+    """Remembers what was sent last for each link; `forget` what was removed or made anew."""
+
+    def __init__(self, graph: Graph) -> None:
+        self._graph = graph
+        self._names: tuple[str, ...] = ()
+        self._nodes: tuple[str, ...] = ()
+        self._sent = np.full((0, 7), np.nan)
+
+    def write(
+        self,
+        link_names: Sequence[str],
+        wxyz_xyz: NDArray[np.floating],
+        drawn: Container[str],
+    ) -> None:
+        """Send one atomic batch with the links that moved.
+
+        Args:
+            link_names: L names.
+            wxyz_xyz: Shape (L, 7): quaternion w, x, y, z, then x, y, z in metres, in the root
+                frame. Rows that are not finite are left where they were.
+            drawn: The links that stand in the scene; others are skipped.
+        """
+        poses = np.asarray(wxyz_xyz, dtype=np.float64)
+        if self._names != link_names:
+            self._rename(tuple(link_names))
+        near = np.abs(poses - self._sent) <= STEP  # NaN, never sent, is not near
+        moved = np.flatnonzero(~near.all(axis=1) & np.isfinite(poses).all(axis=1))
+        if moved.size == 0:
+            return
+        with self._graph.atomic():
+            for row in moved:
+                if self._names[row] in drawn:
+                    w, x, y, z, *position = poses[row].tolist()
+                    self._graph.set_pose(
+                        self._nodes[row], (w, x, y, z), (position[0], position[1], position[2])
+                    )
+                    self._sent[row] = poses[row]
+
+    def forget(self, link: str) -> None:
+        """Send the pose of this link again next time."""
+        if link in self._names:
+            self._sent[self._names.index(link)] = np.nan
+
+    def _rename(self, names: tuple[str, ...]) -> None:
+        """Keep what was sent for the links that stay."""
+        last = dict(zip(self._names, self._sent, strict=True))
+        unknown = np.full(7, np.nan)
+        self._names = names
+        self._nodes = tuple(link_node(name) for name in names)
+        self._sent = np.array([last.get(name, unknown) for name in names]).reshape(-1, 7)
