@@ -10,8 +10,6 @@ from __future__ import annotations
 import contextlib
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, TypeVar
-from xml.etree.ElementTree import Element, TreeBuilder
-from xml.parsers import expat
 
 from studio.errors import RobotError
 from studio.robot.values import (
@@ -31,9 +29,11 @@ from studio.robot.values import (
     Sphere,
     Visual,
 )
+from studio.robot.xml_tree import parse_tree
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator
+    from xml.etree.ElementTree import Element
 
     from studio.robot.values import Vector3
 
@@ -55,33 +55,11 @@ def parse_element(xml: str) -> ParsedElement:
     """Parse the text of one top-level element; anything but link, joint, material gives None."""
     parsed = ParsedElement()
     with _collected(parsed.faults):
-        element = element_tree(xml)
+        element = parse_tree(xml)
         reader = _READERS.get(element.tag)
         if reader is not None:
             parsed.value = reader(element, parsed)
     return parsed
-
-
-def element_tree(xml: str) -> Element:
-    """Parse XML without namespaces: URDF in the wild uses prefixes that nobody declares.
-
-    Raises:
-        RobotError: Not well-formed, or it declares entities.
-    """
-    builder = TreeBuilder()
-    parser = expat.ParserCreate()
-    parser.StartElementHandler = builder.start
-    parser.EndElementHandler = builder.end
-    parser.EntityDeclHandler = _refuse_entity
-    try:
-        parser.Parse(xml, True)  # noqa: FBT003 - expat takes no keyword
-    except expat.ExpatError as error:
-        raise RobotError(f"The expanded element is not well-formed XML ({error}).") from error
-    return builder.close()
-
-
-def _refuse_entity(name: str, *_: object) -> None:
-    raise RobotError(f'The element declares the entity "{name}": write its text out instead.')
 
 
 @contextlib.contextmanager

@@ -1,0 +1,185 @@
+"""Writes a GLB: one node, one primitive per surface, images inside, nothing to fetch."""
+
+from __future__ import annotations
+
+import struct
+from typing import TYPE_CHECKING, Any
+
+import msgspec
+import numpy as np
+
+from studio.robot.surfaces import Look
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from studio.robot.surfaces import Texture
+    from studio.robot.welding import Welded
+
+_MAGIC, _VERSION = 0x46546C67, 2
+_JSON_CHUNK, _BINARY_CHUNK = 0x4E4F534A, 0x004E4942
+_FLOAT, _UNSIGNED_SHORT, _UNSIGNED_INT = 5126, 5123, 5125
+_VERTEX_BUFFER, _INDEX_BUFFER = 34962, 34963
+_GREY = Look((0.7, 0.7, 0.7, 1.0))
+_PAINTED = Look()
+"""White, so that vertex colours show as they are."""
+
+
+def write_glb(pieces: Sequence[tuple[Welded, Look | None]]) -> bytes:
+    """Encode welded surfaces with their looks; one without a look is drawn light grey."""
+    writer = _Writer()
+    for welded, look in pieces:
+        writer.add(welded, look)
+    return writer.encode()
+
+
+class _Writer:
+    """Collects buffer views, accessors, images and materials as glTF 2.0 numbers them."""
+
+    def __init__(self) -> None:
+        self._chunks: list[bytes] = []
+        self._length = 0
+        self._views: list[dict[str, Any]] = []
+        self._accessors: list[dict[str, Any]] = []
+        self._images: dict[bytes, int] = {}
+        self._image_entries: list[dict[str, Any]] = []
+        self._materials: list[dict[str, Any]] = []
+        self._known_looks: dict[Look | None, int] = {}
+        self._primitives: list[dict[str, Any]] = []
+
+    def add(self, welded: Welded, look: Look | None) -> None:
+        """One more primitive."""
+        attributes = {
+            "POSITION": self._accessor(welded.vertices, "VEC3", bounded=True),
+            "NORMAL": self._accessor(welded.normals, "VEC3"),
+        }
+        if welded.uv is not None:
+            # glTF counts v downwards from the upper edge
+            downwards = welded.uv.copy()
+            downwards[:, 1] = 1 - downwards[:, 1]
+            attributes["TEXCOORD_0"] = self._accessor(downwards, "VEC2")
+        if welded.colors is not None:
+            attributes["COLOR_0"] = self._accessor(_linear_shorts(welded.colors), "VEC4")
+        self._primitives.append(
+            {
+                "attributes": attributes,
+                "indices": self._indices(welded.faces),
+                "material": self._material(look, welded.colors),
+            }
+        )
+
+    def encode(self) -> bytes:
+        """The whole file."""
+        document: dict[str, Any] = {
+            "asset": {"version": "2.0", "generator": "robot description studio"},
+            "scene": 0,
+            "scenes": [{"nodes": [0]}],
+            "nodes": [{"mesh": 0}],
+            "meshes": [{"primitives": self._primitives}],
+            "materials": self._materials,
+            "accessors": self._accessors,
+            "bufferViews": self._views,
+            "buffers": [{"byteLength": self._length}],
+        }
+        if self._image_entries:
+            document["images"] = self._image_entries
+            document["samplers"] = [{"wrapS": 10497, "wrapT": 10497}]
+            document["textures"] = [
+                {"source": index, "sampler": 0} for index in range(len(self._image_entries))
+            ]
+        text = msgspec.json.encode(document)
+        text += b" " * (-len(text) % 4)
+        binary = b"".join(self._chunks)
+        head = struct.pack("<III", _MAGIC, _VERSION, 12 + 8 + len(text) + 8 + len(binary))
+        chunks = (
+            struct.pack("<II", len(text), _JSON_CHUNK),
+            text,
+            struct.pack("<II", len(binary), _BINARY_CHUNK),
+            binary,
+        )
+        return head + b"".join(chunks)
+
+    def _view(self, data: bytes, target: int | None = None) -> int:
+        view: dict[str, Any] = {"buffer": 0, "byteOffset": self._length, "byteLength": len(data)}
+        if target is not None:
+            view["target"] = target
+        self._views.append(view)
+        padded = data + b"\0" * (-len(data) % 4)
+        self._chunks.append(padded)
+        self._length += len(padded)
+        return len(self._views) - 1
+
+    def _accessor(
+        self, rows: NDArray[np.float32] | NDArray[np.uint16], kind: str, *, bounded: bool = False
+    ) -> int:
+        accessor: dict[str, Any] = {
+            "bufferView": self._view(np.ascontiguousarray(rows).tobytes(), _VERTEX_BUFFER),
+            "componentType": _FLOAT if rows.dtype == np.float32 else _UNSIGNED_SHORT,
+            "count": len(rows),
+            "type": kind,
+        }
+        if rows.dtype == np.uint16:
+            accessor["normalized"] = True
+        if bounded:
+            accessor["min"] = rows.min(axis=0).tolist()
+            accessor["max"] = rows.max(axis=0).tolist()
+        self._accessors.append(accessor)
+        return len(self._accessors) - 1
+
+    def _indices(self, faces: NDArray[np.uint32]) -> int:
+        short = int(faces.max(initial=0)) < 0xFFFF
+        data = faces.astype(np.uint16).tobytes() if short else faces.tobytes()
+        self._accessors.append(
+            {
+                "bufferView": self._view(data, _INDEX_BUFFER),
+                "componentType": _UNSIGNED_SHORT if short else _UNSIGNED_INT,
+                "count": faces.size,
+                "type": "SCALAR",
+            }
+        )
+        return len(self._accessors) - 1
+
+    def _material(self, look: Look | None, colors: NDArray[np.uint8] | None) -> int:
+        key = look if look is not None or colors is None else _PAINTED
+        if key not in self._known_looks:
+            self._known_looks[key] = len(self._materials)
+            self._materials.append(self._encode_look(key))
+        return self._known_looks[key]
+
+    def _encode_look(self, look: Look | None) -> dict[str, Any]:
+        shown = _GREY if look is None else look
+        surface: dict[str, Any] = {
+            "baseColorFactor": [*map(_linear, shown.rgba[:3]), shown.rgba[3]],
+            "metallicFactor": shown.metallic,
+            "roughnessFactor": shown.roughness,
+        }
+        if shown.texture is not None:
+            surface["baseColorTexture"] = {"index": self._image(shown.texture)}
+        # both sides: many makers' triangles look inwards, and RViz shows them all the same
+        material: dict[str, Any] = {"pbrMetallicRoughness": surface, "doubleSided": True}
+        if shown.rgba[3] < 1.0:
+            material["alphaMode"] = "BLEND"
+        return material
+
+    def _image(self, texture: Texture) -> int:
+        if texture.data not in self._images:
+            self._images[texture.data] = len(self._image_entries)
+            view = self._view(texture.data)
+            self._image_entries.append({"bufferView": view, "mimeType": texture.mime})
+        return self._images[texture.data]
+
+
+def _linear(srgb: float) -> float:
+    """Colour component of light, as glTF wants it, from what a screen is told."""
+    return srgb / 12.92 if srgb <= 0.04045 else ((srgb + 0.055) / 1.055) ** 2.4
+
+
+_SHORTS = np.array([round(65535 * _linear(n / 255)) for n in range(256)], dtype=np.uint16)
+
+
+def _linear_shorts(colors: NDArray[np.uint8]) -> NDArray[np.uint16]:
+    shorts = _SHORTS[colors]
+    shorts[:, 3] = colors[:, 3].astype(np.uint16) * 257
+    return shorts

@@ -1,0 +1,131 @@
+"""A mesh file to a LoadedMesh: picks the reader, welds, encodes. Runs in the robot worker."""
+
+from __future__ import annotations
+
+import hashlib
+from typing import TYPE_CHECKING, Final, TypeVar
+
+import numpy as np
+
+from studio.errors import StudioError
+from studio.robot.collada import read_collada
+from studio.robot.glb import write_glb
+from studio.robot.loaded_mesh import LoadedMesh
+from studio.robot.mesh_files import MeshFiles
+from studio.robot.stl import read_stl
+from studio.robot.surfaces import Surface
+from studio.robot.welding import Welded, weld
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+    from pathlib import Path
+
+    from numpy.typing import NDArray
+
+    from studio.robot.surfaces import Floats, Look
+    from studio.robot.values import Vector3
+
+Number = TypeVar("Number", np.float32, np.uint8)
+_READERS: Final[dict[str, Callable[[MeshFiles], list[Surface]]]] = {
+    ".stl": read_stl,
+    ".stlb": read_stl,
+    ".dae": read_collada,
+}
+
+
+def read_mesh(path: Path, roots: Iterable[Path] = ()) -> tuple[LoadedMesh, dict[str, str]]:
+    """Read a mesh whole.
+
+    Args:
+        path: The file, already resolved below the served roots.
+        roots: Folders that may be read; without any, the mesh's own folder.
+
+    Returns:
+        The mesh, and the content digest of every file it refers to by path.
+
+    Raises:
+        PackageError: The file cannot be read.
+        MeshError: It cannot be shown.
+    """
+    files = MeshFiles(path, roots)
+    reader = _READERS.get(path.suffix.lower())
+    if reader is None:
+        known = ", ".join(one.removeprefix(".") for one in _READERS)
+        raise files.fault(f'"{path.suffix}" is no mesh format that is read: use {known}.')
+    try:
+        return _finish(files, reader(files)), files.references
+    except StudioError:
+        raise
+    except MemoryError as error:
+        raise files.fault("it needs more memory than a mesh may take: simplify it.") from error
+    except Exception as error:  # a hostile file must not end the worker with the queue behind it
+        reason = f"it cannot be read ({type(error).__name__}: {error})."
+        raise files.fault(reason) from error
+
+
+def _finish(files: MeshFiles, surfaces: list[Surface]) -> LoadedMesh:
+    whole = [one.drawable() for one in _merged(surfaces)]
+    lost = sum(one.triangle_count for one in surfaces) - sum(one.triangle_count for one in whole)
+    if lost:
+        files.warn(
+            "impossible-triangles",
+            f"{lost:,} triangles with impossible coordinates (NaN, infinite) were left out.",
+        )
+    pieces = [(weld(one), one.look) for one in whole if one.triangle_count]
+    if not pieces:
+        raise files.fault("it holds no triangle that can be drawn.")
+    own = any(look is not None or welded.colors is not None for welded, look in pieces)
+    vertices = np.concatenate([welded.vertices for welded, _ in pieces])
+    return LoadedMesh(
+        _digest_of_all(files),
+        vertices,
+        _joined_faces([welded for welded, _ in pieces]),
+        write_glb(pieces) if own else b"",
+        (_corner(vertices.min(axis=0)), _corner(vertices.max(axis=0))),
+        tuple(files.problems),
+    )
+
+
+def _merged(surfaces: list[Surface]) -> Iterable[Surface]:
+    """One surface for all of one look: each costs the browser a draw call."""
+    groups: dict[tuple[Look | None, bool, bool, bool], list[Surface]] = {}
+    for one in surfaces:
+        key = (one.look, one.normals is None, one.uv is None, one.colors is None)
+        groups.setdefault(key, []).append(one)
+    return [_joined(group) for group in groups.values()]
+
+
+def _joined(group: list[Surface]) -> Surface:
+    if len(group) == 1:
+        return group[0]
+    return Surface(
+        np.concatenate([one.positions for one in group]),
+        _concatenated([one.normals for one in group]),
+        _concatenated([one.uv for one in group]),
+        _concatenated([one.colors for one in group]),
+        group[0].look,
+    )
+
+
+def _joined_faces(pieces: list[Welded]) -> NDArray[np.uint32]:
+    counts = np.array([0, *(len(one.vertices) for one in pieces)], dtype=np.uint32)
+    starts = np.cumsum(counts, dtype=np.uint32)[:-1]
+    return np.concatenate([one.faces + start for one, start in zip(pieces, starts, strict=True)])
+
+
+def _digest_of_all(files: MeshFiles) -> str:
+    if not files.references:
+        return files.digest
+    all_of_them = "\n".join((files.digest, *sorted(files.references.values())))
+    return hashlib.sha256(all_of_them.encode()).hexdigest()
+
+
+def _corner(row: Floats) -> Vector3:
+    x, y, z = row.tolist()
+    return x, y, z
+
+
+def _concatenated(arrays: list[NDArray[Number] | None]) -> NDArray[Number] | None:
+    """All of them, or None: the surfaces of one group have the same streams."""
+    given = [one for one in arrays if one is not None]
+    return np.concatenate(given) if given else None

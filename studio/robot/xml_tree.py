@@ -1,0 +1,39 @@
+"""XML text to a tree, safely: no entities, nothing fetched, prefixes left as written."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NoReturn
+from xml.etree.ElementTree import TreeBuilder
+from xml.parsers import expat
+
+from studio.errors import RobotError
+
+if TYPE_CHECKING:
+    from xml.etree.ElementTree import Element
+
+_TEXT_BUFFER_BYTES = 1 << 20
+
+
+def parse_tree(xml: str | bytes) -> Element:
+    """Parse XML without namespaces: URDF in the wild uses prefixes that nobody declares.
+
+    Raises:
+        RobotError: Not well-formed, of unknown encoding, or it declares entities.
+    """
+    builder = TreeBuilder()
+    parser = expat.ParserCreate()
+    parser.buffer_text = True
+    parser.buffer_size = _TEXT_BUFFER_BYTES
+    parser.StartElementHandler = builder.start
+    parser.EndElementHandler = builder.end
+    parser.CharacterDataHandler = builder.data
+    parser.EntityDeclHandler = _refuse_entity
+    try:
+        parser.Parse(xml, True)  # noqa: FBT003 - expat takes no keyword
+    except (expat.ExpatError, LookupError, ValueError) as error:
+        raise RobotError(f"It is not well-formed XML ({error}).") from error
+    return builder.close()
+
+
+def _refuse_entity(name: str, *_: object) -> NoReturn:
+    raise RobotError(f'It declares the entity "{name}", which is not read: write its text out.')
