@@ -55,7 +55,8 @@ $(VENV)/.made:
 	  echo "The studio needs Python 3.11 or newer and $(PYTHON) is $$("$(PYTHON)" -V 2>&1): name a newer one with PYTHON=..." >&2; exit 1; }
 	@"$(PYTHON)" -c 'import ensurepip, venv' 2>/dev/null || { \
 	  echo "$(PYTHON) comes without venv: install it (Debian and Ubuntu: apt install python3-venv) or name another with PYTHON=..." >&2; exit 1; }
-	@"$(PYTHON)" -m venv --clear $(VENV)
+	@$(BIN)/python -c 'import pip, sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null || \
+	  "$(PYTHON)" -m venv --clear $(VENV)
 	@touch $@
 
 # Each stamp is newer than what it was installed from; an editable install sees changed sources.
