@@ -20,6 +20,8 @@ class _Message(BaseModel):
 
 
 class _Command(_Message):
+    model_config = ConfigDict(allow_inf_nan=False)
+
     request: int = 0
     """Chosen by the browser; the answer repeats it."""
     document: str = ""

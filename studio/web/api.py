@@ -23,6 +23,7 @@ _STATUS: Final = {
     "InternalError": HTTPStatus.INTERNAL_SERVER_ERROR,
 }
 """By the kind of a refusal; every other kind is a conflict with what is open now."""
+_TO_SAVE: Final = {"content-disposition": 'attachment; filename="robot.urdf"'}
 _REFUSALS: Final[dict[int | str, dict[str, Any]]] = {
     status.value: {"model": Refused, "description": "Refused, and why"}
     for status in (*_STATUS.values(), HTTPStatus.CONFLICT)
@@ -87,7 +88,7 @@ class Api:
         events = await Answers(_role(request)).collect(self._engine, wish)
         for event in events:
             if isinstance(event, Urdf):
-                return _UrdfFile(event.text)
+                return _UrdfFile(event.text, headers=_TO_SAVE)
         return _refusal(events) or Response(status_code=HTTPStatus.NOT_FOUND)
 
     async def command(self, request: Request) -> Response:
@@ -99,12 +100,9 @@ class Api:
 
 
 class _UrdfFile(Response):
-    """A URDF to be saved, whatever its text holds."""
+    """A URDF, whatever its text holds."""
 
     media_type = "application/xml"
-
-    def __init__(self, text: str) -> None:
-        super().__init__(text, headers={"content-disposition": 'attachment; filename="robot.urdf"'})
 
 
 def _role(request: Request) -> Role:

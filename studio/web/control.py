@@ -51,3 +51,4 @@ class ControlLane:
         finally:
             engine.detach(self)
             self._outlet.close()
+            await self._lane.finish()

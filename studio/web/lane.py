@@ -66,6 +66,12 @@ class Lane:
         if self._closing is None and self._websocket.client_state is WebSocketState.CONNECTED:
             self._closing = asyncio.create_task(self._close(code))
 
+    async def finish(self) -> None:
+        """Begin the closing handshake, if nobody did, and see it on its way."""
+        self.close()
+        if self._closing is not None:
+            await self._closing
+
     async def _close(self, code: int) -> None:
         with contextlib.suppress(RuntimeError):  # the other side went first
             await self._websocket.close(code)

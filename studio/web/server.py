@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import threading
 from contextlib import suppress
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, Protocol
 
 import uvicorn
 
@@ -13,7 +13,6 @@ from studio.web.protocol import StudioSocket
 
 if TYPE_CHECKING:
     import socket
-    from collections.abc import Awaitable, Callable
     from types import FrameType
 
     from starlette.types import ASGIApp
@@ -25,32 +24,38 @@ _END_DEADLINE_S: Final = 1.7
 """From the signal to the last resort: the process leaves without waiting for a stuck thread."""
 
 
+class Life(Protocol):
+    """What begins and ends with the server, on its loop."""
+
+    async def begin(self) -> None:
+        """Before the first request."""
+        ...
+
+    async def answering(self) -> None:
+        """Once, when the port answers; must not take long."""
+        ...
+
+    async def end(self) -> None:
+        """Before the connections are closed; nobody then waits for what has ended."""
+        ...
+
+
 class Server(uvicorn.Server):
-    """uvicorn that says when it answers, and ends what works before it waits for connections.
+    """uvicorn with a life beside it, and without raising a signal again that it obeyed."""
 
-    Args:
-        app: The application.
-        answering: Awaited once, when the port answers.
-        ending: Awaited once, when the port is about to close.
-    """
-
-    def __init__(
-        self,
-        app: ASGIApp,
-        answering: Callable[[], Awaitable[None]],
-        ending: Callable[[], Awaitable[None]],
-    ) -> None:
+    def __init__(self, app: ASGIApp, life: Life) -> None:
         super().__init__(_configuration(app))
-        self._answering, self._ending = answering, ending
+        self._life = life
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
-        """Listen, then go on with what needs a listening port."""
+        """Begin, listen, go on."""
+        await self._life.begin()
         await super().startup(sockets)
-        await self._answering()
+        await self._life.answering()
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
-        """End the work first: nobody then waits for an answer of a worker that is gone."""
-        await self._ending()
+        """End the work, then the connections."""
+        await self._life.end()
         await super().shutdown(sockets)
 
     def handle_exit(self, sig: int, frame: FrameType | None) -> None:

@@ -10,6 +10,7 @@ from starlette.websockets import WebSocket
 
 import studio
 from studio.engine.messages import Hello
+from studio.scene import viser_page, viser_page_gzipped
 from studio.web.assets import Asset, Assets
 from studio.web.control import ControlLane
 from studio.web.lane import Lane
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
     from studio.engine.roles import Role
 
 _FOREVER: Final = "public, max-age=31536000, immutable"
-_ICON: Final = "favicon.svg"
+_ICON: Final = "styles/logo.svg"
 
 
 class Site:
@@ -66,9 +67,13 @@ class Site:
 
     async def scene_page(self, document: str, request: Request) -> Response:
         """The page of viser, to be shown inside ours; another version's would not be let in."""
-        scene = self._engine.document(document).scene
-        content = scene.viser_page(self._assets.current().base)
-        return HTMLResponse(content, headers={"content-security-policy": SCENE_POLICY})
+        self._engine.document(document)
+        prefix = self._assets.current().base.rstrip("/")
+        headers = {"content-security-policy": SCENE_POLICY}
+        if not takes_gzip(request):
+            return HTMLResponse(viser_page(prefix), headers=headers)
+        headers |= {"content-encoding": "gzip"}
+        return HTMLResponse(viser_page_gzipped(prefix), headers=headers)
 
     async def asset(self, tree: str, path: str, request: Request) -> Response:
         """One file of the page; only paths that were found below its folder have an answer."""
@@ -98,9 +103,14 @@ class Site:
         await serve_scene(websocket, scene, websocket.scope["state"]["role"])
 
 
+def takes_gzip(request: Request) -> bool:
+    """Whether the browser unpacks gzip."""
+    return "gzip" in request.headers.get("accept-encoding", "")
+
+
 def _send(asset: Asset, request: Request, caching: str) -> Response:
     """The file, compressed where the browser takes it."""
     headers = {"content-type": asset.type, "cache-control": caching, "vary": "accept-encoding"}
-    if asset.compressed is not None and "gzip" in request.headers.get("accept-encoding", ""):
+    if asset.compressed is not None and takes_gzip(request):
         return Response(asset.compressed, headers=headers | {"content-encoding": "gzip"})
     return Response(asset.content, headers=headers)

@@ -9,17 +9,15 @@ if TYPE_CHECKING:
 
     from studio.engine.listeners import Listener
     from studio.engine.messages import Command
-    from studio.scene.connection import Connection
+    from studio.scene import Connection
 
 
 class OpenScene(Protocol):
     """The 3D view of one document."""
 
-    def viser_page(self, assets_prefix: str) -> bytes:
-        """The HTML of viser's page with our script in it."""
-        ...
-
-    def serve(self, connection: Connection, allowed: Callable[[str], bool]) -> Awaitable[None]:
+    def serve(
+        self, connection: Connection, allowed: Callable[[str], bool], subprotocol: str | None
+    ) -> Awaitable[None]:
         """Speak viser's protocol until the connection ends."""
         ...
 

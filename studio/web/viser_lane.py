@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
-from studio.scene.connection import SUBPROTOCOL
+from studio.scene import SUBPROTOCOL
 from studio.web.access import may
 from studio.web.lane import Lane
 
@@ -15,9 +15,6 @@ if TYPE_CHECKING:
 
     from studio.engine.roles import Role
     from studio.web.surface import OpenScene
-
-_WRONG_VERSION: Final = 1002
-"""The close code with which viser's own server answers a page of another version."""
 
 
 def allowed_messages(role: Role) -> Callable[[str], bool]:
@@ -30,11 +27,11 @@ def allowed_messages(role: Role) -> Callable[[str], bool]:
 
 
 async def serve_scene(websocket: WebSocket, scene: OpenScene, role: Role) -> None:
-    """Speak viser's protocol until the browser leaves; a page of another version is sent away."""
+    """Speak viser's protocol until the browser leaves or the document is closed."""
     offered: list[str] = websocket.scope["subprotocols"]
-    if SUBPROTOCOL not in offered:
-        await websocket.accept(subprotocol=offered[0] if offered else None)
-        await websocket.close(_WRONG_VERSION, "Reload the page: the studio was updated.")
-        return
-    await websocket.accept(subprotocol=SUBPROTOCOL)
-    await scene.serve(Lane(websocket), allowed_messages(role))
+    # A page of another version is let in all the same: only so does it hear why it must leave.
+    spoken = SUBPROTOCOL if SUBPROTOCOL in offered else next(iter(offered), None)
+    await websocket.accept(subprotocol=spoken)
+    lane = Lane(websocket)
+    await scene.serve(lane, allowed_messages(role), spoken)
+    await lane.finish()

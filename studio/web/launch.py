@@ -1,0 +1,139 @@
+"""One run of the studio: bind, start the engine, open what was asked for, say where it is."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import secrets
+import sys
+from contextlib import suppress
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from typing import TYPE_CHECKING
+
+from studio.engine.engine import Engine
+from studio.engine.roles import Role
+from studio.errors import SettingsError, StudioError
+from studio.settings import DEFAULT_PORT, Settings, repository_or_wheel
+from studio.web.app import make_app
+from studio.web.assets import Assets
+from studio.web.browser import show
+from studio.web.credentials import Credentials, cookie_key
+from studio.web.origin import is_loopback
+from studio.web.ports import address, bind, port_of
+from studio.web.server import Server
+
+if TYPE_CHECKING:
+    import socket
+    from pathlib import Path
+
+
+@dataclass(frozen=True, slots=True)
+class Opening:
+    """What to open first."""
+
+    path: Path
+    arguments: dict[str, str]
+
+
+def launch(settings: Settings, opening: Opening, *, viewer_link: bool = False) -> None:
+    """Run the studio until a signal ends it.
+
+    Args:
+        settings: What the command line decided.
+        opening: The first document.
+        viewer_link: Whether to say the address for viewers too.
+
+    Raises:
+        StudioError: It cannot start, or what to open first cannot be opened.
+    """
+    logging.basicConfig(
+        stream=sys.stderr, level=logging.WARNING, format="%(levelname)s %(message)s"
+    )
+    if settings.token is None and not is_loopback(settings.host):
+        raise SettingsError("--no-token is only for this machine: leave it out with this --host.")
+    key = cookie_key(settings.data_folder, datetime.now(UTC).timestamp())
+    credentials = Credentials(settings.token, key)
+    with bind(settings.host, settings.port) as listener:
+        port = port_of(listener)
+        _remark(settings, port)
+        roles = (Role.PRESENTER, Role.VIEWER) if viewer_link else (Role.PRESENTER,)
+        links = [address(settings.host, port, credentials.token_of(role)) for role in roles]
+        visit = _Visit(opening, links, open_browser=settings.open_browser)
+        visit.run(settings, credentials, listener)
+
+
+def _remark(settings: Settings, port: int) -> None:
+    """Say what is not as usual."""
+    if settings.port is None and port != DEFAULT_PORT:
+        _warn(f"Port {DEFAULT_PORT} is taken by another program: this studio uses {port}.")
+    if not is_loopback(settings.host):
+        _warn(
+            "Other machines reach this studio, and the connection is not encrypted: "
+            "whoever has the address with its token can change and save files."
+        )
+
+
+class _Visit:
+    """The life beside the server: the engine, and the opening of the first document."""
+
+    def __init__(self, opening: Opening, links: list[str], *, open_browser: bool) -> None:
+        self._opening, self._links = opening, links
+        self._open_browser = open_browser
+        self._opens: asyncio.Task[None] | None = None
+        self._failure: StudioError | None = None
+
+    def run(self, settings: Settings, credentials: Credentials, listener: socket.socket) -> None:
+        """Serve until the end.
+
+        Raises:
+            StudioError: What ended it early.
+        """
+        self._engine = Engine(settings)
+        bound = (settings.host, port_of(listener))
+        assets = Assets(repository_or_wheel("frontend_assets"))
+        app = make_app(self._engine, assets, credentials, secrets.token_hex(8), bound)
+        self._server = Server(app, self)
+        self._server.run(sockets=[listener])
+        if self._failure is not None:
+            raise self._failure
+
+    async def begin(self) -> None:
+        """Start the engine."""
+        await self._engine.start()
+
+    async def answering(self) -> None:
+        """Open the first document beside the server, which must hear signals meanwhile."""
+        self._opens = asyncio.create_task(self._open())
+
+    async def end(self) -> None:
+        """End the engine with all its workers."""
+        if self._opens is not None:
+            self._opens.cancel()
+            with suppress(asyncio.CancelledError):
+                await self._opens
+        await self._engine.close()
+
+    async def _open(self) -> None:
+        opening = self._opening
+        try:
+            await self._engine.open_path(opening.path, opening.arguments)
+        except StudioError as error:
+            self._failure = error
+            self._server.should_exit = True
+            return
+        for name, link in zip(("Studio", "Viewer"), self._links, strict=False):
+            _say(f"{name}: {link}")
+        if self._open_browser:
+            show(self._links[0])
+
+
+def _say(line: str) -> None:
+    """Write one line for whoever started the studio, who may wait for it at a pipe."""
+    with suppress(OSError):
+        sys.stdout.write(f"{line}\n")
+        sys.stdout.flush()
+
+
+def _warn(line: str) -> None:
+    sys.stderr.write(f"studio: {line}\n")

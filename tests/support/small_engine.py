@@ -1,0 +1,108 @@
+"""The surface that the web room needs, with one open document and answers that tests can steer."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import TYPE_CHECKING
+
+from studio.engine.listeners import tell
+from studio.engine.messages import (
+    AnimateJoints,
+    Command,
+    DocumentEntry,
+    Documents,
+    Done,
+    GetUrdf,
+    RandomizeJoints,
+    Redo,
+    Reload,
+    Save,
+    Undo,
+    Urdf,
+    ZeroJoints,
+)
+from studio.errors import SaveConflictError, UnknownDocumentError
+from studio.scene.connection import SUBPROTOCOL
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from studio.engine.listeners import Listener
+    from studio.scene import Connection
+
+FLOOD = 40
+"""Messages of one megabyte that `randomize_joints` and `animate_joints` (one key) bring about."""
+URDF = "<robot name='small'/>"
+
+
+class SmallScene:
+    """Echoes every message whose text is an allowed message type; `close` ends the connection."""
+
+    async def serve(
+        self, connection: Connection, allowed: Callable[[str], bool], subprotocol: str | None
+    ) -> None:
+        if subprotocol != SUBPROTOCOL:
+            connection.close(1002)
+        while (message := await connection.receive()) is not None:
+            if message == b"close":
+                connection.close(4000)
+            elif allowed(message.decode()):
+                connection.write(message)
+
+
+class SmallDocument:
+    def __init__(self) -> None:
+        self.scene = SmallScene()
+
+
+class SmallEngine:
+    """Saving conflicts, undo has a bug, redo waits until `go_on`; all else is done at once."""
+
+    def __init__(self) -> None:
+        self.documents = {"small": SmallDocument()}
+        self.default_document: str | None = "small"
+        self.executed: list[Command] = []
+        self.listeners: list[Listener] = []
+        self.go_on = asyncio.Event()
+
+    def document(self, name: str, /) -> SmallDocument:
+        if name not in self.documents:
+            raise UnknownDocumentError(name)
+        return self.documents[name]
+
+    def attach(self, listener: Listener, /) -> None:
+        self.listeners.append(listener)
+        entry = DocumentEntry(id="small", title="small", path="small.urdf", unsaved=False)
+        tell(listener, Documents(documents=(entry,)))
+
+    def detach(self, listener: Listener, /) -> None:
+        if listener in self.listeners:
+            self.listeners.remove(listener)
+
+    async def execute(self, command: Command, listener: Listener, /) -> None:
+        self.executed.append(command)
+        match command:
+            case GetUrdf():
+                self.document(command.document)
+                tell(listener, Urdf(request=command.request, text=URDF))
+            case Save():
+                raise SaveConflictError("small.urdf")
+            case Undo():
+                raise RuntimeError("a bug")
+            case Redo() | Reload():
+                await self._wait(command)
+            case ZeroJoints():
+                for number in range(3):
+                    listener.post(bytes([1, number]), binary=True, key="joints")
+            case RandomizeJoints() | AnimateJoints():
+                key = "joints" if command.type == "animate_joints" else None
+                for number in range(FLOOD):
+                    listener.post(b"%d" % number + bytes(1 << 20), binary=True, key=key)
+            case _:
+                pass
+        tell(listener, Done(request=command.request))
+
+    async def _wait(self, command: Redo | Reload) -> None:
+        if isinstance(command, Reload):
+            self.go_on.set()
+        await self.go_on.wait()
