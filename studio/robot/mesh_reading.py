@@ -11,17 +11,16 @@ from studio.errors import StudioError
 from studio.robot.collada import read_collada
 from studio.robot.glb import write_glb
 from studio.robot.loaded_mesh import LoadedMesh
-from studio.robot.mesh_files import MeshFiles
 from studio.robot.stl import read_stl
 from studio.robot.surfaces import Surface
 from studio.robot.welding import Welded, weld
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
-    from pathlib import Path
 
     from numpy.typing import NDArray
 
+    from studio.robot.mesh_files import MeshFiles
     from studio.robot.surfaces import Floats, Look
     from studio.robot.values import Vector3
 
@@ -33,27 +32,19 @@ _READERS: Final[dict[str, Callable[[MeshFiles], list[Surface]]]] = {
 }
 
 
-def read_mesh(path: Path, roots: Iterable[Path] = ()) -> tuple[LoadedMesh, dict[str, str]]:
-    """Read a mesh whole.
-
-    Args:
-        path: The file, already resolved below the served roots.
-        roots: Folders that may be read; without any, the mesh's own folder.
-
-    Returns:
-        The mesh, and the content digest of every file it refers to by path.
+def read_mesh(files: MeshFiles) -> LoadedMesh:
+    """Read a mesh whole; `files` knows then what it refers to.
 
     Raises:
-        PackageError: The file cannot be read.
         MeshError: It cannot be shown.
     """
-    files = MeshFiles(path, roots)
-    reader = _READERS.get(path.suffix.lower())
+    suffix = files.path.suffix
+    reader = _READERS.get(suffix.lower())
     if reader is None:
         known = ", ".join(one.removeprefix(".") for one in _READERS)
-        raise files.fault(f'"{path.suffix}" is no mesh format that is read: use {known}.')
+        raise files.fault(f'"{suffix}" is no mesh format that is read: use {known}.')
     try:
-        return _finish(files, reader(files)), files.references
+        return _finish(files, reader(files))
     except StudioError:
         raise
     except MemoryError as error:

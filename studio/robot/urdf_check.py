@@ -1,0 +1,82 @@
+# pyright: reportUnknownMemberType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportMissingTypeStubs=false
+"""What yourdfpy makes of a URDF: a second opinion. The door to yourdfpy, in the worker only."""
+
+from __future__ import annotations
+
+import io
+from typing import TYPE_CHECKING
+from xml.etree.ElementTree import tostring
+
+import yourdfpy
+
+from studio.errors import RobotError
+from studio.problems import Problem, Severity
+from studio.robot.requests import CheckAnswer
+from studio.robot.xml_tree import parse_tree
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+_NAME = "unnamed_robot"
+
+
+def check_urdf(text: str) -> CheckAnswer:
+    """Parse and validate an expanded URDF without its meshes; never raises for what it holds."""
+    problems: list[Problem] = []
+    try:
+        clean = _clean(text, problems)
+    except RobotError as error:
+        return CheckAnswer((), (), "", (_problem("bad-urdf", f"The URDF cannot be read. {error}"),))
+    try:
+        robot = yourdfpy.URDF.load(io.BytesIO(clean), load_meshes=False)
+        problems += (_problem("urdf-rule", str(one)) for one in _errors(robot))
+        return CheckAnswer(
+            tuple(map(str, robot.link_map)),
+            tuple(map(str, robot.actuated_joint_names)),
+            str(robot.base_link),
+            tuple(dict.fromkeys(problems)),
+        )
+    except Exception as error:  # noqa: BLE001 - it raises whatever a broken file leads it to
+        reason = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
+        sentence = (
+            f"yourdfpy, which other Python tools read robots with, cannot read it ({reason})."
+        )
+        return CheckAnswer((), (), "", (*problems, _problem("yourdfpy", sentence)))
+
+
+def _clean(text: str, problems: list[Problem]) -> bytes:
+    """The text parsed and written again: no entities, no prefixes that nobody declares, a name.
+
+    yourdfpy's own parser would follow entities to files.
+
+    Raises:
+        RobotError: Not well-formed, or it declares entities.
+    """
+    root = parse_tree(text)
+    if not root.get("name"):
+        sentence = "The <robot> has no name; ROS rejects this: give it one."
+        problems.append(_problem("no-robot-name", sentence))
+        root.set("name", _NAME)
+    for parent in root.iter():
+        for child in [one for one in parent if ":" in one.tag]:
+            parent.remove(child)
+        for key in [one for one in parent.attrib if ":" in one or one == "xmlns"]:
+            del parent.attrib[key]
+    return tostring(root)
+
+
+def _errors(robot: yourdfpy.URDF) -> Iterable[object]:
+    """What `validate` found; yourdfpy offers no other way to get at it than a handler."""
+    found: list[object] = []
+
+    def keep(errors: Iterable[object]) -> bool:
+        found.extend(errors)
+        return True
+
+    robot.validate(validation_fn=keep)
+    return found
+
+
+def _problem(code: str, sentence: str) -> Problem:
+    return Problem(Severity.WARNING, code, sentence)

@@ -1,0 +1,63 @@
+"""The robot worker's process: reads meshes, validates URDFs. `python -m studio.robot.worker`."""
+
+from __future__ import annotations
+
+import os
+
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # workers run side by side, small arrays each
+
+from pathlib import Path
+from typing import assert_never
+
+from studio.errors import MeshError, PackageError, UnreadableFileError
+from studio.robot.mesh_blob import pack_mesh
+from studio.robot.mesh_cache import MeshCache
+from studio.robot.mesh_files import MeshFiles
+from studio.robot.mesh_reading import read_mesh
+from studio.robot.requests import (
+    CheckAnswer,
+    CheckRequest,
+    MeshAnswer,
+    MeshFault,
+    MeshRequest,
+    robot_codec,
+)
+from studio.settings import ROBOT_MEMORY_BYTES
+from studio.workers import serve
+
+_INLINE_BYTES = 64 << 10
+"""Up to this size the pipe is as quick as the file."""
+
+
+def handle(request: MeshRequest | CheckRequest) -> MeshAnswer | MeshFault | CheckAnswer:
+    """Answer one request; whatever is wrong with a user's file is an answer too."""
+    match request:
+        case MeshRequest():
+            return _read(request)
+        case CheckRequest():
+            from studio.robot.urdf_check import check_urdf  # noqa: PLC0415 - takes half a second
+
+            return check_urdf(request.urdf)
+        case _:
+            assert_never(request)
+
+
+def _read(request: MeshRequest) -> MeshAnswer | MeshFault:
+    path = Path(request.path)
+    try:
+        files = MeshFiles(path, map(Path, request.roots))
+        mesh = read_mesh(files)
+    except MeshError as error:
+        return MeshFault("MeshError", error.uri, error.reason)
+    except UnreadableFileError as error:
+        return MeshFault("UnreadableFileError", error.path, error.reason)
+    except PackageError:
+        return MeshFault("OutsideRootsError", request.path, "")
+    blob, cache = pack_mesh(mesh, files.references), MeshCache(Path(request.cache_folder))
+    name = cache.name(path, files.digest)
+    stored = cache.write(name, blob)
+    return MeshAnswer(name, b"" if stored and len(blob) > _INLINE_BYTES else blob)
+
+
+if __name__ == "__main__":
+    serve(robot_codec(), handle, ROBOT_MEMORY_BYTES)
