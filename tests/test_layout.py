@@ -1,0 +1,149 @@
+"""What every file and folder of the repository keeps to."""
+
+from __future__ import annotations
+
+import ast
+import re
+import subprocess
+from pathlib import Path
+
+import pytest
+
+REPOSITORY = Path(__file__).resolve().parents[1]
+LINES_AT_MOST = 400
+SMALL_FILES = {
+    ".gitignore",
+    "CHANGELOG.md",
+    "CONTRIBUTING.md",
+    "LICENSE",
+    "Makefile",
+    "README.md",
+    "constraints.txt",
+    "pyproject.toml",
+}
+FOLDERS = {".ci", "frontend_assets", "models", "studio", "tests"}
+
+# Built from pieces, so that this file does not hold what it looks for.
+SHARED_FOLDER = "../" + "shared"
+FORBIDDEN = {
+    "a path of one machine": re.compile("/" + r"work/|/(home|Users)/\w+/"),
+    "a package registry's address": re.compile(
+        r"https?://(?:[\w.-]*\.)?(?:"
+        + "|".join((r"pypi\.org/simple", r"registry\.npmjs", r"registry\.yarnpkg", r"npmmirror"))
+        + r")|\b(?:index-url|trusted-host)\b",
+    ),
+    "an address of a private network": re.compile(r"https?://(?:10|172|192\.168)\.\d"),
+}
+TEXT_SUFFIXES = {
+    "", ".cfg", ".css", ".d.ts", ".html", ".js", ".json", ".md", ".mjs", ".py", ".rviz", ".toml",
+    ".ts", ".txt", ".xacro", ".xml", ".yaml", ".yml",
+}  # fmt: skip
+
+
+def committed() -> list[Path]:
+    """Every file that git holds, or in an unpacked source archive every file of our folders."""
+    listed = subprocess.run(
+        ["git", "-C", REPOSITORY, "ls-files", "-z"], capture_output=True, check=False
+    )
+    if listed.returncode == 0 and listed.stdout:
+        paths = [REPOSITORY / name for name in listed.stdout.decode().split("\0") if name]
+    else:
+        roots = [REPOSITORY / name for name in FOLDERS]
+        paths = [path for root in roots for path in root.rglob("*")]
+        paths += [REPOSITORY / name for name in SMALL_FILES]
+    skipped = {"node_modules", "__pycache__"}
+    return sorted(path for path in paths if path.is_file() and not skipped & set(path.parts))
+
+
+COMMITTED = committed()
+ROOMS = sorted(path.parent for path in COMMITTED if path.match("studio/*/__init__.py"))
+SOURCES = [path for path in COMMITTED if path.suffix == ".py"]
+PAGE_SOURCES = [
+    path
+    for path in COMMITTED
+    if path.suffix in {".js", ".mjs", ".css"} and "vendor" not in path.parts
+]
+
+
+def name_of(path: Path) -> str:
+    return path.relative_to(REPOSITORY).as_posix()
+
+
+def texts() -> list[tuple[Path, str]]:
+    found = [path for path in COMMITTED if path.suffix in TEXT_SUFFIXES]
+    return [
+        (path, path.read_text(encoding="utf-8", errors="replace"))
+        for path in found
+        if "vendor" not in path.relative_to(REPOSITORY).parts
+    ]
+
+
+def test_the_root_holds_the_five_folders_and_small_files_only():
+    tops = {path.relative_to(REPOSITORY).parts[0] for path in COMMITTED}
+    assert tops - SMALL_FILES == FOLDERS
+
+
+@pytest.mark.parametrize("room", ROOMS, ids=name_of)
+def test_a_room_says_what_flows_through_it(room: Path):
+    docstring = ast.get_docstring(ast.parse((room / "__init__.py").read_text()))
+    assert docstring, f"{name_of(room)} has no docstring"
+    assert len(docstring.split()) >= 5
+
+
+@pytest.mark.parametrize("path", [*SOURCES, *PAGE_SOURCES], ids=name_of)
+def test_a_file_is_short_enough_to_read_in_one_sitting(path: Path):
+    lines = len(path.read_text(encoding="utf-8").splitlines())
+    assert lines <= LINES_AT_MOST, f"{name_of(path)} has {lines} lines"
+
+
+@pytest.mark.parametrize("what", FORBIDDEN)
+def test_no_committed_file_names(what: str):
+    pattern = FORBIDDEN[what]
+    bad = [f"{name_of(path)}: {m[0]}" for path, text in texts() if (m := pattern.search(text))]
+    assert not bad
+
+
+def test_only_the_ci_script_knows_where_the_corpus_lies():
+    naming = {name_of(path) for path, text in texts() if SHARED_FOLDER in text}
+    assert naming == {".ci/run"}
+
+
+def test_pins_are_names_and_versions_only():
+    lines = (REPOSITORY / "constraints.txt").read_text().splitlines()
+    assert lines
+    assert all(re.fullmatch(r"[A-Za-z0-9._-]+==[A-Za-z0-9.!+_-]+", line) for line in lines)
+
+
+def test_every_requirement_is_pinned():
+    import tomllib
+
+    project = tomllib.loads((REPOSITORY / "pyproject.toml").read_text())["project"]
+    extras = [one for group in project["optional-dependencies"].values() for one in group]
+    wanted = {
+        re.split(r"[\[<>=;~! ]", one)[0].lower().replace("_", "-")
+        for one in [*project["dependencies"], *extras]
+    }
+    pinned = {
+        line.split("==")[0].lower().replace("_", "-")
+        for line in (REPOSITORY / "constraints.txt").read_text().splitlines()
+    }
+    assert wanted <= pinned
+
+
+def test_python_tests_mirror_the_sources():
+    """`tests/<room>/` belongs to `studio/<room>/`."""
+    strays = [name_of(path) for path in COMMITTED if is_stray(path)]
+    assert not strays
+
+
+FREE_FOLDERS = {"benchmarks", "browser", "contract", "models"}
+
+
+def is_stray(path: Path) -> bool:
+    """Whether a test file lies in a folder of no room."""
+    parts = path.relative_to(REPOSITORY).parts
+    if parts[0] != "tests" or not path.name.startswith("test_"):
+        return False
+    if len(parts) == 2:
+        return False
+    return parts[1] not in FREE_FOLDERS and REPOSITORY / "studio" / parts[1] not in ROOMS

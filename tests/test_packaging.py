@@ -1,0 +1,182 @@
+"""The wheel: what it holds, and that it runs where nothing else is."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+import urllib.request
+import venv
+from pathlib import Path
+from typing import TYPE_CHECKING
+from zipfile import ZipFile
+
+import pytest
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+REPOSITORY = Path(__file__).resolve().parents[1]
+INSIDE = {
+    "studio": "studio",
+    "studio/_frontend_assets": "frontend_assets",
+    "studio/_models": "models",
+}
+NEVER = {"tools", "screenshots", "tests", "node_modules", "__pycache__", ".ci"}
+END_WITHIN_S = 2.0
+
+pytestmark = [pytest.mark.timeout(300), pytest.mark.xdist_group("packaging")]
+
+
+@pytest.fixture(scope="module")
+def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The wheel, built without the network by the hatchling of this environment."""
+    folder = tmp_path_factory.mktemp("dist")
+    command = [sys.executable, "-m", "build", "--wheel", "--no-isolation", "--outdir", folder]
+    built = subprocess.run(
+        [*command, REPOSITORY], capture_output=True, text=True, check=False, cwd=folder
+    )
+    assert built.returncode == 0, built.stdout + built.stderr
+    (path,) = folder.glob("*.whl")
+    return path
+
+
+@pytest.fixture(scope="module")
+def names(wheel: Path) -> list[str]:
+    with ZipFile(wheel) as archive:
+        return archive.namelist()
+
+
+def source_of(name: str) -> Path | None:
+    """The repository's file that a file of the wheel comes from; None for metadata."""
+    for inside in sorted(INSIDE, key=len, reverse=True):
+        if name.startswith(f"{inside}/"):
+            return REPOSITORY / INSIDE[inside] / name.removeprefix(f"{inside}/")
+    return None
+
+
+def test_the_wheel_holds_the_program_the_page_and_the_models(names: list[str]):
+    assert {
+        "studio/__init__.py",
+        "studio/cli.py",
+        "studio/_frontend_assets/index.html",
+        "studio/_models/rover_description/package.xml",
+        "studio/_models/rover_description/urdf/rover.urdf.xacro",
+        "studio/_models/rover_description/meshes/tyre.stl",
+    } <= set(names)
+
+
+def test_the_wheel_holds_every_committed_file_of_them(names: list[str]):
+    listed = subprocess.run(
+        ["git", "-C", REPOSITORY, "ls-files", "-z", *INSIDE.values()],
+        capture_output=True,
+        check=False,
+    )
+    if listed.returncode:
+        pytest.skip("this is no git checkout, so no file is committed")
+    committed = {name for name in listed.stdout.decode().split("\0") if name}
+    wanted = {name for name in committed if not NEVER & set(Path(name).parts)}
+    held = {path.relative_to(REPOSITORY).as_posix() for name in names if (path := source_of(name))}
+    assert {name for name in wanted if (REPOSITORY / name).is_file()} <= held
+
+
+def test_the_wheel_holds_nothing_else(names: list[str]):
+    assert len(names) == len(set(names))
+    for name in names:
+        assert not NEVER & set(Path(name).parts), name
+        source = source_of(name)
+        if source is None:
+            assert ".dist-info/" in name, name
+        else:
+            assert source.is_file(), f"{name} comes from nowhere"
+
+
+def test_the_wheel_is_small(wheel: Path):
+    assert wheel.stat().st_size < 3_000_000
+
+
+def test_the_wheel_says_what_it_is(wheel: Path, names: list[str]):
+    (metadata,) = [name for name in names if name.endswith(".dist-info/METADATA")]
+    (entry_points,) = [name for name in names if name.endswith(".dist-info/entry_points.txt")]
+    assert [name for name in names if name.endswith("/licenses/LICENSE")]
+    with ZipFile(wheel) as archive:
+        text = archive.read(metadata).decode()
+        assert "\nName: robot-description-studio\n" in text
+        assert "\nLicense-Expression: Apache-2.0\n" in text
+        assert "\nRequires-Python: >=3.11\n" in text
+        assert "studio = studio.cli:main" in archive.read(entry_points).decode()
+
+
+@pytest.fixture(scope="module")
+def installed(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of commands of an empty environment into which only the wheel was installed."""
+    folder = tmp_path_factory.mktemp("installed") / "venv"
+    venv.create(folder, with_pip=True)
+    commands = folder / ("Scripts" if sys.platform == "win32" else "bin")
+    pip = [commands / "python", "-m", "pip", "--disable-pip-version-check", "install", "--quiet"]
+    done = subprocess.run(
+        [*pip, "--constraint", REPOSITORY / "constraints.txt", wheel],
+        capture_output=True,
+        text=True,
+        check=False,
+        env=bare_environment(folder),
+    )
+    assert done.returncode == 0, done.stderr
+    return commands
+
+
+def bare_environment(home: Path) -> dict[str, str]:
+    """Nothing of this checkout or of the user's settings, but what pip needs to find its index."""
+    dropped = ("PYTHONPATH", "VIRTUAL_ENV", "STUDIO_CORPUS", "DISPLAY", "AMENT_PREFIX_PATH")
+    kept = {name: value for name, value in os.environ.items() if name not in dropped}
+    return {**kept, "STUDIO_DATA_DIR": str(home / "data")}
+
+
+def test_the_installed_command_names_its_version(installed: Path, tmp_path: Path):
+    import studio
+
+    answer = subprocess.run(
+        [installed / "studio", "--version"],
+        capture_output=True,
+        text=True,
+        check=True,
+        cwd=tmp_path,
+        env=bare_environment(tmp_path),
+    )
+    assert answer.stdout == f"studio {studio.__version__}\n"
+
+
+@pytest.fixture
+def demo(installed: Path, tmp_path: Path) -> Iterator[subprocess.Popen[str]]:
+    """A running `studio demo` of the installed wheel."""
+    command = [installed / "studio", "demo", "--no-browser", "--port", "0"]
+    with subprocess.Popen(
+        command,
+        cwd=tmp_path,
+        env=bare_environment(tmp_path),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    ) as process:
+        yield process
+        if process.poll() is None:
+            process.kill()
+
+
+def test_the_installed_demo_serves_its_page_and_ends_when_told(demo: subprocess.Popen[str]):
+    assert demo.stdout is not None
+    assert demo.stderr is not None
+    line = demo.stdout.readline()
+    assert line.startswith("Studio: http://127.0.0.1:"), demo.stderr.read()
+    cookies = urllib.request.HTTPCookieProcessor()
+    opener = urllib.request.build_opener(cookies)
+    with opener.open(line.removeprefix("Studio: ").strip(), timeout=20) as page:
+        assert page.status == 200
+        assert "<!doctype html>" in page.read(200).decode().lower()
+    started = time.monotonic()
+    demo.send_signal(signal.SIGTERM)
+    demo.wait(timeout=20)
+    assert time.monotonic() - started < END_WITHIN_S
+    assert demo.stdout.read() == ""
