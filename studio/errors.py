@@ -15,6 +15,7 @@ StudioError
         EditError
             StaleEditError
             SaveConflictError
+            NotSavedError
     RobotError
         MeshError
     SceneError
@@ -145,6 +146,14 @@ class SaveConflictError(EditError):
             "reload it first."
         )
         self.path = path
+
+
+class NotSavedError(EditError):
+    """A file cannot be written; nothing of it was."""
+
+    def __init__(self, path: str, reason: str) -> None:
+        super().__init__(f"{path} was not saved: {reason}.")
+        self.path, self.reason = path, reason
 
 
 class RobotError(StudioError):

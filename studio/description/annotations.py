@@ -157,12 +157,19 @@ def _read_bracket(bracket: re.Match[str], text: str) -> Annotation | None:
 def _read_range(parts: Sequence[str]) -> Annotation | None:
     numbers = [_number(part) for part in parts]
     match numbers:
-        case [float(low), float(high)] if low < high:
+        case [float(low), float(high)] if _is_width(high - low):
             return Annotation(low, high)
-        case [float(low), float(step), float(high)] if low < high and 0 < step <= high - low:
+        case [float(low), float(step), float(high)] if (
+            _is_width(high - low) and _is_width(step) and step <= high - low
+        ):
             return Annotation(low, high, step)
         case _:
             return None
+
+
+def _is_width(width: float) -> bool:
+    """Whether a slider can be that wide."""
+    return 1e-30 < width < 1e30
 
 
 def _read_choices(parts: Sequence[str], text: str, *, leading: bool) -> Annotation | None:

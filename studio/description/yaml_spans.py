@@ -11,7 +11,7 @@ from __future__ import annotations
 import bisect
 import re
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import yaml
 
@@ -23,8 +23,7 @@ from studio.errors import EditError
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-KeyPath: TypeAlias = tuple[str | int, ...]
-"""From the document's top: a mapping's key as written, or a list's index."""
+    from studio.description.run_record import KeyPath
 
 _LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _UNNAMED = "?"
@@ -44,6 +43,8 @@ class YamlScalar:
     text: str
     line: int
     column: int
+    tag: str = ""
+    """As written, e.g. `!degrees`; empty without one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,10 +109,12 @@ class _Reader:
     text: str
     bom: int
     open: list[_Container] = field(default_factory=list[_Container])
-    scalars: dict[KeyPath, YamlScalar] = field(default_factory=dict[KeyPath, YamlScalar])
-    aliases: list[tuple[KeyPath, KeyPath]] = field(default_factory=list[tuple[KeyPath, KeyPath]])
+    scalars: dict[KeyPath, YamlScalar] = field(default_factory=dict["KeyPath", YamlScalar])
+    aliases: list[tuple[KeyPath, KeyPath]] = field(
+        default_factory=list[tuple["KeyPath", "KeyPath"]]
+    )
     headings: list[int] = field(default_factory=list[int])
-    anchors: dict[str, KeyPath] = field(default_factory=dict[str, KeyPath])
+    anchors: dict[str, KeyPath] = field(default_factory=dict[str, "KeyPath"])
     covered: list[tuple[int, int]] = field(default_factory=list[tuple[int, int]])
     key_line: int = 0
     _offset: tuple[int, int] = (0, 0)
@@ -162,7 +165,7 @@ class _Reader:
         span = Span(first, first + len(raw.encode()), "yaml")
         line_start = max(self.text.rfind("\n", 0, start), self.text.rfind("\r", 0, start)) + 1
         line = event.end_mark.line + 1
-        return YamlScalar(path, span, event.value, line, start - line_start + 1)
+        return YamlScalar(path, span, event.value, line, start - line_start + 1, event.tag or "")
 
     def _take_alias(self, event: yaml.AliasEvent) -> None:
         if self._is_key():

@@ -1,0 +1,107 @@
+"""The editable texts of a finished run, each with its place, what it came to, and its widget.
+
+What only the bytes tell is kept per file and drafted anew only when they change; a site that came
+out the same as in the run before is the same object.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from studio.description.drafts import Draft, FileDrafts, draft_xml, draft_yaml
+from studio.description.number_text import parse_number
+from studio.description.run_reads import RunReads, Seen
+from studio.description.values import Site, SiteKind
+from studio.description.widgets import infer_widget, keep_range
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from studio.description.run_record import RunRecord
+    from studio.description.values import Widget
+
+
+@dataclass(frozen=True, slots=True)
+class _Built:
+    """A site and what it was built from, to tell whether it must be built again."""
+
+    draft: Draft
+    seen: Seen
+    site: Site
+
+
+class SiteBuilder:
+    """Builds the sites of the runs of one session."""
+
+    def __init__(self) -> None:
+        self._files: dict[str, FileDrafts] = {}
+        self._built: dict[str, _Built] = {}
+
+    def build(self, record: RunRecord) -> list[Site]:
+        """All sites, file by file in the order in which the run read them, then top to bottom.
+
+        Every arg and property of the files is one, also where the run did not come by, and every
+        scalar of the YAML files that were read.
+        """
+        reads = RunReads(record)
+        self._files = dict(self._drafted(record))
+        self._built = {
+            draft.id: self._build(draft, seen)
+            for path, file in self._files.items()
+            for draft, seen in reads.of_file(path, file)
+        }
+        return [one.site for one in self._built.values()]
+
+    def _drafted(self, record: RunRecord) -> Iterator[tuple[str, FileDrafts]]:
+        """The drafts of each file that was read, those of unchanged bytes as they were."""
+        for path in dict.fromkeys(record.files):
+            tree, document = record.trees.get(path), record.yaml.get(path)
+            data = tree.data if tree else document.data if document else None
+            known = self._files.get(path)
+            if known is not None and known.data == data:
+                yield path, known
+            elif tree is not None:
+                yield path, draft_xml(tree)
+            elif document is not None:
+                yield path, draft_yaml(path, document.data)
+
+    def _build(self, draft: Draft, seen: Seen) -> _Built:
+        before = self._built.get(draft.id)
+        if before is None or before.draft.name != draft.name:
+            return _Built(draft, seen, _site(draft, seen, None))
+        if before.seen == seen and (before.draft is draft or before.draft == draft):
+            return before
+        return _Built(draft, seen, _site(draft, seen, before.site.widget))
+
+
+def build_sites(record: RunRecord) -> list[Site]:
+    """The sites of one run; keep a `SiteBuilder` where runs follow each other."""
+    return SiteBuilder().build(record)
+
+
+def _site(draft: Draft, seen: Seen, before: Widget | None) -> Site:
+    value = seen.values[0] if seen.values else ""
+    return Site(
+        id=draft.id,
+        kind=draft.kind,
+        name=draft.name,
+        place=draft.place,
+        span=draft.span,
+        text=draft.text,
+        value=value,
+        number=parse_number(value),
+        reads=seen.reads,
+        widget=_widget(draft, seen, value, before),
+        group=draft.group,
+        owner=seen.owner,
+        values=seen.values if len(seen.values) > 1 else (),
+    )
+
+
+def _widget(draft: Draft, seen: Seen, value: str, before: Widget | None) -> Widget:
+    is_literal = draft.kind is SiteKind.LITERAL
+    consumers = ((draft.element_path, draft.attribute),) if is_literal else seen.consumers
+    name = "" if is_literal else draft.name
+    widget = infer_widget(name, draft.text, value, draft.annotation, consumers, seen.compared)
+    return widget if before is None else keep_range(widget, before, value or draft.text)

@@ -1,0 +1,321 @@
+"""The texts of an open document as the disk has them and as they are edited, with undo and saving.
+
+The main process's truth about the files; the worker holds a copy that follows the same edits. Pure:
+it reads and writes files when asked, and waits for nothing.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from enum import Enum, auto
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from studio.description.changed_regions import ChangedRegions
+from studio.description.saving import FileToSave, save_files
+from studio.description.span_table import SpanTable
+from studio.description.splice import apply, decode, difference, edit_at, inverse
+from studio.description.undo import ArgumentChange, Splice, Step, UndoStack
+from studio.description.values import Edit
+from studio.errors import EditError, PackageError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Mapping
+
+    from studio.description.values import Expansion
+
+
+class FileChange(Enum):
+    """What a look at the disk found."""
+
+    NONE = auto()
+    """The file is as it was read, or as it is edited here."""
+    RELOADED = auto()
+    """It changed and had no unsaved edits: its new text is taken."""
+    CONFLICT = auto()
+    """It changed and has unsaved edits: they are kept, saving is refused until it is reloaded."""
+    GONE = auto()
+    """It cannot be read any more; its text here is kept."""
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """What an undo or redo did: send it on. `arguments` are all of them, None when unchanged."""
+
+    label: str
+    edits: tuple[Edit, ...] = ()
+    arguments: dict[str, str] | None = None
+
+
+@dataclass(slots=True)
+class _Text:
+    """One file: as read from the disk, as it is now, and where the two differ."""
+
+    disk: bytes
+    now: bytes
+    regions: ChangedRegions
+
+    @classmethod
+    def of(cls, disk: bytes) -> _Text:
+        return cls(disk, disk, ChangedRegions(disk))
+
+
+class Sources:
+    """The files of one document; `spans` answers where its sites stand now.
+
+    Args:
+        read: Reads a file below the opened folders, or raises a PackageError.
+        resolve: Gives a path's real place below the opened folders, or raises.
+        may_write: Whether that place may be written; default: any.
+        arguments: The xacro arguments that the document was opened with.
+    """
+
+    def __init__(
+        self,
+        read: Callable[[Path], bytes],
+        resolve: Callable[[Path], Path],
+        may_write: Callable[[Path], bool] = lambda _: True,
+        arguments: Mapping[str, str] | None = None,
+    ) -> None:
+        self._read, self._resolve, self._may_write = read, resolve, may_write
+        self._texts: dict[str, _Text] = {}
+        self._steps = UndoStack()
+        self._arguments = dict(arguments or {})
+        self._conflicts: set[str] = set()
+        self.spans = SpanTable()
+
+    @property
+    def files(self) -> tuple[str, ...]:
+        """Every file whose text is held."""
+        return tuple(self._texts)
+
+    @property
+    def arguments(self) -> dict[str, str]:
+        """The arguments as they are now; a copy."""
+        return dict(self._arguments)
+
+    @property
+    def undo_labels(self) -> tuple[str, ...]:
+        """The steps that can be taken back, newest last."""
+        return tuple(step.label for step in self._steps.done)
+
+    @property
+    def redo_labels(self) -> tuple[str, ...]:
+        """The steps that can be done again, newest last."""
+        return tuple(step.label for step in self._steps.undone)
+
+    @property
+    def unsaved_files(self) -> tuple[str, ...]:
+        """Files whose text differs from the disk's as it was read."""
+        return tuple(file for file, text in self._texts.items() if text.now != text.disk)
+
+    @property
+    def unsaved_count(self) -> int:
+        """How many places differ, in all files."""
+        return sum(len(text.regions) for text in self._texts.values())
+
+    @property
+    def conflicts(self) -> frozenset[str]:
+        """Files with unsaved edits that changed on disk."""
+        return frozenset(self._conflicts)
+
+    def overlay(self) -> dict[str, bytes]:
+        """The edited texts by file, for a run that starts from the disk."""
+        return {file: self._texts[file].now for file in self.unsaved_files}
+
+    def text(self, file: str) -> bytes:
+        """A file's text as it is now.
+
+        Raises:
+            PackageError: It is not held and cannot be read.
+        """
+        return self._held(file).now
+
+    def track(self, files: Iterable[str]) -> None:
+        """Hold the texts of these files too; one that cannot be read is left out."""
+        for file in files:
+            try:
+                self._held(file)
+            except PackageError:
+                continue
+
+    def adopt(self, expansion: Expansion, version: int) -> None:
+        """Take over a good run: its files and sites, true at that `spans.version`."""
+        self.track(expansion.files)
+        self.spans.adopt(expansion.changed_sites, expansion.site_order, version)
+
+    def edit(self, edit: Edit, name: str, gesture: str = "") -> None:
+        """Apply an edit as an undo step called `name`, e.g. `wheel_radius 0.1 → 0.12`.
+
+        Edits of the same gesture are one step, until something else happens.
+
+        Raises:
+            EditError: The edit lies outside the file.
+            PackageError: The file cannot be read.
+        """
+        self._push(edit, Step(name, gesture=gesture))
+
+    def edit_site(self, site_id: str, text: str, gesture: str = "") -> Edit:
+        """Write a new text at a site, quoted and escaped as its place needs it.
+
+        Raises:
+            StaleEditError: The site is no longer where the last run saw it.
+            EditError: The place cannot hold the text.
+        """
+        site, span = self.spans.site(site_id), self.spans.span(site_id)
+        edit = edit_at(site.place.file, self.text(site.place.file), span, text)
+        self.edit(edit, site.name, gesture)
+        return edit
+
+    def reset_site(self, site_id: str) -> Edit | None:
+        """Put a site back to the bytes that the disk has; None when it has them.
+
+        Raises:
+            StaleEditError: The site is no longer where the last run saw it.
+            EditError: A reload changed the file around it.
+        """
+        site, span = self.spans.site(site_id), self.spans.span(site_id)
+        text = self._held(site.place.file)
+        base = text.regions.base_span(span)
+        if base is None:
+            raise EditError(f"{site.name} has no saved value any more: edit it instead.")
+        saved = text.disk[base.start : base.end]
+        if saved == text.now[span.start : span.end]:
+            return None
+        edit = Edit(site.place.file, span.start, span.end, saved)
+        self.edit(edit, site.name)
+        return edit
+
+    def saved_text(self, site_id: str) -> str | None:
+        """What the disk says at a site, when it says something else than the text here.
+
+        Raises:
+            StaleEditError: The site is no longer where the last run saw it.
+        """
+        site = self.spans.site(site_id)
+        text = self._texts.get(site.place.file)
+        if text is None or not len(text.regions):
+            return None
+        span = self.spans.span(site_id)
+        base = text.regions.base_span(span)
+        if base is None:
+            return None
+        is_same = text.disk[base.start : base.end] == text.now[span.start : span.end]
+        return None if is_same else decode(text.disk, base)
+
+    def set_argument(self, name: str, value: str | None, gesture: str = "") -> None:
+        """Pass an argument, or take it back with None; an undo step like any edit."""
+        change = ArgumentChange(name, self._arguments.get(name), value)
+        self._put_argument(name, value)
+        self._steps.push(Step(name, argument=change, gesture=gesture))
+
+    def undo(self) -> Change | None:
+        """Take the newest step back; None when there is none."""
+        step = self._steps.undo()
+        if step is None:
+            return None
+        edits = tuple(splice.backward() for splice in reversed(step.splices))
+        return self._carry_out(step, edits, step.argument and step.argument.old)
+
+    def redo(self) -> Change | None:
+        """Do the step last taken back again; None when there is none."""
+        step = self._steps.redo()
+        if step is None:
+            return None
+        edits = tuple(splice.forward() for splice in step.splices)
+        return self._carry_out(step, edits, step.argument and step.argument.new)
+
+    def save(self) -> tuple[str, ...]:
+        """Write every changed file, all or none; the files written.
+
+        Raises:
+            SaveConflictError: A file on disk is no longer the one that was read.
+            NotSavedError: A file cannot be written.
+            OutsideRootsError: A file leads out of the opened folders.
+        """
+        changed = [
+            FileToSave(file, self._texts[file].disk, self._texts[file].now)
+            for file in self.unsaved_files
+        ]
+        self._steps.end_gesture()
+        save_files(changed, self._resolve, self._may_write, self._saved)
+        return tuple(one.file for one in changed)
+
+    def refresh(self, file: str) -> FileChange:
+        """Look at the disk after somebody may have written a file that is held."""
+        text = self._texts.get(file)
+        if text is None:
+            return FileChange.NONE
+        try:
+            disk = self._disk(file)
+        except PackageError:
+            return FileChange.GONE
+        if disk == text.disk:
+            self._conflicts.discard(file)
+            return FileChange.NONE
+        if text.now not in {disk, text.disk}:
+            self._conflicts.add(file)
+            return FileChange.CONFLICT
+        is_news = disk != text.now
+        self._take(file, disk)
+        return FileChange.RELOADED if is_news else FileChange.NONE
+
+    def reload(self, file: str) -> Edit | None:
+        """Take the disk's text, unsaved edits given up (undo brings them back).
+
+        Returns:
+            The edit that does the same to the text before; None when nothing changed.
+
+        Raises:
+            PackageError: The file cannot be read; its text here is kept.
+        """
+        return self._take(file, self._disk(file))
+
+    def _held(self, file: str) -> _Text:
+        text = self._texts.get(file)
+        if text is None:
+            text = self._texts[file] = _Text.of(self._disk(file))
+        return text
+
+    def _disk(self, file: str) -> bytes:
+        return self._read(Path(file))
+
+    def _take(self, file: str, disk: bytes) -> Edit | None:
+        """Make the disk's text the base and the text; the way there is a step to take back."""
+        edit = difference(file, self._held(file).now, disk)
+        if edit is not None:
+            self._push(edit, Step(f"Reload {Path(file).name}", is_value=False))
+        self._texts[file] = _Text.of(disk)
+        self._conflicts.discard(file)
+        return edit
+
+    def _push(self, edit: Edit, step: Step) -> None:
+        before = self._held(edit.file).now
+        undone = inverse(before, edit)
+        self._apply((edit,))
+        splice = Splice(edit.file, edit.start, undone.new, edit.new)
+        self._steps.push(replace(step, splices=(splice,)))
+
+    def _apply(self, edits: Iterable[Edit]) -> None:
+        for edit in edits:
+            text = self._held(edit.file)
+            text.now = apply(text.now, (edit,))
+            text.regions.note(edit, text.now)
+            self.spans.note((edit,))
+
+    def _carry_out(self, step: Step, edits: tuple[Edit, ...], value: str | None) -> Change:
+        self._apply(edits)
+        if step.argument is None:
+            return Change(step.label, edits)
+        self._put_argument(step.argument.name, value)
+        return Change(step.label, edits, self.arguments)
+
+    def _put_argument(self, name: str, value: str | None) -> None:
+        if value is None:
+            self._arguments.pop(name, None)
+        else:
+            self._arguments[name] = value
+
+    def _saved(self, saved: FileToSave) -> None:
+        self._texts[saved.file] = _Text.of(saved.data)
+        self._conflicts.discard(saved.file)

@@ -1,0 +1,153 @@
+"""Undo and redo: a stack of steps, each a list of splices or one changed argument.
+
+Edits of one gesture (one drag, one round of typing) are one step; a gesture that ends where it
+began leaves none.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+from studio.description.values import Edit
+
+_SHOWN_LENGTH = 40
+_STEPS_KEPT = 1000
+
+
+@dataclass(frozen=True, slots=True)
+class Splice:
+    """At byte `start` of a file, `old` gave way to `new`."""
+
+    file: str
+    start: int
+    old: bytes
+    new: bytes
+
+    def forward(self) -> Edit:
+        """The edit that does it."""
+        return Edit(self.file, self.start, self.start + len(self.old), self.new)
+
+    def backward(self) -> Edit:
+        """The edit that takes it back."""
+        return Edit(self.file, self.start, self.start + len(self.new), self.old)
+
+    def then(self, later: Splice) -> Splice | None:
+        """Both as one, when the later one replaced exactly what this one wrote."""
+        same_place = (self.file, self.start) == (later.file, later.start)
+        return replace(self, new=later.new) if same_place and self.new == later.old else None
+
+
+@dataclass(frozen=True, slots=True)
+class ArgumentChange:
+    """An argument passed as `name:=value` gave way to another; None: not passed."""
+
+    name: str
+    old: str | None
+    new: str | None
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """One entry of the undo list; `is_value`: its bytes are a whole value, worth showing."""
+
+    name: str
+    splices: tuple[Splice, ...] = ()
+    argument: ArgumentChange | None = None
+    gesture: str = ""
+    is_value: bool = True
+
+    @property
+    def label(self) -> str:
+        """What the undo list shows, e.g. `wheel_radius 0.1 → 0.12`."""
+        texts = self._texts()
+        if texts is None or max(map(len, texts)) > _SHOWN_LENGTH:
+            return self.name
+        old, new = (text or "(empty)" for text in texts)
+        return f"{self.name} {old} → {new}"
+
+    def _texts(self) -> tuple[str, str] | None:
+        """The one value that changed, before and after."""
+        if self.argument is not None and not self.splices:
+            return (self.argument.old or "", self.argument.new or "")
+        if self.argument is not None or len(self.splices) != 1 or not self.is_value:
+            return None
+        (splice,) = self.splices
+        return (splice.old.decode("utf-8", "replace"), splice.new.decode("utf-8", "replace"))
+
+    @property
+    def is_nothing(self) -> bool:
+        """Whether it ends where it began."""
+        kept = self.argument is None or self.argument.old == self.argument.new
+        return kept and all(splice.old == splice.new for splice in self.splices)
+
+    def with_later(self, later: Step) -> Step:
+        """This step and a later one of the same gesture, as one."""
+        splices = list(self.splices)
+        for splice in later.splices:
+            joined = splices[-1].then(splice) if splices else None
+            splices[-1:] = [joined] if joined else [*splices[-1:], splice]
+        return replace(
+            self,
+            splices=tuple(one for one in splices if one.old != one.new),
+            argument=_joined(self.argument, later.argument),
+            is_value=self.is_value and later.is_value,
+        )
+
+
+def _joined(first: ArgumentChange | None, later: ArgumentChange | None) -> ArgumentChange | None:
+    return replace(later, old=first.old) if first and later else later or first
+
+
+@dataclass(slots=True)
+class UndoStack:
+    """The steps done and those taken back, newest last in both."""
+
+    done: list[Step] = field(default_factory=list[Step])
+    undone: list[Step] = field(default_factory=list[Step])
+    _gesture: str = ""
+    """The gesture that still grows the newest step."""
+
+    def push(self, step: Step) -> None:
+        """Add a step; it grows the newest one when both are of the same gesture."""
+        grows = bool(step.gesture) and step.gesture == self._gesture and bool(self.done)
+        newest = (
+            self.done.pop().with_later(step) if grows and _can_grow(self.done[-1], step) else step
+        )
+        self.undone.clear()
+        if newest.is_nothing:
+            self._gesture = ""
+            return
+        self.done.append(newest)
+        del self.done[:-_STEPS_KEPT]
+        self._gesture = step.gesture
+
+    def _grows_by(self, step: Step) -> bool:
+        is_same = bool(step.gesture) and step.gesture == self._gesture and bool(self.done)
+        return is_same and _can_grow(self.done[-1], step)
+
+    def undo(self) -> Step | None:
+        """Move the newest step to those taken back; None when there is none."""
+        self.end_gesture()
+        if not self.done:
+            return None
+        self.undone.append(self.done.pop())
+        return self.undone[-1]
+
+    def redo(self) -> Step | None:
+        """Move the last step taken back to those done; None when there is none."""
+        self.end_gesture()
+        if not self.undone:
+            return None
+        self.done.append(self.undone.pop())
+        return self.done[-1]
+
+    def end_gesture(self) -> None:
+        """What comes next is a new step, also from the same gesture."""
+        self._gesture = ""
+
+
+def _can_grow(newest: Step, step: Step) -> bool:
+    """Arguments of two names are two steps."""
+    if newest.argument is None or step.argument is None:
+        return True
+    return newest.argument.name == step.argument.name
