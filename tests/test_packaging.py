@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import ast
 import os
+import re
 import signal
 import subprocess
 import sys
 import time
+import tomllib
 import urllib.request
 import venv
+from importlib.metadata import packages_distributions
 from pathlib import Path
 from typing import TYPE_CHECKING
 from zipfile import ZipFile
@@ -107,6 +111,50 @@ def test_the_wheel_says_what_it_is(wheel: Path, names: list[str]):
         assert "\nLicense-Expression: Apache-2.0\n" in text
         assert "\nRequires-Python: >=3.11\n" in text
         assert "studio = studio.cli:main" in archive.read(entry_points).decode()
+
+
+# Imported by a library of ours when they are there: what for.
+CALLED_BY_OTHERS = {
+    "httptools": "uvicorn parses HTTP with it",
+    "uvloop": "uvicorn runs its loop on it",
+    "lxml": "trimesh reads 3MF and COLLADA with it",
+    "pycollada": "trimesh reads COLLADA with it",
+}
+
+
+def requirements() -> set[str]:
+    """The distributions that the project asks for, by normal name."""
+    text = (REPOSITORY / "pyproject.toml").read_text()
+    lines = tomllib.loads(text)["project"]["dependencies"]
+    return {re.split(r"[\[<>=;~! ]", line)[0].lower() for line in lines}
+
+
+def imported() -> set[str]:
+    """The distributions that modules of `studio` import, at the top or inside a function."""
+    modules = {
+        name
+        for path in (REPOSITORY / "studio").rglob("*.py")
+        for node in ast.walk(ast.parse(path.read_text()))
+        for name in imports_of(node)
+    }
+    distributions = packages_distributions()
+    foreign = modules - set(sys.stdlib_module_names) - {"studio"}
+    return {distributions[name][0].lower().replace("_", "-") for name in foreign}
+
+
+def imports_of(node: ast.AST) -> list[str]:
+    match node:
+        case ast.Import(names=names):
+            return [alias.name.partition(".")[0] for alias in names]
+        case ast.ImportFrom(module=str(module), level=0):
+            return [module.partition(".")[0]]
+        case _:
+            return []
+
+
+def test_what_is_imported_is_required_and_what_is_required_is_imported():
+    assert imported() <= requirements()
+    assert requirements() - imported() == set(CALLED_BY_OTHERS)
 
 
 @pytest.fixture(scope="module")
