@@ -48,6 +48,7 @@ def make_app(
         openapi_url=None,  # FastAPI's own route would stand beside the door
         docs_url=None,  # its pages load scripts from a public host
         redoc_url=None,
+        redirect_slashes=False,
         dependencies=[Depends(check_role)],
     )
     app.add_exception_handler(StudioError, _say)
