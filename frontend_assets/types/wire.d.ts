@@ -1,0 +1,450 @@
+// Written by `python -m studio.web.wire_types` from studio/engine/messages.py: do not edit.
+// A command goes to the websocket /control as JSON text; each event comes from it as JSON text.
+
+/** Swing the joints through their limits, or stop. */
+export interface AnimateJoints {
+  request?: number;
+  document?: string;
+  type: "animate_joints";
+  running: boolean;
+}
+
+/** A run ended: how long it took from the edit to the scene. */
+export interface Built {
+  type: "built";
+  ok: boolean;
+  duration_ms: number;
+}
+
+/** Use this folder for a package that was not found; remembered for the workspace. */
+export interface ChoosePackage {
+  request?: number;
+  document?: string;
+  type: "choose_package";
+  name: string;
+  folder: string;
+}
+
+/** Close a document; refused while it has unsaved edits unless `discard`. */
+export interface CloseDocument {
+  request?: number;
+  document?: string;
+  type: "close_document";
+  discard?: boolean;
+}
+
+/** The shared display settings: display, then setting, then value. */
+export interface Displays {
+  type: "displays";
+  displays: Record<string, Record<string, boolean | number | string>>;
+}
+
+/** One open document in the list of them. */
+export interface DocumentEntry {
+  id: string;
+  title: string;
+  path: string;
+  unsaved: boolean;
+}
+
+/** What a document is: its entry file, arguments, and how it was evaluated. */
+export interface DocumentState {
+  type: "document";
+  id: string;
+  title: string;
+  path: string;
+  root: string;
+  arguments: Record<string, string>;
+  evaluator: string;
+  fallback_reason: string;
+  files: string[];
+  packages: Record<string, string>;
+  read_only: string[];
+  phase: "opening" | "ready" | "failed";
+}
+
+/** All open documents. */
+export interface Documents {
+  type: "documents";
+  documents: DocumentEntry[];
+}
+
+/** The command was carried out. */
+export interface Done {
+  type: "done";
+  request: number;
+}
+
+/** Write a new text at a site. All edits of one `gesture` are one undo step. */
+export interface EditSite {
+  request?: number;
+  document?: string;
+  type: "edit_site";
+  site: string;
+  text: string;
+  gesture?: string;
+}
+
+/**
+ * One click that mends a Problem: `action` names it, `target` is what it works on.
+ *
+ * Actions: `choose_package` (target: package name), `undo` (target: empty), `open_file` (target:
+ * path).
+ */
+export interface Fix {
+  label: string;
+  action: string;
+  target: string;
+}
+
+/** Answer to `list_folder`. */
+export interface Folder {
+  type: "folder";
+  request: number;
+  path: string;
+  parent: string | null;
+  entries: FolderEntry[];
+}
+
+/** One entry of a folder. `openable` false comes with the reason why not. */
+export interface FolderEntry {
+  name: string;
+  path: string;
+  kind: "folder" | "package" | "robot" | "zip" | "file";
+  openable: boolean;
+  reason: string;
+}
+
+/** The expanded URDF of the last good run. */
+export interface GetUrdf {
+  request?: number;
+  document?: string;
+  type: "get_urdf";
+}
+
+/** The document was closed. */
+export interface Gone {
+  type: "gone";
+  document: string;
+}
+
+/** First on every control lane: who you are here. */
+export interface Hello {
+  type: "hello";
+  role: "presenter" | "viewer";
+  version: string;
+  session: string;
+}
+
+/** The undo list, newest last, and what is unsaved. */
+export interface History {
+  type: "history";
+  undo: string[];
+  redo: string[];
+  unsaved_files: string[];
+  unsaved_count: number;
+}
+
+/** Positions of all movable joints by name, after a command; streams are binary frames. */
+export interface JointPositions {
+  type: "joints";
+  positions: Record<string, number>;
+  animating: boolean;
+}
+
+/** One joint as the page shows and drags it; rad or m; `axis` normalised, in the child frame. */
+export interface JointView {
+  name: string;
+  type: "fixed" | "revolute" | "continuous" | "prismatic" | "planar" | "floating";
+  parent: string;
+  child: string;
+  axis: [number, number, number];
+  lower: number | null;
+  upper: number | null;
+  mimic: string;
+  file: string;
+  line: number;
+}
+
+/** One link as the page lists it; the parent joint is in the joints. */
+export interface LinkView {
+  name: string;
+  visuals: number;
+  collisions: number;
+  mass_kg: number | null;
+  meshes: string[];
+  file: string;
+  line: number;
+  macros: string[];
+}
+
+/** What a served folder holds; an empty path lists the served roots. */
+export interface ListFolder {
+  request?: number;
+  document?: string;
+  type: "list_folder";
+  path?: string;
+}
+
+/** One macro on the way to a place: its name and where it was called. */
+export interface MacroCall {
+  macro: string;
+  called_at: Place;
+}
+
+/** Open a file, package folder, workspace folder or zip below the served roots. */
+export interface OpenPath {
+  request?: number;
+  document?: string;
+  type: "open_path";
+  path: string;
+  arguments?: Record<string, string>;
+}
+
+/** Answer to `open_path`: go to `/d/<document>`. */
+export interface Opened {
+  type: "opened";
+  request: number;
+  document: string;
+}
+
+/** A place in a source file; `line` and `column` are 1-based, 0 when not known. */
+export interface Place {
+  file: string;
+  line: number;
+  column: number;
+}
+
+/**
+ * One finding. `sentence` stands alone; `code` is stable, kebab-case, for tests and tools.
+ *
+ * `include_chain` runs from the opened file down to (not including) `place`; `macro_stack` from
+ * the outermost call to the innermost.
+ */
+export interface Problem {
+  severity: Severity;
+  code: string;
+  sentence: string;
+  place: Place | null;
+  include_chain: Place[];
+  macro_stack: MacroCall[];
+  fix: Fix | null;
+}
+
+/** All problems of the document now. `showing_last_good`: the view is older than the text. */
+export interface Problems {
+  type: "problems";
+  problems: Problem[];
+  showing_last_good: boolean;
+}
+
+/** Long work of the document; `total` 0 when not known; done == total ends it. */
+export interface Progress {
+  type: "progress";
+  task: "expand" | "meshes" | "index";
+  label: string;
+  done: number;
+  total: number;
+}
+
+/** All joints to random positions within their limits. */
+export interface RandomizeJoints {
+  request?: number;
+  document?: string;
+  type: "randomize_joints";
+}
+
+/** Do again what was taken back. */
+export interface Redo {
+  request?: number;
+  document?: string;
+  type: "redo";
+}
+
+/** The command was not carried out, and why; `kind` is the error's class name. */
+export interface Refused {
+  type: "refused";
+  request: number;
+  kind: string;
+  reason: string;
+}
+
+/** Read all files of the document from disk again; unsaved edits are given up. */
+export interface Reload {
+  request?: number;
+  document?: string;
+  type: "reload";
+}
+
+/** Put a site back to what the file on disk says. */
+export interface ResetSite {
+  request?: number;
+  document?: string;
+  type: "reset_site";
+  site: string;
+}
+
+/** The robot's tree. `revision` counts structural changes; joint frames carry it. */
+export interface RobotState {
+  type: "robot";
+  revision: number;
+  name: string;
+  root: string;
+  links: LinkView[];
+  joints: JointView[];
+}
+
+/** Write the edited bytes of all changed files of the document. */
+export interface Save {
+  request?: number;
+  document?: string;
+  type: "save";
+}
+
+/** These files were written. */
+export interface Saved {
+  type: "saved";
+  files: string[];
+}
+
+/** Pass an argument as `name:=value` on the command line would; None takes it back. */
+export interface SetArgument {
+  request?: number;
+  document?: string;
+  type: "set_argument";
+  name: string;
+  value: string | null;
+}
+
+/** Change one setting of a shared display, e.g. `robot`, `collision`, True. */
+export interface SetDisplay {
+  request?: number;
+  document?: string;
+  type: "set_display";
+  display: "grid" | "robot";
+  name: string;
+  value: boolean | number | string;
+}
+
+/** Move joints: positions by name, rad or m; clamped to the limits, mimics follow. */
+export interface SetJoints {
+  request?: number;
+  document?: string;
+  type: "set_joints";
+  positions: Record<string, number>;
+}
+
+/** How much a Problem hinders: an error keeps the last good model, a warning does not. */
+export type Severity = "error" | "warning" | "info";
+
+/** What an editable text is in its file. */
+export type SiteKind = "arg" | "property" | "yaml" | "param_default" | "literal";
+
+/** One editable text, as a property row shows it. */
+export interface SiteView {
+  id: string;
+  kind: SiteKind;
+  name: string;
+  file: string;
+  line: number;
+  text: string;
+  saved_text: string | null;
+  value: string;
+  number: number | null;
+  values: string[];
+  reads: number;
+  widget: Widget;
+  group: string;
+  owner: string;
+  argument: string | null;
+}
+
+/** The changed sites, and the order of all when it changed (sites not in it are gone). */
+export interface Sites {
+  type: "sites";
+  order: string[] | null;
+  changed: SiteView[];
+}
+
+/** Take back the last step. */
+export interface Undo {
+  request?: number;
+  document?: string;
+  type: "undo";
+}
+
+/** Answer to `get_urdf`. */
+export interface Urdf {
+  type: "urdf";
+  request: number;
+  text: string;
+}
+
+/** Show me this document: its whole state now, then every change. */
+export interface Watch {
+  request?: number;
+  document?: string;
+  type: "watch";
+}
+
+/** How to turn a site; `minimum`, `maximum` and `step` are in `unit`, the unit of the file. */
+export interface Widget {
+  kind: WidgetKind;
+  minimum: number | null;
+  maximum: number | null;
+  step: number | null;
+  unit: string;
+  choices: string[];
+  help: string;
+  annotated: boolean;
+}
+
+/** How a site is best turned: `VECTOR` is two or more numbers separated by blanks. */
+export type WidgetKind = "slider" | "switch" | "choice" | "vector" | "text";
+
+/** All joints to zero, or to the nearest position within their limits. */
+export interface ZeroJoints {
+  request?: number;
+  document?: string;
+  type: "zero_joints";
+}
+
+export type Command =
+  | Watch
+  | OpenPath
+  | CloseDocument
+  | ListFolder
+  | EditSite
+  | ResetSite
+  | SetArgument
+  | Undo
+  | Redo
+  | Save
+  | Reload
+  | SetJoints
+  | ZeroJoints
+  | RandomizeJoints
+  | AnimateJoints
+  | SetDisplay
+  | ChoosePackage
+  | GetUrdf;
+
+export type Event =
+  | Hello
+  | Done
+  | Refused
+  | Documents
+  | DocumentState
+  | RobotState
+  | JointPositions
+  | Sites
+  | Problems
+  | History
+  | Displays
+  | Progress
+  | Built
+  | Folder
+  | Opened
+  | Urdf
+  | Saved
+  | Gone;
