@@ -97,6 +97,15 @@ def test_the_wheel_holds_nothing_else(names: list[str]):
             assert source.is_file(), f"{name} comes from nowhere"
 
 
+def test_the_source_archive_makes_the_same_wheel(names: list[str], tmp_path: Path):
+    command = [sys.executable, "-m", "build", "--no-isolation", "--outdir", tmp_path, REPOSITORY]
+    built = subprocess.run(command, capture_output=True, text=True, check=False, cwd=tmp_path)
+    assert built.returncode == 0, built.stdout + built.stderr
+    (again,) = tmp_path.glob("*.whl")
+    with ZipFile(again) as archive:
+        assert set(archive.namelist()) == set(names)
+
+
 def test_the_wheel_is_small(wheel: Path):
     assert wheel.stat().st_size < 3_000_000
 
