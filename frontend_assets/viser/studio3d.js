@@ -1,1 +1,134 @@
-export {};
+/** @import { CameraPose, RobotState } from "./viser.d.ts" */
+import { CameraView } from "./camera.js";
+import { Door } from "./door.js";
+import { forwardKeys } from "./keys.js";
+import { Looks } from "./looks.js";
+import { pick } from "./picking.js";
+import { Pointer } from "./pointer.js";
+import { RobotView } from "./robot.js";
+import { Theme } from "./theme.js";
+
+/**
+ * The 3D view as the page around it uses it: `iframe.contentWindow.studio3d`.
+ *
+ * Events on `events`, all with a `detail`: `hover {link}`, `select {link}` (null: empty space),
+ * `focus {link}`, `drag {joint, value, phase, x, y}`, `connection {connected}`, and `key {key, code,
+ * ctrlKey, metaKey, shiftKey, altKey, repeat}`, which may be prevented.
+ */
+class Studio3d {
+  events = new EventTarget();
+  #door = new Door();
+  #robot = new RobotView(this.#door);
+  #camera = new CameraView(this.#door, this.#robot);
+  #theme = new Theme(this.#door, () => this.#camera.distance());
+  #looks = new Looks(this.#door, this.#robot, this.#theme);
+  #pointer = new Pointer(this.#door, this.#robot, this.#looks, this.#camera, (type, detail) =>
+    this.#tell(type, detail),
+  );
+
+  constructor() {
+    /** Settles when the scene can be drawn. @type {Promise<void>} */
+    this.ready = this.#door.ready.then(() => this.setMouse("rviz"));
+    this.#door.onConnection((connected) => this.#tell("connection", { connected }));
+    forwardKeys(
+      (detail) => this.#tell("key", detail),
+      (event) => this.#keyByDefault(event),
+    );
+  }
+
+  get connected() {
+    return this.#door.connected;
+  }
+
+  /** The robot's tree: which joint moves which link. @param {RobotState} state */
+  setRobot(state) {
+    this.#robot.set(state);
+  }
+
+  /** Where the joints are, rad or m. @param {Record<string, number>} positions */
+  setPositions(positions) {
+    for (const [joint, value] of Object.entries(positions)) this.#robot.positions.set(joint, value);
+  }
+
+  fit() {
+    this.#camera.fit();
+  }
+
+  /** @param {"front" | "back" | "left" | "right" | "top" | "bottom" | "iso"} name */
+  view(name) {
+    this.#camera.view(name);
+  }
+
+  /** @param {string} link */
+  focus(link) {
+    this.#camera.focus(link);
+  }
+
+  getCamera() {
+    return this.#camera.get();
+  }
+
+  /** @param {CameraPose} pose @param {boolean} [animate] */
+  setCamera(pose, animate) {
+    this.#camera.set(pose, animate);
+  }
+
+  /** @param {"dark" | "light"} name */
+  setTheme(name) {
+    this.#theme.set(name);
+  }
+
+  /** @param {"rviz" | "trackpad"} mode */
+  setMouse(mode) {
+    this.#camera.setMouse(mode);
+  }
+
+  /** Whether links may be dragged here. @param {boolean} can */
+  setCanDrag(can) {
+    this.#pointer.canDrag = can;
+  }
+
+  /** Of the value at the cursor. @param {"deg" | "rad"} unit */
+  setAngleUnit(unit) {
+    this.#pointer.angleUnit = unit;
+  }
+
+  /** In this browser only. @param {string} link @param {boolean} visible */
+  setLinkVisible(link, visible) {
+    this.#looks.setVisible(link, visible);
+  }
+
+  /** In this browser only. @param {string} link @param {number} opacity */
+  setLinkOpacity(link, opacity) {
+    this.#looks.setOpacity(link, opacity);
+  }
+
+  /** @param {string | null} link */
+  setHover(link) {
+    this.#looks.setHovered(link);
+  }
+
+  /** @param {string | null} link */
+  setSelection(link) {
+    this.#looks.setSelected(link);
+  }
+
+  /** The link at a place of this window, or null. @param {number} x @param {number} y */
+  linkAt(x, y) {
+    return pick(this.#door, this.#robot, x, y)?.link ?? null;
+  }
+
+  /** Whether nobody prevented it. @param {string} type @param {object} detail */
+  #tell(type, detail) {
+    return this.events.dispatchEvent(new CustomEvent(type, { detail, cancelable: true }));
+  }
+
+  /** @param {KeyboardEvent} event */
+  #keyByDefault(event) {
+    if (event.key === "Escape") this.#pointer.cancel();
+    else if (event.key.toLowerCase() === "f" && !event.ctrlKey && !event.metaKey && !event.altKey)
+      this.fit();
+  }
+}
+
+window.studio3d = new Studio3d();

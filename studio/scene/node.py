@@ -153,8 +153,8 @@ def arrow(tail: Vector3, tip: Vector3, rgb: Rgb, *, visible: bool = True) -> Nod
 def grid(cell_m: float, extent_m: float, *, shadow: bool, visible: bool) -> Node:
     """Squares on the ground with a stronger line every four; the page gives it its colours."""
     props = {
-        "width": extent_m,
-        "height": extent_m,
+        "width": extent_m or 10.0,  # an endless grid is this times the fade distance
+        "height": extent_m or 10.0,
         "plane": "xy",
         "cell_color": (120, 130, 145),
         "cell_thickness": 0.8,

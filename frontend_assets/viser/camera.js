@@ -1,0 +1,221 @@
+/** @import { Door } from "./door.js" */
+/** @import { RobotView } from "./robot.js" */
+/** @import { CameraPose, Matrix4, Vector3 } from "./viser.d.ts" */
+
+const FILL = 2 / 3;
+const FOCUS_FILL = 0.45;
+/** Long enough a lens that round things at the border stay round. */
+const FIELD_OF_VIEW_DEG = 42;
+const NEAREST_M = 0.05;
+const SMOOTH_S = 0.18;
+
+/** From the target towards the eye, in the root frame; top is tipped so that x points right.
+ * @type {Record<string, [number, number, number]>} */
+const DIRECTIONS = {
+  front: [1, 0, 0],
+  back: [-1, 0, 0],
+  left: [0, 1, 0],
+  right: [0, -1, 0],
+  top: [0, -0.001, 1],
+  bottom: [0, -0.001, -1],
+  iso: [1, -0.8, 0.62],
+};
+
+/** This browser's own camera: fits, turns to views, and is left alone by all that the server does. */
+export class CameraView {
+  #door;
+  #robot;
+  #untouched = true;
+  #meshes = 0;
+  #usualSmoothTime = 0;
+
+  /** @param {Door} door @param {RobotView} robot */
+  constructor(door, robot) {
+    this.#door = door;
+    this.#robot = robot;
+    door.onPicture(() => this.#fitWhileMeshesArrive());
+    door.ready.then(({ camera }) => {
+      if (!camera) return;
+      camera.fov = FIELD_OF_VIEW_DEG;
+      camera.updateProjectionMatrix();
+    });
+  }
+
+  /** A hand on the camera ends the fitting by itself. */
+  touched() {
+    this.#untouched = false;
+    const control = this.#control();
+    if (control && this.#usualSmoothTime) control.smoothTime = this.#usualSmoothTime;
+  }
+
+  /** Show the whole robot from where we look. @param {boolean} [animate] */
+  fit(animate = true) {
+    this.#look(this.#robot.corners(), this.#direction(), FILL, animate);
+  }
+
+  /** Show the whole robot from one side. @param {string} name @param {boolean} [animate] */
+  view(name, animate = true) {
+    const direction = DIRECTIONS[name];
+    if (!direction) throw new RangeError(`There is no view "${name}".`);
+    this.#untouched = false;
+    this.#look(this.#robot.corners(), this.#inScene(direction), FILL, animate);
+  }
+
+  /** Bring one link to the middle. @param {string} link */
+  focus(link) {
+    const corners = this.#robot.corners([link]);
+    this.#untouched = false;
+    this.#look(corners.length ? corners : this.#around(link), this.#direction(), FOCUS_FILL, true);
+  }
+
+  /** @returns {CameraPose | null} */
+  get() {
+    const [control, root] = [this.#control(), this.#rootMatrix()];
+    if (!control || !root) return null;
+    const back = root.clone().invert();
+    const point = (/** @type {Vector3} */ vector) => toTriple(vector.applyMatrix4(back));
+    return {
+      position: point(control.getPosition(this.#vector())),
+      target: point(control.getTarget(this.#vector())),
+    };
+  }
+
+  /** @param {CameraPose} pose @param {boolean} [animate] */
+  set(pose, animate = false) {
+    const root = this.#rootMatrix();
+    if (!root) return;
+    this.#untouched = false;
+    const eye = this.#vector(...pose.position).applyMatrix4(root);
+    this.#move(eye, this.#vector(...pose.target).applyMatrix4(root), animate);
+  }
+
+  /** `rviz`: left orbits, middle (or Shift and left) pans, right or wheel zooms; `trackpad`: left
+   * orbits, right pans, wheel zooms. @param {"rviz" | "trackpad"} mode */
+  setMouse(mode) {
+    const control = this.#control();
+    if (!control) return;
+    const { ROTATE = 1, TRUCK = 2, DOLLY = 16 } = control.constructor.ACTION;
+    const right = mode === "trackpad" ? TRUCK : DOLLY;
+    Object.assign(control.mouseButtons, { left: ROTATE, middle: TRUCK, right, wheel: DOLLY });
+  }
+
+  /** Distance from the eye to what it looks at, m. */
+  distance() {
+    const control = this.#control();
+    if (!control) return 1;
+    return control.getPosition(this.#vector()).distanceTo(control.getTarget(this.#vector()));
+  }
+
+  #fitWhileMeshesArrive() {
+    if (!this.#untouched || !this.#control()) return;
+    const meshes = this.#robot.meshCount();
+    if (meshes === this.#meshes) return;
+    const first = this.#meshes === 0;
+    this.#meshes = meshes;
+    const direction = first ? this.#inScene(DIRECTIONS.iso ?? [1, 0, 0]) : this.#direction();
+    this.#look(this.#robot.corners(), direction, FILL, false);
+    document.documentElement.dataset.drawn = "";
+  }
+
+  /** Look at points so that they fill a part of the picture and lie in its middle.
+   * @param {Vector3[]} points @param {Vector3} direction @param {number} fill @param {boolean} animate */
+  #look(points, direction, fill, animate) {
+    const camera = this.#door.mutable?.camera;
+    const [first] = points;
+    if (!camera || !first) return;
+    const right = camera.up.clone().cross(direction).normalize();
+    const up = direction.clone().cross(right);
+    const tall = Math.tan((camera.fov * Math.PI) / 360) * fill;
+    const target = middle(points);
+    let distance = NEAREST_M;
+    // What is nearer looks larger, so that the middle of the picture is found in a few steps.
+    for (let step = 0; step < 4; step++) {
+      const seen = points.map((point) => {
+        const from = point.clone().sub(target);
+        return { x: from.dot(right) / camera.aspect, y: from.dot(up), z: from.dot(direction) };
+      });
+      const reach = seen.map(({ x, y, z }) => z + Math.max(Math.abs(x), Math.abs(y)) / tall);
+      distance = Math.max(NEAREST_M, ...reach);
+      const shift = (/** @type {"x" | "y"} */ side) => {
+        const places = seen.map((point) => point[side] / (distance - point.z));
+        return ((Math.min(...places) + Math.max(...places)) / 2) * distance;
+      };
+      target.addScaledVector(right, shift("x") * camera.aspect).addScaledVector(up, shift("y"));
+    }
+    this.#move(target.clone().addScaledVector(direction, distance), target, animate);
+  }
+
+  /** @param {Vector3} eye @param {Vector3} target @param {boolean} animate */
+  #move(eye, target, animate) {
+    const control = this.#control();
+    if (!control) return;
+    this.#usualSmoothTime ||= control.smoothTime;
+    if (animate && !matchMedia("(prefers-reduced-motion: reduce)").matches) {
+      control.smoothTime = SMOOTH_S;
+      control.setLookAt(eye.x, eye.y, eye.z, target.x, target.y, target.z, true);
+    } else {
+      // One after the other: viser found that setLookAt without animation spoils later ones.
+      control.setPosition(eye.x, eye.y, eye.z, false);
+      control.setTarget(target.x, target.y, target.z, false);
+    }
+    this.#door.redraw();
+  }
+
+  #direction() {
+    const control = this.#control();
+    if (!control) return this.#vector(0, 0, 1);
+    const eye = control.getPosition(this.#vector());
+    return eye.sub(control.getTarget(this.#vector())).normalize();
+  }
+
+  /** Points around a link that has nothing to see. @param {string} link @returns {Vector3[]} */
+  #around(link) {
+    const node = this.#robot.node(link);
+    const all = this.#robot.corners();
+    const [first] = all;
+    if (!node || !first) return [];
+    const origin = first.clone().setFromMatrixPosition(node.matrixWorld);
+    const reach = Math.max(...all.map((corner) => corner.distanceTo(first))) / 12;
+    const aside = first.clone().set(reach, reach, reach);
+    return [origin.clone().add(aside), origin.clone().sub(aside)];
+  }
+
+  #control() {
+    return this.#door.mutable?.cameraControl ?? null;
+  }
+
+  /** @returns {Matrix4 | null} */
+  #rootMatrix() {
+    return this.#door.node("")?.matrixWorld ?? null;
+  }
+
+  /** A direction of the root frame in the axes of three.js. @param {[number, number, number]} direction */
+  #inScene(direction) {
+    const root = this.#rootMatrix();
+    const vector = this.#vector(...direction);
+    return root ? vector.transformDirection(root) : vector.normalize();
+  }
+
+  /** @param {number} [x] @param {number} [y] @param {number} [z] @returns {Vector3} */
+  #vector(x = 0, y = 0, z = 0) {
+    const camera = this.#door.mutable?.camera;
+    if (!camera) throw new Error("The 3D view has no camera yet.");
+    return camera.position.clone().set(x, y, z);
+  }
+}
+
+/** @param {Vector3[]} points */
+function middle(points) {
+  const [low, high] = [Math.min, Math.max].map((pick) =>
+    points.reduce(
+      (sum, { x, y, z }) => sum.set(pick(sum.x, x), pick(sum.y, y), pick(sum.z, z)),
+      /** @type {Vector3} */ (points[0]).clone(),
+    ),
+  );
+  return /** @type {Vector3} */ (low).add(/** @type {Vector3} */ (high)).multiplyScalar(0.5);
+}
+
+/** @param {Vector3} vector @returns {[number, number, number]} */
+function toTriple(vector) {
+  return [vector.x, vector.y, vector.z];
+}

@@ -1,0 +1,145 @@
+/** @import { Message, Mutable } from "./viser.d.ts" */
+
+/**
+ * The one way into viser's page: its state, the messages that come in, and a moment before and
+ * after each picture. Everything else here asks the door.
+ */
+export class Door {
+  /** @type {Mutable | null} */
+  mutable = null;
+  connected = false;
+  /** @type {((message: Message) => void)[]} */
+  #readers = [];
+  /** @type {((connected: boolean) => void)[]} */
+  #watchers = [];
+  /** @type {((renderer: import("./viser.d.ts").Renderer) => void)[]} */
+  #before = [];
+  /** @type {(() => void)[]} */
+  #after = [];
+  /** @type {(mutable: Mutable) => void} */
+  #opened = () => {};
+
+  constructor() {
+    /** Settles when viser's scene stands. @type {Promise<Mutable>} */
+    this.ready = new Promise((resolve) => {
+      this.#opened = resolve;
+    });
+    const present = window.__viserMutable;
+    const attach = (/** @type {Mutable} */ mutable) => this.#attach(mutable);
+    Object.defineProperty(window, "__viserMutable", {
+      configurable: true,
+      get: () => this.mutable,
+      set: attach,
+    });
+    if (present) attach(present);
+  }
+
+  /** Read, and change in place, each message before viser does. @param {(message: Message) => void} reader */
+  onMessage(reader) {
+    this.#readers.push(reader);
+  }
+
+  /** Hear of the connection to the server. @param {(connected: boolean) => void} watcher */
+  onConnection(watcher) {
+    this.#watchers.push(watcher);
+  }
+
+  /** @param {(renderer: import("./viser.d.ts").Renderer) => void} before @param {() => void} [after] */
+  onPicture(before, after) {
+    this.#before.push(before);
+    if (after) this.#after.push(after);
+  }
+
+  /** Tell viser something that only this browser shall know. @param {Message[]} messages */
+  inject(...messages) {
+    if (!this.mutable || messages.length === 0) return;
+    for (const message of messages) Array.prototype.push.call(this.mutable.messageQueue, message);
+    this.mutable.requestRender();
+  }
+
+  /** Draw soon. */
+  redraw() {
+    this.mutable?.requestRender();
+  }
+
+  /** @param {string} name @returns {import("./viser.d.ts").Object3D | undefined} */
+  node(name) {
+    return this.mutable?.nodeRefFromName[name];
+  }
+
+  /** @param {Mutable} mutable */
+  #attach(mutable) {
+    if (this.mutable === mutable) return;
+    this.mutable = mutable;
+    this.#tapMessages(mutable);
+    this.#tapConnection(mutable);
+    this.#tapPictures(mutable);
+    this.#readWhatCameBefore();
+    this.#opened(mutable);
+  }
+
+  /** @param {Mutable} mutable */
+  #tapMessages(mutable) {
+    const read = (/** @type {Message} */ message) => {
+      this.#tellConnected(true);
+      for (const reader of this.#readers) reader(message);
+    };
+    mutable.messageQueue.forEach(read);
+    mutable.messageQueue.push = function push(...messages) {
+      messages.forEach(read);
+      return Array.prototype.push.apply(this, messages);
+    };
+  }
+
+  /** viser marks a first batch and gives itself a way to send when it connects; when it loses the
+   * connection it only replaces the way to send. @param {Mutable} mutable */
+  #tapConnection(mutable) {
+    let first = mutable.firstMessageBatch;
+    let send = mutable.sendMessage;
+    let opening = first;
+    Object.defineProperty(mutable, "firstMessageBatch", {
+      configurable: true,
+      get: () => first,
+      set: (value) => {
+        first = value;
+        opening ||= value;
+      },
+    });
+    Object.defineProperty(mutable, "sendMessage", {
+      configurable: true,
+      get: () => send,
+      set: (value) => {
+        send = value;
+        this.#tellConnected(opening);
+        opening = false;
+      },
+    });
+    if (!first) this.#tellConnected(true);
+  }
+
+  /** @param {boolean} connected */
+  #tellConnected(connected) {
+    if (connected === this.connected) return;
+    this.connected = connected;
+    for (const watcher of this.#watchers) watcher(connected);
+  }
+
+  /** @param {Mutable} mutable */
+  #tapPictures(mutable) {
+    const scene = mutable.scene;
+    if (!scene) return;
+    scene.onBeforeRender = (renderer) => {
+      for (const before of this.#before) before(renderer);
+    };
+    scene.onAfterRender = () => {
+      for (const after of this.#after) after();
+    };
+  }
+
+  /** The page may have drawn before the door was there. */
+  #readWhatCameBefore() {
+    for (const node of Object.values(window.__viserSceneTree?.getState() ?? {})) {
+      if (node) for (const reader of this.#readers) reader(node.message);
+    }
+  }
+}

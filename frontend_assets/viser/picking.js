@@ -1,0 +1,42 @@
+/** @import { Door } from "./door.js" */
+/** @import { RobotView } from "./robot.js" */
+/** @import { Hit, Pointing, Vector3 } from "./viser.d.ts" */
+
+/** @typedef {{ link: string, point: Vector3 }} Pick */
+
+/** The ray from the eye through a place of the window. @param {Door} door @param {number} x @param {number} y */
+export function rayThrough(door, x, y) {
+  const { canvas, camera } = door.mutable ?? {};
+  if (!canvas || !camera) return null;
+  const frame = canvas.getBoundingClientRect();
+  const right = ((x - frame.left) / frame.width) * 2 - 1;
+  const up = 1 - ((y - frame.top) / frame.height) * 2;
+  const origin = camera.position.clone().setFromMatrixPosition(camera.matrixWorld);
+  // Depth is reversed in viser's renderer; any depth between the planes gives the same ray.
+  const direction = camera.position.clone().set(right, up, 0.5).unproject(camera);
+  return { origin, direction: direction.sub(origin).normalize() };
+}
+
+/** The link under a place of the window, or null. @param {Door} door @param {RobotView} robot
+ * @param {number} x @param {number} y @returns {Pick | null} */
+export function pick(door, robot, x, y) {
+  const ray = rayThrough(door, x, y);
+  const camera = door.mutable?.camera;
+  if (!ray || !camera) return null;
+  /** @type {Pointing} */
+  const pointing = { ray, near: 0, far: Number.POSITIVE_INFINITY, camera, params: {} };
+  /** @type {{ link: string, hit: Hit } | null} */
+  let nearest = null;
+  for (const link of robot.drawn) {
+    robot.eachMesh(link, (mesh) => {
+      /** @type {Hit[]} */
+      const hits = [];
+      if (mesh.geometry && !mesh.geometry.boundingBox) mesh.geometry.computeBoundingBox();
+      mesh.raycast(pointing, hits);
+      for (const hit of hits)
+        if (!nearest || hit.distance < nearest.hit.distance) nearest = { link, hit };
+    });
+  }
+  const found = /** @type {{ link: string, hit: Hit } | null} */ (nearest);
+  return found && { link: found.link, point: found.hit.point };
+}

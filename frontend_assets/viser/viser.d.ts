@@ -1,0 +1,200 @@
+/** The little of viser 1.1.1 and three.js r186 that we lean on; a contract test looks whether it is there. */
+
+export interface Vector3 {
+  x: number;
+  y: number;
+  z: number;
+  set(x: number, y: number, z: number): this;
+  copy(other: Vector3): this;
+  clone(): Vector3;
+  add(other: Vector3): this;
+  sub(other: Vector3): this;
+  addScaledVector(other: Vector3, scale: number): this;
+  multiplyScalar(scale: number): this;
+  dot(other: Vector3): number;
+  cross(other: Vector3): this;
+  length(): number;
+  distanceTo(other: Vector3): number;
+  normalize(): this;
+  lerp(other: Vector3, part: number): this;
+  applyMatrix4(matrix: Matrix4): this;
+  transformDirection(matrix: Matrix4): this;
+  setFromMatrixPosition(matrix: Matrix4): this;
+  setFromMatrixColumn(matrix: Matrix4, index: number): this;
+  project(camera: Camera): this;
+  unproject(camera: Camera): this;
+}
+
+export interface Matrix4 {
+  elements: number[];
+  copy(other: Matrix4): this;
+  clone(): Matrix4;
+  invert(): this;
+  multiply(other: Matrix4): this;
+}
+
+export interface Box3 {
+  min: Vector3;
+  max: Vector3;
+  clone(): Box3;
+  copy(other: Box3): this;
+  makeEmpty(): this;
+  isEmpty(): boolean;
+  union(other: Box3): this;
+  applyMatrix4(matrix: Matrix4): this;
+  getCenter(target: Vector3): Vector3;
+}
+
+export interface Color {
+  set(color: string | number): this;
+  clone(): Color;
+  copy(other: Color): this;
+  lerp(other: Color, part: number): this;
+}
+
+export interface Material {
+  isShaderMaterial?: boolean;
+  transparent: boolean;
+  opacity: number;
+  depthWrite: boolean;
+  needsUpdate: boolean;
+  color?: Color;
+  emissive?: Color;
+  emissiveIntensity: number;
+  fragmentShader: string;
+  uniforms: Record<string, { value: unknown }>;
+  clone(): Material;
+  copy(other: Material): this;
+  dispose(): void;
+  addEventListener(type: "dispose", listener: () => void): void;
+}
+
+export interface Geometry {
+  boundingBox: Box3 | null;
+  computeBoundingBox(): void;
+}
+
+export interface Hit {
+  distance: number;
+  point: Vector3;
+  object: Object3D;
+}
+
+export interface Pointing {
+  ray: { origin: Vector3; direction: Vector3 };
+  near: number;
+  far: number;
+  camera: Camera;
+  params: Record<string, object>;
+}
+
+export interface Object3D {
+  isMesh?: boolean;
+  /** Of a light that casts shadows. */
+  shadow?: { normalBias: number; radius: number };
+  intensity: number;
+  visible: boolean;
+  parent: Object3D | null;
+  children: Object3D[];
+  matrixWorld: Matrix4;
+  geometry?: Geometry;
+  material?: Material | Material[];
+  raycast(pointing: Pointing, hits: Hit[]): void;
+  traverseVisible(visit: (object: Object3D) => void): void;
+  traverse(visit: (object: Object3D) => void): void;
+  updateWorldMatrix(parents: boolean, children: boolean): void;
+}
+
+export interface Camera extends Object3D {
+  position: Vector3;
+  up: Vector3;
+  fov: number;
+  aspect: number;
+  near: number;
+  far: number;
+  updateProjectionMatrix(): void;
+}
+
+export interface Renderer {
+  toneMapping: number;
+  toneMappingExposure: number;
+}
+
+export interface Scene extends Object3D {
+  environmentIntensity: number;
+  onBeforeRender: (renderer: Renderer) => void;
+  onAfterRender: (renderer: Renderer) => void;
+}
+
+export interface CameraControl {
+  enabled: boolean;
+  smoothTime: number;
+  mouseButtons: { left: number; middle: number; right: number; wheel: number };
+  constructor: { ACTION: Record<string, number> };
+  getPosition(target: Vector3): Vector3;
+  getTarget(target: Vector3): Vector3;
+  setPosition(x: number, y: number, z: number, animate: boolean): Promise<void>;
+  setTarget(x: number, y: number, z: number, animate: boolean): Promise<void>;
+  setLookAt(
+    px: number,
+    py: number,
+    pz: number,
+    tx: number,
+    ty: number,
+    tz: number,
+    animate: boolean,
+  ): Promise<void>;
+}
+
+export interface Message {
+  type: string;
+  name?: string;
+  owner?: string;
+  visible?: boolean;
+  props?: Record<string, unknown>;
+  updates?: Record<string, unknown>;
+}
+
+export interface Mutable {
+  canvas: HTMLCanvasElement | null;
+  scene: Scene | null;
+  camera: Camera | null;
+  cameraControl: CameraControl | null;
+  nodeRefFromName: Record<string, Object3D | undefined>;
+  messageQueue: Message[];
+  firstMessageBatch: boolean;
+  sendMessage: (message: Message) => void;
+  requestRender: () => void;
+}
+
+export interface JointView {
+  name: string;
+  type: "fixed" | "revolute" | "continuous" | "prismatic" | "planar" | "floating";
+  parent: string;
+  child: string;
+  axis: [number, number, number];
+  lower: number | null;
+  upper: number | null;
+  mimic: string;
+  multiplier?: number;
+}
+
+export interface RobotState {
+  root: string;
+  links: { name: string }[];
+  joints: JointView[];
+}
+
+export interface CameraPose {
+  /** Metres, in the root frame of the robot: x forward, z up. */
+  position: [number, number, number];
+  target: [number, number, number];
+}
+
+declare global {
+  interface Window {
+    __viserMutable?: Mutable;
+    __viserSceneTree?: { getState(): Record<string, { message: Message } | undefined> };
+    studio3d?: object;
+  }
+}
