@@ -1,0 +1,51 @@
+/** Everything that has a name and perhaps a key: menus, shortcuts, the list of keys and the palette. */
+
+import { signal } from "vendor/preact.js";
+import { t } from "../lib/i18n.js";
+import { matches } from "../lib/keys.js";
+
+/**
+ * @typedef {object} Command
+ * @property {string} id its words are `command.<id>`
+ * @property {string} icon
+ * @property {string[]} [keys] the first is the one that is shown
+ * @property {() => void} run
+ * @property {() => boolean} [enabled]
+ * @property {boolean} [inText] its key works while text is typed, too
+ */
+/** @typedef {import("../lib/keys.js").Stroke} Stroke */
+
+/** @type {import("vendor/preact.js").Signal<readonly Command[]>} */
+export const commands = signal([]);
+
+/** @param {readonly Command[]} added */
+export function addCommands(added) {
+  commands.value = [...commands.value, ...added];
+}
+
+/** @param {Command} command @returns {string} */
+export const commandLabel = (command) => t(`command.${command.id}`);
+
+/** @param {string} id */
+export const commandById = (id) => commands.value.find((command) => command.id === id);
+
+export const onMac = /Mac|iPhone|iPad/.test(navigator.platform);
+
+/**
+ * @param {Stroke} stroke
+ * @param {{inText?: boolean}} [where]
+ * @returns {boolean} a command took it
+ */
+export function onKey(stroke, { inText = false } = {}) {
+  const command = commands.value.find(
+    (one) => (one.inText || !inText) && one.keys?.some((key) => matches(key, stroke)),
+  );
+  if (!command) return false;
+  if (command.enabled?.() ?? true) command.run();
+  return true;
+}
+
+/** @param {unknown} detail @returns {detail is Stroke} */
+export function isStroke(detail) {
+  return typeof detail === "object" && detail !== null && "key" in detail && "ctrlKey" in detail;
+}

@@ -1,0 +1,81 @@
+/** Arrangements of the panels by the size of the window; each is remembered on its own. */
+
+/** @import { Dock, Split } from "../lib/dock.js" */
+
+import { effect } from "vendor/preact.js";
+import { recall, remember } from "../lib/remembered.js";
+import { size } from "./state/view.js";
+
+const PHONE_BELOW_PX = 700;
+const WIDE_FROM_PX = 1000;
+const VERSION = 1;
+
+/** @param {number} width px @returns {"wide" | "medium" | "phone"} */
+export function sizeOf(width) {
+  if (width < PHONE_BELOW_PX) return "phone";
+  return width < WIDE_FROM_PX ? "medium" : "wide";
+}
+
+/**
+ * @param {"wide" | "medium" | "phone"} kind
+ * @param {number} width px
+ * @param {number} height px
+ * @returns {Split[]} a row, left to right; a split in it stacks from top to bottom
+ */
+export function modelLayout(kind, width, height) {
+  const low = Math.round(Math.min(220, height * 0.24));
+  const scene = { tabs: ["scene"], size: height - low };
+  const below = { tabs: ["problems", "urdf"], size: low };
+  if (kind === "phone")
+    return [
+      { tabs: ["scene", "properties", "joints", "displays", "problems", "urdf"], size: width },
+    ];
+  if (kind === "medium") {
+    const right = Math.round(Math.min(340, width * 0.42));
+    return [
+      { split: [scene, below], size: width - right },
+      { tabs: ["properties", "joints", "displays"], size: right },
+    ];
+  }
+  const left = Math.round(Math.min(280, width * 0.22));
+  const right = Math.round(Math.min(340, width * 0.28));
+  return [
+    { tabs: ["displays"], size: left },
+    { split: [scene, below], size: width - left - right },
+    { tabs: ["properties", "joints"], size: right },
+  ];
+}
+
+/** @param {"wide" | "medium" | "phone"} kind */
+const storeName = (kind) => `layout.${VERSION}.${kind}`;
+
+/**
+ * Keep the dock arranged as the size of the window asks.
+ *
+ * @param {Dock} dock
+ * @param {HTMLElement} element that holds it
+ * @returns {{reset: () => void, keep: () => void}}
+ */
+export function followSize(dock, element) {
+  const arrange = () => {
+    const kind = size.value;
+    const stored = kind === "phone" ? undefined : recall(storeName(kind));
+    dock.setSingle(kind === "phone");
+    dock.arrange(modelLayout(kind, element.clientWidth, element.clientHeight), stored);
+  };
+  const measure = () => {
+    size.value = sizeOf(innerWidth);
+  };
+  measure();
+  addEventListener("resize", measure);
+  effect(arrange);
+  return {
+    reset() {
+      remember(storeName(size.peek()), undefined);
+      arrange();
+    },
+    keep() {
+      if (size.peek() !== "phone") remember(storeName(size.peek()), dock.layout());
+    },
+  };
+}

@@ -1,0 +1,172 @@
+/** Begins the page: words, theme, frame, dock, keys, and the lane to the studio. */
+
+import { effect, html, render } from "vendor/preact.js";
+import { createDock } from "../lib/dock.js";
+import { nearestLanguage, t, useLanguage } from "../lib/i18n.js";
+import { takesText } from "../lib/keys.js";
+import { documentOf } from "../lib/paths.js";
+import { iconElement } from "../lib/ui.js";
+import { clearSelection, redo, save, toggleAnimation, undo, watch, zeroJoints } from "./actions.js";
+import { addCommands, onKey } from "./commands.js";
+import { followSize } from "./layouts.js";
+import { dockPanels, PANELS } from "./panels.js";
+import { Shell } from "./shell.js";
+import { mayEdit, role } from "./state/connection.js";
+import { documentId, history, movable, title, unsaved } from "./state/document.js";
+import { activePanel, dialog, languageChoice, selected, size, theme } from "./state/view.js";
+import { viewport } from "./viewport.js";
+import { connect } from "./wire.js";
+
+/** @import { Dock } from "../lib/dock.js" */
+
+const EDITING = { enabled: () => mayEdit.value && dialog.value === null };
+
+/** @param {HTMLElement} element */
+function startDock(element) {
+  /** @type {{reset: () => void, keep: () => void} | null} */
+  let arrangement = null;
+  const dock = createDock(element, dockPanels(), {
+    maximizeLabel: () => t("maximize"),
+    restoreLabel: () => t("restore"),
+    icon: iconElement,
+    onChange: () => arrangement?.keep(),
+    onActive: (id) => {
+      activePanel.value = id;
+    },
+  });
+  arrangement = followSize(dock, element);
+  addCommands(panelCommands(dock, arrangement.reset));
+}
+
+/** @param {Dock} dock @param {() => void} reset */
+function panelCommands(dock, reset) {
+  const panels = Object.entries(PANELS).map(([id, { icon }]) => ({
+    id: `panel.${id}`,
+    icon,
+    run: () => dock.show(id),
+  }));
+  const wide = () => size.value !== "phone";
+  return [
+    ...panels,
+    { id: "next_panel", icon: "layout", keys: ["F6"], inText: true, run: () => dock.focusNext(1) },
+    {
+      id: "previous_panel",
+      icon: "layout",
+      keys: ["Shift+F6"],
+      inText: true,
+      run: () => dock.focusNext(-1),
+    },
+    { id: "maximize", icon: "maximize", enabled: wide, run: dock.toggleMaximized },
+    { id: "reset_layout", icon: "reset", enabled: wide, run: reset },
+  ];
+}
+
+function addPageCommands() {
+  addCommands([
+    {
+      id: "palette",
+      icon: "search",
+      keys: ["Mod+K"],
+      inText: true,
+      run: () => show({ kind: "palette" }),
+    },
+    {
+      id: "open",
+      icon: "open",
+      keys: ["Mod+O"],
+      inText: true,
+      enabled: () => role.value === "presenter",
+      run: () => show({ kind: "open" }),
+    },
+    {
+      id: "save",
+      icon: "disk",
+      keys: ["Mod+S"],
+      inText: true,
+      enabled: () => mayEdit.value && unsaved.value,
+      run: save,
+    },
+    {
+      id: "undo",
+      icon: "undo",
+      keys: ["Mod+Z"],
+      enabled: () => EDITING.enabled() && history.value.undo.length > 0,
+      run: () => void undo(),
+    },
+    {
+      id: "redo",
+      icon: "redo",
+      keys: ["Mod+Shift+Z", "Mod+Y"],
+      enabled: () => EDITING.enabled() && history.value.redo.length > 0,
+      run: () => void redo(),
+    },
+    {
+      id: "fit",
+      icon: "fit",
+      keys: ["F"],
+      enabled: () => viewport.value !== null && dialog.value === null,
+      run: () => viewport.value?.fit(),
+    },
+    {
+      id: "zero_joints",
+      icon: "zero",
+      enabled: () => EDITING.enabled() && movable.value.length > 0,
+      run: zeroJoints,
+    },
+    {
+      id: "animate_joints",
+      icon: "animate",
+      enabled: () => EDITING.enabled() && movable.value.length > 0,
+      run: toggleAnimation,
+    },
+    {
+      id: "deselect",
+      icon: "close",
+      keys: ["Escape"],
+      enabled: () => selected.value !== null && dialog.value === null,
+      run: clearSelection,
+    },
+    { id: "keys", icon: "keyboard", keys: ["?"], run: () => show({ kind: "keys" }) },
+  ]);
+}
+
+/** @param {import("./state/view.js").Shown} shown */
+function show(shown) {
+  dialog.value = shown;
+}
+
+function listenToKeys() {
+  addEventListener("keydown", (event) => {
+    if (event.defaultPrevented) return;
+    const inText = takesText(event.target);
+    const mod = event.ctrlKey || event.metaKey;
+    // Escape belongs to a dialog while one is open, and to a box while text is typed.
+    if (event.key === "Escape" && (inText || dialog.value !== null)) return;
+    if (dialog.value !== null && !mod) return;
+    if (onKey(event, { inText })) event.preventDefault();
+  });
+  // Leaving with unsaved edits loses nothing (the studio holds them), so nothing asks.
+}
+
+function followState() {
+  effect(() => {
+    document.documentElement.dataset.theme = theme.value;
+  });
+  effect(() => {
+    document.title = [unsaved.value ? "•" : "", title.value, title.value ? "–" : "", t("brand")]
+      .filter(Boolean)
+      .join(" ");
+  });
+}
+
+documentId.value = documentOf(location.pathname);
+await useLanguage(nearestLanguage(languageChoice.value || navigator.language));
+effect(() => {
+  if (languageChoice.value) useLanguage(nearestLanguage(languageChoice.value));
+});
+addPageCommands();
+followState();
+listenToKeys();
+const root = document.getElementById("app");
+if (root) render(html`<${Shell} onDock=${startDock} />`, root);
+connect(watch);

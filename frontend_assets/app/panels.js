@@ -1,0 +1,101 @@
+/** The panels by name: their words, icons, and the file that draws each, loaded when first shown. */
+
+/** @import { Panel } from "../lib/dock.js" */
+
+import { html, render, useEffect, useState } from "vendor/preact.js";
+import { t } from "../lib/i18n.js";
+import { Icon, ProgressBar } from "../lib/ui.js";
+import { changedCount, problems } from "./state/document.js";
+
+/**
+ * @typedef {{icon: string, keepsFrame?: boolean, badge?: () => {text: string, tone: string, label: string} | null,
+ *   load: () => Promise<() => import("vendor/preact.js").VNode>}} PanelEntry
+ */
+
+/** @type {Record<string, PanelEntry>} */
+export const PANELS = {
+  scene: {
+    icon: "scene",
+    keepsFrame: true,
+    load: async () => (await import("../panels/scene.js")).ScenePanel,
+  },
+  displays: {
+    icon: "list",
+    load: async () => (await import("../panels/displays.js")).DisplaysPanel,
+  },
+  properties: {
+    icon: "properties",
+    badge: changedBadge,
+    load: async () => (await import("../panels/properties.js")).PropertiesPanel,
+  },
+  joints: { icon: "joints", load: async () => (await import("../panels/joints.js")).JointsPanel },
+  problems: {
+    icon: "problems",
+    badge: problemsBadge,
+    load: async () => (await import("../panels/problems.js")).ProblemsPanel,
+  },
+  urdf: { icon: "urdf", load: async () => (await import("../panels/urdf.js")).UrdfPanel },
+};
+
+/** @param {string} id */
+export const panelTitle = (id) => t(`panel.${id}`);
+
+function changedBadge() {
+  const count = changedCount.value;
+  return count > 0
+    ? { text: String(count), tone: "amber", label: t("unsaved.count", { count }) }
+    : null;
+}
+
+function problemsBadge() {
+  const count = problems.value.length;
+  if (count === 0) return null;
+  const bad = problems.value.some(({ severity }) => severity === "error");
+  return {
+    text: String(count),
+    tone: bad ? "red" : "amber",
+    label: t("problems.count", { count }),
+  };
+}
+
+/** @param {{id: string}} props */
+function Tab({ id }) {
+  const entry = PANELS[id];
+  const badge = entry?.badge?.();
+  return html`<${Icon} name=${entry?.icon ?? "box"} /><span>${panelTitle(id)}</span>
+    ${badge && html`<span class=${`badge ${badge.tone}`} title=${badge.label} aria-label=${badge.label}>${badge.text}</span>`}`;
+}
+
+/** @param {{id: string}} props draws the panel as soon as its file is here */
+function Loaded({ id }) {
+  const [drawn, setDrawn] = useState(
+    /** @type {{panel: () => import("vendor/preact.js").VNode} | null} */ (null),
+  );
+  useEffect(() => {
+    PANELS[id]?.load().then((panel) => setDrawn({ panel }));
+  }, [id]);
+  if (!drawn) return html`<${ProgressBar} label=${t("loading")} done=${0} total=${0} />`;
+  return html`<${drawn.panel} />`;
+}
+
+/** @param {string} id @returns {Panel} for the dock */
+function dockPanel(id) {
+  const { keepsFrame = false } = PANELS[id] ?? {};
+  return {
+    title: () => panelTitle(id),
+    keepsFrame,
+    mount: (element) => drawn(element, html`<${Loaded} id=${id} />`),
+    mountTab: (element) => drawn(element, html`<${Tab} id=${id} />`),
+  };
+}
+
+/** @param {HTMLElement} element @param {import("vendor/preact.js").VNode} node @returns {() => void} */
+function drawn(element, node) {
+  render(node, element);
+  return () => render(null, element);
+}
+
+/** @returns {Record<string, Panel>} */
+export function dockPanels() {
+  return Object.fromEntries(Object.keys(PANELS).map((id) => [id, dockPanel(id)]));
+}

@@ -1,0 +1,90 @@
+/** The frame of the page: bars, the dock between them, notices, and the tabs of a phone. */
+
+import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
+import { t } from "../lib/i18n.js";
+import { Icon, IconButton } from "../lib/ui.js";
+import { goTo, openPath } from "./actions.js";
+import { commandById } from "./commands.js";
+import { Dialogs } from "./dialogs.js";
+import { PANELS, panelTitle } from "./panels.js";
+import { connection, role } from "./state/connection.js";
+import { changedCount, documentState, gone, problems } from "./state/document.js";
+import { activePanel, dismiss, notices, size } from "./state/view.js";
+import { StatusBar } from "./status-bar.js";
+import { TopBar } from "./top-bar.js";
+
+const SAY_AFTER_MS = 600;
+
+/** @param {{onDock: (element: HTMLElement) => void}} props */
+export function Shell({ onDock }) {
+  const dock = useRef(/** @type {HTMLElement | null} */ (null));
+  useEffect(() => {
+    if (dock.current) onDock(dock.current);
+  }, []);
+  return html`<div class=${`shell ${size.value}`}>
+    <${TopBar} />
+    <${LostBar} />
+    <${GoneBar} />
+    <main ref=${dock} class="dock" aria-label=${t("dock")}></main>
+    ${size.value === "phone" ? html`<${PhoneTabs} />` : html`<${StatusBar} />`}
+    <${Notices} />
+    <${Dialogs} />
+  </div>`;
+}
+
+/** Says that the studio went away; a blink of the connection is not worth a word. */
+function LostBar() {
+  const said = useSignal(false);
+  const lost = connection.value === "lost";
+  useEffect(() => {
+    if (!lost) {
+      said.value = false;
+      return undefined;
+    }
+    const later = setTimeout(() => {
+      said.value = true;
+    }, SAY_AFTER_MS);
+    return () => clearTimeout(later);
+  }, [lost]);
+  if (!said.value) return null;
+  return html`<div class="bar lost" role="alert"><span class="spinner"></span>
+    <span><strong>${t("lost")}</strong> ${t("lost.hint")}</span></div>`;
+}
+
+function GoneBar() {
+  if (!gone.value) return null;
+  const state = documentState.value;
+  const again = () => (state ? openPath(state.path, { ...state.arguments }) : goTo(""));
+  return html`<div class="bar gone" role="alert"><${Icon} name="info" /><span>${t("gone")}</span>
+    ${role.value === "presenter" && state && html`<button type="button" class="button small" onClick=${again}>${t("gone.again")}</button>`}
+    <button type="button" class="button small" onClick=${() => goTo("")}>${t("gone.home")}</button></div>`;
+}
+
+function Notices() {
+  return html`<div class="notices" aria-live="polite">${notices.value.map(
+    (
+      notice,
+    ) => html`<div key=${notice.id} class=${`notice ${notice.bad ? "bad" : ""}`} role=${notice.bad ? "alert" : "status"}>
+    <${Icon} name=${notice.bad ? "error" : "check"} /><span>${notice.text}</span>
+    <${IconButton} icon="close" size=${14} label=${t("dismiss")} onClick=${() => dismiss(notice.id)} /></div>`,
+  )}</div>`;
+}
+
+const PHONE_PANELS = ["scene", "properties", "joints", "displays", "problems"];
+
+function PhoneTabs() {
+  return html`<nav class="phone-tabs" aria-label=${t("panels")}>${PHONE_PANELS.map(
+    (id) => html`<button key=${id} type="button"
+    aria-current=${activePanel.value === id ? "page" : null} onClick=${() => commandById(`panel.${id}`)?.run()}>
+    <span class="phone-icon"><${Icon} name=${PANELS[id]?.icon ?? "box"} size=${18} /><${Mark} id=${id} /></span><span>${id === "scene" ? t("panel.scene.short") : panelTitle(id)}</span></button>`,
+  )}</nav>`;
+}
+
+/** @param {{id: string}} props a dot where something waits to be seen; the words say how much */
+function Mark({ id }) {
+  const count =
+    id === "problems" ? problems.value.length : id === "properties" ? changedCount.value : 0;
+  if (count === 0) return null;
+  const label = id === "problems" ? t("problems.count", { count }) : t("unsaved.count", { count });
+  return html`<span class=${`badge ${id === "problems" ? "red" : "amber"}`} aria-label=${label}>${count}</span>`;
+}

@@ -1,0 +1,176 @@
+/**
+ * The open document as the studio last told it. Only `receive` writes here, so that what the page
+ * shows is always the studio's own answer.
+ */
+
+/**
+ * @import { Displays, DocumentEntry, DocumentState, Event, History, JointPositions, Problem, Progress,
+ *   RobotState, SiteView, Sites } from "../../types/wire.d.ts"
+ * @import { Signal } from "vendor/preact.js"
+ */
+
+import { batch, computed, signal } from "vendor/preact.js";
+import { movableJoints } from "../../lib/joints.js";
+import { isChanged } from "../../lib/sites.js";
+import { linkTree } from "../../lib/tree.js";
+import { role, session, version } from "./connection.js";
+
+/** Id of the document that this page shows; empty: none. */
+export const documentId = signal("");
+/** @type {Signal<readonly DocumentEntry[]>} */
+export const documents = signal([]);
+/** @type {Signal<DocumentState | null>} */
+export const documentState = signal(null);
+/** @type {Signal<RobotState | null>} */
+export const robot = signal(null);
+/** @type {Signal<readonly Problem[]>} */
+export const problems = signal([]);
+export const showingLastGood = signal(false);
+/** @type {Signal<History>} */
+export const history = signal({
+  type: "history",
+  undo: [],
+  redo: [],
+  unsaved_files: [],
+  unsaved_count: 0,
+});
+/** @type {Signal<Displays["displays"]>} */
+export const displays = signal({});
+/** Work that is going on, by task. @type {Signal<ReadonlyMap<string, Progress>>} */
+export const progress = signal(new Map());
+/** @type {Signal<{ok: boolean, duration_ms: number} | null>} */
+export const built = signal(null);
+export const animating = signal(false);
+/** The document was closed, here or in another tab; or the studio does not know it (any more). */
+export const gone = signal(false);
+
+/** @type {Signal<readonly string[]>} */
+export const siteOrder = signal([]);
+/** Counts site events, for lists that look at many sites at once. */
+export const sitesRevision = signal(0);
+/** @type {Map<string, Signal<SiteView>>} */
+const sites = new Map();
+/** @type {Map<string, Signal<number>>} */
+const positions = new Map();
+
+export const movable = computed(() => movableJoints(robot.value?.joints ?? []));
+export const links = computed(() => (robot.value ? linkTree(robot.value) : []));
+export const changedCount = computed(() => {
+  sitesRevision.value;
+  return [...sites.values()].filter((site) => isChanged(site.peek())).length;
+});
+export const title = computed(() => documentState.value?.title ?? "");
+export const unsaved = computed(
+  () => history.value.unsaved_count > 0 || history.value.unsaved_files.length > 0,
+);
+
+/** @param {string} id @returns {Signal<SiteView> | undefined} follows this one site */
+export function site(id) {
+  return sites.get(id);
+}
+
+/** @returns {Map<string, SiteView>} all sites now; follow `sitesRevision` beside it */
+export function allSites() {
+  return new Map([...sites].map(([id, one]) => [id, one.peek()]));
+}
+
+/** @param {string} joint @returns {Signal<number>} its position, rad or m */
+export function position(joint) {
+  let found = positions.get(joint);
+  if (!found) {
+    found = signal(0);
+    positions.set(joint, found);
+  }
+  return found;
+}
+
+/** @param {Sites} event */
+function takeSites({ order, changed }) {
+  for (const one of changed) {
+    const known = sites.get(one.id);
+    if (known) known.value = one;
+    else sites.set(one.id, signal(one));
+  }
+  if (order) {
+    const kept = new Set(order);
+    for (const id of sites.keys()) if (!kept.has(id)) sites.delete(id);
+    siteOrder.value = order;
+  }
+  sitesRevision.value += 1;
+}
+
+/** @param {Progress} event */
+function takeProgress(event) {
+  const now = new Map(progress.value);
+  if (event.total > 0 && event.done >= event.total) now.delete(event.task);
+  else now.set(event.task, event);
+  progress.value = now;
+}
+
+/** @param {Readonly<Record<string, number>>} values rad or m */
+function takePositions(values) {
+  for (const [joint, value] of Object.entries(values)) position(joint).value = value;
+}
+
+/** @param {{revision: number, positions: Float64Array}} frame one that fits no known robot is dropped */
+export function takeJointFrame({ revision, positions: values }) {
+  const joints = movable.value;
+  if (revision !== robot.value?.revision || values.length !== joints.length) return;
+  batch(() => {
+    joints.forEach((joint, at) => {
+      position(joint.name).value = values[at] ?? 0;
+    });
+  });
+}
+
+/** @param {Event} event one that the studio sent by itself */
+export function receive(event) {
+  batch(() => takeEvent(event));
+}
+
+/** @type {{[Type in Event["type"]]?: (event: Extract<Event, {type: Type}>) => void}} */
+const TAKERS = {
+  hello: (event) => {
+    role.value = event.role;
+    version.value = event.version;
+    session.value = event.session;
+  },
+  documents: (event) => {
+    documents.value = event.documents;
+  },
+  document: (event) => {
+    documentState.value = event;
+    gone.value = false;
+  },
+  robot: (event) => {
+    robot.value = event;
+  },
+  joints: (/** @type {JointPositions} */ event) => {
+    takePositions(event.positions);
+    animating.value = event.animating;
+  },
+  sites: takeSites,
+  problems: (event) => {
+    problems.value = event.problems;
+    showingLastGood.value = event.showing_last_good;
+  },
+  history: (event) => {
+    history.value = event;
+  },
+  displays: (event) => {
+    displays.value = event.displays;
+  },
+  progress: takeProgress,
+  built: (event) => {
+    built.value = event;
+  },
+  gone: (event) => {
+    if (event.document === documentId.value) gone.value = true;
+  },
+};
+
+/** @param {Event} event */
+function takeEvent(event) {
+  const taker = /** @type {((event: Event) => void) | undefined} */ (TAKERS[event.type]);
+  taker?.(event);
+}

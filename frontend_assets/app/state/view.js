@@ -1,0 +1,100 @@
+/** What is this person's own: theme, units, hover, selection, hidden links; nothing of it is shared. */
+
+/** @import { Signal } from "vendor/preact.js" */
+
+import { computed, signal } from "vendor/preact.js";
+import { remembered } from "../../lib/remembered.js";
+
+/** @param {string[]} choices @returns {(value: unknown) => boolean} */
+const oneOf = (choices) => (value) => choices.includes(/** @type {string} */ (value));
+
+const systemDark = matchMedia("(prefers-color-scheme: dark)");
+const systemTheme = signal(systemDark.matches ? "dark" : "light");
+systemDark.addEventListener("change", (event) => {
+  systemTheme.value = event.matches ? "dark" : "light";
+});
+
+/** @type {Signal<"system" | "dark" | "light">} */
+export const themeChoice = remembered(
+  "theme",
+  /** @type {"system" | "dark" | "light"} */ ("system"),
+  oneOf(["system", "dark", "light"]),
+);
+export const theme = computed(
+  () =>
+    /** @type {"dark" | "light"} */ (
+      themeChoice.value === "system" ? systemTheme.value : themeChoice.value
+    ),
+);
+export const degrees = remembered("degrees", false);
+/** @type {Signal<"rviz" | "trackpad">} */
+export const mouseMode = remembered(
+  "mouse",
+  /** @type {"rviz" | "trackpad"} */ ("rviz"),
+  oneOf(["rviz", "trackpad"]),
+);
+/** Empty: the browser's language. @type {Signal<string>} */
+export const languageChoice = remembered("language", "");
+
+/** Link under the pointer, in 3D or in the tree. @type {Signal<string | null>} */
+export const hovered = signal(null);
+/** @type {Signal<string | null>} */
+export const selected = signal(null);
+/** @type {Signal<ReadonlySet<string>>} */
+export const hiddenLinks = signal(new Set());
+/** Links that are not fully opaque here: 0 to 1. @type {Signal<ReadonlyMap<string, number>>} */
+export const linkOpacity = signal(new Map());
+
+/** What the properties are filtered by; the palette and other panels set it too. */
+export const propertyFilter = signal("");
+/** Show only the texts that shape the selected link. */
+export const onlySelected = signal(false);
+/** Site whose row comes into view and takes the focus next. @type {Signal<string | null>} */
+export const soughtSite = signal(null);
+
+/** @type {Signal<"wide" | "medium" | "phone">} */
+export const size = signal("wide");
+
+/** @typedef {{kind: "open"} | {kind: "choose_package", name: string} | {kind: "keys"} | {kind: "palette"} | {kind: "confirm", title: string, text: string, action: string, run: () => void}} Shown */
+/** The one window over the page. @type {Signal<Shown | null>} */
+export const dialog = signal(null);
+
+/** @typedef {{id: number, text: string, bad: boolean}} Notice */
+/** @type {Signal<readonly Notice[]>} */
+export const notices = signal([]);
+let noticeCount = 0;
+
+/** @param {string} text @param {{bad?: boolean}} [options] shown for some seconds; a bad one longer */
+export function notify(text, { bad = false } = {}) {
+  noticeCount += 1;
+  const id = noticeCount;
+  notices.value = [
+    ...notices.value.filter((one) => one.text !== text).slice(-2),
+    { id, text, bad },
+  ];
+  setTimeout(() => dismiss(id), bad ? 9000 : 3500);
+}
+
+/** @param {number} id of a notice */
+export function dismiss(id) {
+  notices.value = notices.value.filter((one) => one.id !== id);
+}
+
+/** @param {string} link @param {boolean} visible for this person only */
+export function showLink(link, visible) {
+  const now = new Set(hiddenLinks.value);
+  if (visible) now.delete(link);
+  else now.add(link);
+  hiddenLinks.value = now;
+}
+
+/** @param {string} link @param {number} opacity 0 to 1, for this person only */
+export function fadeLink(link, opacity) {
+  const now = new Map(linkOpacity.value);
+  if (opacity >= 1) now.delete(link);
+  else now.set(link, opacity);
+  linkOpacity.value = now;
+}
+
+/** Id of the panel that was shown or clicked last. @type {Signal<string | null>} */
+export const activePanel = signal(null);

@@ -1,0 +1,78 @@
+/** The bar below: is the studio there, how was the robot made, what is wrong, what is unsaved. */
+
+import { html } from "vendor/preact.js";
+import { t } from "../lib/i18n.js";
+import { Icon } from "../lib/ui.js";
+import { commandById } from "./commands.js";
+import { connection, role, version } from "./state/connection.js";
+import {
+  built,
+  documentState,
+  history,
+  problems,
+  progress,
+  robot,
+  showingLastGood,
+} from "./state/document.js";
+import { viewport, viewportConnected } from "./viewport.js";
+
+export function StatusBar() {
+  return html`<footer class="status-bar">
+    <${Link} />
+    <${Evaluator} />
+    ${robot.value && html`<span class="wide-only"><b>${robot.value.links.length}</b> ${t("links")} · <b>${robot.value.joints.length}</b> ${t("joints")}</span>`}
+    <${Work} />
+    <span class="push"></span>
+    <${Build} />
+    <${ProblemsLink} />
+    <${Unsaved} />
+  </footer>`;
+}
+
+function Link() {
+  const state = connection.value;
+  const words = state === "connected" ? t(`role.${role.value}`) : t(`connection.${state}`);
+  const hint = version.value ? t("version", { version: version.value }) : "";
+  return html`<span class=${`link-state ${state}`} title=${hint}><span class="dot"></span>${words}</span>`;
+}
+
+function Evaluator() {
+  const state = documentState.value;
+  if (!state || state.evaluator === "" || state.phase !== "ready") return null;
+  const fallback = state.fallback_reason !== "";
+  return html`<span class=${`wide-only ${fallback ? "amber" : ""}`} title=${state.fallback_reason || t("evaluator.hint")}>
+    ${fallback ? t("evaluator.fallback", { name: state.evaluator }) : t("evaluator", { name: state.evaluator })}</span>`;
+}
+
+function Work() {
+  const work = [...progress.value.values()][0];
+  if (!work) {
+    const waits =
+      connection.value === "connected" && viewport.value !== null && !viewportConnected.value;
+    return waits ? html`<span class="wide-only">${t("scene.connecting")}</span>` : null;
+  }
+  return html`<span class="working"><span class="spinner"></span>${work.label}${work.total > 0 ? ` ${work.done}/${work.total}` : ""}</span>`;
+}
+
+function Build() {
+  if (showingLastGood.value)
+    return html`<span class="bad"><${Icon} name="close" size=${13} />${t("build.failed")}</span>`;
+  const run = built.value;
+  if (!run) return null;
+  if (!run.ok)
+    return html`<span class="bad"><${Icon} name="close" size=${13} />${t("build.bad")}</span>`;
+  return html`<span class="good numbers"><${Icon} name="check" size=${13} />${t("build.ok", { ms: run.duration_ms < 9.95 ? run.duration_ms.toFixed(1) : Math.round(run.duration_ms) })}</span>`;
+}
+
+function ProblemsLink() {
+  const count = problems.value.length;
+  const bad = problems.value.some(({ severity }) => severity === "error");
+  return html`<button type="button" class=${`status-button ${bad ? "bad" : count > 0 ? "amber" : ""}`} onClick=${() => commandById("panel.problems")?.run()}>
+    ${t("problems.count", { count })}</button>`;
+}
+
+function Unsaved() {
+  const { unsaved_count: count, unsaved_files: files } = history.value;
+  if (count === 0) return null;
+  return html`<span class="amber" title=${files.join("\n")}><span class="dot"></span>${t("unsaved.count", { count })}</span>`;
+}

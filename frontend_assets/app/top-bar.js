@@ -1,0 +1,175 @@
+/** The bar above: what is open, undo and redo, saving, and the page's own settings. */
+
+import { html } from "vendor/preact.js";
+import { LANGUAGES, language, t } from "../lib/i18n.js";
+import { shortcutText } from "../lib/keys.js";
+import { Icon, IconButton, MenuButton } from "../lib/ui.js";
+import { closeDocument, goTo, redo, reload, save, undo } from "./actions.js";
+import { commandById, onMac } from "./commands.js";
+import { PANELS, panelTitle } from "./panels.js";
+import { mayEdit, role } from "./state/connection.js";
+import { documentId, documents, history, title, unsaved } from "./state/document.js";
+import { dialog, languageChoice, size, theme, themeChoice } from "./state/view.js";
+
+/** @import { MenuItem } from "../lib/ui.js" */
+
+export function TopBar() {
+  const { unsaved_count: count } = history.value;
+  return html`<header class="top-bar">
+    <a class="brand" href="/" aria-label=${t("brand.home")}><span class="logo"><${Icon} name="robot" size=${17} /></span>
+      <span class="brand-name">${t("brand")}</span></a>
+    <${DocumentMenu} />
+    ${
+      unsaved.value &&
+      html`<span class="unsaved" title=${t("unsaved.count", { count })}><span class="dot"></span>
+      <span class="wide-only">${t("unsaved.count", { count })}</span></span>`
+    }
+    ${role.value === "viewer" && html`<span class="watching"><${Icon} name="watching" size=${14} /><span>${t("watching")}</span></span>`}
+    <span class="push"></span>
+    <${PaletteButton} />
+    <span class="push"></span>
+    ${role.value === "presenter" && html`<${EditButtons} />`}
+    <${SettingsMenu} />
+    <${ThemeButton} />
+  </header>`;
+}
+
+function DocumentMenu() {
+  const name = title.value || t("document.none");
+  return html`<${MenuButton} class="document-button" label=${t("documents.menu")} hint=${name} items=${documentItems}>
+    <${Icon} name="fileCode" /><span class="document-title">${name}</span><${Icon} name="chevronDown" size=${13} />
+  <//>`;
+}
+
+/** @returns {MenuItem[]} */
+function documentItems() {
+  /** @type {MenuItem[]} */
+  const open = documents.value.map((one) => ({
+    label: `${one.title}${one.unsaved ? " •" : ""}`,
+    hint: folderOf(one.path),
+    checked: one.id === documentId.value,
+    run: () => one.id !== documentId.value && goTo(one.id),
+  }));
+  const locked = !mayEdit.value;
+  const none = locked || documentId.value === "";
+  return [
+    ...(open.length > 0 ? [{ label: t("documents.open"), heading: true }, ...open] : []),
+    { label: t("document"), heading: true },
+    {
+      label: `${t("command.open")}…`,
+      icon: "open",
+      hint: keyOf("open"),
+      disabled: locked,
+      run: () => commandById("open")?.run(),
+    },
+    { label: t("reload"), icon: "reload", disabled: none, run: reload },
+    { label: t("document.close"), icon: "close", disabled: none, run: closeDocument },
+  ];
+}
+
+/** @param {string} path @returns {string} the folder's own name */
+const folderOf = (path) => path.split(/[/\\]/).at(-2) ?? "";
+
+/** @param {string} id of a command @returns {string} its key, as keyboards are labelled */
+function keyOf(id) {
+  const key = commandById(id)?.keys?.[0];
+  return key ? shortcutText(key, onMac) : "";
+}
+
+function PaletteButton() {
+  const show = () => {
+    dialog.value = { kind: "palette" };
+  };
+  return html`<button type="button" class="palette-button" onClick=${show} aria-label=${t("command.palette")}>
+    <${Icon} name="search" /><span>${t("palette.hint")}</span><kbd>${keyOf("palette")}</kbd></button>`;
+}
+
+function EditButtons() {
+  const { undo: done, redo: undone } = history.value;
+  const off = !mayEdit.value;
+  return html`<div class="edit-buttons">
+    <${IconButton} icon="undo" label=${t("command.undo")} hint=${hinted("undo", done.at(-1))} disabled=${off || done.length === 0} onClick=${() => undo()} />
+    <${MenuButton} class="icon-button narrow" label=${t("undo.list")} disabled=${off || done.length === 0} items=${undoItems}>
+      <${Icon} name="chevronDown" size=${12} /><//>
+    <${IconButton} icon="redo" label=${t("command.redo")} hint=${hinted("redo", undone.at(-1))} disabled=${off || undone.length === 0} onClick=${() => redo()} />
+    <button type="button" class="button save" aria-label=${t("command.save")} title=${`${t("command.save")} (${keyOf("save")})`}
+      disabled=${off || !unsaved.value} onClick=${save}>
+      <${Icon} name="disk" /><span class="label">${t("command.save")}</span></button>
+  </div>`;
+}
+
+/** @param {string} id @param {string | undefined} step @returns {string} */
+function hinted(id, step) {
+  return `${t(`command.${id}`)}${step ? `: ${step}` : ""} (${keyOf(id)})`;
+}
+
+/** @returns {MenuItem[]} newest first; a click takes back all down to it */
+function undoItems() {
+  return [...history.value.undo]
+    .reverse()
+    .slice(0, 15)
+    .map((step, at) => ({ label: step, icon: "undo", run: () => void undo(at + 1) }));
+}
+
+function SettingsMenu() {
+  return html`<${MenuButton} label=${t("settings")} items=${settingsItems}><${Icon} name="layout" /><//>`;
+}
+
+/** @returns {MenuItem[]} */
+function settingsItems() {
+  const phone = size.value === "phone";
+  /** @type {MenuItem[]} */
+  const panels = Object.entries(PANELS).map(([id, { icon }]) => ({
+    label: panelTitle(id),
+    icon,
+    run: () => commandById(`panel.${id}`)?.run(),
+  }));
+  return [
+    ...(phone ? [] : [{ label: t("panels"), heading: true }, ...panels]),
+    { label: t("layout"), heading: true },
+    ...(phone
+      ? []
+      : [
+          {
+            label: t("command.reset_layout"),
+            icon: "reset",
+            run: () => commandById("reset_layout")?.run(),
+          },
+        ]),
+    {
+      label: t("command.keys"),
+      icon: "keyboard",
+      hint: "?",
+      run: () => commandById("keys")?.run(),
+    },
+    { label: t("language"), heading: true },
+    ...Object.entries(LANGUAGES).map(([id, label]) => ({
+      label,
+      checked: language.value === id,
+      run: () => {
+        languageChoice.value = id;
+      },
+    })),
+    { label: t("theme"), heading: true },
+    ...themeItems(),
+  ];
+}
+
+/** @returns {MenuItem[]} */
+function themeItems() {
+  return /** @type {const} */ (["system", "dark", "light"]).map((choice) => ({
+    label: t(`theme.${choice}`),
+    checked: themeChoice.value === choice,
+    run: () => {
+      themeChoice.value = choice;
+    },
+  }));
+}
+
+function ThemeButton() {
+  const next = theme.value === "dark" ? "light" : "dark";
+  const toggle = () => {
+    themeChoice.value = next;
+  };
+  return html`<${IconButton} icon=${next === "light" ? "sun" : "moon"} label=${t(`theme.to_${next}`)} onClick=${toggle} />`;
+}

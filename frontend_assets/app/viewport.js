@@ -1,0 +1,161 @@
+/**
+ * The 3D view inside its frame: what the page tells it (robot, positions, theme, hover, ...) and what
+ * it tells the page (picked links, dragged joints, keys). It is on the page's origin, so both call
+ * each other directly.
+ */
+
+/** @import { RobotState } from "../types/wire.d.ts" */
+
+import { effect, signal } from "vendor/preact.js";
+import { moveJoint } from "./actions.js";
+import { isStroke, onKey } from "./commands.js";
+import { mayEdit } from "./state/connection.js";
+import { movable, position, robot } from "./state/document.js";
+import { hiddenLinks, hovered, linkOpacity, mouseMode, selected, theme } from "./state/view.js";
+
+/**
+ * @typedef {object} Studio3d what the script in the frame offers
+ * @property {Promise<unknown>} ready
+ * @property {EventTarget} events `hover`, `select`, `drag`, `connection`, `key`
+ * @property {(robot: RobotState) => void} setRobot
+ * @property {(positions: Record<string, number>) => void} setPositions
+ * @property {() => void} fit
+ * @property {(name: string) => void} view
+ * @property {(link: string) => void} focus
+ * @property {(theme: "dark" | "light") => void} setTheme
+ * @property {(mode: "rviz" | "trackpad") => void} setMouse
+ * @property {(link: string, visible: boolean) => void} setLinkVisible
+ * @property {(link: string, opacity: number) => void} setLinkOpacity
+ * @property {(link: string | null) => void} setHover
+ * @property {(link: string | null) => void} setSelection
+ * @property {(allowed: boolean) => void} [setDragging]
+ */
+
+export const VIEWS = /** @type {const} */ ([
+  "iso",
+  "front",
+  "back",
+  "left",
+  "right",
+  "top",
+  "bottom",
+]);
+
+/** @type {import("vendor/preact.js").Signal<Studio3d | null>} */
+export const viewport = signal(null);
+/** The 3D view has its own connection; false until it stands. */
+export const viewportConnected = signal(false);
+
+const LOOK_AGAIN_MS = 50;
+
+/** @param {HTMLIFrameElement} frame @returns {() => void} the end of it */
+export function attachViewport(frame) {
+  /** @type {(() => void)[]} */
+  let ends = [];
+  const end = () => {
+    for (const one of ends) one();
+    ends = [];
+    viewport.value = null;
+    viewportConnected.value = false;
+  };
+  const begin = async () => {
+    end();
+    const found = await studio3dOf(frame);
+    if (!found) return;
+    viewport.value = found;
+    ends = [...tell(found), listen(found)];
+  };
+  frame.addEventListener("load", begin);
+  return () => {
+    frame.removeEventListener("load", begin);
+    end();
+  };
+}
+
+/** @param {HTMLIFrameElement} frame @returns {Promise<Studio3d | null>} null when the frame moved on */
+async function studio3dOf(frame) {
+  const inside = /** @type {(Window & {studio3d?: Studio3d}) | null} */ (frame.contentWindow);
+  const page = frame.contentDocument;
+  while (frame.isConnected && frame.contentDocument === page) {
+    if (inside?.studio3d) {
+      await inside.studio3d.ready;
+      return frame.contentDocument === page ? inside.studio3d : null;
+    }
+    await new Promise((resolve) => setTimeout(resolve, LOOK_AGAIN_MS));
+  }
+  return null;
+}
+
+/** @param {Studio3d} view @returns {(() => void)[]} the ends of all that keeps it informed */
+function tell(view) {
+  return [
+    effect(() => {
+      if (robot.value) view.setRobot(robot.value);
+    }),
+    effect(() => {
+      const now = movable.value.map(({ name }) => [name, position(name).value]);
+      view.setPositions(Object.fromEntries(now));
+    }),
+    effect(() => view.setTheme(theme.value)),
+    effect(() => view.setMouse(mouseMode.value)),
+    effect(() => view.setHover(hovered.value)),
+    effect(() => view.setSelection(selected.value)),
+    effect(() => view.setDragging?.(mayEdit.value)),
+    tellLinks(view),
+  ];
+}
+
+/** @param {Studio3d} view @returns {() => void} tells only of links whose look changed here */
+function tellLinks(view) {
+  /** @type {Map<string, string>} */
+  let told = new Map();
+  return effect(() => {
+    const now = new Map();
+    for (const link of robot.value?.links.map(({ name }) => name) ?? []) {
+      const visible = !hiddenLinks.value.has(link);
+      const opacity = linkOpacity.value.get(link) ?? 1;
+      const look = `${visible} ${opacity}`;
+      now.set(link, look);
+      if (look === (told.get(link) ?? "true 1")) continue;
+      view.setLinkVisible(link, visible);
+      view.setLinkOpacity(link, opacity);
+    }
+    told = now;
+  });
+}
+
+/** @param {Studio3d} view @returns {() => void} */
+function listen(view) {
+  const stop = new AbortController();
+  /** @param {string} type @param {(detail: any) => void} take */
+  const on = (type, take) =>
+    view.events.addEventListener(type, (event) => take(/** @type {CustomEvent} */ (event).detail), {
+      signal: stop.signal,
+    });
+  on("hover", ({ link }) => {
+    hovered.value = link;
+  });
+  on("select", ({ link }) => {
+    selected.value = link;
+  });
+  on("connection", ({ connected }) => {
+    viewportConnected.value = connected;
+  });
+  on("drag", takeDrag);
+  on("key", (stroke) => {
+    if (isStroke(stroke)) onKey(stroke);
+  });
+  return () => stop.abort();
+}
+
+/** @param {{joint: string, value: number, phase: "start" | "move" | "end" | "cancel"}} drag */
+function takeDrag({ joint, value, phase }) {
+  if (!mayEdit.value || phase === "start") return;
+  moveJoint(joint, value);
+}
+
+/** @param {string} link bring it into view, and into the tree */
+export function focusLink(link) {
+  selected.value = link;
+  viewport.value?.focus(link);
+}

@@ -1,0 +1,127 @@
+/**
+ * The control lane: one websocket for commands and events, opened again by itself whenever it is lost.
+ */
+
+/** @import { Command, Done, Event, Folder, Opened, Refused, Urdf } from "../types/wire.d.ts" */
+
+import { readJointFrame } from "../lib/frames.js";
+import { connection } from "./state/connection.js";
+import { documentId, receive, takeJointFrame } from "./state/document.js";
+
+/** @typedef {Done | Folder | Opened | Urdf} Answer */
+/**
+ * A command without what the lane adds to it.
+ * @template T
+ * @typedef {T extends Command ? Omit<T, "request" | "document"> & {document?: string} : never} Asked
+ */
+
+const RETRY_MS = [250, 500, 1000, 2000, 3000];
+/** Nothing came for so long that the lane is given up: the socket alone may not notice. */
+const GREETING_TIMEOUT_MS = 8000;
+
+/** The studio said no; `kind` is the name of its error. */
+export class RefusedError extends Error {
+  /** @param {Pick<Refused, "kind" | "reason">} refusal */
+  constructor({ kind, reason }) {
+    super(reason);
+    this.kind = kind;
+  }
+}
+
+/** The lane was lost before the answer came. */
+export class LostError extends Error {}
+
+/** @type {Map<number, {resolve: (answer: Answer) => void, reject: (error: Error) => void}>} */
+const waiting = new Map();
+/** @type {WebSocket | null} */
+let socket = null;
+let lastRequest = 0;
+let attempts = 0;
+/** @type {() => void} */
+let whenOpen = () => {};
+
+/** @param {() => void} greet called at every new connection, after the studio's hello */
+export function connect(greet) {
+  whenOpen = greet;
+  open();
+  addEventListener("online", retryNow);
+  addEventListener("visibilitychange", () => {
+    if (!document.hidden) retryNow();
+  });
+}
+
+/**
+ * Ask the studio for something.
+ *
+ * @param {Asked<Command>} command
+ * @returns {Promise<Answer>}
+ * @throws {RefusedError} when the studio says no
+ * @throws {LostError} when it went away meanwhile
+ */
+export function send(command) {
+  if (socket?.readyState !== WebSocket.OPEN) return Promise.reject(new LostError());
+  lastRequest += 1;
+  const request = lastRequest;
+  socket.send(JSON.stringify({ document: documentId.value, ...command, request }));
+  return new Promise((resolve, reject) => waiting.set(request, { resolve, reject }));
+}
+
+/** @type {ReturnType<typeof setTimeout> | undefined} */
+let retryTimer;
+
+function retryNow() {
+  if (connection.value !== "lost" || socket) return;
+  clearTimeout(retryTimer);
+  open();
+}
+
+function open() {
+  const address = new URL("/control", location.href);
+  address.protocol = address.protocol.replace("http", "ws");
+  const opened = new WebSocket(address);
+  socket = opened;
+  opened.binaryType = "arraybuffer";
+  const impatient = setTimeout(() => opened.close(), GREETING_TIMEOUT_MS);
+  opened.onmessage = ({ data }) => {
+    clearTimeout(impatient);
+    take(data);
+  };
+  opened.onclose = () => {
+    clearTimeout(impatient);
+    lose();
+  };
+}
+
+function lose() {
+  socket = null;
+  connection.value = "lost";
+  for (const { reject } of waiting.values()) reject(new LostError());
+  waiting.clear();
+  const delay = RETRY_MS[Math.min(attempts, RETRY_MS.length - 1)];
+  attempts += 1;
+  retryTimer = setTimeout(open, delay);
+}
+
+/** @param {string | ArrayBuffer} data */
+function take(data) {
+  if (typeof data !== "string") {
+    const frame = readJointFrame(data);
+    if (frame) takeJointFrame(frame);
+    return;
+  }
+  const event = /** @type {Event} */ (JSON.parse(data));
+  receive(event);
+  if ("request" in event) answer(event);
+  if (event.type !== "hello") return;
+  attempts = 0;
+  connection.value = "connected";
+  whenOpen();
+}
+
+/** @param {Answer | Refused} event */
+function answer(event) {
+  const asker = waiting.get(event.request);
+  waiting.delete(event.request);
+  if (event.type === "refused") asker?.reject(new RefusedError(event));
+  else asker?.resolve(event);
+}

@@ -1,0 +1,245 @@
+/** The dock: panels in tabs and splits. The one place that knows dockview, so that it can be replaced. */
+
+/** @import { DockviewApi, DockviewGroupPanel, SerializedDockview } from "vendor/dockview.js" */
+
+import { createDockview } from "vendor/dockview.js";
+
+/**
+ * @typedef {object} Panel
+ * @property {() => string} title
+ * @property {boolean} [keepsFrame] holds an iframe, which must never leave the document
+ * @property {(element: HTMLElement) => () => void} mount draws into the element; returns the end of it
+ * @property {(element: HTMLElement) => () => void} mountTab the same for its tab
+ */
+
+/**
+ * Where panels stand: a tree of rows and columns; a leaf holds tabs, the first of which is shown.
+ * @typedef {{tabs: string[], size: number} | {split: Split[], size: number}} Split
+ */
+
+/**
+ * @typedef {object} Dock
+ * @property {(id: string) => void} show bring a panel to the front, opened where it is missing
+ * @property {(id: string) => boolean} isOpen
+ * @property {() => string | null} active
+ * @property {(step: 1 | -1) => void} focusNext
+ * @property {() => void} toggleMaximized the active panel over all others, and back
+ * @property {(row: Split[], stored: unknown) => void} arrange as stored when it fits, else as given
+ * @property {() => unknown} layout what `arrange` takes as stored
+ * @property {(single: boolean) => void} setSingle one panel at a time, without tabs
+ * @property {() => void} relabel titles are said anew
+ */
+
+const THEME = { name: "studio", className: "dockview-theme-studio", gap: 6 };
+
+/**
+ * @param {HTMLElement} element
+ * @param {Record<string, Panel>} panels
+ * @param {{maximizeLabel: () => string, restoreLabel: () => string, onChange: () => void,
+ *   onActive: (id: string | null) => void, icon: (name: string) => Element}} options
+ * @returns {Dock}
+ */
+export function createDock(element, panels, options) {
+  const api = createDockview(element, {
+    theme: THEME,
+    disableFloatingGroups: true,
+    noPanelsOverlay: "watermark",
+    createComponent: ({ name }) => contentOf(panels[name]),
+    createTabComponent: ({ name }) => tabOf(panels[name]),
+    createRightHeaderActionComponent: (group) => maximizeButton(group, options),
+  });
+  let quiet = false;
+  let single = false;
+  api.onDidLayoutChange(() => {
+    if (!quiet && !single) options.onChange();
+  });
+
+  api.onDidActivePanelChange(({ panel }) => options.onActive(panel?.id ?? null));
+
+  /** @param {SerializedDockview} layout */
+  function load(layout) {
+    quiet = true;
+    api.fromJSON(layout, { reuseExistingPanels: true });
+    // dockview tells of changes in a later task; they are not the person's.
+    setTimeout(() => {
+      quiet = false;
+    }, 200);
+    applySingle();
+  }
+
+  function applySingle() {
+    for (const group of api.groups) group.model.header.hidden = single;
+    api.updateOptions({ disableDnd: single });
+  }
+
+  return {
+    show: (id) => show(api, panels, id),
+    isOpen: (id) => api.getPanel(id) !== undefined,
+    active: () => api.activePanel?.id ?? null,
+    focusNext: (step) => focusNext(api, step),
+    toggleMaximized: () => toggleMaximized(api),
+    arrange(row, stored) {
+      if (isLayout(stored, panels)) {
+        try {
+          return load(stored);
+        } catch {
+          // Stored by another version of the page: the given arrangement takes its place.
+        }
+      }
+      return load(serialized(row, element, panels));
+    },
+    layout: () => api.toJSON(),
+    setSingle(on) {
+      single = on;
+      applySingle();
+    },
+    relabel() {
+      for (const panel of api.panels) panel.setTitle(panels[panel.id]?.title() ?? panel.id);
+    },
+  };
+}
+
+/** @param {Panel | undefined} panel */
+function contentOf(panel) {
+  const element = document.createElement("div");
+  element.className = "panel";
+  let end = () => {};
+  return {
+    element,
+    init() {
+      end = panel?.mount(element) ?? end;
+    },
+    dispose: () => end(),
+  };
+}
+
+/** @param {Panel | undefined} panel */
+function tabOf(panel) {
+  const element = document.createElement("div");
+  element.className = "tab";
+  let end = () => {};
+  return {
+    element,
+    init() {
+      end = panel?.mountTab(element) ?? end;
+    },
+    dispose: () => end(),
+  };
+}
+
+/**
+ * @param {DockviewGroupPanel} group
+ * @param {{maximizeLabel: () => string, restoreLabel: () => string, icon: (name: string) => Element}} options
+ */
+function maximizeButton(group, { maximizeLabel, restoreLabel, icon }) {
+  const element = document.createElement("button");
+  element.type = "button";
+  element.className = "icon-button maximize";
+  let listening = { dispose() {} };
+  return {
+    element,
+    /** @param {{containerApi: DockviewApi}} parameters */
+    init({ containerApi }) {
+      const label = () => {
+        const big = group.api.isMaximized();
+        element.replaceChildren(icon(big ? "minimize" : "maximize"));
+        element.title = big ? restoreLabel() : maximizeLabel();
+        element.setAttribute("aria-label", element.title);
+      };
+      label();
+      listening = containerApi.onDidMaximizedGroupChange(label);
+      element.addEventListener("click", () => {
+        if (group.api.isMaximized()) group.api.exitMaximized();
+        else group.api.maximize();
+      });
+    },
+    dispose: () => listening.dispose(),
+  };
+}
+
+/** @param {DockviewApi} api @param {Record<string, Panel>} panels @param {string} id */
+function show(api, panels, id) {
+  const open = api.getPanel(id);
+  if (open) {
+    open.api.setActive();
+    return;
+  }
+  const panel = panels[id];
+  if (!panel) return;
+  const group = api.groups.find(
+    (one) => !one.panels.some(({ id: other }) => panels[other]?.keepsFrame),
+  );
+  api.addPanel({
+    id,
+    component: id,
+    tabComponent: id,
+    title: panel.title(),
+    renderer: panel.keepsFrame ? "always" : "onlyWhenVisible",
+    ...(group ? { position: { referenceGroup: group } } : {}),
+  });
+}
+
+/** @param {DockviewApi} api @param {1 | -1} step focus goes into the shown panel of the next group */
+function focusNext(api, step) {
+  const groups = api.groups.filter((group) => group.api.isVisible);
+  const at = groups.findIndex((group) => group.element.contains(document.activeElement));
+  const from = at < 0 ? groups.findIndex((group) => group.id === api.activeGroup?.id) : at;
+  const group = groups[(from + step + groups.length) % groups.length];
+  group?.activePanel?.api.setActive();
+  /** @type {HTMLElement | null | undefined} */
+  const tab = group?.element.querySelector('[role="tab"][aria-selected="true"], [role="tab"]');
+  tab?.focus();
+}
+
+/** @param {DockviewApi} api */
+function toggleMaximized(api) {
+  if (api.hasMaximizedGroup()) api.exitMaximizedGroup();
+  else api.activePanel?.api.maximize();
+}
+
+/** @param {unknown} stored @param {Record<string, Panel>} panels @returns {stored is SerializedDockview} */
+function isLayout(stored, panels) {
+  if (typeof stored !== "object" || stored === null || !("grid" in stored) || !("panels" in stored))
+    return false;
+  const ids = Object.keys(/** @type {object} */ (stored.panels));
+  const framed = Object.keys(panels).filter((id) => panels[id]?.keepsFrame);
+  return ids.every((id) => id in panels) && framed.every((id) => ids.includes(id));
+}
+
+/**
+ * @param {Split[]} row
+ * @param {HTMLElement} element
+ * @param {Record<string, Panel>} panels
+ * @returns {SerializedDockview} the arrangement in dockview's own words
+ */
+function serialized(row, element, panels) {
+  const width = element.clientWidth || 1200;
+  const height = element.clientHeight || 800;
+  let count = 0;
+  /** @param {Split} part @returns {object} */
+  const node = (part) => {
+    if ("split" in part) return { type: "branch", size: part.size, data: part.split.map(node) };
+    count += 1;
+    const data = { id: String(count), views: part.tabs, activeView: part.tabs[0] };
+    return { type: "leaf", size: part.size, data };
+  };
+  const root = { type: "branch", size: height, data: row.map(node) };
+  const used = row.flatMap(tabsOf);
+  const layout = {
+    grid: { root, width, height, orientation: "HORIZONTAL" },
+    panels: Object.fromEntries(used.map((id) => [id, described(id, panels)])),
+    activeGroup: "1",
+  };
+  return /** @type {SerializedDockview} */ (/** @type {unknown} */ (layout));
+}
+
+/** @param {string} id @param {Record<string, Panel>} panels */
+function described(id, panels) {
+  const renderer = panels[id]?.keepsFrame ? "always" : "onlyWhenVisible";
+  return { id, contentComponent: id, tabComponent: id, title: panels[id]?.title() ?? id, renderer };
+}
+
+/** @param {Split} part @returns {string[]} */
+function tabsOf(part) {
+  return "split" in part ? part.split.flatMap(tabsOf) : part.tabs;
+}

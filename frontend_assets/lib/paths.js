@@ -1,0 +1,34 @@
+/** Paths as people read them: short, against the folder that the document lies in. */
+
+/** @param {string} path @returns {string} the last part */
+export function baseName(path) {
+  return (
+    path
+      .replace(/[/\\]+$/, "")
+      .split(/[/\\]/)
+      .at(-1) ?? path
+  );
+}
+
+/** @param {string} path @param {string} root @returns {string} below the root without it, else as it is */
+export function shortPath(path, root) {
+  const folder = root.replace(/[/\\]+$/, "");
+  const inside =
+    folder !== "" && path.startsWith(folder) && /[/\\]/.test(path[folder.length] ?? "");
+  return inside ? path.slice(folder.length + 1) : path;
+}
+
+/**
+ * @param {{file: string, line: number, column?: number} | null} place
+ * @returns {string} `name.xacro:12`, as far as it is known
+ */
+export function placeText(place) {
+  if (!place?.file) return "";
+  return place.line ? `${baseName(place.file)}:${place.line}` : baseName(place.file);
+}
+
+/** @param {string} pathname @returns {string} id of the document that the page's address names */
+export function documentOf(pathname) {
+  const found = /^\/d\/([^/]+)/.exec(pathname);
+  return found?.[1] ? decodeURIComponent(found[1]) : "";
+}

@@ -1,0 +1,73 @@
+/** Sites as lists: which are shown, under which file and heading, in pieces small enough to draw. */
+
+/** @import { SiteView } from "../types/wire.d.ts" */
+
+/**
+ * @typedef {{words: string, kinds: ReadonlySet<string>, owners: ReadonlySet<string> | null}} SiteFilter
+ * @typedef {{key: string, group: string, file: string, sites: string[]}} SiteGroup
+ */
+
+export const KINDS = /** @type {const} */ (["arg", "property", "yaml", "param_default", "literal"]);
+const PIECE = 24;
+
+/** @param {SiteView} site @returns {boolean} the file on disk says something else */
+export function isChanged(site) {
+  return site.saved_text !== null && site.saved_text !== site.text;
+}
+
+/** @param {SiteView} site @param {string} words lower case, all must be found @returns {boolean} */
+export function matchesWords(site, words) {
+  const heap = `${site.name} ${site.group} ${site.text} ${site.widget.help}`.toLowerCase();
+  return words.split(/\s+/).every((word) => heap.includes(word));
+}
+
+/** @param {SiteView} site @param {SiteFilter} filter @returns {boolean} */
+export function isShown(site, { words, kinds, owners }) {
+  if (owners ? !owners.has(site.owner) : !kinds.has(site.kind)) return false;
+  return words === "" || matchesWords(site, words.toLowerCase());
+}
+
+/**
+ * @param {readonly string[]} order
+ * @param {ReadonlyMap<string, SiteView>} sites
+ * @param {SiteFilter} filter
+ * @returns {SiteGroup[]} runs of one file and group, in the order of the file list, then by first sight
+ */
+export function groupSites(order, sites, filter) {
+  /** @type {Map<string, Map<string, string[]>>} */
+  const files = new Map();
+  for (const id of order) {
+    const site = sites.get(id);
+    if (!site || !isShown(site, filter)) continue;
+    /** @type {Map<string, string[]>} */
+    const groups = files.get(site.file) ?? new Map();
+    files.set(site.file, groups);
+    const ids = groups.get(site.group);
+    if (ids) ids.push(id);
+    else groups.set(site.group, [id]);
+  }
+  return [...files].flatMap(([file, groups]) =>
+    [...groups].map(([group, ids]) => ({ key: `${file}\n${group}`, file, group, sites: ids })),
+  );
+}
+
+/** @param {readonly string[]} ids @returns {string[][]} pieces that are drawn when they come into view */
+export function inPieces(ids) {
+  return Array.from({ length: Math.ceil(ids.length / PIECE) }, (_, n) =>
+    ids.slice(n * PIECE, (n + 1) * PIECE),
+  );
+}
+
+/**
+ * @param {readonly string[]} order
+ * @param {ReadonlyMap<string, SiteView>} sites
+ * @returns {Map<string, number>} how many sites there are of each kind that occurs
+ */
+export function countKinds(order, sites) {
+  const counts = new Map();
+  for (const id of order) {
+    const kind = sites.get(id)?.kind;
+    if (kind) counts.set(kind, (counts.get(kind) ?? 0) + 1);
+  }
+  return counts;
+}

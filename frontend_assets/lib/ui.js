@@ -1,0 +1,267 @@
+/** Small parts that every panel is made of. */
+
+import { ICONS } from "vendor/icons.js";
+import { html, useEffect, useId, useRef } from "vendor/preact.js";
+
+/** @import { ComponentChildren } from "vendor/preact.js" */
+
+/** @param {{name: string, size?: number}} props */
+export function Icon({ name, size = 16 }) {
+  const shapes = ICONS[name] ?? [];
+  return html`<svg class="icon" width=${size} height=${size} viewBox="0 0 24 24" aria-hidden="true">
+    ${shapes.map(([tag, attributes]) => html`<${tag} ...${attributes} />`)}
+  </svg>`;
+}
+
+/**
+ * @typedef {object} IconButtonProps
+ * @property {string} icon
+ * @property {string} label its accessible name and tooltip
+ * @property {string} [hint] longer tooltip
+ * @property {(event: MouseEvent) => void} onClick
+ * @property {boolean} [disabled]
+ * @property {boolean} [pressed] set on switches only
+ * @property {string} [class]
+ * @property {number} [size]
+ */
+
+/** @param {IconButtonProps} props */
+export function IconButton({ icon, label, hint, onClick, disabled, pressed, class: names, size }) {
+  return html`<button type="button" class=${`icon-button ${names ?? ""}`} aria-label=${label}
+    title=${hint ?? label} disabled=${disabled} aria-pressed=${pressed} onClick=${onClick}>
+    <${Icon} name=${icon} size=${size} />
+  </button>`;
+}
+
+/** @param {{label: string, value: string, onInput: (value: string) => void}} props */
+export function SearchBox({ label, value, onInput }) {
+  /** @param {KeyboardEvent} event */
+  const clearOnEscape = (event) => {
+    if (event.key !== "Escape" || value === "") return;
+    event.stopPropagation();
+    onInput("");
+  };
+  return html`<label class="search">
+    <${Icon} name="search" />
+    <input type="search" placeholder=${label} aria-label=${label} value=${value} spellcheck=${false}
+      onInput=${(/** @type {any} */ event) => onInput(event.currentTarget.value)} onKeyDown=${clearOnEscape} />
+  </label>`;
+}
+
+/** @param {{label: string, checked: boolean, disabled?: boolean, onChange: (checked: boolean) => void}} props */
+export function Switch({ label, checked, disabled, onChange }) {
+  return html`<button type="button" role="switch" class="switch" aria-checked=${checked} aria-label=${label}
+    disabled=${disabled} onClick=${() => onChange(!checked)}><span class="knob"></span></button>`;
+}
+
+/** @param {{icon: string, title: string, children?: ComponentChildren}} props what is missing, and what to do */
+export function EmptyState({ icon, title, children }) {
+  return html`<div class="empty">
+    <${Icon} name=${icon} size=${28} />
+    <p>${title}</p>
+    ${children}
+  </div>`;
+}
+
+/** @param {{label: string, done: number, total: number}} props */
+export function ProgressBar({ label, done, total }) {
+  const share = total > 0 ? Math.min(done / total, 1) : null;
+  return html`<div class=${`progress ${share === null ? "unknown" : ""}`} role="progressbar" aria-label=${label}
+    aria-valuemin=${0} aria-valuemax=${total > 0 ? total : null} aria-valuenow=${share === null ? null : done}>
+    <span style=${share === null ? "" : `width:${(share * 100).toFixed(1)}%`}></span>
+  </div>`;
+}
+
+/**
+ * @typedef {object} MenuItem
+ * @property {string} label
+ * @property {() => void} [run]
+ * @property {string} [icon]
+ * @property {string} [hint] shown small at the right
+ * @property {boolean} [checked] a tick: one of several choices
+ * @property {boolean} [disabled]
+ * @property {boolean} [heading] a line of text, no choice
+ */
+
+/**
+ * A button that opens a list of choices: arrow keys, Escape, and a click elsewhere as usual.
+ *
+ * @param {{label: string, class?: string, items: () => MenuItem[], disabled?: boolean, hint?: string,
+ *   children: ComponentChildren}} props
+ */
+export function MenuButton({ label, class: names, items, disabled, hint, children }) {
+  const menu = useRef(/** @type {MenuHandle | null} */ (null));
+  useEffect(() => () => menu.current?.close(), []);
+  /** @param {MouseEvent} event */
+  const toggle = (event) => {
+    const button = /** @type {HTMLElement} */ (event.currentTarget);
+    if (button.getAttribute("aria-expanded") === "true") menu.current?.close();
+    else menu.current = openMenu(button, label, items());
+  };
+  return html`<button type="button" class=${names ?? "icon-button"} aria-label=${label} title=${hint ?? label}
+    aria-haspopup="menu" aria-expanded="false" disabled=${disabled} onClick=${toggle}>${children}</button>`;
+}
+
+/** @typedef {{close: () => void}} MenuHandle */
+
+/**
+ * Open a menu under a button, in the top layer: no panel cuts it off.
+ *
+ * @param {HTMLElement} button
+ * @param {string} label
+ * @param {MenuItem[]} items
+ * @returns {MenuHandle}
+ */
+export function openMenu(button, label, items) {
+  const element = document.createElement("div");
+  element.className = "menu";
+  element.setAttribute("role", "menu");
+  element.setAttribute("aria-label", label);
+  element.setAttribute("popover", "manual");
+  const stop = new AbortController();
+  let open = true;
+  const close = () => {
+    if (!open) return;
+    open = false;
+    stop.abort();
+    const hadFocus = element.contains(document.activeElement);
+    element.remove();
+    button.setAttribute("aria-expanded", "false");
+    if (hadFocus && button.isConnected) button.focus();
+  };
+  element.append(...items.map((item) => menuEntry(item, close)));
+  // Inside a modal dialog everything outside of it is inert, top layer or not.
+  (button.closest("dialog") ?? document.body).append(element);
+  element.showPopover();
+  place(element, button.getBoundingClientRect());
+  button.setAttribute("aria-expanded", "true");
+  listenForEnd(element, button, close, stop.signal);
+  entries(element)[0]?.focus();
+  return { close };
+}
+
+/** @param {MenuItem} item @param {() => void} close @returns {HTMLElement} */
+function menuEntry(item, close) {
+  const entry = document.createElement(item.heading ? "div" : "button");
+  entry.className = item.heading ? "menu-heading" : "menu-item";
+  const text = document.createElement("span");
+  text.textContent = item.label;
+  entry.append(tick(item), text);
+  if (item.hint) {
+    const hint = document.createElement("kbd");
+    hint.textContent = item.hint;
+    entry.append(hint);
+  }
+  if (entry instanceof HTMLButtonElement) {
+    entry.type = "button";
+    entry.disabled = item.disabled ?? false;
+    entry.setAttribute("role", item.checked === undefined ? "menuitem" : "menuitemradio");
+    if (item.checked !== undefined) entry.setAttribute("aria-checked", String(item.checked));
+    entry.addEventListener("click", () => {
+      close();
+      item.run?.();
+    });
+  }
+  return entry;
+}
+
+/** @param {MenuItem} item @returns {HTMLElement | string} its icon, or the tick of a choice */
+function tick(item) {
+  if (item.heading) return "";
+  const name = item.checked === undefined ? item.icon : item.checked ? "check" : undefined;
+  const slot = document.createElement("span");
+  slot.className = "menu-icon";
+  if (name) slot.append(iconElement(name));
+  return slot;
+}
+
+/** @param {string} name @returns {SVGElement} the icon for places that Preact does not draw */
+export function iconElement(name) {
+  const space = "http://www.w3.org/2000/svg";
+  const svg = document.createElementNS(space, "svg");
+  for (const [key, value] of Object.entries({
+    class: "icon",
+    width: "16",
+    height: "16",
+    viewBox: "0 0 24 24",
+    "aria-hidden": "true",
+  })) {
+    svg.setAttribute(key, value);
+  }
+  for (const [tag, attributes] of ICONS[name] ?? []) {
+    const shape = document.createElementNS(space, tag);
+    for (const [key, value] of Object.entries(attributes)) shape.setAttribute(key, value);
+    svg.append(shape);
+  }
+  return svg;
+}
+
+/** @param {HTMLElement} element @param {DOMRect} anchor below it, above when there is no room */
+function place(element, anchor) {
+  const { width, height } = element.getBoundingClientRect();
+  const left = Math.max(8, Math.min(anchor.left, innerWidth - width - 8));
+  const below = anchor.bottom + 4;
+  const top = below + height > innerHeight - 8 ? Math.max(8, anchor.top - height - 4) : below;
+  element.style.left = `${left}px`;
+  element.style.top = `${top}px`;
+}
+
+/** @param {HTMLElement} menu @returns {HTMLButtonElement[]} */
+function entries(menu) {
+  return [...menu.querySelectorAll("button")].filter((entry) => !entry.disabled);
+}
+
+/** @param {HTMLElement} menu @param {HTMLElement} button @param {() => void} close @param {AbortSignal} signal */
+function listenForEnd(menu, button, close, signal) {
+  menu.addEventListener("keydown", (event) => onMenuKey(menu, event, close), { signal });
+  document.addEventListener(
+    "pointerdown",
+    (event) => {
+      const at = /** @type {Node} */ (event.target);
+      if (!menu.contains(at) && !button.contains(at)) close();
+    },
+    { signal, capture: true },
+  );
+  // A click into the 3D view's frame reaches this document only as a loss of focus.
+  addEventListener("blur", close, { signal });
+  addEventListener("resize", close, { signal });
+}
+
+/** @param {HTMLElement} menu @param {KeyboardEvent} event @param {() => void} close */
+function onMenuKey(menu, event, close) {
+  const all = entries(menu);
+  const at = all.indexOf(/** @type {HTMLButtonElement} */ (document.activeElement));
+  /** @type {Record<string, number>} */
+  const moves = { ArrowDown: at + 1, ArrowUp: at - 1 + all.length, Home: 0, End: all.length - 1 };
+  const to = moves[event.key];
+  if (to !== undefined) all[to % all.length]?.focus();
+  else if (event.key === "Escape" || event.key === "Tab") close();
+  else return;
+  event.preventDefault();
+  event.stopPropagation();
+}
+
+/**
+ * A modal window. Escape and a click beside it close it.
+ *
+ * @param {{title: string, closeLabel: string, class?: string, onClose: () => void, children: ComponentChildren}} props
+ */
+export function Dialog({ title, closeLabel, class: names, onClose, children }) {
+  const element = useRef(/** @type {HTMLDialogElement | null} */ (null));
+  const heading = useId();
+  useEffect(() => {
+    element.current?.showModal();
+  }, []);
+  /** @param {MouseEvent} event */
+  const closeBeside = (event) => {
+    if (event.target === element.current) onClose();
+  };
+  return html`<dialog ref=${element} class=${`dialog ${names ?? ""}`} aria-labelledby=${heading}
+    onCancel=${onClose} onClick=${closeBeside}>
+    <div class="dialog-body">
+      <header><h2 id=${heading}>${title}</h2>
+        <${IconButton} icon="close" label=${closeLabel} class="dialog-close" onClick=${onClose} /></header>
+      ${children}
+    </div>
+  </dialog>`;
+}

@@ -1,0 +1,113 @@
+/** One slider per joint that moves. A drag only asks; the position shown is the studio's answer. */
+
+/** @import { JointView } from "../types/wire.d.ts" */
+
+import { html, useSignal } from "vendor/preact.js";
+import {
+  jointsSettled,
+  moveJoint,
+  randomizeJoints,
+  toggleAnimation,
+  zeroJoints,
+} from "../app/actions.js";
+import { mayEdit } from "../app/state/connection.js";
+import { animating, movable, position, robot } from "../app/state/document.js";
+import { degrees, hovered, selected } from "../app/state/view.js";
+import { t } from "../lib/i18n.js";
+import { rangeOf, unitsOf } from "../lib/joints.js";
+import { formatNumber, parseNumber } from "../lib/numbers.js";
+import { Slider, TextBox } from "../lib/slider.js";
+import { EmptyState, Icon, SearchBox } from "../lib/ui.js";
+
+export function JointsPanel() {
+  const filter = useSignal("");
+  const words = filter.value.trim().toLowerCase();
+  const shown = movable.value.filter(({ name }) => name.toLowerCase().includes(words));
+  return html`<section class="panel-body" aria-label=${t("panel.joints")}>
+    <div class="panel-bar">
+      <${SearchBox} label=${t("joints.filter")} value=${filter.value} onInput=${(
+        /** @type {string} */ text,
+      ) => {
+        filter.value = text;
+      }} />
+      <${JointActions} />
+    </div>
+    <div class="scroll">
+      ${shown.map((joint) => html`<${JointRow} key=${joint.name} joint=${joint} />`)}
+      ${shown.length === 0 && html`<${Nothing} words=${filter.value.trim()} />`}
+    </div>
+  </section>`;
+}
+
+/** @param {{words: string}} props */
+function Nothing({ words }) {
+  if (!robot.value) return null;
+  const title = words ? t("filter.nothing", { words }) : t("joints.none");
+  return html`<${EmptyState} icon="joints" title=${title} />`;
+}
+
+function JointActions() {
+  const off = !mayEdit.value || movable.value.length === 0;
+  const toggleUnit = () => {
+    degrees.value = !degrees.value;
+  };
+  return html`<div class="actions">
+    <button type="button" class="button small" disabled=${off} onClick=${zeroJoints}><${Icon} name="zero" size=${14} />${t("joints.zero")}</button>
+    <button type="button" class="button small" disabled=${off} onClick=${randomizeJoints}><${Icon} name="random" size=${14} />${t("joints.random")}</button>
+    <button type="button" class="button small" aria-pressed=${animating.value} disabled=${off} onClick=${toggleAnimation}>
+      <${Icon} name=${animating.value ? "stop" : "animate"} size=${14} />${t(animating.value ? "joints.stop" : "joints.animate")}</button>
+    <button type="button" class="button small units" onClick=${toggleUnit} aria-label=${t(degrees.value ? "angles.to_radians" : "angles.to_degrees")}
+      title=${t(degrees.value ? "angles.to_radians" : "angles.to_degrees")}>${degrees.value ? "°" : "rad"}</button>
+  </div>`;
+}
+
+/** @param {{joint: JointView}} props */
+function JointRow({ joint }) {
+  const follows = joint.mimic !== "";
+  const chosen = selected.value === joint.child;
+  return html`<div class=${`property joint ${chosen ? "chosen" : ""} ${follows ? "follows" : ""}`} role="group" aria-label=${joint.name}
+    onPointerEnter=${() => {
+      hovered.value = joint.child;
+    }} onPointerLeave=${() => {
+      hovered.value = null;
+    }}>
+    <div class="property-head">
+      <span class="property-name" title=${jointHint(joint)}>${joint.name}</span>
+      <${JointBox} joint=${joint} />
+    </div>
+    <${JointSlider} joint=${joint} />
+    ${follows && html`<p class="note"><${Icon} name="link" size=${12} />${t("joint.follows", { name: joint.mimic })}</p>`}
+  </div>`;
+}
+
+/** @param {JointView} joint @returns {string} */
+function jointHint({ name, type, parent, child }) {
+  return `${name}\n${t(`joint.${type}`)}: ${parent} → ${child}`;
+}
+
+/** @param {{joint: JointView}} props */
+function JointBox({ joint }) {
+  const { unit, show, take, step } = unitsOf(joint, degrees.value);
+  const value = show(position(joint.name).value);
+  const off = !mayEdit.value || joint.mimic !== "";
+  /** @param {string} typed */
+  const onWrite = (typed) => {
+    const number = parseNumber(typed);
+    if (number !== null) moveJoint(joint.name, take(number));
+  };
+  return html`<${TextBox} class="number" label=${joint.name} text=${value.toFixed(unit === "°" ? 1 : 3)} number=${value} step=${step}
+      disabled=${off} onWrite=${onWrite} />
+    <span class="unit">${unit}</span>`;
+}
+
+/** @param {{joint: JointView}} props */
+function JointSlider({ joint }) {
+  const { lower, upper, limited } = rangeOf(joint);
+  const { unit, show, take, step } = unitsOf(joint, degrees.value);
+  const value = show(position(joint.name).value);
+  const end = (/** @type {number} */ limit) => `${formatNumber(show(limit), unit === "°" ? 4 : 3)}`;
+  return html`<${Slider} label=${t("joint.slider", { name: joint.name })} min=${show(lower)} max=${show(upper)} step=${step}
+      value=${value} text=${`${formatNumber(value, 4)} ${unit}`} disabled=${!mayEdit.value || joint.mimic !== ""}
+      onMove=${(/** @type {number} */ moved) => moveJoint(joint.name, take(moved))} onEnd=${jointsSettled} />
+    <div class="limits"><span>${end(lower)}</span><span>${limited ? "" : t("joint.unlimited")}</span><span>${end(upper)}</span></div>`;
+}

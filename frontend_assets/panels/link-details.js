@@ -1,0 +1,50 @@
+/** What is known of the selected link, below the tree; its opacity is this person's own. */
+
+import { html } from "vendor/preact.js";
+import { commandById } from "../app/commands.js";
+import { documentState, robot } from "../app/state/document.js";
+import { fadeLink, linkOpacity, onlySelected, selected } from "../app/state/view.js";
+import { focusLink } from "../app/viewport.js";
+import { t } from "../lib/i18n.js";
+import { formatNumber } from "../lib/numbers.js";
+import { baseName, placeText, shortPath } from "../lib/paths.js";
+import { IconButton } from "../lib/ui.js";
+
+export function LinkDetails() {
+  const link = robot.value?.links.find(({ name }) => name === selected.value);
+  if (!link) return null;
+  const joint = robot.value?.joints.find(({ child }) => child === link.name);
+  const close = () => {
+    selected.value = null;
+  };
+  return html`<aside class="details" aria-label=${t("link.details", { name: link.name })}>
+    <header><strong title=${link.name}>${link.name}</strong>
+      <${IconButton} icon="fit" label=${t("link.focus")} onClick=${() => focusLink(link.name)} />
+      <${IconButton} icon="properties" label=${t("link.values")} onClick=${showValues} />
+      <${IconButton} icon="close" label=${t("link.deselect")} onClick=${close} />
+    </header>
+    <dl>
+      ${joint && html`<dt>${t("link.joint")}</dt><dd>${joint.name} <span class="muted">${t(`joint.${joint.type}`)}</span></dd>`}
+      ${joint?.mimic && html`<dt>${t("joint.mimic")}</dt><dd>${joint.mimic}</dd>`}
+      <dt>${t("link.mass")}</dt><dd>${link.mass_kg === null ? t("link.no_inertia") : `${formatNumber(link.mass_kg, 5)} kg`}</dd>
+      <dt>${t("link.shapes")}</dt><dd>${t("link.shapes.text", { visuals: link.visuals, collisions: link.collisions })}</dd>
+      ${link.meshes.length > 0 && html`<dt>${t("link.meshes")}</dt><dd>${link.meshes.map((uri) => html`<span class="line" title=${uri}>${baseName(uri)}</span>`)}</dd>`}
+      ${link.file && html`<dt>${t("link.place")}</dt><dd title=${shortPath(link.file, documentState.value?.root ?? "")}>${placeText(link)}</dd>`}
+      ${link.macros.length > 0 && html`<dt>${t("link.macros")}</dt><dd>${link.macros.join(" › ")}</dd>`}
+      <dt>${t("link.opacity")}</dt><dd><${Opacity} link=${link.name} /></dd>
+    </dl>
+  </aside>`;
+}
+
+function showValues() {
+  onlySelected.value = true;
+  commandById("panel.properties")?.run();
+}
+
+/** @param {{link: string}} props */
+function Opacity({ link }) {
+  const value = linkOpacity.value.get(link) ?? 1;
+  return html`<input type="range" class="slider" min="0" max="1" step="0.05" value=${value} style=${`--fill:${value * 100}%`}
+    aria-label=${t("link.opacity.of", { name: link })} title=${t("only_here")}
+    onInput=${(/** @type {any} */ event) => fadeLink(link, Number(event.currentTarget.value))} />`;
+}

@@ -1,0 +1,209 @@
+/** Every text of the files that can be turned: arguments, properties, YAML values and literals. */
+
+/** @import { SiteGroup } from "../lib/sites.js" */
+
+import { html, useEffect, useRef, useSignal, useState } from "vendor/preact.js";
+import {
+  allSites,
+  documentState,
+  robot,
+  site,
+  siteOrder,
+  sitesRevision,
+} from "../app/state/document.js";
+import { onlySelected, propertyFilter, selected, soughtSite } from "../app/state/view.js";
+import { t } from "../lib/i18n.js";
+import { baseName, shortPath } from "../lib/paths.js";
+import { remembered } from "../lib/remembered.js";
+import { countKinds, groupSites, inPieces, KINDS } from "../lib/sites.js";
+import { EmptyState, Icon, SearchBox } from "../lib/ui.js";
+import { PropertyRow } from "./property-row.js";
+
+/** @type {import("vendor/preact.js").Signal<string[]>} */
+const hiddenKinds = remembered("kinds.hidden", ["literal"], Array.isArray);
+const ROW_PX = 58;
+
+export function PropertiesPanel() {
+  const folded = useSignal(/** @type {ReadonlySet<string>} */ (new Set()));
+  sitesRevision.value;
+  const sites = allSites();
+  const counts = countKinds(siteOrder.value, sites);
+  const filter = currentFilter(counts);
+  const groups = groupSites(siteOrder.value, sites, filter);
+  useSought(folded);
+  /** @param {string} key */
+  const toggle = (key) => {
+    const now = new Set(folded.value);
+    if (!now.delete(key)) now.add(key);
+    folded.value = now;
+  };
+  return html`<section class="panel-body" aria-label=${t("panel.properties")}>
+    <div class="panel-bar">
+      <${SearchBox} label=${t("properties.filter")} value=${propertyFilter.value} onInput=${(
+        /** @type {string} */ text,
+      ) => {
+        propertyFilter.value = text;
+      }} />
+      <${KindChips} counts=${counts} />
+      <${SelectionChip} />
+    </div>
+    <div class="scroll">
+      ${groups.map(
+        (
+          group,
+        ) => html`<${Group} key=${group.key} group=${group} folded=${folded.value.has(group.key)}
+        onToggle=${() => toggle(group.key)} />`,
+      )}
+      ${groups.length === 0 && html`<${Nothing} counts=${counts} />`}
+    </div>
+  </section>`;
+}
+
+/** @param {ReadonlyMap<string, number>} counts @returns {import("../lib/sites.js").SiteFilter} */
+function currentFilter(counts) {
+  return {
+    words: propertyFilter.value.trim(),
+    kinds: shownKinds(counts),
+    owners: selectionOwners(),
+  };
+}
+
+/** @param {ReadonlyMap<string, number>} counts @returns {ReadonlySet<string>} never none, when there is one */
+function shownKinds(counts) {
+  const present = KINDS.filter((kind) => counts.has(kind));
+  const wanted = present.filter((kind) => !hiddenKinds.value.includes(kind));
+  return new Set(wanted.length > 0 ? wanted : present);
+}
+
+/** @returns {ReadonlySet<string> | null} the selected link and the joint above it; null: no such filter */
+function selectionOwners() {
+  if (!onlySelected.value || !selected.value) return null;
+  const joint = robot.value?.joints.find(({ child }) => child === selected.value);
+  return new Set([`link:${selected.value}`, ...(joint ? [`joint:${joint.name}`] : [])]);
+}
+
+/** @param {{counts: ReadonlyMap<string, number>}} props */
+function KindChips({ counts }) {
+  const present = KINDS.filter((kind) => counts.has(kind));
+  if (present.length < 2) return null;
+  const shown = shownKinds(counts);
+  /** @param {string} kind */
+  const toggle = (kind) => {
+    const now = present.filter((one) => (one === kind ? !shown.has(one) : shown.has(one)));
+    if (now.length > 0)
+      hiddenKinds.value = KINDS.filter((one) =>
+        counts.has(one) ? !now.includes(one) : hiddenKinds.value.includes(one),
+      );
+  };
+  return html`<div class="chips" role="group" aria-label=${t("properties.kinds")}>
+    ${present.map(
+      (kind) => html`<button key=${kind} type="button" class="chip" aria-pressed=${shown.has(kind)}
+      title=${t(`kind.${kind}.hint`)} onClick=${() => toggle(kind)}>
+      ${t(`kind.${kind}`)} <span class="numbers">${counts.get(kind)}</span></button>`,
+    )}
+  </div>`;
+}
+
+function SelectionChip() {
+  if (!selected.value) return null;
+  const toggle = () => {
+    onlySelected.value = !onlySelected.value;
+  };
+  return html`<button type="button" class="chip selection" aria-pressed=${onlySelected.value} onClick=${toggle}>
+    <${Icon} name="box" size=${13} />${t("properties.only", { name: selected.value })}</button>`;
+}
+
+/** @param {{counts: ReadonlyMap<string, number>}} props */
+function Nothing({ counts }) {
+  const words = propertyFilter.value.trim();
+  if (siteOrder.value.length === 0) {
+    return robot.value
+      ? html`<${EmptyState} icon="properties" title=${t("properties.none")} />`
+      : null;
+  }
+  const everywhere = new Set(KINDS);
+  const others = groupSites(siteOrder.value, allSites(), {
+    words,
+    kinds: everywhere,
+    owners: null,
+  });
+  const count = others.reduce((sum, group) => sum + group.sites.length, 0);
+  const show = () => {
+    hiddenKinds.value = [];
+    onlySelected.value = false;
+  };
+  const title = words ? t("filter.nothing", { words }) : t("properties.none_here");
+  return html`<${EmptyState} icon="search" title=${title}>
+    ${count > 0 && counts.size > 0 && html`<button type="button" class="button" onClick=${show}>${t("properties.elsewhere", { count })}</button>`}
+  <//>`;
+}
+
+/** @param {{group: SiteGroup, folded: boolean, onToggle: () => void}} props */
+function Group({ group, folded, onToggle }) {
+  const root = documentState.value?.root ?? "";
+  const readOnly = documentState.value?.read_only.includes(group.file);
+  const name = group.group || baseName(group.file);
+  return html`<section class="group" aria-label=${name}>
+    <h3><button type="button" aria-expanded=${!folded} onClick=${onToggle}>
+      <${Icon} name=${folded ? "chevronRight" : "chevronDown"} size=${13} />
+      <span class="group-name">${name}</span>
+      <span class="group-file" title=${shortPath(group.file, root)}>
+        ${readOnly && html`<${Icon} name="lock" size=${11} />`}${folded ? group.sites.length : group.group ? baseName(group.file) : ""}</span>
+    </button></h3>
+    ${!folded && inPieces(group.sites).map((ids) => html`<${Piece} key=${ids[0]} ids=${ids} />`)}
+  </section>`;
+}
+
+/** Rows that are drawn while they are near the view: a robot may have thousands. @param {{ids: string[]}} props */
+function Piece({ ids }) {
+  const element = useRef(/** @type {HTMLElement | null} */ (null));
+  const [near, setNear] = useState(false);
+  const height = useRef(ids.length * ROW_PX);
+  const sought = soughtSite.value !== null && ids.includes(soughtSite.value);
+  useEffect(() => {
+    const piece = element.current;
+    if (!piece) return undefined;
+    const watcher = new IntersectionObserver(
+      ([entry]) => {
+        if (!entry) return;
+        if (!entry.isIntersecting) height.current = piece.offsetHeight;
+        setNear(entry.isIntersecting || piece.contains(document.activeElement));
+      },
+      { root: piece.closest(".scroll"), rootMargin: "500px 0px" },
+    );
+    watcher.observe(piece);
+    return () => watcher.disconnect();
+  }, []);
+  const drawn = near || sought;
+  return html`<div ref=${element} style=${drawn ? "" : `height:${height.current}px`}>
+    ${
+      drawn &&
+      ids.map((id) => {
+        const one = site(id);
+        return one && html`<${PropertyRow} key=${id} site=${one} />`;
+      })
+    }
+  </div>`;
+}
+
+/** Brings a property into view that another part of the page asked for. @param {{value: ReadonlySet<string>}} folded */
+function useSought(folded) {
+  const id = soughtSite.value;
+  useEffect(() => {
+    if (!id) return;
+    folded.value = new Set();
+    const kind = site(id)?.peek().kind;
+    hiddenKinds.value = hiddenKinds.value.filter((one) => one !== kind);
+    // Two frames: the filter draws anew, then the piece that holds the row.
+    requestAnimationFrame(() =>
+      requestAnimationFrame(() => {
+        const row = document.querySelector(`[data-site="${CSS.escape(id)}"]`);
+        row?.scrollIntoView({ block: "center" });
+        /** @type {HTMLElement | null | undefined} */ (
+          row?.querySelector("input, select, button")
+        )?.focus();
+        soughtSite.value = null;
+      }),
+    );
+  }, [id]);
+}

@@ -1,0 +1,229 @@
+/** The widgets that turn a property: box and slider, switch, choice, vector, expression, text. */
+
+/** @import { SiteView } from "../types/wire.d.ts" */
+/** @import { Writer } from "./property-row.js" */
+
+import { html } from "vendor/preact.js";
+import { mayEdit } from "../app/state/connection.js";
+import { degrees } from "../app/state/view.js";
+import { isExpression, shownText, splitVector, writtenText } from "../lib/expressions.js";
+import { t } from "../lib/i18n.js";
+import { formatNumber, niceStep, parseNumber, toDegrees, toRadians } from "../lib/numbers.js";
+import { Slider, TextBox } from "../lib/slider.js";
+import { Switch } from "../lib/ui.js";
+
+/**
+ * @typedef {object} EditorProps
+ * @property {"head" | "below"} part beside the name, or below it
+ * @property {SiteView} site
+ * @property {string} text what is edited: the site's, or the argument that was passed
+ * @property {Writer} writer
+ * @property {boolean} invalid
+ */
+
+/** @param {EditorProps} props */
+export function Editor(props) {
+  const kind = editorOf(props.site, props.text);
+  const drawn = EDITORS[kind][props.part];
+  return drawn ? html`<${drawn} ...${props} />` : null;
+}
+
+/** @param {SiteView} site @param {string} text @returns {keyof typeof EDITORS} */
+function editorOf({ widget }, text) {
+  if (widget.kind === "vector" && splitVector(text).length > 1) return "vector";
+  if (isExpression(text)) return "expression";
+  if (widget.kind === "switch" && isTruthWord(text)) return "switch";
+  if (widget.kind === "choice" && widget.choices.length > 0) return "choice";
+  return widget.kind === "slider" && parseNumber(text) !== null ? "number" : "text";
+}
+
+/** @param {string} text */
+const isTruthWord = (text) => /^(true|false|0|1)$/i.test(text.trim());
+
+/** @param {SiteView} site @returns {boolean} the file computes `${...}`, and a number is wanted */
+const wraps = ({ kind, widget }) => kind !== "yaml" && ["slider", "vector"].includes(widget.kind);
+
+/** @param {Writer} writer @param {string} text @param {boolean} [stepped] more of the same gesture may follow */
+function write(writer, text, stepped = false) {
+  writer.write(text);
+  if (!stepped) writer.end();
+}
+
+/** @param {SiteView} site @returns {boolean} it is shown in degrees */
+const inDegrees = ({ widget }) => widget.unit === "rad" && degrees.value;
+
+/**
+ * @param {SiteView} site
+ * @param {number} value in the file's unit
+ * @returns {{lower: number, upper: number, step: number, value: number, toFile: (shown: number) => number}} as shown
+ */
+function scaleOf(site, value) {
+  const { minimum, maximum, step } = site.widget;
+  const guess = value === 0 ? 1 : Math.abs(value) * 4;
+  const lower = minimum ?? (value < 0 || (maximum ?? 1) <= 0 ? -guess : 0);
+  const upper = maximum ?? Math.max(guess, lower + 1e-9);
+  const grid = step ?? niceStep(lower, upper);
+  if (!inDegrees(site)) return { lower, upper, step: grid, value, toFile: (shown) => shown };
+  const deg = { lower: toDegrees(lower), upper: toDegrees(upper) };
+  const nice = Math.min(niceStep(deg.lower, deg.upper), 1);
+  return { ...deg, step: nice, value: toDegrees(value), toFile: toRadians };
+}
+
+/** @param {SiteView} site @param {string} text @param {number} value @returns {string} degrees, else as written */
+function boxText(site, text, value) {
+  return inDegrees(site) ? formatNumber(toDegrees(value), 6) : text.trim();
+}
+
+/** @param {EditorProps} props */
+function NumberHead({ site, text, writer, invalid }) {
+  const value = parseNumber(text) ?? 0;
+  const scale = scaleOf(site, value);
+  /** @param {string} typed @param {{stepped: boolean}} options */
+  const onWrite = (typed, { stepped }) => {
+    const number = parseNumber(typed);
+    const fileText =
+      number === null
+        ? writtenText(typed, wraps(site))
+        : inDegrees(site)
+          ? formatNumber(toRadians(number))
+          : typed.trim();
+    write(writer, fileText, stepped);
+  };
+  return html`<${TextBox} class="number" label=${site.name} text=${boxText(site, text, value)} number=${scale.value}
+      step=${scale.step} disabled=${!mayEdit.value} invalid=${invalid} onWrite=${onWrite} />
+    <${Unit} site=${site} />`;
+}
+
+/** @param {EditorProps} props */
+function NumberSlider({ site, text, writer }) {
+  const value = parseNumber(text) ?? 0;
+  const { lower, upper, step, value: shown, toFile } = scaleOf(site, value);
+  const unit = inDegrees(site) ? "°" : site.widget.unit;
+  return html`<${Slider} label=${t("property.slider", { name: site.name })} min=${lower} max=${upper} step=${step}
+    value=${shown} text=${`${formatNumber(shown, 6)} ${unit}`.trim()} disabled=${!mayEdit.value}
+    onMove=${(/** @type {number} */ moved) => writer.write(formatNumber(toFile(moved)))} onEnd=${writer.end} />`;
+}
+
+/** @param {{site: SiteView}} props */
+function Unit({ site }) {
+  const { unit } = site.widget;
+  if (unit !== "rad") return html`<span class="unit">${unit}</span>`;
+  const label = t(degrees.value ? "angles.to_radians" : "angles.to_degrees");
+  const toggle = () => {
+    degrees.value = !degrees.value;
+  };
+  return html`<button type="button" class="unit unit-button" aria-label=${label} title=${label} onClick=${toggle}>
+    ${degrees.value ? "°" : "rad"}</button>`;
+}
+
+/** @param {EditorProps} props */
+function ExpressionBox({ site, text, writer, invalid }) {
+  const whole = shownText(text) !== text;
+  /** @param {string} typed */
+  const onWrite = (typed) => write(writer, writtenText(typed, whole || wraps(site)));
+  return html`<${TextBox} class="expression" label=${site.name} text=${shownText(text)} disabled=${!mayEdit.value}
+    invalid=${invalid} onWrite=${onWrite} /><${Unit} site=${site} />`;
+}
+
+/** @param {EditorProps} props */
+function SwitchHead({ site, text, writer }) {
+  const on = /^(true|1)$/i.test(text.trim());
+  return html`<span class="push"></span><${Switch} label=${site.name} checked=${on} disabled=${!mayEdit.value}
+    onChange=${(/** @type {boolean} */ next) => write(writer, likeWord(text, next))} />`;
+}
+
+/** @param {string} text @param {boolean} on @returns {string} the other word, in the spelling of the file */
+function likeWord(text, on) {
+  const word = text.trim();
+  if (/^[01]$/.test(word)) return on ? "1" : "0";
+  return /^[A-Z]/.test(word) ? (on ? "True" : "False") : String(on);
+}
+
+/** @param {EditorProps} props */
+function ChoiceHead({ site, text, writer }) {
+  const { choices } = site.widget;
+  const all = choices.includes(text) ? choices : [text, ...choices];
+  return html`<select class="box choice" aria-label=${site.name} value=${text} disabled=${!mayEdit.value}
+    onChange=${(/** @type {any} */ event) => write(writer, event.currentTarget.value)}>
+    ${all.map((choice) => html`<option key=${choice} value=${choice}>${choice === "" ? "''" : choice}</option>`)}
+  </select><span class="unit">${site.widget.unit}</span>`;
+}
+
+const AXES = ["x", "y", "z", "w"];
+const TURNS = ["roll", "pitch", "yaw"];
+
+/** @param {SiteView} site @param {number} count @returns {string[]} names of the numbers of a vector */
+function partNames({ name }, count) {
+  if (/rpy$/i.test(name) && count === 3) return TURNS;
+  if (/rgba?$/i.test(name)) return ["r", "g", "b", "a"].slice(0, count);
+  return Array.from({ length: count }, (_, at) => (count <= 4 ? (AXES[at] ?? "") : String(at + 1)));
+}
+
+/** @param {EditorProps} props */
+function VectorBoxes({ site, text, writer, invalid }) {
+  const parts = splitVector(text);
+  const names = partNames(site, parts.length);
+  return html`<div class="vector">
+    ${parts.map(
+      (
+        part,
+        at,
+      ) => html`<${VectorPart} key=${at} site=${site} part=${part} name=${names[at] ?? ""} invalid=${invalid}
+      onPart=${(/** @type {string} */ fileText, /** @type {boolean} */ stepped) =>
+        write(writer, parts.map((one, n) => (n === at ? fileText : one)).join(" "), stepped)} />`,
+    )}
+  </div>`;
+}
+
+/**
+ * @param {{site: SiteView, part: string, name: string, invalid: boolean,
+ *   onPart: (text: string, stepped: boolean) => void}} props
+ */
+function VectorPart({ site, part, name, invalid, onPart }) {
+  const number = parseNumber(part);
+  const shown = number === null ? shownText(part) : boxText(site, part, number);
+  const step = number === null ? undefined : vectorStep(site);
+  /** @param {string} typed @param {{stepped: boolean}} options */
+  const onWrite = (typed, { stepped }) => {
+    const value = parseNumber(typed);
+    const inFile =
+      value !== null && inDegrees(site)
+        ? formatNumber(toRadians(value))
+        : writtenText(typed, site.kind !== "yaml");
+    // A bare blank would make one number two; inside braces it does no harm.
+    onPart(inFile.includes(" ") && !inFile.startsWith("${") ? `\${${inFile}}` : inFile, stepped);
+  };
+  return html`<label class="vector-part"><span>${name}</span>
+    <${TextBox} class=${number === null ? "expression" : "number"} label=${`${site.name} ${name}`} text=${shown}
+      number=${number !== null && inDegrees(site) ? toDegrees(number) : number} step=${step} invalid=${invalid}
+      disabled=${!mayEdit.value} onWrite=${onWrite} /></label>`;
+}
+
+/** @param {SiteView} site @returns {number} what an arrow key is worth in a vector */
+function vectorStep(site) {
+  if (inDegrees(site)) return 1;
+  return site.widget.step ?? 0.01;
+}
+
+/** @param {EditorProps} props */
+function VectorUnit({ site }) {
+  return html`<span class="push"></span><${Unit} site=${site} />`;
+}
+
+/** @param {EditorProps} props */
+function PlainText({ site, text, writer, invalid }) {
+  return html`<${TextBox} class="wide" label=${site.name} text=${text} disabled=${!mayEdit.value} invalid=${invalid}
+    onWrite=${(/** @type {string} */ typed) => write(writer, writtenText(typed, wraps(site)))} />
+    ${site.widget.unit && html`<${Unit} site=${site} />`}`;
+}
+
+/** @typedef {(props: EditorProps) => unknown} Part */
+/** @type {{[kind in "number" | "expression" | "switch" | "choice" | "vector" | "text"]: {head: Part, below?: Part}}} */
+const EDITORS = {
+  number: { head: NumberHead, below: NumberSlider },
+  expression: { head: ExpressionBox },
+  switch: { head: SwitchHead },
+  choice: { head: ChoiceHead },
+  vector: { head: VectorUnit, below: VectorBoxes },
+  text: { head: PlainText },
+};

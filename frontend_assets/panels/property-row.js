@@ -1,0 +1,185 @@
+/** One property: its name, what it is set to, and what that came to. */
+
+/** @import { SiteView } from "../types/wire.d.ts" */
+/** @import { Signal } from "vendor/preact.js" */
+
+import { html, useMemo } from "vendor/preact.js";
+import { editSite, resetSite, setArgument } from "../app/actions.js";
+import { mayEdit } from "../app/state/connection.js";
+import { documentState, problems } from "../app/state/document.js";
+import { degrees, hovered } from "../app/state/view.js";
+import { isExpression } from "../lib/expressions.js";
+import { createGesture } from "../lib/gesture.js";
+import { t } from "../lib/i18n.js";
+import { latestSender } from "../lib/latest.js";
+import { formatNumber, toDegrees } from "../lib/numbers.js";
+import { placeText } from "../lib/paths.js";
+import { isChanged } from "../lib/sites.js";
+import { Icon, IconButton, MenuButton } from "../lib/ui.js";
+import { Editor } from "./property-editors.js";
+
+/**
+ * @typedef {object} Writer sends the newest text of one site, one request at a time
+ * @property {(text: string) => void} write
+ * @property {(stepped?: boolean) => Promise<void>} end fulfilled when the last text was answered; the
+ *   gesture is over then, unless it was one step by a key
+ */
+
+/** @param {{site: Signal<SiteView>}} props */
+export function PropertyRow({ site: followed }) {
+  const site = followed.value;
+  const writer = useMemo(() => createWriter(followed), [followed]);
+  const failure = failureOf(site);
+  const changed = isChanged(site);
+  const link = site.owner.startsWith("link:") ? site.owner.slice(5) : null;
+  const states = [failure && "bad", changed && "changed", site.reads === 0 && "idle"]
+    .filter(Boolean)
+    .join(" ");
+  const text = site.argument ?? site.text;
+  return html`<div class=${`property ${states}`} role="group" aria-label=${site.name} data-site=${site.id}
+    onPointerEnter=${() => {
+      if (link) hovered.value = link;
+    }} onPointerLeave=${() => {
+      if (link) hovered.value = null;
+    }}>
+    <div class="property-head">
+      <${Name} site=${site} changed=${changed} />
+      <${Editor} part="head" site=${site} text=${text} writer=${writer} invalid=${failure !== null} />
+      <${RowMenu} site=${site} writer=${writer} />
+    </div>
+    <${Editor} part="below" site=${site} text=${text} writer=${writer} invalid=${failure !== null} />
+    <${Result} site=${site} text=${text} />
+    ${failure && html`<p class="note bad" role="alert"><${Icon} name="error" size=${13} />${failure}</p>`}
+    ${site.argument !== null && html`<${PassedNote} site=${site} />`}
+    ${site.reads === 0 && html`<p class="note">${t("property.no_effect")}</p>`}
+    ${site.widget.help && html`<p class="note">${site.widget.help}</p>`}
+  </div>`;
+}
+
+/** @param {Signal<SiteView>} followed @returns {Writer} */
+function createWriter(followed) {
+  const gesture = createGesture();
+  const sender = latestSender((/** @type {string} */ text) => {
+    const { id, name, argument } = followed.peek();
+    return argument === null ? editSite(id, text, gesture.id()) : setArgument(name, text);
+  });
+  return {
+    write: (text) => sender.push(text),
+    async end(stepped = false) {
+      await sender.settled();
+      if (!stepped) gesture.end();
+    },
+  };
+}
+
+/** @param {SiteView} site @returns {string | null} the error that stands at its very line */
+function failureOf(site) {
+  const found = problems.value.find(
+    ({ severity, place }) =>
+      severity === "error" && place?.file === site.file && place.line === site.line,
+  );
+  // Several texts may share a line: only one that was changed, or that alone stands there, is to blame.
+  return found && (isChanged(site) || found.sentence.includes(site.name)) ? found.sentence : null;
+}
+
+/** @param {{site: SiteView, changed: boolean}} props */
+function Name({ site, changed }) {
+  const reset = t("property.reset", { name: site.name });
+  const was = t("property.saved", { text: site.saved_text ?? "" });
+  return html`<span class="property-name" title=${`${site.name}\n${placeText(site)}`}>
+    ${site.kind === "literal" ? html`<span class="literal-name">${site.name}</span>` : site.name}</span>
+    ${
+      changed &&
+      html`<${IconButton} icon="reset" size=${13} class="reset" label=${reset} hint=${`${reset}\n${was}`}
+      disabled=${!mayEdit.value} onClick=${() => resetSite(site.id)} />`
+    }`;
+}
+
+/** @param {{site: SiteView, text: string}} props what an expression came to */
+function Result({ site, text }) {
+  if (!isExpression(text) || site.value === "") return null;
+  const several = site.values.length > 1;
+  const value = several
+    ? site.values.slice(0, 4).join(", ") + (site.values.length > 4 ? ", …" : "")
+    : resultText(site);
+  return html`<p class="result"><span class="numbers">= ${value}</span>
+    <span class="muted"> · ${several ? t("property.values", { count: site.values.length }) : t("property.expression")}</span></p>`;
+}
+
+/** @param {SiteView} site */
+function resultText({ number, value, widget }) {
+  if (number === null) return value;
+  if (widget.unit === "rad" && degrees.value) return `${formatNumber(toDegrees(number), 5)} °`;
+  return `${formatNumber(number, 5)} ${widget.unit}`.trim();
+}
+
+/** @param {{site: SiteView}} props an argument that was passed wins over what the file says */
+function PassedNote({ site }) {
+  return html`<p class="note passed">${t("property.passed", { text: site.text || "''" })}
+    <button type="button" class="text-button" disabled=${!mayEdit.value} onClick=${() => setArgument(site.name, null)}>
+      ${t("property.unpass")}</button></p>`;
+}
+
+/** @param {{site: SiteView, writer: Writer}} props */
+function RowMenu({ site, writer }) {
+  const label = t("property.menu", { name: site.name });
+  return html`<${MenuButton} class="icon-button row-menu" label=${label} items=${() => menuItems(site, writer)}>
+    <${Icon} name="dots" size=${14} /><//>`;
+}
+
+/** @param {SiteView} site @param {Writer} writer @returns {import("../lib/ui.js").MenuItem[]} */
+function menuItems(site, writer) {
+  const locked = !mayEdit.value;
+  /** @type {import("../lib/ui.js").MenuItem[]} */
+  const items = [{ label: `${placeText(site)} · ${t(`kind.${site.kind}.one`)}`, heading: true }];
+  if (isExpression(site.text) && site.number !== null && site.argument === null) {
+    const number = formatNumber(site.number);
+    const run = () => {
+      writer.write(number);
+      writer.end();
+    };
+    items.push({
+      label: t("property.replace", { number }),
+      icon: "properties",
+      disabled: locked,
+      run,
+    });
+  }
+  if (isChanged(site)) {
+    const label = t("property.reset_to", { text: site.saved_text ?? "" });
+    items.push({ label, icon: "reset", disabled: locked, run: () => resetSite(site.id) });
+  }
+  if (site.kind === "arg") items.push(argumentItem(site, locked));
+  if (site.widget.unit === "rad") items.push(...angleItems());
+  if (documentState.value?.read_only.includes(site.file))
+    items.push({ label: t("property.read_only"), icon: "lock", disabled: true });
+  return items;
+}
+
+/** @param {SiteView} site @param {boolean} locked @returns {import("../lib/ui.js").MenuItem} */
+function argumentItem({ name, argument, value, text }, locked) {
+  return argument === null
+    ? {
+        label: t("property.pass"),
+        icon: "link",
+        disabled: locked,
+        run: () => setArgument(name, value || text),
+      }
+    : {
+        label: t("property.unpass"),
+        icon: "reset",
+        disabled: locked,
+        run: () => setArgument(name, null),
+      };
+}
+
+/** @returns {import("../lib/ui.js").MenuItem[]} */
+function angleItems() {
+  return [false, true].map((on) => ({
+    label: on ? t("angles.degrees") : t("angles.radians"),
+    checked: degrees.value === on,
+    run: () => {
+      degrees.value = on;
+    },
+  }));
+}

@@ -1,0 +1,163 @@
+/** The 3D view: viser's page in a frame that is never reloaded, with its tools and notices over it. */
+
+import { html, useEffect, useRef } from "vendor/preact.js";
+import { mend, openPath, setDisplay, undo, worstProblem } from "../app/actions.js";
+import { mayEdit, role } from "../app/state/connection.js";
+import {
+  displays,
+  documentId,
+  documentState,
+  history,
+  progress,
+  robot,
+  showingLastGood,
+} from "../app/state/document.js";
+import { dialog, mouseMode, theme } from "../app/state/view.js";
+import { attachViewport, VIEWS, viewport } from "../app/viewport.js";
+import { t } from "../lib/i18n.js";
+import { placeText } from "../lib/paths.js";
+import { Icon, IconButton, MenuButton, ProgressBar } from "../lib/ui.js";
+
+export function ScenePanel() {
+  const frame = useRef(/** @type {HTMLIFrameElement | null} */ (null));
+  const id = documentId.value;
+  useEffect(() => (frame.current ? attachViewport(frame.current) : undefined), []);
+  return html`<section class="scene" aria-label=${t("panel.scene")}>
+    <iframe ref=${frame} title=${t("panel.scene")} class=${theme.value}
+      src=${id ? `/d/${encodeURIComponent(id)}/viser/` : "about:blank"}></iframe>
+    <${Tools} />
+    <${Cover} />
+    <${MeshProgress} />
+    <${LastGoodNotice} />
+  </section>`;
+}
+
+function Tools() {
+  const off = viewport.value === null;
+  return html`<div class="scene-tools" role="toolbar" aria-label=${t("scene.tools")}>
+    <${IconButton} icon="fit" label=${t("scene.fit")} hint=${`${t("scene.fit")} (F)`} disabled=${off}
+      onClick=${() => viewport.value?.fit()} />
+    <${MenuButton} label=${t("scene.views")} disabled=${off} items=${viewItems}>
+      <${Icon} name="views" /><${Icon} name="chevronDown" size=${12} />
+    <//>
+    <span class="divider"></span>
+    <${LayerToggle} name="frames" icon="axes" />
+    <${LayerToggle} name="names" icon="frames" />
+    <span class="divider"></span>
+    <${MenuButton} label=${t("scene.mouse")} disabled=${off} items=${mouseItems}>
+      <${Icon} name="mouse" /><${Icon} name="chevronDown" size=${12} />
+    <//>
+  </div>`;
+}
+
+const viewItems = () =>
+  VIEWS.map((name) => ({ label: t(`view.${name}`), run: () => viewport.value?.view(name) }));
+
+const mouseItems = () =>
+  /** @type {const} */ (["rviz", "trackpad"]).map((mode) => ({
+    label: t(`mouse.${mode}`),
+    hint: t(`mouse.${mode}.hint`),
+    checked: mouseMode.value === mode,
+    run: () => {
+      mouseMode.value = mode;
+    },
+  }));
+
+/** @param {{name: string, icon: string}} props a layer that all who look at the robot share */
+function LayerToggle({ name, icon }) {
+  const on = displays.value.robot?.[name] === true;
+  return html`<${IconButton} icon=${icon} label=${t(`display.robot.${name}`)} pressed=${on}
+    disabled=${!mayEdit.value || !displays.value.robot} onClick=${() => setDisplay("robot", name, !on)} />`;
+}
+
+/** Before there is a robot: what is going on, or what went wrong and what to do. */
+function Cover() {
+  const phase = documentState.value?.phase;
+  if (documentId.value === "") return html`<${Welcome} />`;
+  if (phase === "failed") return html`<${Failed} />`;
+  if (robot.value) return null;
+  const work = progress.value.get("expand") ?? progress.value.get("index");
+  const file = documentState.value?.title ?? "";
+  return html`<div class="scene-cover" role="status">
+    <div class="card">
+      <h2>${file ? t("opening.file", { file }) : t("opening")}</h2>
+      <p>${work?.label ?? t("opening.hint")}</p>
+      <${ProgressBar} label=${t("opening")} done=${work?.done ?? 0} total=${work?.total ?? 0} />
+    </div>
+  </div>`;
+}
+
+function Welcome() {
+  const open = () => {
+    dialog.value = { kind: "open" };
+  };
+  return html`<div class="scene-cover">
+    <div class="card">
+      <h2>${t("welcome")}</h2>
+      <p>${role.value === "presenter" ? t("welcome.hint") : t("welcome.viewer")}</p>
+      ${
+        role.value === "presenter" &&
+        html`<button type="button" class="button primary" onClick=${open}>
+        <${Icon} name="open" />${t("command.open")}</button>`
+      }
+    </div>
+  </div>`;
+}
+
+function Failed() {
+  const problem = worstProblem();
+  const state = documentState.value;
+  const open = () => {
+    dialog.value = { kind: "open" };
+  };
+  const again = () => state && openPath(state.path, { ...state.arguments });
+  return html`<div class="scene-cover">
+    <div class="card bad" role="alert">
+      <h2><${Icon} name="error" size=${20} />${t("failed", { file: state?.title ?? "" })}</h2>
+      <p>${problem?.sentence ?? t("failed.unknown")}</p>
+      ${problem?.place && html`<p class="place">${placeText(problem.place)}</p>`}
+      ${
+        mayEdit.value &&
+        html`<div class="buttons">
+        ${
+          problem?.fix &&
+          html`<button type="button" class="button primary"
+          onClick=${() => problem.fix && mend(problem.fix)}>${problem.fix.label}</button>`
+        }
+        <button type="button" class="button" onClick=${again}><${Icon} name="reload" />${t("try_again")}</button>
+        <button type="button" class="button" onClick=${open}><${Icon} name="open" />${t("open.another")}</button>
+      </div>`
+      }
+    </div>
+  </div>`;
+}
+
+function MeshProgress() {
+  const work = progress.value.get("meshes");
+  if (!work) return null;
+  return html`<div class="mesh-progress" role="status">
+    <span>${work.label || t("meshes")}</span>
+    <span class="numbers">${work.total > 0 ? `${work.done} / ${work.total}` : ""}</span>
+    <${ProgressBar} label=${t("meshes")} done=${work.done} total=${work.total} />
+  </div>`;
+}
+
+function LastGoodNotice() {
+  if (!showingLastGood.value) return null;
+  const problem = worstProblem();
+  const place = placeText(problem?.place ?? null);
+  return html`<div class="last-good" role="alert">
+    <${Icon} name="error" size=${18} />
+    <p><strong>${t("last_good")}</strong> ${problem?.sentence} ${place && html`<span class="place">${place}</span>`}</p>
+    ${mayEdit.value && html`<${NoticeButton} fix=${problem?.fix} />`}
+  </div>`;
+}
+
+/** @param {{fix: import("../types/wire.d.ts").Fix | null | undefined}} props */
+function NoticeButton({ fix }) {
+  if (fix && fix.action !== "undo") {
+    return html`<button type="button" class="button" onClick=${() => mend(fix)}>${fix.label}</button>`;
+  }
+  if (history.value.undo.length === 0) return null;
+  return html`<button type="button" class="button" onClick=${() => undo()}>${t("undo_edit")}</button>`;
+}

@@ -1,0 +1,78 @@
+/** The URDF that the xacro came to, as text to read, copy and keep. It is fetched when it is looked at. */
+
+import { html, useEffect, useSignal } from "vendor/preact.js";
+import { connection } from "../app/state/connection.js";
+import { built, robot, title } from "../app/state/document.js";
+import { notify } from "../app/state/view.js";
+import { send } from "../app/wire.js";
+import { copyText } from "../lib/clipboard.js";
+import { t } from "../lib/i18n.js";
+import { EmptyState, Icon } from "../lib/ui.js";
+
+const SETTLE_MS = 250;
+
+export function UrdfPanel() {
+  const text = useSignal("");
+  useFresh(text);
+  if (!text.value) {
+    return html`<section class="panel-body" aria-label=${t("panel.urdf")}>
+      <${EmptyState} icon="urdf" title=${robot.value ? t("loading") : t("urdf.none")} /></section>`;
+  }
+  const lines = text.value.trimEnd().split("\n");
+  const copy = async () => {
+    if (await copyText(text.value)) notify(t("copied"));
+  };
+  return html`<section class="panel-body" aria-label=${t("panel.urdf")}>
+    <div class="panel-bar row">
+      <span class="muted numbers">${t("urdf.lines", { count: lines.length })}</span>
+      <span class="push"></span>
+      <button type="button" class="button small" onClick=${copy}><${Icon} name="copy" size=${14} />${t("copy")}</button>
+      <button type="button" class="button small" onClick=${() => download(text.value)}><${Icon} name="download" size=${14} />${t("download")}</button>
+    </div>
+    <pre class="code scroll" tabindex="0" aria-label=${t("panel.urdf")}>${lines.map((line, at) => html`<code key=${at}>${coloured(line)}</code>`)}</pre>
+  </section>`;
+}
+
+/** Asks again after every good run, but not at every step of a drag. @param {{value: string}} text */
+function useFresh(text) {
+  const run = built.value;
+  const there = connection.value === "connected" && robot.value !== null;
+  useEffect(() => {
+    if (!there) return undefined;
+    const later = setTimeout(
+      async () => {
+        const answer = await send({ type: "get_urdf" }).catch(() => null);
+        if (answer?.type === "urdf") text.value = answer.text;
+      },
+      text.value ? SETTLE_MS : 0,
+    );
+    return () => clearTimeout(later);
+  }, [run, there]);
+}
+
+const PARTS = /(<!--.*?(?:-->|$))|(<\/?[\w:.-]+|\/?>|\?>|<\?xml)|([\w:.-]+)(=)("[^"]*")/g;
+
+/** @param {string} line of XML @returns {unknown[]} its parts with their colours */
+function coloured(line) {
+  /** @type {unknown[]} */
+  const parts = [];
+  let at = 0;
+  for (const match of line.matchAll(PARTS)) {
+    const [whole, comment, tag, name, equals, value] = match;
+    parts.push(line.slice(at, match.index));
+    if (comment) parts.push(html`<i class="comment">${comment}</i>`);
+    else if (tag) parts.push(html`<b>${tag}</b>`);
+    else parts.push(html`<i class="name">${name}</i>`, equals, html`<i class="value">${value}</i>`);
+    at = match.index + whole.length;
+  }
+  return [...parts, line.slice(at), "\n"];
+}
+
+/** @param {string} text */
+function download(text) {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob([text], { type: "application/xml" }));
+  link.download = `${title.value.replace(/(\.urdf)?(\.xacro)?$/, "") || "robot"}.urdf`;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+}

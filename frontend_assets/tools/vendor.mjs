@@ -1,0 +1,180 @@
+/**
+ * Makes ../vendor: each third-party library as one minified ES module, its licence and its sha256.
+ * `node vendor.mjs` writes, `node vendor.mjs --check` only compares.
+ */
+import { createHash } from "node:crypto";
+import { mkdir, readFile, writeFile } from "node:fs/promises";
+import { createRequire } from "node:module";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { build } from "esbuild";
+import * as lucide from "lucide";
+
+const TOOLS = dirname(fileURLToPath(import.meta.url));
+const VENDOR = join(TOOLS, "..", "vendor");
+const require = createRequire(import.meta.url);
+
+const PREACT = `
+export { Fragment, createContext, createRef, h, render } from "preact";
+export { useCallback, useContext, useEffect, useId, useLayoutEffect, useMemo, useRef, useState } from "preact/hooks";
+export { batch, computed, effect, signal, untracked, useComputed, useSignal, useSignalEffect } from "@preact/signals";
+import htm from "htm";
+import { h } from "preact";
+export const html = htm.bind(h);
+`;
+
+/** Lucide's name of each icon that the page uses, by our own. */
+const ICONS = {
+  alert: "TriangleAlert",
+  animate: "Play",
+  axes: "Move3d",
+  box: "Box",
+  check: "Check",
+  chevronDown: "ChevronDown",
+  chevronRight: "ChevronRight",
+  close: "X",
+  collapse: "ChevronsDownUp",
+  copy: "Copy",
+  cube: "Cuboid",
+  disk: "Save",
+  dots: "EllipsisVertical",
+  download: "Download",
+  error: "CircleAlert",
+  expand: "ChevronsUpDown",
+  eye: "Eye",
+  eyeOff: "EyeOff",
+  file: "File",
+  fileCode: "FileCode",
+  fit: "Focus",
+  folder: "Folder",
+  folderOpen: "FolderOpen",
+  frames: "Axis3d",
+  grid: "Grid3x3",
+  home: "House",
+  info: "Info",
+  joints: "Gauge",
+  keyboard: "Keyboard",
+  layout: "LayoutDashboard",
+  link: "Link2",
+  list: "ListTree",
+  lock: "Lock",
+  maximize: "Maximize",
+  minimize: "Minimize",
+  moon: "Moon",
+  mouse: "Mouse",
+  open: "FolderOpen",
+  package: "Package",
+  problems: "TriangleAlert",
+  properties: "SlidersHorizontal",
+  random: "Dices",
+  redo: "Redo2",
+  reload: "RefreshCw",
+  reset: "RotateCcw",
+  robot: "Bot",
+  scene: "Box",
+  search: "Search",
+  stop: "Square",
+  sun: "Sun",
+  system: "Monitor",
+  undo: "Undo2",
+  up: "CornerLeftUp",
+  urdf: "FileCode",
+  views: "Rotate3d",
+  watching: "Eye",
+  zero: "CircleDot",
+  zip: "FileArchive",
+};
+
+/** @returns {string} the icons as a module: our name to Lucide's shapes */
+function iconsModule() {
+  const shapes = Object.entries(ICONS).map(([name, lucideName]) => {
+    const shape = lucide[lucideName];
+    if (!shape) throw new Error(`lucide has no icon ${lucideName}`);
+    return [name, shape];
+  });
+  return `export const ICONS = ${JSON.stringify(Object.fromEntries(shapes))};`;
+}
+
+/** @param {string} contents @returns {Promise<string>} one minified ES module */
+async function bundle(contents) {
+  const made = await build({
+    stdin: { contents, resolveDir: TOOLS, loader: "js" },
+    bundle: true,
+    format: "esm",
+    legalComments: "none",
+    minify: true,
+    target: "es2022",
+    write: false,
+  });
+  return made.outputFiles[0].text;
+}
+
+/** @param {string} name @returns {Promise<{version: string, license: string, text: string}>} */
+async function licence(name) {
+  const folder = join(TOOLS, "node_modules", name);
+  const about = JSON.parse(await readFile(join(folder, "package.json"), "utf8"));
+  for (const file of ["LICENSE", "LICENSE.md", "LICENCE.md", "LICENSE.txt"]) {
+    const text = await readFile(join(folder, file), "utf8").catch(() => "");
+    if (text) return { version: about.version, license: about.license, text: text.trim() };
+  }
+  throw new Error(`${name} carries no licence text`);
+}
+
+/** Files of ../vendor: how each is made and of which packages. */
+const FILES = {
+  "preact.js": {
+    make: () => bundle(PREACT),
+    from: ["preact", "@preact/signals", "@preact/signals-core", "htm"],
+  },
+  "dockview.js": {
+    make: () => bundle('export { createDockview } from "dockview";'),
+    from: ["dockview", "dockview-core"],
+  },
+  "dockview.css": {
+    make: () => readFile(require.resolve("dockview/dist/styles/dockview.css"), "utf8"),
+    from: ["dockview"],
+  },
+  "icons.js": { make: () => bundle(iconsModule()), from: ["lucide"] },
+};
+
+/** @returns {Promise<Map<string, string>>} every generated file of ../vendor by its name */
+async function makeAll() {
+  const texts = new Map();
+  const lock = [];
+  for (const [file, { make, from }] of Object.entries(FILES)) {
+    const text = await make();
+    texts.set(file, text);
+    const packages = await Promise.all(
+      from.map(async (name) => ({ name, version: (await licence(name)).version })),
+    );
+    lock.push({ file, sha256: createHash("sha256").update(text).digest("hex"), packages });
+  }
+  texts.set("vendor.lock.json", `${JSON.stringify(lock, null, 2)}\n`);
+  texts.set("LICENSES.txt", await licences());
+  return texts;
+}
+
+/** @returns {Promise<string>} all licence texts, one after the other */
+async function licences() {
+  const names = [...new Set(Object.values(FILES).flatMap(({ from }) => from))].sort();
+  const parts = await Promise.all(
+    names.map(async (name) => {
+      const { version, license, text } = await licence(name);
+      return `${name} ${version} (${license})\n\n${text}\n`;
+    }),
+  );
+  return parts.join(`\n${"-".repeat(72)}\n\n`);
+}
+
+const check = process.argv.includes("--check");
+await mkdir(VENDOR, { recursive: true });
+let stale = 0;
+for (const [file, text] of await makeAll()) {
+  const path = join(VENDOR, file);
+  const old = await readFile(path, "utf8").catch(() => "");
+  if (old === text) continue;
+  stale += 1;
+  if (check) process.stderr.write(`${file} is not what vendor.mjs makes: run npm run vendor\n`);
+  else await writeFile(path, text);
+}
+process.exit(check && stale ? 1 : 0);
