@@ -9,6 +9,7 @@ import numpy as np
 
 from studio.robot.number_lists import parse_floats, parse_integers
 from studio.robot.surfaces import Surface
+from studio.robot.triangulation import fan_corners, strip_corners
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -195,21 +196,23 @@ def _polylist(element: Element, stride: int, files: MeshFiles) -> tuple[Integers
     sizes = np.zeros(0, dtype=np.int64) if counts is None else _index_rows(counts, 1, files)[:, 0]
     if len(sizes) and (int(sizes.min()) < 0 or int(sizes.sum()) > len(rows)):
         raise files.fault(f"its polygons need more than the {len(rows)} corners that it lists.")
-    return rows, _fans(sizes)
+    return rows, fan_corners(sizes)
 
 
 def _polygons(element: Element, stride: int, files: MeshFiles) -> tuple[Integers, Integers]:
     """Each `<p>` a polygon; of one with holes only the outline is drawn, as by most readers."""
     outlines = [*element.findall("p"), *element.findall("ph/p")]
-    return _runs([_index_rows(p, stride, files) for p in outlines], stride, _fans)
+    return _runs([_index_rows(p, stride, files) for p in outlines], stride, fan_corners)
 
 
 def _trifans(element: Element, stride: int, files: MeshFiles) -> tuple[Integers, Integers]:
-    return _runs([_index_rows(p, stride, files) for p in element.findall("p")], stride, _fans)
+    return _runs([_index_rows(p, stride, files) for p in element.findall("p")], stride, fan_corners)
 
 
 def _tristrips(element: Element, stride: int, files: MeshFiles) -> tuple[Integers, Integers]:
-    return _runs([_index_rows(p, stride, files) for p in element.findall("p")], stride, _strips)
+    return _runs(
+        [_index_rows(p, stride, files) for p in element.findall("p")], stride, strip_corners
+    )
 
 
 def _runs(
@@ -221,29 +224,6 @@ def _runs(
 
 def _joined(runs: list[Integers], stride: int) -> Integers:
     return np.concatenate(runs) if runs else np.zeros((0, stride), dtype=np.int64)
-
-
-def _fans(sizes: Integers) -> Integers:
-    """Corners of the triangles that fan out from the first corner of each polygon."""
-    first, second = _within(sizes)
-    return np.stack((first, first + second, first + second + 1), axis=1).ravel()
-
-
-def _strips(sizes: Integers) -> Integers:
-    """Corners of the triangles of strips; every second one turns the other way round."""
-    first, second = _within(sizes)
-    at = first + second - 1
-    odd = second % 2 == 0
-    return np.stack((at, at + 1 + odd, at + 2 - odd), axis=1).ravel()
-
-
-def _within(sizes: Integers) -> tuple[Integers, Integers]:
-    """For each triangle the first corner of its polygon, and its number there, from 1."""
-    triangles = np.maximum(sizes - 2, 0)
-    starts = np.cumsum(sizes) - sizes
-    before = np.cumsum(triangles) - triangles
-    number = np.arange(int(triangles.sum())) - np.repeat(before, triangles) + 1
-    return np.repeat(starts, triangles), number
 
 
 _TRIANGULATIONS: dict[str, Triangulation] = {

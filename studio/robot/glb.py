@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 import numpy as np
 
+from studio.robot.colors import linear_from_srgb, linear_shorts
 from studio.robot.surfaces import Look
 
 if TYPE_CHECKING:
@@ -61,7 +62,7 @@ class _Writer:
             downwards[:, 1] = 1 - downwards[:, 1]
             attributes["TEXCOORD_0"] = self._accessor(downwards, "VEC2")
         if welded.colors is not None:
-            attributes["COLOR_0"] = self._accessor(_linear_shorts(welded.colors), "VEC4")
+            attributes["COLOR_0"] = self._accessor(linear_shorts(welded.colors), "VEC4")
         self._primitives.append(
             {
                 "attributes": attributes,
@@ -151,7 +152,7 @@ class _Writer:
     def _encode_look(self, look: Look | None) -> dict[str, Any]:
         shown = _GREY if look is None else look
         surface: dict[str, Any] = {
-            "baseColorFactor": [*map(_linear, shown.rgba[:3]), shown.rgba[3]],
+            "baseColorFactor": [*map(linear_from_srgb, shown.rgba[:3]), shown.rgba[3]],
             "metallicFactor": shown.metallic,
             "roughnessFactor": shown.roughness,
         }
@@ -169,17 +170,3 @@ class _Writer:
             view = self._view(texture.data)
             self._image_entries.append({"bufferView": view, "mimeType": texture.mime})
         return self._images[texture.data]
-
-
-def _linear(srgb: float) -> float:
-    """Colour component of light, as glTF wants it, from what a screen is told."""
-    return srgb / 12.92 if srgb <= 0.04045 else ((srgb + 0.055) / 1.055) ** 2.4
-
-
-_SHORTS = np.array([round(65535 * _linear(n / 255)) for n in range(256)], dtype=np.uint16)
-
-
-def _linear_shorts(colors: NDArray[np.uint8]) -> NDArray[np.uint16]:
-    shorts = _SHORTS[colors]
-    shorts[:, 3] = colors[:, 3].astype(np.uint16) * 257
-    return shorts

@@ -10,7 +10,9 @@ import numpy as np
 from studio.errors import StudioError
 from studio.robot.collada import read_collada
 from studio.robot.glb import write_glb
+from studio.robot.gltf import read_gltf
 from studio.robot.loaded_mesh import LoadedMesh
+from studio.robot.obj import read_obj
 from studio.robot.stl import read_stl
 from studio.robot.surfaces import Surface
 from studio.robot.welding import Welded, weld
@@ -25,10 +27,22 @@ if TYPE_CHECKING:
     from studio.robot.values import Vector3
 
 Number = TypeVar("Number", np.float32, np.uint8)
+
+
+def _read_ply(files: MeshFiles) -> list[Surface]:
+    from studio.robot.ply import read_ply  # noqa: PLC0415 - trimesh takes half a second
+
+    return read_ply(files)
+
+
 _READERS: Final[dict[str, Callable[[MeshFiles], list[Surface]]]] = {
     ".stl": read_stl,
     ".stlb": read_stl,
     ".dae": read_collada,
+    ".obj": read_obj,
+    ".gltf": read_gltf,
+    ".glb": read_gltf,
+    ".ply": _read_ply,
 }
 
 
