@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -34,12 +33,9 @@ def _own_data_folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]
 @pytest.fixture(scope="session")
 def corpus() -> Path:
     """The folder of public robot descriptions; the test is skipped without it."""
-    named = os.environ.get("STUDIO_CORPUS")
-    if not named:
-        pytest.skip("STUDIO_CORPUS names no folder of robot descriptions")
-    folder = Path(named).resolve()
-    assert folder.is_dir(), f"STUDIO_CORPUS={named} is no folder"
-    return folder
+    from tests.support import corpus as support
+
+    return support.corpus()
 
 
 @pytest.fixture(scope="session")
