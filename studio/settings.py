@@ -18,10 +18,14 @@ ROBOT_MEMORY_BYTES = 4 << 30
 EXPANSION_TIMEOUT_S = 10.0
 """The parent's budget for one run; the evaluator's own budget (2 s of evaluation) ends sooner."""
 MESH_TIMEOUT_S = 60.0
+XACRO_ENVIRONMENT = frozenset({"ROS_DISTRO", "ROS_VERSION", "ROS_PYTHON_VERSION", "ROS_DOMAIN_ID"})
+"""What `$(env)` and `$(optenv)` of a file that is not trusted may see."""
 SOURCE_SIZE_LIMIT_BYTES = 20 << 20
 MESH_SIZE_LIMIT_BYTES = 512 << 20
 ZIP_SIZE_LIMIT_BYTES = 1 << 30
 """Unpacked size of an opened zip."""
+UPLOADS_QUOTA_BYTES = 4 << 30
+"""Of all opened zips in the data folder together."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -167,7 +167,7 @@ class _Unpacking:
                 self._progress(self._written, self._total)
 
     def _too_large(self) -> UnsafeArchiveError:
-        return self._unsafe(f"it would unpack to more than {self._limit / (1 << 20):,.0f} MB.")
+        return self._unsafe(f"it would unpack to more than {self._limit / (1 << 20):.4g} MB.")
 
     def _unsafe(self, reason: str) -> UnsafeArchiveError:
         return UnsafeArchiveError(str(self._zip), reason)

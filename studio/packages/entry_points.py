@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from studio.packages.roots import ServedRoots
 
 FILE_LIMIT: Final = 20_000
-_SUFFIXES: Final = (".xacro", ".urdf", ".xml")
+SUFFIXES: Final = (".xacro", ".urdf", ".xml")
 _NOT_ENTERED: Final = frozenset(
     {"build", "install", "log", "devel", "node_modules", "__pycache__", "site-packages"}
 )
@@ -93,8 +93,7 @@ class _Survey:
         try:
             return read_outline(self._roots.read(path))
         except PackageError as error:
-            reason = str(error).removeprefix(f"{path}").removeprefix(": ").rstrip(".")
-            return Outline(error=reason)
+            return Outline(error=str(error).removeprefix(str(path)).strip(" :."))
 
     def _package_of(self, folder: Path) -> tuple[str, Path | None]:
         if folder not in self._packages:
@@ -131,9 +130,11 @@ class _Survey:
             not point.openable,
             any(_words(step) & _ASIDE for step in inside.parts),
             "description" not in point.package and "support" not in point.package,
-            _name_mismatch(point),
+            not _is_named_like(point, start=False),
             bool(includes.includers(point.path)),
             not point.path.name.endswith(".urdf.xacro"),
+            point.kind != "xacro",
+            not _is_named_like(point, start=True),
             len(point.path.parts),
             str(point.path),
         )
@@ -163,13 +164,13 @@ def _without_content(outline: Outline) -> str:
     return "holds no link and calls no macro"
 
 
-def _name_mismatch(point: EntryPoint) -> int:
-    """0 when the file is named like its package, 1 when it begins like it, else 2."""
+def _is_named_like(point: EntryPoint, *, start: bool) -> bool:
+    """Whether the file has the name of its package, or at least begins with it."""
     file = _ALL_SUFFIXES.sub("", point.path.name)
     base = _PACKAGE_ENDINGS.sub("", _PACKAGE_ENDINGS.sub("", point.package))
-    if not base:
-        return 2
-    return 0 if file in (base, point.package, "robot") else 1 if file.startswith(base) else 2
+    if start:
+        return bool(base) and file.startswith(base)
+    return file in (base, point.package, "robot")
 
 
 def _words(step: str) -> set[str]:
@@ -185,7 +186,7 @@ def _robot_files(folder: Path) -> Iterator[Path]:
             continue
         folders[:] = sorted(name for name in folders if _is_entered(name))
         for name in sorted(names):
-            if name.lower().endswith(_SUFFIXES) and name != FILE_NAME and found < FILE_LIMIT:
+            if name.lower().endswith(SUFFIXES) and name != FILE_NAME and found < FILE_LIMIT:
                 found += 1
                 yield Path(path, name)
 

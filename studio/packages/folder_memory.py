@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 _VERSION: Final = 1
 _IGNORE_MARKERS: Final = frozenset({"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"})
-_INSTALL_MARKERS: Final = frozenset({".colcon_install_layout", ".catkin", "local_setup.sh"})
+INSTALL_MARKERS: Final = frozenset({".colcon_install_layout", ".catkin", "local_setup.sh"})
 _NEVER_ENTERED: Final = frozenset({"node_modules", "__pycache__", "site-packages", "CVS"})
 _CLOCK_GRAIN_NS: Final = 2_000_000_000
 """A folder changed this shortly before it was seen may change again within the same mtime."""
@@ -132,7 +132,7 @@ def _look(folder: str, mtime_ns: int) -> FolderFacts:
         subfolders=tuple(sorted(name for name in subfolders if _is_entered(name))),
         has_manifest=FILE_NAME in names,
         ignored=is_environment or not names.isdisjoint(_IGNORE_MARKERS),
-        is_install_space=not names.isdisjoint(_INSTALL_MARKERS),
+        is_install_space=not names.isdisjoint(INSTALL_MARKERS),
     )
 
 

@@ -116,7 +116,8 @@ def served_roots_for(opened: Path) -> tuple[Path, ...]:
 
     A folder: that folder. A file: its package and the packages beside it, that is the colcon `src`
     or else the nearest folder with `.git` at most three levels above the package; without one, the
-    package and each package folder beside it on these levels. A file in no package: its folder.
+    package and each package folder directly beside it, and nothing else that lies there (it may be
+    a folder of downloads). A file in no package: its folder.
     Never the file system's root or the home folder: a file that lies there is served alone.
 
     Raises:
@@ -160,7 +161,8 @@ def _package_and_neighbours(package: Path) -> tuple[Path, ...]:
     marked = _marked(package, levels)
     if marked is not None:
         return (marked,)
-    return (package, *(one for level in levels for one in _child_packages(level) if one != package))
+    beside = _child_packages(levels[0]) if levels else []
+    return (package, *(one for one in beside if one != package))
 
 
 def _marked(package: Path, levels: list[Path]) -> Path | None:

@@ -22,3 +22,13 @@ def write_package(
         target.parent.mkdir(parents=True, exist_ok=True)
         target.write_text(text)
     return folder
+
+
+def write_install(folder: Path, names: list[str], *, isolated: bool = True) -> Path:
+    """An install space as colcon leaves it, one prefix for each package or one for all."""
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / ".colcon_install_layout").write_text("isolated\n" if isolated else "merged\n")
+    (folder / "COLCON_IGNORE").touch()
+    for name in names:
+        write_package((folder / name if isolated else folder) / "share" / name)
+    return folder

@@ -1,0 +1,266 @@
+"""What opening a path means: the file to show, the folders served, the packages found."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Final, TypeAlias
+
+from studio.errors import DataFolderError, UnreadableFileError, UnsafeArchiveError
+from studio.packages.archive import folder_to_open, unpack_zip
+from studio.packages.choices import folder_of_choice, load_choices, save_choices
+from studio.packages.discovery import FOLDER_LIMIT, Discovery, discover
+from studio.packages.entry_points import EntryPoint, entry_points
+from studio.packages.environment import RosEnvironment, is_install_space, is_installed
+from studio.packages.folder_memory import FolderMemory
+from studio.packages.index import Indexed, PackageIndex, Standing
+from studio.packages.manifest import FILE_NAME
+from studio.packages.roots import (
+    ServedRoots,
+    is_below,
+    is_too_wide,
+    package_folder_of,
+    served_roots_for,
+)
+from studio.problems import Place, Problem, Severity
+from studio.settings import UPLOADS_QUOTA_BYTES, ZIP_SIZE_LIMIT_BYTES
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Mapping
+
+UPLOADS: Final = "uploads"
+_MEMORY: Final = "package_index"
+
+Progress: TypeAlias = "Callable[[str, int, int], None]"
+"""Told (what is done, done, total); total 0 when it is not known."""
+
+
+@dataclass(frozen=True, slots=True)
+class Location:
+    """An opened path. `entry` is None when a folder holds no robot; `candidates` say why."""
+
+    root: Path
+    """The folder that short names are shown against, and that choices are remembered for."""
+    entry: Path | None
+    served: ServedRoots
+    index: PackageIndex
+    candidates: tuple[EntryPoint, ...]
+    """The robot files of the opened folder, or of the opened file's package: best first."""
+    problems: tuple[Problem, ...]
+    data_folder: Path
+
+    def choose_package(self, name: str, folder: Path) -> Location:
+        """Use a folder for a package from now on, serve it, and remember it.
+
+        Raises:
+            PackageNotFoundError: The folder holds packages, but none of that name.
+            UnreadableFileError: It is no folder, or too wide to serve.
+            DataFolderError: The choice cannot be kept.
+        """
+        chosen = folder_of_choice(name, folder)
+        index = self.index.with_chosen(name, chosen)
+        try:
+            save_choices(self.data_folder, self.root, index.chosen)
+        except OSError as error:
+            raise DataFolderError(str(self.data_folder), error.strerror or "not kept") from error
+        return replace(self, index=index, served=_serve_chosen(self.served, [chosen]))
+
+
+def open_location(
+    path: Path,
+    package_paths: Iterable[Path],
+    data_folder: Path,
+    environment: Mapping[str, str],
+    progress: Progress | None = None,
+) -> Location:
+    """Find out everything about a path that a document needs.
+
+    A file opens itself; a folder opens its best robot file; a zip is unpacked into the data folder
+    first, once for each content. A folder that is a package, or lies in one, is served as a file of
+    that package is, so that it finds the packages beside it.
+
+    Raises:
+        UnreadableFileError: Nothing is there, or it is too wide to serve.
+        UnsafeArchiveError: The zip is not to be unpacked.
+    """
+    tell = progress or _tell_nobody
+    real = Path(os.path.realpath(path))
+    roots = _roots_to_serve(real)
+    is_zip = real.is_file() and real.suffix.lower() == ".zip"
+    if is_zip:
+        real = _unpacked(real, data_folder, tell)
+        roots = (real,)
+    survey = _Survey(roots, package_paths, environment)
+    survey.search(data_folder / _MEMORY, tell)
+    chosen = load_choices(data_folder, roots[0])
+    served = _serve_chosen(survey.served(), chosen.values())
+    candidates = _candidates(real, served, tell)
+    return Location(
+        root=roots[0],
+        entry=real if real.is_file() else _best(candidates),
+        served=served,
+        index=PackageIndex(survey.packages, chosen),
+        candidates=candidates,
+        problems=tuple(survey.problems),
+        data_folder=data_folder,
+    )
+
+
+def _roots_to_serve(real: Path) -> tuple[Path, ...]:
+    if real.is_dir() and not is_too_wide(real):
+        package = package_folder_of(real)
+        if package is not None:
+            return served_roots_for(package / FILE_NAME)
+    return served_roots_for(real)
+
+
+class _Survey:
+    """Searches every folder that may hold packages, and so learns what may be written."""
+
+    def __init__(
+        self, roots: tuple[Path, ...], package_paths: Iterable[Path], variables: Mapping[str, str]
+    ) -> None:
+        self._roots = tuple(dict.fromkeys((*roots, *map(_package_path, package_paths))))
+        self._environment = RosEnvironment.from_variables(variables)
+        self._beside = _install_beside(self._roots)
+        self._read_only = [*(one for one in self._roots if is_installed(one)), *self._beside]
+        self.packages: list[Indexed] = []
+        self.problems: list[Problem] = []
+
+    def search(self, memories: Path, tell: Progress) -> None:
+        folders = (*self._roots, *self._beside, *self._environment.folders)
+        key = hashlib.sha256(os.fsencode("\n".join(map(str, folders)))).hexdigest()[:16]
+        memory = FolderMemory(memories / key, ServedRoots(folders))
+        for root in self._roots:
+            self._search_root(root, memory, tell)
+        for prefix in self._beside:
+            self._search_prefix(prefix, memory, tell, order=0)
+        self._search_environment(memory, tell)
+        memory.save()
+        self.packages = list({one.folder: one for one in reversed(self.packages)}.values())
+
+    def served(self) -> ServedRoots:
+        """Opened folders and package paths to write, all else to read only."""
+        writable = [one for one in self._roots if one not in self._read_only]
+        outside = [
+            one
+            for one in self._environment.folders
+            if one in self._environment.prefixes or not _is_in(one, writable)
+        ]
+        return ServedRoots(writable, (*self._read_only, *outside))
+
+    def _search_root(self, root: Path, memory: FolderMemory, tell: Progress) -> None:
+        found = discover(root, memory, progress=_counting(tell))
+        self._note(root, found)
+        self._read_only += found.generated
+        installed = is_installed(root)
+        for package in found.packages:
+            indexed = Indexed.found(package)
+            if installed:
+                indexed = replace(indexed, standing=Standing.INSTALLED)
+            self.packages.append(indexed)
+
+    def _search_environment(self, memory: FolderMemory, tell: Progress) -> None:
+        for order, prefix in enumerate(self._environment.prefixes, start=1):
+            self._search_prefix(prefix, memory, tell, order=order)
+        for order, source in enumerate(self._environment.sources):
+            found = discover(source, memory, progress=_counting(tell))
+            self._note(source, found)
+            self.packages += [
+                Indexed.found(one, from_environment=True, order=order) for one in found.packages
+            ]
+
+    def _search_prefix(
+        self, prefix: Path, memory: FolderMemory, tell: Progress, *, order: int
+    ) -> None:
+        found = discover(prefix, memory, is_prefix=True, progress=_counting(tell))
+        self.packages += [Indexed.found(one, order=order) for one in found.packages]
+
+    def _note(self, root: Path, found: Discovery) -> None:
+        if found.complete:
+            return
+        self.problems.append(
+            Problem(
+                Severity.WARNING,
+                "folder-too-large",
+                f"Only the first {FOLDER_LIMIT:,} folders of {root} were searched for packages: "
+                "open a smaller folder.",
+                place=Place(str(root)),
+            )
+        )
+
+
+def _install_beside(roots: Iterable[Path]) -> list[Path]:
+    """What colcon installed beside an opened `src`: packages without source may be there."""
+    beside = (root.parent / "install" for root in roots if root.name == "src")
+    return [one for one in beside if is_install_space(one)]
+
+
+def _package_path(path: Path) -> Path:
+    real = Path(os.path.realpath(path))
+    if not real.is_dir():
+        raise UnreadableFileError(str(path), "is no folder: give another --package-path.")
+    if is_too_wide(real):
+        raise UnreadableFileError(str(path), "is too wide to serve: give a folder inside it.")
+    return real
+
+
+def _serve_chosen(served: ServedRoots, chosen: Iterable[Path]) -> ServedRoots:
+    """A chosen folder may be written as an opened one may, unless it is installed."""
+    folders = [one for one in chosen if served.root_of(one) is None]
+    installed = [one for one in folders if is_installed(one)]
+    return served.with_roots([one for one in folders if one not in installed], installed)
+
+
+def _candidates(opened: Path, served: ServedRoots, tell: Progress) -> tuple[EntryPoint, ...]:
+    folder = opened if opened.is_dir() else package_folder_of(opened)
+    if folder is None or not served.serves(folder):
+        return ()
+    return tuple(entry_points(folder, served, lambda done, of: tell("robot files", done, of)))
+
+
+def _best(candidates: tuple[EntryPoint, ...]) -> Path | None:
+    return next((one.path for one in candidates if one.openable), None)
+
+
+def _unpacked(zip_path: Path, data_folder: Path, tell: Progress) -> Path:
+    """The folder of a zip's content; what was edited there after an earlier opening stays."""
+    try:
+        with zip_path.open("rb") as file:
+            digest = hashlib.file_digest(file, "sha256").hexdigest()[:20]
+    except OSError as error:
+        raise UnreadableFileError(str(zip_path), f"cannot be read ({error.strerror}).") from error
+    uploads = data_folder / UPLOADS
+    if (uploads / digest).is_dir():
+        return folder_to_open(uploads / digest)
+    left = UPLOADS_QUOTA_BYTES - _size_bytes(uploads)
+    if left <= 0:
+        reason = f"{uploads} is full: delete folders there that you need no more."
+        raise UnsafeArchiveError(str(zip_path), reason)
+    limit_bytes = min(ZIP_SIZE_LIMIT_BYTES, left)
+    label = f"unpacking {zip_path.name}"
+    return unpack_zip(
+        zip_path, uploads / digest, limit_bytes, lambda done, total: tell(label, done, total)
+    )
+
+
+def _size_bytes(folder: Path) -> int:
+    return sum(
+        os.lstat(os.path.join(path, name)).st_size  # noqa: PTH118 - many thousands of files
+        for path, _, names in os.walk(folder)
+        for name in names
+    )
+
+
+def _is_in(folder: Path, folders: Iterable[Path]) -> bool:
+    return any(is_below(folder, one) for one in folders)
+
+
+def _counting(tell: Progress) -> Callable[[int, int], None]:
+    return lambda done, total: tell("folders", done, total)
+
+
+def _tell_nobody(_label: str, _done: int, _total: int) -> None:
+    return
