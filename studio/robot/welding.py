@@ -30,15 +30,13 @@ class Welded:
 
 def weld(surface: Surface) -> Welded:
     """Share equal corners; without normals in the file, smooth them up to edges of 40 degrees."""
-    normals = surface.normals
+    normals, group = surface.normals, None
     if normals is None or not np.isfinite(normals).all():
-        normals = crease_normals(surface.positions)
-    rows = [surface.positions, normals]
-    if surface.uv is not None:
-        rows.append(surface.uv)
-    if surface.colors is not None:
-        rows.append(np.ascontiguousarray(surface.colors).view(np.float32))
-    first, vertex_of_corner = weld_rows(np.concatenate(rows, axis=1))
+        normals, group = crease_normals(surface.positions)
+    if group is not None and surface.uv is None and surface.colors is None:
+        first, vertex_of_corner = _number_labels(group)
+    else:
+        first, vertex_of_corner = weld_rows(_rows(surface, normals))
     return Welded(
         surface.positions[first],
         vertex_of_corner.astype(np.uint32).reshape(-1, 3),
@@ -46,6 +44,22 @@ def weld(surface: Surface) -> Welded:
         None if surface.uv is None else surface.uv[first],
         None if surface.colors is None else surface.colors[first],
     )
+
+
+def _rows(surface: Surface, normals: Floats) -> Floats:
+    """All that makes a corner, side by side; colours by their bits."""
+    rows = [surface.positions, normals]
+    if surface.uv is not None:
+        rows.append(surface.uv)
+    if surface.colors is not None:
+        rows.append(np.ascontiguousarray(surface.colors).view(np.float32))
+    return np.concatenate(rows, axis=1)
+
+
+def _number_labels(label: NDArray[np.intp]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """As `weld_rows`, for labels that are each the index where they first stand."""
+    is_first = label == np.arange(len(label))
+    return np.flatnonzero(is_first), (np.cumsum(is_first) - 1)[label]
 
 
 def weld_rows(rows: Floats) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
@@ -94,8 +108,10 @@ def _by_first_appearance(
     return first[order], rank[number]
 
 
-def crease_normals(positions: Floats) -> Floats:
+def crease_normals(positions: Floats) -> tuple[Floats, NDArray[np.intp]]:
     """A unit normal for each corner: the mean over the faces that meet there without a crease.
+
+    And for each corner the first corner that it shares both point and normal with.
 
     Args:
         positions: Corners, (3 M, 3). A triangle without area has the normal zero of its own, and
@@ -107,7 +123,7 @@ def crease_normals(positions: Floats) -> Floats:
     weights = np.repeat(face_normals, 3, axis=0)
     summed = np.stack([np.bincount(group, weights=column) for column in weights.T], axis=1)[group]
     lengths = np.linalg.norm(summed, axis=1, keepdims=True)
-    return (summed / np.where(lengths > 0, lengths, 1.0)).astype(np.float32)
+    return (summed / np.where(lengths > 0, lengths, 1.0)).astype(np.float32), group
 
 
 def _area_normals(positions: Floats) -> NDArray[np.float64]:
