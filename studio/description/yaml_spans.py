@@ -100,6 +100,8 @@ class _Container:
 
     path: KeyPath
     key: str | int | None = None
+    keys: set[str] = field(default_factory=set[str])
+    """All keys so far."""
 
 
 @dataclass(slots=True)
@@ -109,7 +111,9 @@ class _Reader:
     text: str
     bom: int
     open: list[_Container] = field(default_factory=list[_Container])
-    scalars: dict[KeyPath, YamlScalar] = field(default_factory=dict["KeyPath", YamlScalar])
+    scalars: list[tuple[int, YamlScalar]] = field(default_factory=list[tuple[int, YamlScalar]])
+    repeated: dict[KeyPath, int] = field(default_factory=dict["KeyPath", int])
+    """Keys that occur again in their mapping: where the last one stands, in characters."""
     aliases: list[tuple[KeyPath, KeyPath]] = field(
         default_factory=list[tuple["KeyPath", "KeyPath"]]
     )
@@ -129,7 +133,7 @@ class _Reader:
 
     def document(self) -> YamlDocument:
         """What was found."""
-        scalars = tuple(sorted(self.scalars.values(), key=lambda scalar: scalar.span.start))
+        scalars = tuple(one for at, one in self.scalars if not self._is_overruled(one, at))
         return YamlDocument(
             scalars, tuple(self._comments()), tuple(self.aliases), tuple(self.headings)
         )
@@ -148,17 +152,30 @@ class _Reader:
         start, end = event.start_mark.index, event.end_mark.index
         self.covered.append((start, end))
         if self._is_key():
-            self.open[-1].key = event.value
-            self.key_line = event.end_mark.line + 1
+            self._take_key(event)
             return
         path = self._next_path()
         self._remember_anchor(event, path)
         properties = _PROPERTIES.match(self.text, start, end)
         start = properties.end() if properties else start
-        self.scalars.pop(path, None)
         raw = self.text[start:end]
         if raw and _UNNAMED not in path and _is_written_as(raw, event.value):
-            self.scalars[path] = self._scalar(path, start, raw, event)
+            self.scalars.append((start, self._scalar(path, start, raw, event)))
+
+    def _take_key(self, event: yaml.ScalarEvent) -> None:
+        container = self.open[-1]
+        if event.value in container.keys:
+            self.repeated[(*container.path, event.value)] = event.start_mark.index
+        container.keys.add(event.value)
+        container.key = event.value
+        self.key_line = event.end_mark.line + 1
+
+    def _is_overruled(self, scalar: YamlScalar, index: int) -> bool:
+        """Whether it, or a container of it, comes again further down under the same key."""
+        if not self.repeated:
+            return False
+        prefixes = (scalar.path[:size] for size in range(1, len(scalar.path) + 1))
+        return any(index < self.repeated.get(prefix, 0) for prefix in prefixes)
 
     def _scalar(self, path: KeyPath, start: int, raw: str, event: yaml.ScalarEvent) -> YamlScalar:
         first = self._byte_offset(start)
@@ -219,17 +236,24 @@ class _Reader:
 
     def _comments(self) -> Iterator[Comment]:
         """Comments outside of scalars; in file order."""
-        starts = [start for start, _ in self.covered]
         line, position = 1, 0
-        for found in _COMMENT.finditer(self.text):
-            near = bisect.bisect_right(starts, found.start()) - 1
-            if near >= 0 and found.start() < self.covered[near][1]:
-                continue
+        while (found := _COMMENT.search(self.text, position)) is not None:
             line += self.text.count("\n", position, found.start())
-            position = found.start()
-            line_start = self.text.rfind("\n", 0, position) + 1
-            own_line = not self.text[line_start:position].strip()
-            yield Comment(found[1], line, line, own_line=own_line)
+            position = self._end_of_scalar_at(found.start())
+            if position is None:
+                line_start = self.text.rfind("\n", 0, found.start()) + 1
+                own_line = not self.text[line_start : found.start()].strip()
+                yield Comment(found[1], line, line, own_line=own_line)
+            else:
+                line += self.text.count("\n", found.start(), position)
+            position = position or found.end()
+
+    def _end_of_scalar_at(self, index: int) -> int | None:
+        """Where the scalar ends that holds a character; None when none does."""
+        near = bisect.bisect_right(self.covered, (index, len(self.text))) - 1
+        if near < 0 or index >= self.covered[near][1]:
+            return None
+        return self.covered[near][1]
 
 
 def _events(text: str) -> Iterator[yaml.Event]:

@@ -22,7 +22,7 @@ _SPELLING = {character: f"\\{letter}" for letter, character in _MEANING.items()}
 _PRINTABLE = re.compile(
     "[\x20-\x7e\xa0-\u2027\u202a-\ud7ff\ue000-\ufefe\uff00-\ufffd\U00010000-\U0010ffff]*"
 )
-_PLAIN = re.compile(r"(?:[^\s\-?:,\[\]{}#&*!|>'\"%@`]|[-?:](?=\S))(?:.*\S)?")
+_PLAIN = re.compile(r"(?:[^\s\-?:,\[\]{}#&*!|>'\"%@`]|-(?=\S))(?:.*\S)?")
 _NOT_PLAIN = re.compile(r"[,\[\]{}]|:(?:\s|$)|\s#")
 
 
