@@ -1,0 +1,53 @@
+"""Why a run stops: faults raised anywhere in the evaluator, turned into one Problem at its edge."""
+
+from __future__ import annotations
+
+from difflib import get_close_matches
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from studio.problems import MacroCall, Place
+
+
+class Fault(Exception):  # noqa: N818 - a fault of the description, not of the studio
+    """The description cannot be expanded; one sentence with what to do.
+
+    Whoever knows the place fills it in once, on the way out.
+
+    Attributes:
+        code: Stable, kebab-case, the `code` of the Problem.
+        unreadable: A file is missing or cannot be opened; an optional include may go on.
+        package: A package that was not found; the fix is to choose its folder.
+    """
+
+    def __init__(
+        self, code: str, sentence: str, *, unreadable: bool = False, package: str = ""
+    ) -> None:
+        super().__init__(sentence)
+        self.code, self.sentence = code, sentence
+        self.unreadable, self.package = unreadable, package
+        self.place: Place | None = None
+        self.include_chain: tuple[Place, ...] = ()
+        self.macro_stack: tuple[MacroCall, ...] = ()
+
+
+class Refusal(Fault):
+    """The description asks for something unsafe or over budget: final, no fallback is tried."""
+
+
+class Unsupported(Exception):  # noqa: N818 - never leaves the room
+    """Our evaluator does not know this construct; the stock library may."""
+
+
+def hint(name: str, known: Iterable[str], otherwise: str) -> str:
+    """`did you mean "x"?` when a known name is near, else what to do instead."""
+    near = get_close_matches(name, list(known), n=1, cutoff=0.7)
+    return f'did you mean "{near[0]}"?' if near else otherwise
+
+
+def shorten(text: str, limit: int = 120) -> str:
+    """A text for a sentence: on one line, cut when long."""
+    line = " ".join(text.split())
+    return line if len(line) <= limit else line[: limit - 3] + "..."

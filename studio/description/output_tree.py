@@ -1,0 +1,102 @@
+"""The tree that an evaluation makes, and how it is written as XML text."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Final, TypeAlias
+
+from studio.description.source_tree import SourceComment, SourceElement, SourceText
+from studio.problems import MacroCall, Place
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+
+class CallFrame:
+    """One macro call on the way to an element; `outer` is the call around it."""
+
+    __slots__ = ("call", "depth", "macro", "outer")
+
+    def __init__(self, macro: str, call: SourceElement, outer: CallFrame | None) -> None:
+        self.macro, self.call, self.outer = macro, call, outer
+        self.depth: int = outer.depth + 1 if outer else 1
+
+
+class OutputElement:
+    """One element that came out; it can be evaluated again, as xacro does with blocks."""
+
+    __slots__ = ("attributes", "calls", "children", "origin", "tag")
+
+    def __init__(self, tag: str, origin: SourceElement, calls: CallFrame | None) -> None:
+        self.tag, self.origin, self.calls = tag, origin, calls
+        self.attributes: dict[str, str] = {}
+        self.children: list[OutputElement | SourceText] = []
+
+    def elements(self) -> Iterator[OutputElement]:
+        """Its child elements, in order."""
+        return (child for child in self.children if isinstance(child, OutputElement))
+
+    def walk(self) -> Iterator[OutputElement]:
+        """Itself and all elements below, in document order."""
+        yield self
+        for child in self.children:
+            if isinstance(child, OutputElement):
+                yield from child.walk()
+
+
+Node: TypeAlias = SourceElement | OutputElement
+ChildNode: TypeAlias = SourceElement | OutputElement | SourceText | SourceComment
+
+_IN_TEXT: Final = re.compile(r"[&<>]")
+_IN_ATTRIBUTE: Final = re.compile(r"[&<>\"\t\n\r]")
+_ESCAPES: Final = {
+    "&": "&amp;",
+    "<": "&lt;",
+    ">": "&gt;",
+    '"': "&quot;",
+    "\t": "&#9;",
+    "\n": "&#10;",
+    "\r": "&#13;",
+}
+
+
+def macro_calls(frame: CallFrame | None) -> tuple[MacroCall, ...]:
+    """The calls that lead to a frame, the outermost first."""
+    calls: list[MacroCall] = []
+    while frame is not None:
+        calls.append(MacroCall(frame.macro, frame.call.place))
+        frame = frame.outer
+    return tuple(reversed(calls))
+
+
+def write_xml(element: OutputElement, extra_attributes: dict[str, str] | None = None) -> str:
+    """One line of XML, attributes in their order; `extra_attributes` go on the element itself."""
+    out: list[str] = []
+    _write(element, out, {**element.attributes, **(extra_attributes or {})})
+    return "".join(out)
+
+
+def _write(element: OutputElement, out: list[str], attributes: dict[str, str]) -> None:
+    out.append("<" + element.tag)
+    for name, value in attributes.items():
+        text = _IN_ATTRIBUTE.sub(_escape, value) if _IN_ATTRIBUTE.search(value) else value
+        out.append(f' {name}="{text}"')
+    if not element.children:
+        out.append("/>")
+        return
+    out.append(">")
+    for child in element.children:
+        if isinstance(child, OutputElement):
+            _write(child, out, child.attributes)
+        else:
+            out.append(_IN_TEXT.sub(_escape, child.text))
+    out.append(f"</{element.tag}>")
+
+
+def _escape(match: re.Match[str]) -> str:
+    return _ESCAPES[match[0]]
+
+
+def place_of(element: OutputElement) -> Place:
+    """Where the element is written."""
+    return element.origin.place

@@ -1,0 +1,315 @@
+"""One run's evaluation of texts: expressions, substitutions, lazy bindings, and who read what."""
+
+from __future__ import annotations
+
+import os
+import re
+from typing import TYPE_CHECKING, Any, Final
+
+from studio.description.expressions import HELPERS, Expression, compile_expression
+from studio.description.faults import Fault, Refusal, hint, shorten
+from studio.description.guarded_operations import SIZE_LIMIT, text_of
+from studio.description.packages_found import find_package
+from studio.description.run_record import CONSUMERS_KEPT, Binding, Input, YamlReads
+from studio.description.scopes import Cell, Scope, literal_value
+from studio.description.substitution import substitute
+from studio.description.symbols import PURE_SYMBOLS, make_symbols
+from studio.description.templates import Cut, segments_of
+from studio.description.yaml_values import Reader, wrap
+from studio.problems import Problem, Severity
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from studio.description.budget import Budget
+    from studio.description.run_record import Consumer
+    from studio.description.source_store import SourceStore
+    from studio.description.source_tree import SourceElement
+    from studio.description.values import ReadPolicy
+
+_ARG_COMPARED: Final = re.compile(r"""['"]?\$\(arg\s+(\w+)\)['"]?\s*[=!]=\s*['"]([^'"]*)['"]""")
+_SEVERITIES: Final = {
+    "message": Severity.INFO,
+    "deprecated": Severity.INFO,
+    "warning": Severity.WARNING,
+    "error": Severity.WARNING,
+}
+
+
+class Argument:
+    """One arg: its value, and the binding that its readers are noted at."""
+
+    __slots__ = ("input", "value")
+
+    def __init__(self, value: str, noted_at: Input) -> None:
+        self.value, self.input = value, noted_at
+
+
+class Texts:
+    """Evaluates texts for one run. `at` is the element being worked on, for places of faults."""
+
+    def __init__(self, store: SourceStore, policy: ReadPolicy, budget: Budget) -> None:
+        self.store, self.policy, self.budget = store, policy, budget
+        self.environment = policy.environment
+        self.arguments: dict[str, Argument] = {}
+        self.files: list[str] = []
+        """Files being processed, the innermost last, as named: relative paths start there."""
+        self.warnings: dict[Problem, None] = {}
+        self.yaml: dict[str, YamlReads] = {}
+        self.at: SourceElement | None = None
+        self.symbols = make_symbols(self)
+        self.helpers = {**HELPERS, "__steps": budget.steps}
+        self._reads: list[Input] = []
+        self._resolving: list[str] = []
+
+    # What the elements ask for
+
+    def value(self, text: str, scope: Scope) -> Any:  # noqa: ANN401
+        """A text's typed value; what it reads goes to whoever is noting.
+
+        Raises:
+            Fault: It cannot be evaluated.
+        """
+        if "$" not in text:
+            return text
+        self.budget.evaluation()
+        segments = segments_of(text)
+        if len(segments) == 1:
+            return self._segment(*segments[0], scope)
+        joined = "".join([text_of(self._segment(*one, scope)) for one in segments])
+        if len(joined) > SIZE_LIMIT:
+            raise Refusal("value-too-large", "A text grows too large.")
+        return joined
+
+    def consumed(self, text: str, scope: Scope, consumer: Consumer) -> Any:  # noqa: ANN401
+        """A text's value, its reads noted for an attribute that comes out."""
+        if "$" not in text:
+            return text
+        outer, self._reads = self._reads, []
+        value = self.value(text, scope)
+        for one in self._reads:
+            one.reads += 1
+            if len(one.consumers) < CONSUMERS_KEPT:
+                one.consumers[consumer] = None
+        self._note_comparisons(text)
+        self._reads = outer
+        return value
+
+    def echoed(self, text: str, scope: Scope) -> Any:  # noqa: ANN401
+        """A text's value where nobody uses it: xacro evaluates more texts than it needs."""
+        if "$" not in text:
+            return text
+        outer, self._reads = self._reads, []
+        value = self.value(text, scope)
+        self._reads = outer
+        return value
+
+    def bound(self, text: str, scope: Scope, binding: Binding) -> Any:  # noqa: ANN401
+        """A text's value, its reads noted for a binding that is made of it."""
+        if "$" not in text:
+            return text
+        outer, self._reads = self._reads, []
+        value = self.value(text, scope)
+        self._note_inputs(binding)
+        self._note_comparisons(text)
+        self._reads = outer
+        return value
+
+    def forwarded(self, name: str, scope: Scope, binding: Binding) -> Any:  # noqa: ANN401
+        """The value of a name, its read noted for the parameter that it is forwarded to."""
+        outer, self._reads = self._reads, []
+        value = scope.value_of(name)
+        self._note_inputs(binding)
+        self._reads = outer
+        return value
+
+    def mark(self) -> tuple[list[Input], SourceElement | None, int]:
+        """The state to go `back_to` when an optional include fails half-way."""
+        return self._reads, self.at, len(self._resolving)
+
+    def back_to(self, marked: tuple[list[Input], SourceElement | None, int]) -> None:
+        """Undo what a fault left behind; files stay, as xacro leaves them."""
+        self._reads, self.at = marked[:2]
+        del self._resolving[marked[2] :]
+
+    def note(self, one: Input) -> None:
+        """Something was read by the text under way."""
+        self._reads.append(one)
+
+    def warn(self, code: str, sentence: str, severity: Severity = Severity.WARNING) -> None:
+        """Note a warning at the element being worked on, once."""
+        place = self.at.place if self.at else None
+        self.warnings[Problem(severity, code, sentence, place)] = None
+
+    # What scopes ask for
+
+    def read(self, name: str, cell: Cell, scope: Scope) -> Any:  # noqa: ANN401
+        """The value of a cell, evaluated in its own scope at the first read."""
+        if cell.pending is not None:
+            self._resolve(name, cell, scope)
+        if cell.binding is not None:
+            self._reads.append(cell.binding)
+        return cell.value
+
+    def undefined(self, name: str, scope: Scope) -> Fault:
+        """No scope has the name."""
+        if name in self.arguments:
+            return Fault("undefined-property", f'"{name}" is an arg: read it with $(arg {name}).')
+        otherwise = f'define it with <xacro:property name="{name}" value="..."/>.'
+        sentence = f'"{name}" is not defined here: {hint(name, scope.all_names(), otherwise)}'
+        return Fault("undefined-property", sentence)
+
+    def _resolve(self, name: str, cell: Cell, scope: Scope) -> None:
+        if cell.resolving:
+            chain = " -> ".join([*self._resolving, name])
+            raise Fault("circular-property", f"Properties define each other in a circle: {chain}.")
+        cell.resolving = True
+        self._resolving.append(name)
+        outer_at, self.at = self.at, cell.at or self.at
+        outer_reads, self._reads = self._reads, []
+        text = cell.pending or ""
+        try:
+            cell.value = literal_value(self.value(text, scope))
+        except Fault as fault:
+            self.locate(fault)
+            fault.unreadable = False  # an optional include does not excuse what it reads lazily
+            raise
+        cell.pending, cell.resolving = None, False
+        if cell.binding is not None:
+            self._note_inputs(cell.binding)
+            self._note_comparisons(text)
+            cell.binding.saw(text_of(cell.value))
+        self._reads, self.at = outer_reads, outer_at
+        self._resolving.pop()
+
+    def locate(self, fault: Fault) -> None:
+        """Give a fault its place, unless it has one from further inside."""
+        if fault.place is None and self.at is not None:
+            fault.place = self.at.place
+
+    # What symbols and substitutions ask for
+
+    def argument(self, name: str) -> str:
+        """The value of an arg, noted as read.
+
+        Raises:
+            Fault: Neither given nor declared.
+        """
+        found = self.arguments.get(name)
+        if found is None:
+            otherwise = f"declare it with <xacro:arg> or pass {name}:=value."
+            known = hint(name, self.arguments, otherwise)
+            raise Fault("undefined-argument", f'The arg "{name}" is not given: {known}')
+        self._reads.append(found.input)
+        return found.value
+
+    def find_package(self, name: str) -> str:
+        """The folder of a package, seen from the file being processed."""
+        return find_package(self.policy.packages, name, self.files[-1])
+
+    def absolute(self, path: str) -> str:
+        """A path as seen from the file being processed."""
+        if os.path.isabs(path):  # noqa: PTH117 - texts, as xacro joins them
+            return path
+        return os.path.join(os.path.dirname(self.files[-1]), path)  # noqa: PTH118, PTH120
+
+    def load_yaml(self, path: str) -> Any:  # noqa: ANN401
+        """The values of a YAML file, every read of them noted."""
+        real, data, values = self.store.yaml(self.absolute(path), _pure_value)
+        reads = self.yaml.setdefault(real, YamlReads(real, data))
+        if self.at is not None and self.at not in reads.loaded_by:
+            reads.loaded_by.append(self.at)
+        return wrap(values, Reader(reads, self.note), ())
+
+    def say(self, severity: str, text: str) -> None:
+        """A message of the description, or about a name that it uses."""
+        if text:
+            self.warn(f"xacro-{severity}", text, _SEVERITIES[severity])
+
+    def steps(self, items: Iterable[Any]) -> Iterator[Any]:
+        """The items of a loop, each counted."""
+        return self.budget.steps(items)
+
+    # Segments
+
+    def _segment(self, cut: Cut, text: str, scope: Scope) -> Any:  # noqa: ANN401
+        if cut is Cut.EXPRESSION:
+            inner = text_of(self.value(text, scope)) if "$" in text else text
+            return self._expression(inner, scope)
+        if cut is Cut.SUBSTITUTION:
+            return self._substitution(text, scope)
+        return text
+
+    def _expression(self, text: str, scope: Scope) -> Any:  # noqa: ANN401
+        expression = compile_expression(text)
+        if expression.name is not None:
+            return scope.value_of(expression.name)
+        try:
+            value = eval(expression.code, scope.names)
+        except Fault:
+            raise
+        except (RecursionError, MemoryError) as error:
+            raise _out_of_bounds(error) from None
+        except Exception as error:  # noqa: BLE001 - whatever the expression does
+            raise _failed(text, error) from None
+        if expression.compared:
+            self._note_compared(expression, scope)
+        return value
+
+    def _substitution(self, text: str, scope: Scope) -> str:
+        command = text_of(self.value(text, scope)) if "$" in text else text
+        if command == "cwd":
+            return os.getcwd()  # noqa: PTH109 - as xacro says it
+        try:
+            return substitute(command, self)
+        except Fault:
+            raise
+        except (RecursionError, MemoryError) as error:
+            raise _out_of_bounds(error) from None
+        except Exception as error:  # noqa: BLE001 - $(eval) may raise anything
+            raise _failed(command, error) from None
+
+    # Notes
+
+    def _note_inputs(self, binding: Binding) -> None:
+        for one in self._reads:
+            one.reads += 1
+            one.dependents[binding] = None
+
+    def _note_comparisons(self, text: str) -> None:
+        if "$(arg" not in text or "=" not in text:
+            return
+        for name, compared in _ARG_COMPARED.findall(text):
+            if name in self.arguments:
+                self.arguments[name].input.compared[compared] = None
+
+    def _note_compared(self, expression: Expression, scope: Scope) -> None:
+        for name, text in expression.compared:
+            found = scope.find(name)
+            if found is not None and found[0].binding is not None:
+                found[0].binding.compared[text] = None
+
+
+def _pure_value(text: str) -> Any:  # noqa: ANN401
+    """An expression of a YAML file: no names but mathematics and builtins."""
+    code = compile_expression(text).code
+    try:
+        return eval(code, {**HELPERS, "__steps": list, **PURE_SYMBOLS})
+    except Fault:
+        raise
+    except Exception as error:  # noqa: BLE001 - whatever the expression does
+        raise _failed(text, error) from None
+
+
+def _failed(text: str, error: Exception) -> Fault:
+    reason = str(error.args[0]) if isinstance(error, KeyError) and error.args else str(error)
+    if isinstance(error, KeyError):
+        reason = f"there is no key {error}"
+    spoken = reason or type(error).__name__
+    return Fault("bad-expression", f'"{shorten(text)}" cannot be evaluated: {spoken}.')
+
+
+def _out_of_bounds(error: BaseException) -> Refusal:
+    if isinstance(error, MemoryError):
+        return Refusal("value-too-large", "An expression needs too much memory.")
+    return Refusal("nested-too-deep", "Properties or expressions are nested too deeply.")

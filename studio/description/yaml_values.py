@@ -1,0 +1,273 @@
+# pyright: reportUnknownMemberType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false
+"""Values of YAML files inside expressions: dotted access as xacro has it, and every read noted."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any, Final, SupportsIndex, cast
+
+import yaml
+
+from studio.description.faults import Fault, Refusal
+from studio.description.guarded_operations import METHODS
+from studio.description.run_record import KeyPath, YamlReads, YamlScalar
+from studio.problems import Place
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator
+
+    from studio.description.run_record import Input
+
+EXPANDED_LIMIT: Final = 200_000
+"""Values of a document with every alias counted where it stands."""
+UNITS: Final = {
+    "!radians": 1.0,
+    "!degrees": math.pi / 180.0,
+    "!meters": 1.0,
+    "!millimeters": 0.001,
+    "!foot": 0.3048,
+    "!inches": 0.0254,
+}
+"""xacro's tags and what one of each is in rad or m."""
+
+
+class Reader:
+    """Notes what is read of one document in one run; `note` gets every value read."""
+
+    __slots__ = ("_note", "reads")
+
+    def __init__(self, reads: YamlReads, note: Callable[[Input], None]) -> None:
+        self.reads, self._note = reads, note
+
+    def touch(self, path: KeyPath) -> None:
+        """The value at a path was read."""
+        value = self.reads.values.get(path)
+        if value is None:
+            value = self.reads.values[path] = YamlScalar(self.reads.path, path)
+        self._note(value)
+
+    def touch_all(self, path: KeyPath) -> None:
+        """Everything below a path was read at once."""
+        self.reads.whole.add(path)
+
+
+class YamlMapping(dict[Any, Any]):
+    """A mapping of a YAML file: `m.key` and `m['key']` give a copy of what is below."""
+
+    __slots__ = ("_path", "_reader")
+
+    def __init__(self, items: dict[Any, Any], reader: Reader | None, path: KeyPath) -> None:
+        super().__init__(items)
+        self._reader, self._path = reader, path
+
+    def __getattr__(self, key: Any) -> Any:  # noqa: ANN401
+        try:
+            value = super().__getitem__(key)
+        except KeyError:
+            raise AttributeError(f'the YAML mapping has no key "{key}"') from None
+        return self._wrapped(key, value)
+
+    __getitem__ = __getattr__
+
+    def _wrapped(self, key: Any, value: Any) -> Any:  # noqa: ANN401
+        path = (*self._path, key)
+        if self._reader is not None:
+            self._reader.touch(path)
+        return wrap(value, self._reader, path)
+
+    def get(self, key: Any, default: Any = None) -> Any:  # noqa: ANN401
+        """The value of a key, or a default."""
+        return self.get(key, default)
+
+    def __iter__(self) -> Iterator[Any]:  # so that `dict(m)` asks for each item
+        return super().__iter__()
+
+    def keys(self) -> Any:  # noqa: ANN401 - a list where dict has a view
+        """All keys."""
+        return list(self)
+
+    def items(self) -> Any:  # noqa: ANN401
+        """All (key, value) pairs."""
+        return [(key, self[key]) for key in self]
+
+    def values(self) -> Any:  # noqa: ANN401
+        """All values."""
+        return [self[key] for key in self]
+
+    def copy(self) -> Any:  # noqa: ANN401
+        """Another copy."""
+        return YamlMapping(self, self._reader, self._path)
+
+    def pop(self, key: Any, *default: Any) -> Any:  # noqa: ANN401
+        """Take a key out of this copy."""
+        value = super().pop(key, *default)
+        return self._wrapped(key, value)
+
+    def __repr__(self) -> str:
+        if self._reader is not None:
+            self._reader.touch_all(self._path)
+        return dict.__repr__(self)
+
+
+class YamlSequence(list[Any]):
+    """A list of a YAML file; items are copies of what is below."""
+
+    __slots__ = ("_path", "_reader")
+
+    def __init__(self, items: Iterable[Any], reader: Reader | None, path: KeyPath) -> None:
+        super().__init__(items)
+        self._reader, self._path = reader, path
+
+    def __getitem__(self, index: Any) -> Any:  # noqa: ANN401
+        value = super().__getitem__(index)
+        if isinstance(index, int):
+            return self._wrapped(index % len(self), value)
+        if self._reader is not None:
+            self._reader.touch_all(self._path)
+        return wrap(value, None, ())
+
+    def __iter__(self) -> Iterator[Any]:
+        for index, value in enumerate(super().__iter__()):
+            yield self._wrapped(index, value)
+
+    def _wrapped(self, index: int, value: Any) -> Any:  # noqa: ANN401
+        path = (*self._path, index)
+        if self._reader is not None:
+            self._reader.touch(path)
+        return wrap(value, self._reader, path)
+
+    def __add__(self, other: list[Any]) -> list[Any]:
+        return [*self, *other]
+
+    def __mul__(self, times: SupportsIndex) -> list[Any]:
+        return [*self] * times
+
+    __rmul__ = __mul__
+
+    def copy(self) -> Any:  # noqa: ANN401
+        """The items, each a copy."""
+        return [*self]
+
+    def pop(self, index: Any = -1) -> Any:  # noqa: ANN401
+        """Take an item out of this copy; paths of later reads are no longer known."""
+        value = super().pop(index)
+        if self._reader is not None:
+            self._reader.touch_all(self._path)
+            self._reader = None
+        return wrap(value, None, ())
+
+    def __repr__(self) -> str:
+        if self._reader is not None:
+            self._reader.touch_all(self._path)
+        return list.__repr__(self)
+
+
+METHODS[YamlMapping] = METHODS[dict]
+METHODS[YamlSequence] = METHODS[list]
+
+
+def wrap(value: Any, reader: Reader | None, path: KeyPath) -> Any:  # noqa: ANN401
+    """Give mappings and lists their dotted access; everything else is itself."""
+    if isinstance(value, dict):
+        return YamlMapping(cast("dict[Any, Any]", value), reader, path)
+    if isinstance(value, list):
+        return YamlSequence(list.__iter__(cast("list[Any]", value)), reader, path)
+    return value
+
+
+def read_yaml(path: str, data: bytes, evaluate: Callable[[str], Any]) -> Any:  # noqa: ANN401
+    """The values of a YAML file as plain Python.
+
+    Args:
+        path: Named in errors.
+        data: The file.
+        evaluate: For the text behind `!degrees` and its like.
+
+    Raises:
+        Fault: It is no YAML, with its place.
+        Refusal: Its aliases would expand without bound.
+    """
+    try:
+        return _construct(data.decode("utf-8"), evaluate)
+    except yaml.YAMLError as error:
+        raise _located(path, error) from None
+    except UnicodeDecodeError:
+        raise Fault("yaml-malformed", f"{path} is not UTF-8: save it as UTF-8.") from None
+    except (RecursionError, ValueError) as error:
+        raise Fault("yaml-malformed", f"{path} is no YAML that can be read: {error}.") from None
+
+
+def check_aliases(data: bytes) -> None:
+    """See that the aliases of a YAML text do not expand without bound; errors are left alone.
+
+    Raises:
+        Refusal: They do.
+    """
+    if b"*" not in data:
+        return
+    base = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+    try:
+        node = yaml.compose(data, Loader=base)
+    except (yaml.YAMLError, RecursionError, ValueError):
+        return
+    _count(node, {}, set())
+
+
+def _construct(text: str, evaluate: Callable[[str], Any]) -> Any:  # noqa: ANN401
+    base = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+    loader = type("_UnitLoader", (base,), {})(text)
+    for tag, size in UNITS.items():
+        loader.add_constructor(tag, _unit_constructor(size, evaluate))
+    try:
+        node = loader.get_single_node()
+        if node is None:
+            return None
+        if "*" in text:
+            _count(node, {}, set())
+        return loader.construct_document(node)
+    finally:
+        loader.dispose()
+
+
+def _unit_constructor(size: float, evaluate: Callable[[str], Any]) -> Callable[[Any, Any], float]:
+    def construct(loader: Any, node: Any) -> float:  # noqa: ANN401
+        return float(evaluate(loader.construct_scalar(node))) * size
+
+    return construct
+
+
+def _count(node: Any, counted: dict[int, int], inside: set[int]) -> int:  # noqa: ANN401
+    """Values below a node, aliases counted each time.
+
+    Raises:
+        Refusal: More than EXPANDED_LIMIT, or a node that contains itself.
+    """
+    key = id(node)
+    if key in counted:
+        return counted[key]
+    if key in inside:
+        raise Refusal("yaml-bomb", "A YAML file has an anchor that contains itself.")
+    inside.add(key)
+    total = 1 + sum(_count(child, counted, inside) for child in _children(node))
+    inside.discard(key)
+    if total > EXPANDED_LIMIT:
+        raise Refusal("yaml-bomb", "The aliases of a YAML file expand to too many values.")
+    counted[key] = total
+    return total
+
+
+def _children(node: Any) -> Iterator[Any]:  # noqa: ANN401
+    if isinstance(node, yaml.MappingNode):
+        return (one for pair in cast("list[tuple[Any, Any]]", node.value) for one in pair)
+    if isinstance(node, yaml.SequenceNode):
+        return iter(cast("list[Any]", node.value))
+    return iter(())
+
+
+def _located(path: str, error: yaml.YAMLError) -> Fault:
+    mark = getattr(error, "problem_mark", None)
+    reason = getattr(error, "problem", None) or str(error)
+    fault = Fault("yaml-malformed", f"The YAML is not valid here: {reason}.")
+    fault.place = Place(path, mark.line + 1, mark.column + 1) if mark else Place(path)
+    return fault
