@@ -68,6 +68,10 @@ class Assembly:
         element = self._elements.get(key)
         return element.part if element else None
 
+    def parts(self) -> tuple[Part, ...]:
+        """All elements of the last `apply`, in document order."""
+        return tuple(self._elements[key].part for key in self._order if key in self._elements)
+
     def apply(self, order: tuple[str, ...] | None, changed_parts: Iterable[Part]) -> Change:
         """Take in changed parts; `order` lists all keys, or is None when it stayed as it was."""
         for part in changed_parts:

@@ -1,0 +1,53 @@
+"""From a parsed command to the document's method that carries it out."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, assert_never
+
+from studio.engine import messages as m
+from studio.engine.listeners import tell
+
+if TYPE_CHECKING:
+    from studio.engine.document import Document
+    from studio.engine.listeners import Listener
+
+
+async def carry_out(document: Document, command: m.Command, listener: Listener) -> None:  # noqa: C901, PLR0912 - one arm a command
+    """Carry out one command of a document; returns when it is done.
+
+    Raises:
+        StudioError: It cannot be done; the document is as before.
+    """
+    match command:
+        case m.EditSite():
+            await document.edit_site(command.site, command.text, command.gesture)
+        case m.ResetSite():
+            await document.reset_site(command.site)
+        case m.SetArgument():
+            await document.set_argument(command.name, command.value)
+        case m.Undo():
+            await document.undo()
+        case m.Redo():
+            await document.redo()
+        case m.Save():
+            await document.save()
+        case m.Reload():
+            await document.reload()
+        case m.ChoosePackage():
+            await document.choose_package(command.name, command.folder)
+        case m.SetJoints():
+            document.set_joints(command.positions)
+        case m.ZeroJoints():
+            document.zero_joints()
+        case m.RandomizeJoints():
+            document.randomize_joints()
+        case m.AnimateJoints():
+            document.animate_joints(running=command.running)
+        case m.SetDisplay():
+            document.set_display(command.display, command.name, value=command.value)
+        case m.GetUrdf():
+            tell(listener, m.Urdf(request=command.request, text=document.urdf()))
+        case m.OpenPath() | m.CloseDocument() | m.ListFolder() | m.Watch():
+            raise TypeError(f"{command.type} is the engine's own command")
+        case _:
+            assert_never(command)

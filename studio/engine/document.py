@@ -1,0 +1,369 @@
+"""One open description: its texts, its robot, its 3D view, and everyone who looks at it."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import time
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal
+
+from studio.description.sources import Change, FileChange, Sources
+from studio.description.values import Expansion, Failure, ReadPolicy
+from studio.engine.animation import Animation
+from studio.engine.board import Board
+from studio.engine.edit_loop import EditLoop, Outcome, Target
+from studio.engine.mesh_loading import MeshLoading
+from studio.engine.messages import Built, Saved
+from studio.engine.model import Model
+from studio.engine.watching import FileWatch
+from studio.errors import CommandError
+from studio.packages.roots import package_folder_of
+from studio.packages.uris import resolve_uri
+from studio.problems import Fix, Place, Problem, Severity
+from studio.scene import DocumentScene
+from studio.settings import XACRO_ENVIRONMENT
+
+if TYPE_CHECKING:
+    from collections.abc import Awaitable, Callable, Mapping
+
+    from studio.engine.services import Services
+    from studio.packages.workspace import Location
+    from studio.robot.loaded_mesh import LoadedMesh
+
+_VALIDATE_AFTER_S = 0.3
+"""Quiet time after a structural change before yourdfpy is asked for its opinion."""
+
+
+class Document:
+    """Carries out what is asked of one document; its board tells the audience what came of it.
+
+    Every asking method returns when the thing is done and shown, or raises a StudioError with the
+    document as it was before.
+    """
+
+    def __init__(
+        self, name: str, location: Location, arguments: Mapping[str, str], services: Services
+    ) -> None:
+        if location.entry is None:
+            raise CommandError(f"{location.root} holds no robot description: open a file.")
+        self.id, self.location, self.entry = name, location, location.entry
+        self.scene = DocumentScene(asyncio.get_running_loop())
+        self.model = Model(self.scene)
+        self.expansion: Expansion | None = None
+        """The last good run."""
+        self.failed = False
+        """Whether the last run failed: the view is older than the texts."""
+        self.on_unsaved: Callable[[], None] = lambda: None
+        """Called when the document comes to have unsaved edits, or no longer has any."""
+        served = location.served
+        self.sources = Sources(served.read, served.resolve, served.may_write, arguments)
+        self.board = Board(self)
+        self.board.find("packages", location.problems)
+        self._services = services
+        self._runs = EditLoop(
+            services.description_worker(), self.sources, self._target(), self._take
+        )
+        self._meshes = MeshLoading(
+            services.meshes, self._resolve_mesh, self._roots, self._mesh_arrived, self._mesh_count
+        )
+        self._files: tuple[str, ...] = (self.path,)
+        self._watch = FileWatch(self._changed_on_disk)
+        self._animation = Animation(self._swing)
+        self._swing_start = self.model.joints.values
+        self._was_unsaved = False
+        self._background: dict[str, asyncio.Task[None]] = {}
+
+    @property
+    def title(self) -> str:
+        """The entry file's name."""
+        return self.entry.name
+
+    @property
+    def path(self) -> str:
+        """The entry file."""
+        return str(self.entry)
+
+    @property
+    def phase(self) -> Literal["opening", "ready", "failed"]:
+        """Whether there is a robot to look at."""
+        if self.expansion:
+            return "ready"
+        return "failed" if self.failed else "opening"
+
+    @property
+    def has_unsaved(self) -> bool:
+        """Whether any text differs from the disk."""
+        return bool(self.sources.unsaved_files)
+
+    @property
+    def animating(self) -> bool:
+        """Whether the joints swing now."""
+        return self._animation.running
+
+    def packages_used(self) -> dict[str, str]:
+        """Each package that a file of the last run or a mesh lies in, and which copy it is."""
+        files = (*self._files, *self._meshes.files.values())
+        folders = {package_folder_of(Path(file)) for file in files}
+        packages = self.location.index.packages
+        return {one.name: str(one.folder) for one in packages if one.folder in folders}
+
+    def start(self) -> None:
+        """Begin the first run; the audience hears how it goes."""
+        self.sources.track([self.path])
+        self._spawn("opening", self._timed(self._runs.reopen()))
+
+    async def opened(self) -> None:
+        """Wait for the first run and the meshes that it named."""
+        if opening := self._background.get("opening"):
+            await opening
+        await self._meshes.settled()
+
+    async def close(self) -> None:
+        """End everything that runs for this document."""
+        self._animation.stop()
+        for task in self._background.values():
+            task.cancel()
+        await asyncio.gather(self._watch.close(), self._meshes.close(), self._runs.close())
+        self.scene.close()
+
+    async def edit_site(self, site: str, text: str, gesture: str) -> None:
+        """Write a new text at a site and show what it does."""
+        edit = self.sources.edit_site(site, text, gesture)
+        await self._timed(self._runs.edit((edit,)))
+
+    async def reset_site(self, site: str) -> None:
+        """Put a site back to what the disk says."""
+        if edit := self.sources.reset_site(site):
+            await self._timed(self._runs.edit((edit,)))
+
+    async def set_argument(self, name: str, value: str | None) -> None:
+        """Pass or take back an argument."""
+        self.sources.set_argument(name, value)
+        await self._arguments_changed()
+
+    async def undo(self) -> None:
+        """Take the last step back."""
+        await self._follow(self.sources.undo())
+
+    async def redo(self) -> None:
+        """Do the step last taken back again."""
+        await self._follow(self.sources.redo())
+
+    async def save(self) -> None:
+        """Write all changed files."""
+        written = self.sources.save()
+        self.board.book.doubt_all()
+        self._texts_changed()
+        self.board.audience.tell(Saved(files=written))
+
+    async def reload(self) -> None:
+        """Take the disk's text of every file; undo brings unsaved edits back."""
+        edits = [edit for file in self.sources.files if (edit := self.sources.reload(file))]
+        self.board.find("disk", ())
+        self.board.book.doubt_all()
+        await self._timed(self._runs.edit(edits) if edits else self._runs.reopen())
+
+    async def choose_package(self, name: str, folder: str) -> None:
+        """Use a served folder for a package from now on."""
+        chosen = self.location.served.resolve(Path(folder))
+        self.location = await asyncio.to_thread(self.location.choose_package, name, chosen)
+        self._meshes.want(self._meshes.problems)
+        await self._timed(self._runs.reopen(self._target()))
+
+    def set_joints(self, positions: Mapping[str, float]) -> None:
+        """Move joints; ends a swing."""
+        self._stop_swinging()
+        self.model.joints.set(positions)
+        self._show_positions()
+
+    def zero_joints(self) -> None:
+        """All joints to zero."""
+        self._stop_swinging()
+        self.model.joints.zero()
+        self._show_positions()
+
+    def randomize_joints(self) -> None:
+        """All joints to random positions."""
+        self._stop_swinging()
+        self.model.joints.randomize()
+        self._show_positions()
+
+    def animate_joints(self, *, running: bool) -> None:
+        """Swing the joints from where they are, or stop."""
+        if running and not self.animating:
+            self._swing_start = self.model.joints.values
+            self._animation.start()
+        elif not running:
+            self._animation.stop()
+        self.board.joints()
+
+    def set_display(self, display: str, name: str, *, value: bool | float | str) -> None:
+        """Change one shared display setting."""
+        self.scene.set_display(display, name, value)
+        self._want_meshes()
+        self.board.displays()
+
+    def urdf(self) -> str:
+        """The expanded URDF of the last good run.
+
+        Raises:
+            CommandError: There was none yet.
+        """
+        if self.expansion is None:
+            raise CommandError(f"{self.title} has not been expanded yet: mend its problems first.")
+        return self.model.urdf(self.expansion.root_attributes)
+
+    def _take(self, outcome: Outcome, version: int) -> None:
+        """A run ended: show what it gave, or say why the last good one stays."""
+        before = self.phase, self._files, self.failed
+        match outcome:
+            case Failure():
+                self._take_failure(outcome)
+            case Expansion():
+                self._take_expansion(outcome, version)
+        if before != (self.phase, self._files, self.failed):
+            self.board.state()
+            self.board.problems()
+        self._watch_files()
+        self._texts_changed()
+
+    def _take_failure(self, failure: Failure) -> None:
+        self.failed = True
+        self._files = tuple(dict.fromkeys((*self._files, *failure.files)))
+        self.sources.track(failure.files)
+        self.board.find("expansion", (self._with_undo(failure.problem),))
+
+    def _take_expansion(self, expansion: Expansion, version: int) -> None:
+        is_first = self.expansion is None
+        self.expansion, self.failed, self._files = expansion, False, expansion.files
+        self.sources.adopt(expansion, version)
+        self.board.book.take(expansion)
+        change = self.model.take(expansion)
+        self.board.find("expansion", expansion.warnings)
+        self.board.find("robot", change.problems)
+        self._want_meshes()
+        if is_first or change.structural or change.changed_joints:
+            self.board.robot()
+        if is_first or change.structural:
+            self._spawn("validation", self._validate())
+
+    def _with_undo(self, problem: Problem) -> Problem:
+        """Offer to take the edit back that may have broken it."""
+        if problem.fix or not self.sources.undo_labels or self.expansion is None:
+            return problem
+        return replace(problem, fix=Fix("Undo edit", "undo"))
+
+    async def _follow(self, change: Change | None) -> None:
+        """Run what an undo or redo changed."""
+        if change is None:
+            return
+        if change.arguments is None:
+            await self._timed(self._runs.edit(change.edits))
+        else:
+            await self._arguments_changed()
+
+    async def _arguments_changed(self) -> None:
+        self.board.book.doubt_all()
+        self.board.state()
+        await self._timed(self._runs.arguments_changed())
+
+    async def _timed(self, run: Awaitable[None]) -> None:
+        """Wait for a run and tell how long it took from the edit to the scene."""
+        began_s = time.perf_counter()
+        await run
+        took_ms = (time.perf_counter() - began_s) * 1000
+        self.board.audience.tell(Built(ok=not self.failed, duration_ms=took_ms))
+
+    async def _changed_on_disk(self, files: set[str]) -> None:
+        self._meshes.want([uri for uri, file in self._meshes.files.items() if file in files])
+        found = {file: self.sources.refresh(file) for file in files & set(self._files)}
+        gone = [_gone(file) for file, what in found.items() if what is FileChange.GONE]
+        conflicts = [_conflict(file) for file in sorted(self.sources.conflicts)]
+        self.board.find("disk", (*gone, *conflicts))
+        self.board.book.doubt_all()
+        self._texts_changed()
+        news = [file for file, what in found.items() if what is FileChange.RELOADED]
+        if news or (self.failed and files - set(found)):
+            await self._timed(self._runs.reload(news))
+
+    def _want_meshes(self) -> None:
+        self._meshes.forget(self.model.mesh_uris())
+        self._meshes.want(self.scene.missing_meshes())
+        self.board.find("mesh", self._meshes.problems.values())
+
+    def _mesh_arrived(self, uri: str, mesh: LoadedMesh | None) -> None:
+        self.scene.provide_mesh(uri, mesh)
+        self.scene.flush()
+        self._watch_files()
+        self.board.find("mesh", self._meshes.problems.values())
+
+    def _mesh_count(self, done: int, total: int) -> None:
+        self.board.progress("meshes", done, total)
+
+    def _resolve_mesh(self, uri: str) -> Path:
+        return resolve_uri(uri, self.entry, self.location.index, self.location.served)
+
+    def _roots(self) -> tuple[Path, ...]:
+        return self.location.served.all
+
+    async def _validate(self) -> None:
+        await asyncio.sleep(_VALIDATE_AFTER_S)
+        self.board.find("validation", await self._services.validator.validate(self.urdf()))
+
+    def _swing(self, time_s: float) -> None:
+        self.model.joints.swing(time_s, self._swing_start)
+        self._show_positions()
+
+    def _stop_swinging(self) -> None:
+        if self.animating:
+            self._animation.stop()
+            self.board.joints()
+
+    def _show_positions(self) -> None:
+        self.model.pose()
+        self.board.joint_frame()
+
+    def _texts_changed(self) -> None:
+        self.board.texts()
+        if self.has_unsaved != self._was_unsaved:
+            self._was_unsaved = self.has_unsaved
+            self.on_unsaved()
+
+    def _watch_files(self) -> None:
+        self._watch.watch((*self._files, *self._meshes.files.values()))
+
+    def _spawn(self, name: str, work: Awaitable[None]) -> None:
+        """Run something beside; the one of the same name before it is given up."""
+        if before := self._background.get(name):
+            before.cancel()
+        self._background[name] = asyncio.ensure_future(work)
+
+    def _target(self) -> Target:
+        trusted = self._services.settings.trusted
+        environment = {
+            name: value
+            for name, value in os.environ.items()
+            if trusted or name in XACRO_ENVIRONMENT
+        }
+        policy = ReadPolicy(
+            roots=tuple(map(str, self.location.served.all)),
+            packages=self.location.index.mapping_for(self.entry),
+            environment=environment,
+            trusted=trusted,
+        )
+        return Target(self.path, policy)
+
+
+def _conflict(file: str) -> Problem:
+    sentence = (
+        "This file was changed on disk while it has unsaved edits here: "
+        "reload to take the disk's text (undo brings your edits back)."
+    )
+    return Problem(Severity.WARNING, "changed-on-disk", sentence, Place(file))
+
+
+def _gone(file: str) -> Problem:
+    sentence = "This file can no longer be read from disk; its last text is kept here."
+    return Problem(Severity.WARNING, "file-gone", sentence, Place(file))

@@ -1,0 +1,141 @@
+"""Feeds the xacro worker: while one run is under way, everything new waits for the next one."""
+
+from __future__ import annotations
+
+import asyncio
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypeAlias
+
+from studio.description.values import (
+    ArgumentsRequest,
+    Edit,
+    EditRequest,
+    Expansion,
+    Failure,
+    OpenRequest,
+    ReadPolicy,
+    ReloadRequest,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    from studio.description.client import DescriptionWorker
+    from studio.description.sources import Sources
+
+Outcome: TypeAlias = Expansion | Failure
+
+
+@dataclass(frozen=True, slots=True)
+class Target:
+    """What is run: the entry file, and what it may read."""
+
+    entry: str
+    policy: ReadPolicy
+
+
+class EditLoop:
+    """One run at a time over the newest texts; a burst of edits costs as many runs as fit.
+
+    `take` gets every outcome and the version of the sources' spans that it holds for, on the loop,
+    before those who waited for it go on.
+    """
+
+    def __init__(
+        self,
+        worker: DescriptionWorker,
+        sources: Sources,
+        target: Target,
+        take: Callable[[Outcome, int], None],
+    ) -> None:
+        self.target = target
+        self._worker, self._sources, self._take = worker, sources, take
+        self._edits: list[Edit] = []
+        self._reload: set[str] = set()
+        self._open = True
+        self._arguments_changed = False
+        self._waiters: list[asyncio.Future[None]] = []
+        self._turns: asyncio.Task[None] | None = None
+
+    async def edit(self, edits: Iterable[Edit]) -> None:
+        """Run with these edits, which the sources already hold."""
+        self._edits.extend(edits)
+        await self._next_run()
+
+    async def reload(self, files: Iterable[str]) -> None:
+        """Run with these files read anew."""
+        self._reload.update(files)
+        await self._next_run()
+
+    async def arguments_changed(self) -> None:
+        """Run with the sources' arguments as they are now."""
+        self._arguments_changed = True
+        await self._next_run()
+
+    async def reopen(self, target: Target | None = None) -> None:
+        """Run from scratch, for instance after the packages changed."""
+        self.target = target or self.target
+        self._open = True
+        await self._next_run()
+
+    async def close(self) -> None:
+        """End the worker; those who wait are cancelled."""
+        if self._turns:
+            self._turns.cancel()
+        for waiter in self._waiters:
+            waiter.cancel()
+        await self._worker.close()
+
+    async def _next_run(self) -> None:
+        waiter: asyncio.Future[None] = asyncio.get_running_loop().create_future()
+        self._waiters.append(waiter)
+        if self._turns is None or self._turns.done():
+            self._turns = asyncio.create_task(self._take_turns())
+        await waiter
+
+    async def _take_turns(self) -> None:
+        while self._waiters:
+            waiters, self._waiters = self._waiters, []
+            try:
+                version = self._sources.spans.version
+                self._take(await self._run(), version)
+            except Exception as error:  # noqa: BLE001 - handed on to everyone who waits for it
+                _settle(waiters, error)
+            else:
+                _settle(waiters, None)
+
+    async def _run(self) -> Outcome:
+        """Send what changed since the last run; more than one kind of change opens anew."""
+        edits, self._edits = tuple(self._edits), []
+        reload, self._reload = tuple(self._reload), set[str]()
+        arguments, self._arguments_changed = self._arguments_changed, False
+        kinds = bool(edits) + bool(reload) + arguments
+        if self._open or self._worker.needs_reopen or kinds != 1:
+            self._open = False
+            return await self._worker.open(self._whole())
+        if reload:
+            overlay = self._sources.overlay()
+            return await self._worker.reload(
+                ReloadRequest(reload, {file: overlay[file] for file in reload if file in overlay})
+            )
+        if arguments:
+            return await self._worker.set_arguments(ArgumentsRequest(self._sources.arguments))
+        return await self._worker.edit(EditRequest(edits))
+
+    def _whole(self) -> OpenRequest:
+        return OpenRequest(
+            entry=self.target.entry,
+            arguments=self._sources.arguments,
+            policy=self.target.policy,
+            overlay=self._sources.overlay(),
+        )
+
+
+def _settle(waiters: list[asyncio.Future[None]], error: Exception | None) -> None:
+    for waiter in waiters:
+        if waiter.done():
+            continue
+        if error is None:
+            waiter.set_result(None)
+        else:
+            waiter.set_exception(error)

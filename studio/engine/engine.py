@@ -1,0 +1,165 @@
+"""The engine: all open documents, and the commands that concern more than one of them."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from studio.engine import messages as m
+from studio.engine.dispatch import carry_out
+from studio.engine.document import Document
+from studio.engine.listeners import Audience, tell
+from studio.engine.services import Services
+from studio.errors import CommandError, UnknownDocumentError
+from studio.packages.listing import list_folder
+from studio.packages.roots import ServedRoots
+from studio.packages.workspace import Location, open_location
+
+if TYPE_CHECKING:
+    from studio.engine.listeners import Listener
+    from studio.settings import Settings
+
+_DOCUMENT_LIMIT = 32
+
+
+class Engine:
+    """Holds the documents by id; built, started and closed on the server's loop."""
+
+    def __init__(self, settings: Settings) -> None:
+        self.documents: dict[str, Document] = {}
+        self.default_document: str | None = None
+        self._settings = settings
+        self._services = Services(settings)
+        self._lobby = Audience()
+        self._watching: dict[Listener, Document] = {}
+        self._served = ServedRoots(())
+
+    async def start(self) -> None:
+        """Warm the workers in the background; pages are served meanwhile."""
+        await self._services.start()
+
+    async def close(self) -> None:
+        """Close all documents and end all workers."""
+        documents, self.documents = tuple(self.documents.values()), {}
+        await asyncio.gather(*(document.close() for document in documents), self._services.close())
+
+    def attach(self, listener: Listener) -> None:
+        """A control lane was opened: tell it what is open."""
+        self._lobby.add(listener)
+        tell(listener, self._list())
+
+    def detach(self, listener: Listener) -> None:
+        """A control lane was closed."""
+        self._lobby.remove(listener)
+        if document := self._watching.pop(listener, None):
+            document.board.audience.remove(listener)
+
+    def document(self, name: str) -> Document:
+        """The open document of that id.
+
+        Raises:
+            UnknownDocumentError: There is none.
+        """
+        try:
+            return self.documents[name]
+        except KeyError:
+            raise UnknownDocumentError(name) from None
+
+    async def execute(self, command: m.Command, listener: Listener) -> None:
+        """Carry out one command and answer it; whether the role may was decided at the door.
+
+        Raises:
+            StudioError: It cannot be done.
+        """
+        match command:
+            case m.Watch():
+                self._watch(self.document(command.document), listener)
+            case m.OpenPath():
+                name = await self._open_served(command)
+                tell(listener, m.Opened(request=command.request, document=name))
+            case m.CloseDocument():
+                await self._close(self.document(command.document), discard=command.discard)
+            case m.ListFolder():
+                tell(listener, await self._list_folder(command))
+            case _:
+                await carry_out(self.document(command.document), command, listener)
+        tell(listener, m.Done(request=command.request))
+
+    async def open_path(self, path: Path, arguments: dict[str, str]) -> str:
+        """Open what the command line names; its folders are served from now on.
+
+        Raises:
+            StudioError: Nothing there can be opened.
+        """
+        location = await self._locate(path, self._settings.package_paths)
+        self._served = self._served.with_roots(location.served.writable, location.served.read_only)
+        return self._open(location, arguments)
+
+    async def _open_served(self, command: m.OpenPath) -> str:
+        path = self._served.resolve(Path(command.path))
+        return self._open(await self._locate(path, self._settings.package_paths), command.arguments)
+
+    async def _locate(self, path: Path, package_paths: tuple[Path, ...]) -> Location:
+        return await asyncio.to_thread(
+            open_location, path, package_paths, self._settings.data_folder, dict(os.environ)
+        )
+
+    def _open(self, location: Location, arguments: dict[str, str]) -> str:
+        if len(self.documents) >= _DOCUMENT_LIMIT:
+            raise CommandError(f"{_DOCUMENT_LIMIT} documents are open: close one first.")
+        document = Document(self._free_id(location), location, arguments, self._services)
+        document.on_unsaved = self._tell_list
+        self.documents[document.id] = document
+        self.default_document = self.default_document or document.id
+        document.start()
+        self._tell_list()
+        return document.id
+
+    def _free_id(self, location: Location) -> str:
+        """A readable id that stays the same when the same file is opened after a restart."""
+        stem = location.entry.name.split(".")[0] if location.entry else ""
+        base = re.sub(r"[^a-z0-9]+", "-", stem.lower()).strip("-") or "robot"
+        names = [base, *(f"{base}-{number}" for number in range(2, _DOCUMENT_LIMIT + 2))]
+        return next(name for name in names if name not in self.documents)
+
+    def _watch(self, document: Document, listener: Listener) -> None:
+        if before := self._watching.pop(listener, None):
+            before.board.audience.remove(listener)
+        self._watching[listener] = document
+        document.board.attach(listener)
+
+    async def _close(self, document: Document, *, discard: bool) -> None:
+        if document.has_unsaved and not discard:
+            raise CommandError(f"{document.title} has unsaved edits: save or discard them first.")
+        del self.documents[document.id]
+        if self.default_document == document.id:
+            self.default_document = next(iter(self.documents), None)
+        document.board.audience.tell(m.Gone(document=document.id))
+        await document.close()
+        self._tell_list()
+
+    async def _list_folder(self, command: m.ListFolder) -> m.Folder:
+        listed = await asyncio.to_thread(list_folder, command.path, self._served)
+        return m.Folder(
+            request=command.request,
+            path=listed.path,
+            parent=listed.parent,
+            entries=tuple(
+                m.FolderEntry.model_validate(entry, from_attributes=True)
+                for entry in listed.entries
+            ),
+        )
+
+    def _list(self) -> m.Documents:
+        return m.Documents(
+            documents=tuple(
+                m.DocumentEntry(id=one.id, title=one.title, path=one.path, unsaved=one.has_unsaved)
+                for one in self.documents.values()
+            )
+        )
+
+    def _tell_list(self) -> None:
+        self._lobby.tell(self._list())

@@ -1,0 +1,90 @@
+"""Brings the meshes that the scene asks for: loaded once each, reported as they come."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import TYPE_CHECKING
+
+from studio.errors import PackageError, RobotError, WorkerError
+from studio.problems import Problem, Severity
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+    from pathlib import Path
+
+    from studio.robot.loaded_mesh import LoadedMesh
+    from studio.robot.meshes import MeshLibrary
+
+
+class MeshLoading:
+    """Loads by URI; `arrived(uri, mesh)` is called for each, with None when it failed.
+
+    Args:
+        library: Loads a file once, whatever the number of askers.
+        resolve: From a URI to a file; raises PackageError.
+        roots: The folders that may be read now.
+        arrived: Told of each mesh as it comes.
+        progress: Told (done, total) of the batch under way.
+    """
+
+    def __init__(
+        self,
+        library: MeshLibrary,
+        resolve: Callable[[str], Path],
+        roots: Callable[[], Iterable[Path]],
+        arrived: Callable[[str, LoadedMesh | None], None],
+        progress: Callable[[int, int], None],
+    ) -> None:
+        self._library, self._resolve, self._roots = library, resolve, roots
+        self._arrived, self._progress = arrived, progress
+        self._tasks: dict[str, asyncio.Task[None]] = {}
+        self._done = self._total = 0
+        self.files: dict[str, str] = {}
+        self.problems: dict[str, Problem] = {}
+
+    def want(self, uris: Iterable[str]) -> None:
+        """Load these in the background, but for those under way."""
+        for uri in uris:
+            if uri not in self._tasks:
+                self._total += 1
+                self._tasks[uri] = asyncio.create_task(self._load(uri))
+        self._tell_progress()
+
+    def forget(self, used: Iterable[str]) -> None:
+        """Drop the problems and files of meshes that the robot no longer names."""
+        kept = set(used)
+        self.files = {uri: file for uri, file in self.files.items() if uri in kept}
+        self.problems = {uri: found for uri, found in self.problems.items() if uri in kept}
+
+    async def settled(self) -> None:
+        """Wait until nothing is under way."""
+        while self._tasks:
+            await asyncio.wait(tuple(self._tasks.values()))
+
+    async def close(self) -> None:
+        """Give up what is under way."""
+        tasks = tuple(self._tasks.values())
+        for task in tasks:
+            task.cancel()
+        await asyncio.gather(*tasks, return_exceptions=True)
+
+    async def _load(self, uri: str) -> None:
+        mesh: LoadedMesh | None = None
+        try:
+            path = self._resolve(uri)
+            self.files[uri] = str(path)
+            mesh = await self._library.load(path, self._roots())
+            self.problems.pop(uri, None)
+        except (PackageError, RobotError, WorkerError) as error:
+            self.problems[uri] = Problem(Severity.WARNING, "mesh", f"Mesh {error}")
+        finally:
+            self._tasks.pop(uri, None)
+            self._done += 1
+        self._arrived(uri, mesh)
+        self._tell_progress()
+
+    def _tell_progress(self) -> None:
+        if self._total:
+            self._progress(self._done, self._total)
+        if self._done == self._total:
+            self._done = self._total = 0

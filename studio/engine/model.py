@@ -1,0 +1,75 @@
+"""The robot of a document on its way from parts to the scene: only what changed moves on."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+from xml.etree import ElementTree
+
+from studio.engine.joints import JointPositions
+from studio.robot.assembly import Assembly, Change
+from studio.robot.kinematics import Kinematics
+from studio.robot.values import Mesh, Robot
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from studio.description.values import Expansion
+    from studio.scene import DocumentScene
+
+
+class Model:
+    """Assembly, kinematics and joint positions of one robot, and the scene that shows it."""
+
+    def __init__(self, scene: DocumentScene) -> None:
+        self.scene = scene
+        self.assembly = Assembly()
+        self.kinematics = Kinematics(Robot(""))
+        self.joints = JointPositions(self.kinematics)
+        self.revision = 0
+        """Counts structural changes."""
+
+    @property
+    def robot(self) -> Robot:
+        """The last good robot; without links before the first."""
+        return self.assembly.robot
+
+    def take(self, expansion: Expansion) -> Change:
+        """Take in a run and show what it changed."""
+        self.assembly.rename(expansion.robot_name)
+        change = self.assembly.apply(expansion.part_order, expansion.changed_parts)
+        if change.kept_last_good:
+            return change
+        if change.structural or change.changed_joints:
+            self.kinematics = Kinematics(change.robot)
+            self.joints.adopt(self.kinematics)
+            self.revision += change.structural
+        self.scene.show(change.robot, change.changed_links | self._axes_of(change))
+        self.pose()
+        return change
+
+    def pose(self) -> None:
+        """Send the links to where the joint positions put them."""
+        links = self.kinematics.link_names
+        self.scene.set_poses(links, self.kinematics.wxyz_xyz(self.joints.values))
+        self.scene.flush()
+
+    def mesh_uris(self) -> frozenset[str]:
+        """Every mesh that the robot names."""
+        return frozenset(
+            shape.geometry.uri
+            for link in self.robot.links.values()
+            for shape in (*link.visuals, *link.collisions)
+            if isinstance(shape.geometry, Mesh)
+        )
+
+    def urdf(self, root_attributes: Iterable[tuple[str, str]]) -> str:
+        """The robot as URDF text, one indented element after the other."""
+        root = ElementTree.Element("robot", dict(root_attributes))
+        root.extend(ElementTree.fromstring(part.xml) for part in self.assembly.parts())
+        ElementTree.indent(root)
+        return '<?xml version="1.0" ?>\n' + ElementTree.tostring(root, encoding="unicode") + "\n"
+
+    def _axes_of(self, change: Change) -> frozenset[str]:
+        """Links whose drawn joint axis changed: the children of the changed joints."""
+        joints = change.robot.joints
+        return frozenset(joints[name].child for name in change.changed_joints if name in joints)

@@ -1,0 +1,59 @@
+"""Which of a document's files changed on disk, as soon as they did."""
+
+# watchfiles' stub names anyio's events, which name trio's, which is not installed.
+# pyright: reportUnknownVariableType=false
+from __future__ import annotations
+
+import asyncio
+import contextlib
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from watchfiles import awatch
+
+if TYPE_CHECKING:
+    from collections.abc import Awaitable, Callable, Iterable
+
+_DEBOUNCE_MS = 50
+
+
+class FileWatch:
+    """Watches the folders of a set of files and reports those of the set that changed.
+
+    Folders are watched rather than files, because editors replace a file instead of writing it.
+    """
+
+    def __init__(self, changed: Callable[[set[str]], Awaitable[None]]) -> None:
+        self._changed = changed
+        self._files: frozenset[str] = frozenset()
+        self._folders: frozenset[str] = frozenset()
+        self._stop = asyncio.Event()
+        self._task: asyncio.Task[None] | None = None
+
+    def watch(self, files: Iterable[str]) -> None:
+        """Watch these files from now on; cheap when their folders stay the same."""
+        self._files = frozenset(files)
+        folders = frozenset(
+            str(folder) for folder in {Path(file).parent for file in self._files} if folder.is_dir()
+        )
+        if folders == self._folders:
+            return
+        self._folders = folders
+        self._stop.set()
+        self._stop = asyncio.Event()
+        self._task = asyncio.create_task(self._run(folders, self._stop)) if folders else None
+
+    async def close(self) -> None:
+        """End the watch."""
+        self._stop.set()
+        if self._task:
+            self._task.cancel()
+            with contextlib.suppress(asyncio.CancelledError):
+                await self._task
+
+    async def _run(self, folders: frozenset[str], stop: asyncio.Event) -> None:
+        watched = awatch(*folders, recursive=False, stop_event=stop, debounce=_DEBOUNCE_MS)
+        async for changes in watched:
+            touched = {path for _, path in changes} & self._files
+            if touched and not stop.is_set():
+                await self._changed(touched)
