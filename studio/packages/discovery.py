@@ -84,6 +84,33 @@ def discover(
     return Discovery(tuple(packages), tuple(search.generated), not search.waiting)
 
 
+def robot_files(folder: Path, memory: FolderMemory) -> Iterator[Path]:
+    """The files that may be robot descriptions, in the sources below a folder.
+
+    An install space is left out, unless it is the folder that was asked for.
+    """
+    top = str(folder)
+    waiting = [top]
+    for _ in range(FOLDER_LIMIT):
+        if not waiting:
+            return
+        one = waiting.pop()
+        facts = memory.facts(one)
+        if facts is not None and (one == top or _is_source(one, facts)):
+            yield from (Path(one, name) for name in facts.robot_files)
+            waiting += [f"{one}{os.sep}{name}" for name in reversed(facts.subfolders)]
+
+
+def _is_source(folder: str, facts: FolderFacts) -> bool:
+    if facts.ignored or (facts.is_install_space and not facts.has_manifest):
+        return False
+    return facts.has_manifest or _base_name(folder) not in _GENERATED
+
+
+def _base_name(folder: str) -> str:
+    return folder.rpartition(os.sep)[2]
+
+
 class _Search:
     def __init__(
         self, memory: FolderMemory, progress: Callable[[int, int], None] | None = None
@@ -123,7 +150,7 @@ class _Search:
         The folders that colcon and catkin make are known by their names, unless they are packages,
         and install spaces by what stands in them; the ignore marker in these is for builds only.
         """
-        name = os.path.basename(folder)  # noqa: PTH119 - called for each of thousands of folders
+        name = _base_name(folder)
         made = folder != self._root and name in _GENERATED and not facts.has_manifest
         installed = (made and name in _INSTALL) or facts.is_install_space
         if made or installed:

@@ -2,29 +2,26 @@
 
 from __future__ import annotations
 
-import os
 import re
 from dataclasses import dataclass
-from pathlib import Path
+from itertools import islice
 from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
 from studio.errors import PackageError
+from studio.packages.discovery import robot_files
+from studio.packages.folder_memory import FolderMemory
 from studio.packages.includes import Includes
 from studio.packages.manifest import FILE_NAME, SIZE_LIMIT_BYTES, package_name
 from studio.packages.outline import Outline, read_outline
 from studio.packages.roots import package_folder_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
+    from collections.abc import Callable, Iterable
+    from pathlib import Path
 
     from studio.packages.roots import ServedRoots
 
 FILE_LIMIT: Final = 20_000
-SUFFIXES: Final = (".xacro", ".urdf", ".xml")
-_NOT_ENTERED: Final = frozenset(
-    {"build", "install", "log", "devel", "node_modules", "__pycache__", "site-packages"}
-)
-_IGNORE_MARKERS: Final = frozenset({"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"})
 _ASIDE: Final = frozenset({"test", "tests", "example", "examples", "gazebo", "moveit", "demo"})
 _PACKAGE_ENDINGS: Final = re.compile(
     r"_(descriptions?|support|tutorial|simple|bringup|robot|model)$"
@@ -50,13 +47,18 @@ class EntryPoint:
 
 
 def entry_points(
-    folder: Path, roots: ServedRoots, progress: Callable[[int, int], None] | None = None
+    folder: Path,
+    roots: ServedRoots,
+    progress: Callable[[int, int], None] | None = None,
+    memory: FolderMemory | None = None,
 ) -> list[EntryPoint]:
     """Every file below a folder that looks like a robot description: the best to open first.
 
-    `progress` is told (files read, files to read).
+    At most FILE_LIMIT files are looked at. `progress` is told (files read, files to read);
+    `memory` is that of an earlier search of these folders.
     """
-    return survey(list(_robot_files(folder)), roots, progress)
+    files = robot_files(folder, memory or FolderMemory(None, roots))
+    return survey(islice(files, FILE_LIMIT), roots, progress)
 
 
 def survey(
@@ -175,21 +177,3 @@ def _is_named_like(point: EntryPoint, *, start: bool) -> bool:
 
 def _words(step: str) -> set[str]:
     return set(re.split(r"[^a-z]+", step.lower()))
-
-
-def _robot_files(folder: Path) -> Iterator[Path]:
-    """Files by suffix, where colcon would look, at most FILE_LIMIT of them."""
-    found = 0
-    for path, folders, names in os.walk(folder):
-        if path != str(folder) and not _IGNORE_MARKERS.isdisjoint(names):
-            folders.clear()
-            continue
-        folders[:] = sorted(name for name in folders if _is_entered(name))
-        for name in sorted(names):
-            if name.lower().endswith(SUFFIXES) and name != FILE_NAME and found < FILE_LIMIT:
-                found += 1
-                yield Path(path, name)
-
-
-def _is_entered(name: str) -> bool:
-    return not name.startswith(".") and name not in _NOT_ENTERED

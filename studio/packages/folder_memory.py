@@ -15,7 +15,8 @@ from studio.packages.manifest import FILE_NAME, SIZE_LIMIT_BYTES, package_name
 if TYPE_CHECKING:
     from studio.packages.roots import ServedRoots
 
-_VERSION: Final = 1
+_VERSION: Final = 2
+ROBOT_SUFFIXES: Final = (".xacro", ".urdf", ".xml")
 _IGNORE_MARKERS: Final = frozenset({"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"})
 INSTALL_MARKERS: Final = frozenset({".colcon_install_layout", ".catkin", "local_setup.sh"})
 _NEVER_ENTERED: Final = frozenset({"node_modules", "__pycache__", "site-packages", "CVS"})
@@ -28,7 +29,9 @@ class FolderFacts(msgspec.Struct, frozen=True, array_like=True):
 
     mtime_ns: int
     subfolders: tuple[str, ...]
-    """Names of the folders to enter: no links, nothing hidden."""
+    """Names of the folders to enter: no links, nothing hidden; sorted."""
+    robot_files: tuple[str, ...]
+    """Names of the files whose suffix a robot description may have; sorted."""
     has_manifest: bool
     ignored: bool
     is_install_space: bool
@@ -60,7 +63,9 @@ class FolderMemory:
         """Folders that had to be listed because nothing trustworthy was known of them."""
 
     def facts(self, folder: str) -> FolderFacts | None:
-        """What is in a folder; None when it cannot be listed."""
+        """What is in a folder; None when it cannot be listed. Each is looked at once a run."""
+        if folder in self._folders:
+            return self._folders[folder]
         try:
             mtime_ns = os.lstat(folder).st_mtime_ns
             known = self._old.folders.get(folder)
@@ -130,10 +135,16 @@ def _look(folder: str, mtime_ns: int) -> FolderFacts:
     return FolderFacts(
         mtime_ns=mtime_ns,
         subfolders=tuple(sorted(name for name in subfolders if _is_entered(name))),
+        robot_files=tuple(sorted(name for name in names if is_robot_name(name))),
         has_manifest=FILE_NAME in names,
         ignored=is_environment or not names.isdisjoint(_IGNORE_MARKERS),
         is_install_space=not names.isdisjoint(INSTALL_MARKERS),
     )
+
+
+def is_robot_name(name: str) -> bool:
+    """Whether a file is to be looked at: its content decides what it is."""
+    return name.lower().endswith(ROBOT_SUFFIXES) and name != FILE_NAME
 
 
 def _is_entered(name: str) -> bool:

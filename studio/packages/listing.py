@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final, Literal, NamedTuple, TypeAlias
 
 from studio.errors import UnreadableFileError
-from studio.packages.entry_points import SUFFIXES, survey
+from studio.packages.entry_points import survey
+from studio.packages.folder_memory import is_robot_name
 from studio.packages.manifest import FILE_NAME
 
 if TYPE_CHECKING:
@@ -71,7 +72,7 @@ def _parent(folder: Path, roots: ServedRoots) -> str:
 def _entries(
     paths: list[Path], roots: ServedRoots, *, whole_path: bool = False
 ) -> list[ListedEntry]:
-    files = [path for path in paths if path.suffix in SUFFIXES and path.name != FILE_NAME]
+    files = [path for path in paths if is_robot_name(path.name)]
     robots = {
         point.path: (point.openable, point.reason)
         for point in survey([one for one in files if roots.serves(one)], roots)

@@ -92,11 +92,11 @@ def open_location(
     if is_zip:
         real = _unpacked(real, data_folder, tell)
         roots = (real,)
-    survey = _Survey(roots, package_paths, environment)
-    survey.search(data_folder / _MEMORY, tell)
+    survey = _Survey(roots, package_paths, environment, data_folder / _MEMORY)
+    survey.search(tell)
     chosen = load_choices(data_folder, roots[0])
     served = _serve_chosen(survey.served(), chosen.values())
-    candidates = _candidates(real, served, tell)
+    candidates = _candidates(real, served, survey.memory, tell)
     return Location(
         root=roots[0],
         entry=real if real.is_file() else _best(candidates),
@@ -120,25 +120,29 @@ class _Survey:
     """Searches every folder that may hold packages, and so learns what may be written."""
 
     def __init__(
-        self, roots: tuple[Path, ...], package_paths: Iterable[Path], variables: Mapping[str, str]
+        self,
+        roots: tuple[Path, ...],
+        package_paths: Iterable[Path],
+        variables: Mapping[str, str],
+        memories: Path,
     ) -> None:
         self._roots = tuple(dict.fromkeys((*roots, *map(_package_path, package_paths))))
         self._environment = RosEnvironment.from_variables(variables)
         self._beside = _install_beside(self._roots)
         self._read_only = [*(one for one in self._roots if is_installed(one)), *self._beside]
+        folders = (*self._roots, *self._beside, *self._environment.folders)
+        key = hashlib.sha256(os.fsencode("\n".join(map(str, folders)))).hexdigest()[:16]
+        self.memory = FolderMemory(memories / key, ServedRoots(folders))
         self.packages: list[Indexed] = []
         self.problems: list[Problem] = []
 
-    def search(self, memories: Path, tell: Progress) -> None:
-        folders = (*self._roots, *self._beside, *self._environment.folders)
-        key = hashlib.sha256(os.fsencode("\n".join(map(str, folders)))).hexdigest()[:16]
-        memory = FolderMemory(memories / key, ServedRoots(folders))
+    def search(self, tell: Progress) -> None:
         for root in self._roots:
-            self._search_root(root, memory, tell)
+            self._search_root(root, tell)
         for prefix in self._beside:
-            self._search_prefix(prefix, memory, tell, order=0)
-        self._search_environment(memory, tell)
-        memory.save()
+            self._search_prefix(prefix, tell, order=0)
+        self._search_environment(tell)
+        self.memory.save()
         self.packages = list({one.folder: one for one in reversed(self.packages)}.values())
 
     def served(self) -> ServedRoots:
@@ -151,8 +155,8 @@ class _Survey:
         ]
         return ServedRoots(writable, (*self._read_only, *outside))
 
-    def _search_root(self, root: Path, memory: FolderMemory, tell: Progress) -> None:
-        found = discover(root, memory, progress=_counting(tell))
+    def _search_root(self, root: Path, tell: Progress) -> None:
+        found = discover(root, self.memory, progress=_counting(tell))
         self._note(root, found)
         self._read_only += found.generated
         installed = is_installed(root)
@@ -162,20 +166,18 @@ class _Survey:
                 indexed = replace(indexed, standing=Standing.INSTALLED)
             self.packages.append(indexed)
 
-    def _search_environment(self, memory: FolderMemory, tell: Progress) -> None:
+    def _search_environment(self, tell: Progress) -> None:
         for order, prefix in enumerate(self._environment.prefixes, start=1):
-            self._search_prefix(prefix, memory, tell, order=order)
+            self._search_prefix(prefix, tell, order=order)
         for order, source in enumerate(self._environment.sources):
-            found = discover(source, memory, progress=_counting(tell))
+            found = discover(source, self.memory, progress=_counting(tell))
             self._note(source, found)
             self.packages += [
                 Indexed.found(one, from_environment=True, order=order) for one in found.packages
             ]
 
-    def _search_prefix(
-        self, prefix: Path, memory: FolderMemory, tell: Progress, *, order: int
-    ) -> None:
-        found = discover(prefix, memory, is_prefix=True, progress=_counting(tell))
+    def _search_prefix(self, prefix: Path, tell: Progress, *, order: int) -> None:
+        found = discover(prefix, self.memory, is_prefix=True, progress=_counting(tell))
         self.packages += [Indexed.found(one, order=order) for one in found.packages]
 
     def _note(self, root: Path, found: Discovery) -> None:
@@ -214,11 +216,17 @@ def _serve_chosen(served: ServedRoots, chosen: Iterable[Path]) -> ServedRoots:
     return served.with_roots([one for one in folders if one not in installed], installed)
 
 
-def _candidates(opened: Path, served: ServedRoots, tell: Progress) -> tuple[EntryPoint, ...]:
+def _candidates(
+    opened: Path, served: ServedRoots, memory: FolderMemory, tell: Progress
+) -> tuple[EntryPoint, ...]:
     folder = opened if opened.is_dir() else package_folder_of(opened)
     if folder is None or not served.serves(folder):
         return ()
-    return tuple(entry_points(folder, served, lambda done, of: tell("robot files", done, of)))
+
+    def progress(done: int, total: int) -> None:
+        tell("robot files", done, total)
+
+    return tuple(entry_points(folder, served, progress, memory))
 
 
 def _best(candidates: tuple[EntryPoint, ...]) -> Path | None:
