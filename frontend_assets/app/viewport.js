@@ -11,7 +11,15 @@ import { moveJoint } from "./actions.js";
 import { isStroke, onKey } from "./commands.js";
 import { mayEdit } from "./state/connection.js";
 import { movable, position, robot } from "./state/document.js";
-import { hiddenLinks, hovered, linkOpacity, mouseMode, selected, theme } from "./state/view.js";
+import {
+  degrees,
+  hiddenLinks,
+  hovered,
+  linkOpacity,
+  mouseMode,
+  selected,
+  theme,
+} from "./state/view.js";
 
 /**
  * @typedef {object} Studio3d what the script in the frame offers
@@ -28,7 +36,9 @@ import { hiddenLinks, hovered, linkOpacity, mouseMode, selected, theme } from ".
  * @property {(link: string, opacity: number) => void} setLinkOpacity
  * @property {(link: string | null) => void} setHover
  * @property {(link: string | null) => void} setSelection
- * @property {(allowed: boolean) => void} [setDragging]
+ * @property {(can: boolean) => void} setCanDrag
+ * @property {(unit: "deg" | "rad") => void} setAngleUnit of the value at the cursor
+ * @property {boolean} connected
  */
 
 export const VIEWS = /** @type {const} */ ([
@@ -63,6 +73,7 @@ export function attachViewport(frame) {
     const found = await studio3dOf(frame);
     if (!found) return;
     viewport.value = found;
+    viewportConnected.value = found.connected;
     ends = [...tell(found), listen(found)];
   };
   frame.addEventListener("load", begin);
@@ -100,7 +111,8 @@ function tell(view) {
     effect(() => view.setMouse(mouseMode.value)),
     effect(() => view.setHover(hovered.value)),
     effect(() => view.setSelection(selected.value)),
-    effect(() => view.setDragging?.(mayEdit.value)),
+    effect(() => view.setCanDrag(mayEdit.value)),
+    effect(() => view.setAngleUnit(degrees.value ? "deg" : "rad")),
     tellLinks(view),
   ];
 }
@@ -127,11 +139,15 @@ function tellLinks(view) {
 /** @param {Studio3d} view @returns {() => void} */
 function listen(view) {
   const stop = new AbortController();
-  /** @param {string} type @param {(detail: any) => void} take */
+  /** @param {string} type @param {(detail: any, event: Event) => void} take */
   const on = (type, take) =>
-    view.events.addEventListener(type, (event) => take(/** @type {CustomEvent} */ (event).detail), {
-      signal: stop.signal,
-    });
+    view.events.addEventListener(
+      type,
+      (event) => take(/** @type {CustomEvent} */ (event).detail, event),
+      {
+        signal: stop.signal,
+      },
+    );
   on("hover", ({ link }) => {
     hovered.value = link;
   });
@@ -142,8 +158,9 @@ function listen(view) {
     viewportConnected.value = connected;
   });
   on("drag", takeDrag);
-  on("key", (stroke) => {
-    if (isStroke(stroke)) onKey(stroke);
+  on("key", (stroke, event) => {
+    // Prevented, the view leaves the key to the page.
+    if (isStroke(stroke) && onKey(stroke)) event.preventDefault();
   });
   return () => stop.abort();
 }

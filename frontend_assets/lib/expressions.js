@@ -54,17 +54,25 @@ export function splitVector(text) {
   /** @type {string[]} */
   const parts = [];
   let part = "";
-  for (let at = 0; at < text.length; at += 1) {
-    const end = text[at] === "$" && /[{(]/.test(text[at + 1] ?? "") ? closing(text, at + 1) : -1;
-    if (end > 0) {
-      part += text.slice(at, end + 1);
-      at = end;
-    } else if (/\s/.test(text[at] ?? "")) {
-      if (part) parts.push(part);
+  let at = 0;
+  while (at < text.length) {
+    const end = at + unitLength(text, at);
+    const unit = text.slice(at, end);
+    at = end;
+    if (/\S/.test(unit)) part += unit;
+    else if (part) {
+      parts.push(part);
       part = "";
-    } else part += text[at];
+    }
   }
   return part ? [...parts, part] : parts;
+}
+
+/** @param {string} text @param {number} at @returns {number} characters of the expression there, else 1 */
+function unitLength(text, at) {
+  if (text[at] !== "$" || !/[{(]/.test(text[at + 1] ?? "")) return 1;
+  const end = closing(text, at + 1);
+  return end > 0 ? end - at + 1 : 1;
 }
 
 /** @param {string} text what was typed, `name:=value name2:=value2` @returns {Record<string, string>} */

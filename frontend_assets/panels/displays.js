@@ -29,7 +29,6 @@ import { LinkDetails } from "./link-details.js";
  * @property {string} [link]
  */
 
-const DISPLAY_ICONS = { grid: "grid", robot: "robot" };
 const SHARE = new Set(["opacity"]);
 
 export function DisplaysPanel() {
@@ -77,13 +76,16 @@ const rowId = (id) => `row-${id}`;
 
 /** @param {string} filter @param {ReadonlySet<string>} closed @returns {Row[]} */
 function treeRows(filter, closed) {
-  const grid = displayRows("grid", 1, filter, closed);
-  const layers = displays.value.robot ? layerRows(filter, closed) : [];
-  const tree = robot.value ? treeOfLinks(filter, closed) : [];
-  if (!displays.value.robot && !robot.value) return grid;
+  return [...gridRows(filter, closed), ...robotRows(filter, closed)];
+}
+
+/** @param {string} filter @param {ReadonlySet<string>} closed @returns {Row[]} */
+function robotRows(filter, closed) {
+  const settings = displays.value.robot;
+  if (!settings && !robot.value) return [];
+  const below = [...layerRows(filter, closed), ...treeOfLinks(filter, closed)];
+  if (below.length === 0 && !hit(t("display.robot"), filter)) return [];
   const open = filter !== "" || !closed.has("robot");
-  const below = [...layers, ...tree];
-  if (filter !== "" && below.length === 0 && !hit(t("display.robot"), filter)) return grid;
   const count = robot.value?.links.length ?? 0;
   /** @type {Row} */
   const head = {
@@ -94,9 +96,9 @@ function treeRows(filter, closed) {
     expandable: true,
     expanded: open,
     meta: count > 0 ? t("links.count", { count }) : "",
-    ...eyeOf("robot", "visible" in (displays.value.robot ?? {}) ? "visible" : "visual"),
+    ...eyeOf("robot", settings && "visible" in settings ? "visible" : "visual"),
   };
-  return [...grid, head, ...(open ? below : [])];
+  return [head, ...(open ? below : [])];
 }
 
 /** @param {string} text @param {string} filter */
@@ -118,31 +120,31 @@ function settingLabel(display, name) {
   return words === key ? name.replaceAll("_", " ") : words;
 }
 
-/** @param {"grid"} display @param {number} level @param {string} filter @param {ReadonlySet<string>} closed */
-function displayRows(display, level, filter, closed) {
-  const settings = displays.value[display];
+/** @param {string} filter @param {ReadonlySet<string>} closed @returns {Row[]} */
+function gridRows(filter, closed) {
+  const settings = displays.value.grid;
   if (!settings) return [];
-  const below = settingRows(display, level + 1, filter, ["visible"]);
-  if (filter !== "" && below.length === 0 && !hit(t(`display.${display}`), filter)) return [];
-  const open = filter !== "" || !closed.has(display);
+  const below = settingRows("grid", 2, filter);
+  if (below.length === 0 && !hit(t("display.grid"), filter)) return [];
+  const open = filter !== "" || !closed.has("grid");
   const cell = settings.cell_m;
   /** @type {Row} */
   const head = {
-    id: display,
-    level,
-    label: t(`display.${display}`),
-    icon: DISPLAY_ICONS[display],
+    id: "grid",
+    level: 1,
+    label: t("display.grid"),
+    icon: "grid",
     expandable: below.length > 0,
     expanded: open,
     meta: typeof cell === "number" ? `${formatNumber(cell, 4)} m` : "",
-    ...eyeOf(display, "visible"),
+    ...eyeOf("grid", "visible"),
   };
   return [head, ...(open ? below : [])];
 }
 
 /** @param {string} filter @param {ReadonlySet<string>} closed @returns {Row[]} */
 function layerRows(filter, closed) {
-  const below = settingRows("robot", 3, filter, ["visible"]);
+  const below = settingRows("robot", 3, filter);
   if (below.length === 0) return [];
   const open = filter !== "" || !closed.has("layers");
   const on = below.filter(({ eye }) => eye?.on).map(({ label }) => label);
@@ -159,10 +161,10 @@ function layerRows(filter, closed) {
   return [head, ...(open ? below : [])];
 }
 
-/** @param {"grid" | "robot"} display @param {number} level @param {string} filter @param {string[]} without @returns {Row[]} */
-function settingRows(display, level, filter, without) {
+/** @param {"grid" | "robot"} display @param {number} level @param {string} filter @returns {Row[]} */
+function settingRows(display, level, filter) {
   return Object.entries(displays.value[display] ?? {})
-    .filter(([name]) => !without.includes(name) && hit(settingLabel(display, name), filter))
+    .filter(([name]) => name !== "visible" && hit(settingLabel(display, name), filter))
     .map(([name, value]) => settingRow(display, name, value, level));
 }
 
@@ -290,17 +292,14 @@ function pick(row) {
 
 /** @param {{row: Row, current: boolean, setOpen: (id: string, open: boolean) => void, onPick: () => void}} props */
 function TreeRow({ row, current, setOpen, onPick }) {
-  const chosen = row.link !== undefined && selected.value === row.link;
-  const under = row.link !== undefined && hovered.value === row.link;
-  const faded = row.link !== undefined && !(row.eye?.on ?? true);
   const onClick = () => {
     onPick();
     if (row.link) pick(row);
     else if (row.expandable) setOpen(row.id, !row.expanded);
   };
-  return html`<div id=${rowId(row.id)} role="treeitem" class=${`tree-row ${chosen ? "chosen" : ""} ${under ? "hovered" : ""} ${faded ? "faded" : ""}`}
-    style=${`--level:${row.level}`} tabindex=${current ? 0 : -1} aria-level=${row.level} aria-label=${rowLabel(row)}
-    aria-expanded=${row.expandable ? row.expanded : null} aria-selected=${chosen} onClick=${onClick}
+  return html`<div id=${rowId(row.id)} role="treeitem" class=${rowClass(row)} style=${`--level:${row.level}`}
+    tabindex=${current ? 0 : -1} aria-level=${row.level} aria-label=${rowLabel(row)}
+    aria-expanded=${row.expandable ? row.expanded : null} aria-selected=${isChosen(row)} onClick=${onClick}
     onDblClick=${() => row.link && focusLink(row.link)}
     onPointerEnter=${() => {
       hovered.value = row.link ?? null;
@@ -312,6 +311,20 @@ function TreeRow({ row, current, setOpen, onPick }) {
     ${row.slider && html`<${ShareSlider} ...${row.slider} />`}
     ${row.eye && html`<${Eye} eye=${row.eye} />`}
   </div>`;
+}
+
+/** @param {Row} row @returns {boolean} */
+const isChosen = ({ link }) => link !== undefined && selected.value === link;
+
+/** @param {Row} row @returns {string} */
+function rowClass(row) {
+  const { link, eye } = row;
+  const states = [
+    isChosen(row) && "chosen",
+    link && hovered.value === link && "hovered",
+    link && !eye?.on && "faded",
+  ];
+  return ["tree-row", ...states].filter(Boolean).join(" ");
 }
 
 /** @param {Row} row @returns {string} what a screen reader says, beside level and state */

@@ -4,7 +4,6 @@
  */
 import { createHash } from "node:crypto";
 import { mkdir, readFile, writeFile } from "node:fs/promises";
-import { createRequire } from "node:module";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { build } from "esbuild";
@@ -12,7 +11,6 @@ import * as lucide from "lucide";
 
 const TOOLS = dirname(fileURLToPath(import.meta.url));
 const VENDOR = join(TOOLS, "..", "vendor");
-const require = createRequire(import.meta.url);
 
 const PREACT = `
 export { Fragment, createContext, createRef, h, render } from "preact";
@@ -22,6 +20,8 @@ import htm from "htm";
 import { h } from "preact";
 export const html = htm.bind(h);
 `;
+
+const DOCKVIEW_CSS = '@import "dockview/dist/styles/dockview.css";';
 
 /** Lucide's name of each icon that the page uses, by our own. */
 const ICONS = {
@@ -87,18 +87,19 @@ const ICONS = {
 
 /** @returns {string} the icons as a module: our name to Lucide's shapes */
 function iconsModule() {
+  const all = new Map(Object.entries(lucide));
   const shapes = Object.entries(ICONS).map(([name, lucideName]) => {
-    const shape = lucide[lucideName];
+    const shape = all.get(lucideName);
     if (!shape) throw new Error(`lucide has no icon ${lucideName}`);
     return [name, shape];
   });
   return `export const ICONS = ${JSON.stringify(Object.fromEntries(shapes))};`;
 }
 
-/** @param {string} contents @returns {Promise<string>} one minified ES module */
-async function bundle(contents) {
+/** @param {string} contents @param {"js" | "css"} [loader] @returns {Promise<string>} one minified file */
+async function bundle(contents, loader = "js") {
   const made = await build({
-    stdin: { contents, resolveDir: TOOLS, loader: "js" },
+    stdin: { contents, resolveDir: TOOLS, loader },
     bundle: true,
     format: "esm",
     legalComments: "none",
@@ -131,7 +132,7 @@ const FILES = {
     from: ["dockview", "dockview-core"],
   },
   "dockview.css": {
-    make: () => readFile(require.resolve("dockview/dist/styles/dockview.css"), "utf8"),
+    make: () => bundle(DOCKVIEW_CSS, "css"),
     from: ["dockview"],
   },
   "icons.js": { make: () => bundle(iconsModule()), from: ["lucide"] },
