@@ -162,6 +162,7 @@ export interface JointView {
   lower: number | null;
   upper: number | null;
   mimic: string;
+  multiplier: number;
   file: string;
   line: number;
 }

@@ -102,7 +102,7 @@ export class Door {
       get: () => first,
       set: (value) => {
         first = value;
-        opening ||= value;
+        opening = value;
       },
     });
     Object.defineProperty(mutable, "sendMessage", {

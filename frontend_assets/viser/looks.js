@@ -3,8 +3,8 @@
 /** @import { Material, Object3D } from "./viser.d.ts" */
 import { RobotView } from "./robot.js";
 
-const HOVER = { tint: 0.22, glow: 0.12 };
-const SELECTION = { tint: 0.42, glow: 0.3 };
+const HOVER = { tint: 0.3, glow: 0.2 };
+const SELECTION = { tint: 0.6, glow: 0.45 };
 const NONE = { tint: 0, glow: 0 };
 
 /**

@@ -271,6 +271,8 @@ class JointView(_Message):
     upper: float | None
     mimic: str
     """Name of the joint that moves this one; empty when it is free."""
+    multiplier: float = 1.0
+    """How far this one moves for one unit of the joint that it mimics."""
     file: str
     line: int
 

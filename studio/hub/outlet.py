@@ -65,20 +65,21 @@ class Outlet:
         """Whether something waits for the transport to drain."""
         return bool(self._waiting)
 
-    def post(self, data: bytes, key: str | None = None, late: Late | None = None) -> bool:
+    def post(self, data: bytes | Late, key: str | None = None, late: Late | None = None) -> bool:
         """Write now, or hold back until `resume`; True when nothing is held back afterwards.
 
         Args:
-            data: One whole message; the same object may be posted to any number of outlets.
-            key: Of one key only the newest is kept.
+            data: One whole message, or what makes it; the same bytes may go to many outlets.
+            key: Of one key only the newest is kept; a message that is yet to be made needs one.
             late: With a key: makes the message anew when it goes out late, instead of `data`.
         """
         if self.closed:
             return False
         if not self._waiting and self._is_open():
-            self._transport.write(data)
+            self._write(data)
             return True
         if key is None:
+            assert isinstance(data, bytes)
             self._hold(data)
         else:
             self._waiting.pop(key, None)
@@ -88,12 +89,10 @@ class Outlet:
     def resume(self) -> bool:
         """Write what was held back as far as the gate lets it; True when nothing is left."""
         while self._waiting and self._is_open():
-            key, made = self._waiting.popitem(last=False)
-            data = made if isinstance(made, bytes) else made()
-            if isinstance(key, int):
+            key, data = self._waiting.popitem(last=False)
+            if isinstance(key, int) and isinstance(data, bytes):
                 self._keyless_bytes -= len(data)
-            if data:
-                self._transport.write(data)
+            self._write(data)
         return not self._waiting
 
     def close(self) -> None:
@@ -104,6 +103,11 @@ class Outlet:
 
     def _is_open(self) -> bool:
         return self._transport.pending_bytes() <= self._gate_bytes
+
+    def _write(self, data: bytes | Late) -> None:
+        made = data if isinstance(data, bytes) else data()
+        if made:
+            self._transport.write(made)
 
     def _hold(self, data: bytes) -> None:
         self._waiting[next(self._keyless)] = data

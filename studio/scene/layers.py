@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
+from studio.robot.inertia import inertia_box
 from studio.robot.values import JointType
 from studio.scene import node
 from studio.scene.geometry_drawing import COLLISION_LOOK, draw, look_of
+from studio.scene.node import Look
+from studio.scene.pose import wxyz_and_translation
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -23,6 +27,11 @@ _AXIS_RGB: dict[JointType, Rgb] = {
     JointType.CONTINUOUS: (96, 165, 250),
     JointType.PRISMATIC: (52, 211, 153),
 }
+
+_INERTIA_LOOK = Look((94, 200, 235), opacity=0.4, shadow=False)
+_COM_LOOK = Look((235, 87, 120), opacity=0.85, shadow=False)
+_LEAD_KG_M3 = 11_340.0
+_THINNEST_M = 1e-3
 
 Nodes: TypeAlias = "dict[str, Node]"
 """By name below the link's node, parents first."""
@@ -79,6 +88,26 @@ def axis_nodes(context: LinkContext) -> Nodes:
     return {"axis": node.arrow((0.0, 0.0, 0.0), tip, _AXIS_RGB[joint.type])} if tip else {}
 
 
+def inertia_nodes(context: LinkContext) -> Nodes:
+    """The box of even density that turns as the link does."""
+    found = inertia_box(context.link)
+    if found is None:
+        return {}
+    x, y, z = (max(float(side), _THINNEST_M) for side in found.size_m)
+    wxyz, at = wxyz_and_translation(found.link_from_box)
+    return {"inertia": node.box((x, y, z), _INERTIA_LOOK, wxyz, at)}
+
+
+def com_nodes(context: LinkContext) -> Nodes:
+    """The centre of mass, as a ball of lead of the link's mass, as RViz draws it."""
+    found = inertia_box(context.link)
+    if found is None:
+        return {}
+    radius_m = (3 * found.mass_kg / (4 * math.pi * _LEAD_KG_M3)) ** (1 / 3)
+    _, at = wxyz_and_translation(found.link_from_box)
+    return {"com": node.sphere(radius_m, _COM_LOOK, node.NO_TURN, at)}
+
+
 def _lengthened(axis: Vector3, length_m: float) -> Vector3 | None:
     size = sum(part * part for part in axis) ** 0.5
     if not 0.0 < size < float("inf"):
@@ -92,5 +121,7 @@ LAYERS: dict[str, Callable[[LinkContext], Nodes]] = {
     "frames": frame_nodes,
     "names": name_nodes,
     "axes": axis_nodes,
+    "inertia": inertia_nodes,
+    "com": com_nodes,
 }
 """By the name of the display setting that switches it."""

@@ -5,7 +5,12 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from studio.robot.rotations import wxyz_from_matrices
+
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from studio.robot.values import Origin, Vector3
     from studio.scene.node import Quaternion
 
@@ -26,3 +31,10 @@ def wxyz_from_rpy(rpy_rad: Vector3) -> Quaternion:
 def wxyz_and_position(origin: Origin) -> tuple[Quaternion, Vector3]:
     """The pose of an `<origin>`."""
     return wxyz_from_rpy(origin.rpy), origin.xyz
+
+
+def wxyz_and_translation(a_from_b: NDArray[np.float64]) -> tuple[Quaternion, Vector3]:
+    """The pose of a matrix (4, 4)."""
+    w, x, y, z = wxyz_from_matrices(a_from_b[:3, :3]).tolist()
+    at_x, at_y, at_z = a_from_b[:3, 3].tolist()
+    return (w, x, y, z), (at_x, at_y, at_z)
