@@ -100,7 +100,7 @@ def _bind(
         cell.pending = value
     else:
         cell.value = literal_value(value)  # xacro types the text again when it is first read
-        binding.saw(text_of(cell.value))
+        binding.saw(cell.value)
 
 
 def bind_value(
@@ -114,7 +114,7 @@ def bind_value(
     warn_hidden(run, name)
     value = literal_value(value)
     scope.cells[name] = Cell(value, binding, None)
-    binding.saw(text_of(value))
+    binding.saw(value)
 
 
 def warn_hidden(run: Evaluation, name: str) -> None:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Final, TypeAlias, cast
 from studio.description.budget import Budget, Limits
 from studio.description.calls import call_by_name, call_macro, insert_block
 from studio.description.declarations import define_arg, define_macro, define_property
-from studio.description.faults import Fault, Refusal
+from studio.description.faults import Fault, Refusal, Unsupported
 from studio.description.guarded_operations import MUTATING, text_of
 from studio.description.includes import include
 from studio.description.macros import MacroTable
@@ -65,6 +65,7 @@ class Evaluation:
         Raises:
             Fault: It cannot be expanded; the fault has its place, include chain and macro stack.
             Refusal: It may not be.
+            Unsupported: It cannot by us.
         """
         try:
             with _deep_recursion():
@@ -79,6 +80,9 @@ class Evaluation:
             ) from None
         except Fault as fault:
             raise self.explain(fault) from None
+        except Exception as error:  # a construct that we did not think of; xacro may know it
+            reason = f"{self.texts.at or entry}: {type(error).__name__}: {error}"
+            raise Unsupported(reason) from error
 
     def explain(self, fault: Fault) -> Fault:
         """Give a fault the place, include chain and macro stack of this moment."""

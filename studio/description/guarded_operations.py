@@ -73,7 +73,7 @@ def attribute(value: Any, name: str) -> Any:  # noqa: ANN401 - any value of a de
         Refusal: Neither a harmless method nor a name of a namespace or YAML mapping.
         AttributeError: A YAML mapping has no such key.
     """
-    kind = cast("type", type(value))
+    kind = cast("type[object]", type(value))
     if name in METHODS.get(kind, ()):
         return getattr(value, name)
     if isinstance(value, str) and name in _PADDING:

@@ -64,9 +64,14 @@ class Binding(Input):
         """An arg whose value was given from outside, or by an earlier declaration."""
 
     def saw(self, value: object) -> None:
-        """Note a value that it came to."""
-        if len(self.values) < VALUES_KEPT:
-            self.values[value if isinstance(value, str) else str(value)] = None
+        """Note a value that it came to; a container only as such, it may be a whole file."""
+        if len(self.values) >= VALUES_KEPT:
+            return
+        if isinstance(value, dict):
+            value = "{...}"
+        elif isinstance(value, list | tuple | set):
+            value = "[...]"
+        self.values[value if isinstance(value, str) else str(value)] = None
 
     def __repr__(self) -> str:
         return f"{self.name}={self.text!r} at {self.element.place}"

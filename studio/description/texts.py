@@ -178,7 +178,7 @@ class Texts:
         if cell.binding is not None:
             self._note_inputs(cell.binding)
             self._note_comparisons(text)
-            cell.binding.saw(text_of(cell.value))
+            cell.binding.saw(cell.value)
         self._reads, self.at = outer_reads, outer_at
         self._resolving.pop()
 

@@ -1,0 +1,93 @@
+"""The studio's end of one xacro worker: every call answers an Expansion or a Failure."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from studio.description.codec import CODEC
+from studio.description.values import (
+    ArgumentsRequest,
+    EditRequest,
+    Expansion,
+    Failure,
+    OpenRequest,
+    ReloadRequest,
+)
+from studio.errors import WorkerDiedError, WorkerTimeoutError
+from studio.problems import Place, Problem, Severity
+from studio.settings import EXPANSION_TIMEOUT_S
+from studio.workers import Worker
+
+if TYPE_CHECKING:
+    from studio.description.session import Answer, Request
+
+
+class DescriptionWorker:
+    """One document's worker process, started at the first `open`.
+
+    When the process dies or does not answer in time the call answers a Failure and
+    `needs_reopen` is set: the texts in the worker are gone, so `open` must be called with the
+    unsaved ones before anything else.
+    """
+
+    def __init__(self, timeout_s: float = EXPANSION_TIMEOUT_S) -> None:
+        self._worker = Worker("xacro", "studio.description.worker", CODEC)
+        self._timeout_s = timeout_s
+        self._entry = ""
+        self._files: tuple[str, ...] = ()
+        self.needs_reopen = True
+
+    @property
+    def pid(self) -> int | None:
+        """Process id while it runs."""
+        return self._worker.pid
+
+    async def warm(self) -> None:
+        """Start the process without asking it anything."""
+        await self._worker.warm()
+
+    async def open(self, request: OpenRequest) -> Answer:
+        """Start on a file; everything is in the answer."""
+        self._entry, self._files = request.entry, (request.entry,)
+        self.needs_reopen = False
+        return await self._ask(request)
+
+    async def edit(self, request: EditRequest) -> Answer:
+        """Change texts and run; what changed is in the answer."""
+        return await self._ask(request)
+
+    async def set_arguments(self, request: ArgumentsRequest) -> Answer:
+        """Run with other arguments."""
+        return await self._ask(request)
+
+    async def reload(self, request: ReloadRequest) -> Answer:
+        """Run with texts that changed on disk."""
+        return await self._ask(request)
+
+    async def close(self) -> None:
+        """End the process; safe to call twice."""
+        self.needs_reopen = True
+        await self._worker.close()
+
+    async def _ask(self, request: Request) -> Answer:
+        if self.needs_reopen:
+            return self._failure("no-session", "The robot is not open: open it again.")
+        try:
+            answer = await self._worker.ask(request, object, self._timeout_s)
+        except WorkerTimeoutError as error:
+            self.needs_reopen = True
+            sentence = f"The expansion took longer than {error.timeout_s:g} s and was ended."
+            return self._failure("worker-timeout", sentence)
+        except WorkerDiedError as error:
+            self.needs_reopen = True
+            sentence = f"The expansion ended its process (exit code {error.exit_code})."
+            return self._failure("worker-died", sentence)
+        if not isinstance(answer, Expansion | Failure):
+            self.needs_reopen = True
+            return self._failure("worker-died", "The worker gave an answer of the wrong kind.")
+        self._files = answer.files
+        return answer
+
+    def _failure(self, code: str, sentence: str) -> Failure:
+        place = Place(self._entry) if self._entry else None
+        return Failure(Problem(Severity.ERROR, code, sentence, place), self._files)

@@ -1,0 +1,15 @@
+"""The messages between the studio and its xacro worker, packed alike at both ends."""
+
+from __future__ import annotations
+
+from studio.description.values import (
+    ArgumentsRequest,
+    EditRequest,
+    Expansion,
+    Failure,
+    OpenRequest,
+    ReloadRequest,
+)
+from studio.workers import Codec
+
+CODEC = Codec(OpenRequest, EditRequest, ArgumentsRequest, ReloadRequest, Expansion, Failure)

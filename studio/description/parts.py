@@ -1,0 +1,62 @@
+"""The expanded robot cut into its top-level elements, each as text of its own."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+from studio.description.output_tree import OutputElement, macro_calls, write_xml
+from studio.description.values import Part
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from studio.description.source_tree import SourceElement
+
+_NAMED: Final = frozenset({"link", "joint", "material"})
+
+
+def part_keys(root: OutputElement) -> list[tuple[str, OutputElement]]:
+    """A key for each top-level element, in order, as `Part.key` says."""
+    keyed: list[tuple[str, OutputElement]] = []
+    used: dict[str, int] = {}
+    others = 0
+    for element in root.elements():
+        name = element.attributes.get("name")
+        if element.tag in _NAMED and name is not None:
+            key = f"{element.tag}:{name}"
+        else:
+            key, others = f"other:{others}", others + 1
+        count = used[key] = used.get(key, 0) + 1
+        keyed.append((key if count == 1 else f"{key}#{count}", element))
+    return keyed
+
+
+def make_parts(root: OutputElement) -> tuple[Part, ...]:
+    """Write each top-level element as XML that stands alone, prefixes declared."""
+    prefixes = {
+        name[6:]: (name, value)
+        for name, value in root.attributes.items()
+        if name.startswith("xmlns:")
+    }
+    return tuple(_part(key, element, prefixes) for key, element in part_keys(root))
+
+
+def _part(key: str, element: OutputElement, prefixes: Mapping[str, tuple[str, str]]) -> Part:
+    xml = write_xml(element)
+    declared = {
+        name: value
+        for prefix, (name, value) in prefixes.items()
+        if f"{prefix}:" in xml and name not in element.attributes
+    }
+    if declared:
+        xml = write_xml(element, declared)
+    return Part(key, xml, element.origin.place, macro_calls(element.calls))
+
+
+def keys_by_source(root: OutputElement) -> dict[SourceElement, tuple[str, ...]]:
+    """Which parts each source element came out in."""
+    found: dict[SourceElement, dict[str, None]] = {}
+    for key, top in part_keys(root):
+        for element in top.walk():
+            found.setdefault(element.origin, {})[key] = None
+    return {element: tuple(keys) for element, keys in found.items()}

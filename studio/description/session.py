@@ -1,0 +1,191 @@
+"""One open description: its texts, its arguments, and what changed since the last good run."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, TypeAlias
+
+from studio.description.evaluation import Evaluation
+from studio.description.faults import Fault, Refusal, Unsupported
+from studio.description.output_tree import OutputElement
+from studio.description.parts import keys_by_source, make_parts
+from studio.description.run_record import RunRecord
+from studio.description.sites import SiteBuilder
+from studio.description.source_store import SourceStore
+from studio.description.source_tree import SourceElement, SourceText, parse_source
+from studio.description.values import (
+    ArgumentsRequest,
+    EditRequest,
+    Expansion,
+    Failure,
+    OpenRequest,
+    ReloadRequest,
+)
+from studio.errors import DescriptionError, EditError, ExpansionError
+from studio.packages.roots import ServedRoots
+from studio.problems import Fix, Place, Problem, Severity
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from studio.description.values import Part, ReadPolicy, Site
+
+Answer: TypeAlias = Expansion | Failure
+Request: TypeAlias = OpenRequest | EditRequest | ArgumentsRequest | ReloadRequest
+
+
+class Session:
+    """Runs one entry file again and again. A failed run leaves the last good one standing."""
+
+    def __init__(self, request: OpenRequest) -> None:
+        self._entry = request.entry
+        self._arguments = dict(request.arguments)
+        self._policy: ReadPolicy = request.policy
+        self._store = SourceStore(ServedRoots(map(Path, request.policy.roots)), request.overlay)
+        self._site_builder = SiteBuilder()
+        self._parts: dict[str, str] = {}
+        self._sites: dict[str, Site] = {}
+
+    def answer(self, request: Request) -> Answer:
+        """Carry out a request and run.
+
+        A text that was edited stays edited when the run fails: it is the user's.
+        """
+        try:
+            self._take(request)
+        except (EditError, Fault) as error:
+            problem = Problem(Severity.ERROR, "edit-refused", str(error), Place(self._entry))
+            return Failure(problem, tuple(self._store.asked))
+        return self.run()
+
+    def _take(self, request: Request) -> None:
+        match request:
+            case EditRequest(edits=edits):
+                self._store.edit(edits)
+            case ArgumentsRequest(arguments=arguments):
+                self._arguments = dict(arguments)
+            case ReloadRequest(files=files, overlay=overlay):
+                self._store.reload(files, overlay)
+            case OpenRequest():
+                pass
+
+    def run(self) -> Answer:
+        """Expand, and answer what changed against the last good run."""
+        self._store.begin_run()
+        evaluation = Evaluation(self._store, self._policy, self._arguments)
+        reason = ""
+        try:
+            try:
+                root = evaluation.run(self._entry)
+            except Unsupported as unknown:
+                reason = str(unknown)
+                evaluation, root = self._fall_back()
+            _check_root(root)
+        except Fault as fault:
+            return Failure(problem_of(fault, self._entry), tuple(self._store.asked))
+        except DescriptionError as error:
+            return Failure(_problem_of_error(error, self._entry), tuple(self._store.asked))
+        return self._expansion(evaluation, root, reason)
+
+    def _fall_back(self) -> tuple[Evaluation, OutputElement]:
+        """Let stock xacro expand; its elements all seem to stand at the entry's first line."""
+        from studio.description.oracle import expand_root  # noqa: PLC0415 - only when needed
+
+        text = expand_root(self._entry, self._arguments, self._policy, self._store)
+        origin = self._store.tree(self._entry).root
+        tree = parse_source(self._entry, text.encode())
+        evaluation = Evaluation(self._store, self._policy, self._arguments)
+        return evaluation, _as_output(tree.root, origin)
+
+    def _expansion(self, evaluation: Evaluation, root: OutputElement, reason: str) -> Expansion:
+        parts = make_parts(root)
+        record = self._record(evaluation, root, parts)
+        sites = self._site_builder.build(record)
+        part_order, site_order = tuple(p.key for p in parts), tuple(s.id for s in sites)
+        expansion = Expansion(
+            robot_name=root.attributes.get("name", ""),
+            root_attributes=tuple(root.attributes.items()),
+            part_order=None if part_order == tuple(self._parts) else part_order,
+            changed_parts=tuple(p for p in parts if self._parts.get(p.key) != p.xml),
+            site_order=None if site_order == tuple(self._sites) else site_order,
+            changed_sites=tuple(s for s in sites if self._sites.get(s.id) != s),
+            files=record.files,
+            include_tree=record.includes,
+            warnings=record.warnings,
+            evaluator="xacro" if reason else "studio",
+            fallback_reason=reason,
+        )
+        self._parts = {part.key: part.xml for part in parts}
+        self._sites = {site.id: site for site in sites}
+        return expansion
+
+    def _record(
+        self, evaluation: Evaluation, root: OutputElement, parts: tuple[Part, ...]
+    ) -> RunRecord:
+        files = tuple(self._store.asked)
+        return RunRecord(
+            entry=self._store.resolve(self._entry),
+            trees=self._store.trees(files),
+            files=files,
+            includes=tuple(evaluation.includes),
+            bindings=tuple(evaluation.bindings.values()),
+            yaml=evaluation.texts.yaml,
+            parts=parts,
+            part_keys=keys_by_source(root),
+            arguments=_values(evaluation),
+            warnings=tuple(evaluation.texts.warnings),
+        )
+
+
+def _values(evaluation: Evaluation) -> Mapping[str, str]:
+    return {name: one.value for name, one in evaluation.texts.arguments.items()}
+
+
+def _as_output(element: SourceElement, origin: SourceElement) -> OutputElement:
+    made = OutputElement(element.tag, origin, None)
+    made.attributes = element.attributes
+    for child in element.children:
+        if isinstance(child, SourceElement):
+            made.children.append(_as_output(child, origin))
+        elif isinstance(child, SourceText):
+            made.children.append(child)
+    return made
+
+
+def _check_root(root: OutputElement) -> None:
+    if root.tag != "robot":
+        sentence = f"The root element is <{root.tag}>: a robot description has <robot>."
+        fault = Fault("root-not-robot", sentence)
+        fault.place = root.origin.place
+        raise fault
+
+
+def problem_of(fault: Fault, entry: str) -> Problem:
+    """A fault as the studio reports it."""
+    fix = None
+    if fault.package:
+        fix = Fix("Choose its folder", "choose_package", fault.package)
+    return Problem(
+        Severity.ERROR,
+        fault.code,
+        fault.sentence,
+        fault.place or Place(entry),
+        fault.include_chain,
+        fault.macro_stack,
+        fix,
+    )
+
+
+def _problem_of_error(error: DescriptionError, entry: str) -> Problem:
+    if isinstance(error, ExpansionError):
+        return error.problem
+    return Problem(Severity.ERROR, "expansion-failed", str(error), Place(entry))
+
+
+def open_session(request: OpenRequest) -> tuple[Session | None, Answer]:
+    """Start a session and run it; None when not even its overlay may be taken."""
+    try:
+        session = Session(request)
+    except Refusal as refusal:
+        return None, Failure(problem_of(refusal, request.entry), (request.entry,))
+    return session, session.run()

@@ -1,0 +1,36 @@
+"""The xacro worker: `python -m studio.description.worker` answers requests on its pipes."""
+
+from __future__ import annotations
+
+from studio.description.codec import CODEC
+from studio.description.session import Answer, Request, Session, open_session
+from studio.description.values import Failure, OpenRequest
+from studio.problems import Problem, Severity
+from studio.settings import XACRO_MEMORY_BYTES
+from studio.workers import serve
+
+
+class Desk:
+    """Holds the one session of this process."""
+
+    def __init__(self) -> None:
+        self._session: Session | None = None
+
+    def handle(self, request: Request) -> Answer:
+        """Answer one request; a robot that cannot be expanded is an answer too."""
+        if isinstance(request, OpenRequest):
+            self._session, answer = open_session(request)
+            return answer
+        if self._session is None:
+            sentence = "No robot is open in this worker: open it again."
+            return Failure(Problem(Severity.ERROR, "no-session", sentence), ())
+        return self._session.answer(request)
+
+
+def main() -> None:
+    """Serve until the pipe closes."""
+    serve(CODEC, Desk().handle, XACRO_MEMORY_BYTES)
+
+
+if __name__ == "__main__":
+    main()
