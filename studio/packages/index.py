@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections import defaultdict
 from dataclasses import dataclass
 from enum import IntEnum
@@ -104,8 +105,8 @@ class PackageIndex:
 
     def mapping_for(self, entry: Path | str) -> dict[str, tuple[str, ...]]:
         """Every name with its folders, best first, as a file's reading policy holds them."""
-        names = sorted(self.names)
-        return {name: tuple(map(str, self.candidates(name, entry))) for name in names}
+        asking = os.path.realpath(entry)
+        return {name: tuple(map(str, self.candidates(name, asking))) for name in sorted(self.names)}
 
     def duplicates(
         self, asking_file: Path | str, names: Iterable[str] | None = None

@@ -74,28 +74,31 @@ def open_location(
     data_folder: Path,
     environment: Mapping[str, str],
     progress: Progress | None = None,
+    *,
+    within: ServedRoots | None = None,
 ) -> Location:
     """Find out everything about a path that a document needs.
 
     A file opens itself; a folder opens its best robot file; a zip is unpacked into the data folder
     first, once for each content. A folder that is a package, or lies in one, is served as a file of
-    that package is, so that it finds the packages beside it.
+    that package is, so that it finds the packages beside it. `within` is for opening out of the
+    page: it serves nothing for that path that was not served before, save what a zip holds.
 
     Raises:
-        UnreadableFileError: Nothing is there, or it is too wide to serve.
+        OutsideRootsError: It is not `within`.
+        UnreadableFileError: Nothing is there, no file or folder, or it is too wide to serve.
         UnsafeArchiveError: The zip is not to be unpacked.
     """
     tell = progress or _tell_nobody
     real = Path(os.path.realpath(path))
-    roots = _roots_to_serve(real)
-    is_zip = real.is_file() and real.suffix.lower() == ".zip"
-    if is_zip:
+    roots = _roots_to_serve(real) if within is None else _roots_within(real, within)
+    if real.is_file() and real.suffix.lower() == ".zip":
         real = _unpacked(real, data_folder, tell)
         roots = (real,)
     survey = _Survey(roots, package_paths, environment, data_folder / _MEMORY)
     survey.search(tell)
     chosen = load_choices(data_folder, roots[0])
-    served = _serve_chosen(survey.served(), chosen.values())
+    served = _as_served_before(_serve_chosen(survey.served(), chosen.values()), within)
     candidates = _candidates(real, served, survey.memory, tell)
     return Location(
         root=roots[0],
@@ -109,11 +112,29 @@ def open_location(
 
 
 def _roots_to_serve(real: Path) -> tuple[Path, ...]:
+    if real.exists() and not (real.is_file() or real.is_dir()):
+        raise UnreadableFileError(str(real), "is no file and no folder, and was not opened.")
     if real.is_dir() and not is_too_wide(real):
         package = package_folder_of(real)
         if package is not None:
             return served_roots_for(package / FILE_NAME)
     return served_roots_for(real)
+
+
+def _roots_within(real: Path, within: ServedRoots) -> tuple[Path, ...]:
+    """The same, cut down to the folder served already that holds the path."""
+    within.resolve(real)
+    roots = tuple(one for one in _roots_to_serve(real) if within.root_of(one) is not None)
+    around = within.root_of(real)
+    return roots if roots or around is None else (around,)
+
+
+def _as_served_before(served: ServedRoots, before: ServedRoots | None) -> ServedRoots:
+    """What was read only stays so when it is opened from the page."""
+    if before is None:
+        return served
+    kept = [one for one in served.writable if before.root_of(one) in before.read_only]
+    return ServedRoots([one for one in served.writable if one not in kept], served.all)
 
 
 class _Survey:
@@ -126,6 +147,7 @@ class _Survey:
         variables: Mapping[str, str],
         memories: Path,
     ) -> None:
+        self._opened = roots
         self._roots = tuple(dict.fromkeys((*roots, *map(_package_path, package_paths))))
         self._environment = RosEnvironment.from_variables(variables)
         self._beside = _install_beside(self._roots)
@@ -146,14 +168,11 @@ class _Survey:
         self.packages = list({one.folder: one for one in reversed(self.packages)}.values())
 
     def served(self) -> ServedRoots:
-        """Opened folders and package paths to write, all else to read only."""
-        writable = [one for one in self._roots if one not in self._read_only]
-        outside = [
-            one
-            for one in self._environment.folders
-            if one in self._environment.prefixes or not _is_in(one, writable)
-        ]
-        return ServedRoots(writable, (*self._read_only, *outside))
+        """Opened folders to write, unless installed; package paths and the environment to read."""
+        writable = [one for one in self._opened if one not in self._read_only]
+        beside = (*self._roots, *self._environment.folders)
+        outside = [one for one in beside if not _is_in(one, writable)]
+        return ServedRoots(writable, (*self._read_only, *outside, *self._environment.prefixes))
 
     def _search_root(self, root: Path, tell: Progress) -> None:
         found = discover(root, self.memory, progress=_counting(tell))
@@ -210,10 +229,8 @@ def _package_path(path: Path) -> Path:
 
 
 def _serve_chosen(served: ServedRoots, chosen: Iterable[Path]) -> ServedRoots:
-    """A chosen folder may be written as an opened one may, unless it is installed."""
-    folders = [one for one in chosen if served.root_of(one) is None]
-    installed = [one for one in folders if is_installed(one)]
-    return served.with_roots([one for one in folders if one not in installed], installed)
+    """A chosen folder is read only, as a package path is: it was not opened."""
+    return served.with_roots((), [one for one in chosen if served.root_of(one) is None])
 
 
 def _candidates(

@@ -191,14 +191,56 @@ def test_an_opened_folder_stays_writable_though_the_environment_names_it(
     assert desk.open(rover / "rover.urdf").served.may_write(rover / "rover.urdf")
 
 
-def test_a_package_path_is_searched_and_served(desk: Desk, tmp_path: Path):
+def test_a_package_path_is_searched_and_served_read_only(desk: Desk, tmp_path: Path):
     rover = write_package(tmp_path / "p" / "rover", files={"rover.urdf": ROBOT})
     arm = write_package(tmp_path / "library" / "deep" / "arm")
     location = desk.open(rover / "rover.urdf", tmp_path / "library")
     assert location.index.best("arm", rover) == arm
-    assert location.served.may_write(arm / "package.xml")
+    assert location.served.serves(arm / "package.xml")
+    assert not location.served.may_write(arm / "package.xml")
     with pytest.raises(OutsideRootsError):
         desk.open(rover / "rover.urdf").served.read(arm / "package.xml")
+
+
+@pytest.mark.parametrize("package_path", ["p", "p/rover", "p/rover/urdf"])
+def test_what_is_opened_stays_writable_wherever_a_package_path_lies(
+    desk: Desk, tmp_path: Path, package_path: str
+):
+    rover = write_package(tmp_path / "p" / "rover", files={"urdf/rover.urdf": ROBOT})
+    location = desk.open(rover / "urdf" / "rover.urdf", tmp_path / package_path)
+    assert location.served.may_write(rover / "urdf" / "rover.urdf")
+
+
+def test_opening_from_the_page_serves_nothing_more(desk: Desk, tmp_path: Path):
+    source = tmp_path / "ws" / "src"
+    rover = write_package(source / "repo" / "rover", files={"rover.urdf": ROBOT})
+    write_package(source / "other")
+    opened = desk.open(source / "repo").served
+    location = open_location(
+        rover / "rover.urdf", (), desk.data_folder, desk.environment, within=opened
+    )
+    assert location.served.all == (source / "repo",)
+    assert "other" not in location.index
+    with pytest.raises(OutsideRootsError):
+        open_location(source / "other", (), desk.data_folder, desk.environment, within=opened)
+
+
+def test_what_was_read_only_stays_so_when_it_is_opened_from_the_page(desk: Desk, tmp_path: Path):
+    rover = write_package(tmp_path / "p" / "rover", files={"rover.urdf": ROBOT})
+    arm = write_package(tmp_path / "library" / "arm", files={"arm.urdf": ROBOT})
+    before = desk.open(rover / "rover.urdf", tmp_path / "library").served
+    location = open_location(arm / "arm.urdf", (), desk.data_folder, {}, within=before)
+    assert location.entry == arm / "arm.urdf"
+    assert location.served.serves(arm / "arm.urdf")
+    assert not location.served.may_write(arm / "arm.urdf")
+
+
+@needs_links
+@pytest.mark.timeout(10)
+def test_a_pipe_is_not_opened(desk: Desk, tmp_path: Path):
+    os.mkfifo(tmp_path / "robot.urdf")
+    with pytest.raises(UnreadableFileError, match="is no file and no folder"):
+        desk.open(tmp_path / "robot.urdf")
 
 
 def test_a_package_path_that_is_an_install_space_is_read_only(desk: Desk, tmp_path: Path):
@@ -224,7 +266,8 @@ def test_a_chosen_package_is_served_and_remembered_for_this_workspace_only(
     location = desk.open(rover / "rover.urdf").choose_package("arm", tmp_path / "far")
     for one in (location, desk.open(rover / "rover.urdf")):
         assert one.index.best("arm", rover) == arm
-        assert one.served.may_write(arm / "package.xml")
+        assert one.served.serves(arm / "package.xml")
+        assert not one.served.may_write(arm / "package.xml")
         assert not one.served.serves(tmp_path / "far" / "away")
     assert "arm" not in desk.open(other / "other.urdf").index
 
