@@ -12,7 +12,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check --no-input install --qui
 TOOLS := frontend_assets/tools
 PYTEST := $(BIN)/python -m pytest -n auto --maxprocesses 8 --dist loadgroup
 
-.PHONY: help demo test lint bench constraints clean
+.PHONY: help demo test lint style types imports spelling page bench constraints clean
 .DELETE_ON_ERROR:
 
 help:
@@ -25,12 +25,22 @@ test: $(VENV)/.tests ## run all tests
 	@$(BIN)/python -m tests.support.browser || true
 	@exec $(PYTEST) $(ARGS)
 
-lint: $(VENV)/.lints $(TOOLS)/node_modules/.installed ## check style, types and architecture
+lint: style types imports spelling page ## check style, types, rooms and spelling
+
+style: $(VENV)/.lints
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
+
+types: $(VENV)/.lints
 	$(BIN)/pyright
+
+imports: $(VENV)/.lints
 	$(BIN)/lint-imports
+
+spelling: $(VENV)/.lints
 	$(BIN)/codespell
+
+page: $(TOOLS)/node_modules/.installed
 	npm --prefix $(TOOLS) run --silent types
 	npm --prefix $(TOOLS) run --silent lint
 	npm --prefix $(TOOLS) run --silent test

@@ -1,4 +1,7 @@
-"""Show the six-axis arm in RViz with joint sliders: ros2 launch arm6_description display.launch.py."""
+"""Show the six-axis arm in RViz with joint sliders.
+
+ros2 launch arm6_description display.launch.py
+"""
 
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument

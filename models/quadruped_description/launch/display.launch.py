@@ -1,4 +1,7 @@
-"""Show the quadruped in RViz with joint sliders: ros2 launch quadruped_description display.launch.py."""
+"""Show the quadruped in RViz with joint sliders.
+
+ros2 launch quadruped_description display.launch.py
+"""
 
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument

@@ -1,4 +1,7 @@
-"""Show the astromech in RViz with joint sliders: ros2 launch r2d2_description display.launch.py."""
+"""Show the astromech in RViz with joint sliders.
+
+ros2 launch r2d2_description display.launch.py
+"""
 
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument

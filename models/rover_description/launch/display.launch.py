@@ -1,4 +1,7 @@
-"""Show the rover in RViz with joint sliders: ros2 launch rover_description display.launch.py."""
+"""Show the rover in RViz with joint sliders.
+
+ros2 launch rover_description display.launch.py
+"""
 
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument

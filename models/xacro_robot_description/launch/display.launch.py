@@ -1,4 +1,7 @@
-"""Show the four-wheeled robot in RViz with joint sliders: ros2 launch xacro_robot_description display.launch.py."""
+"""Show the four-wheeled robot in RViz with joint sliders.
+
+ros2 launch xacro_robot_description display.launch.py
+"""
 
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument
