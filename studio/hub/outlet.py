@@ -105,8 +105,9 @@ class Outlet:
         return self._transport.pending_bytes() <= self._gate_bytes
 
     def _write(self, data: bytes | Late) -> None:
-        made = data if isinstance(data, bytes) else data()
-        if made:
+        if isinstance(data, bytes):
+            self._transport.write(data)
+        elif made := data():
             self._transport.write(made)
 
     def _hold(self, data: bytes) -> None:
