@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import logging
 from typing import TYPE_CHECKING, Final
 
@@ -67,6 +68,12 @@ async def answer(engine: OpenDocuments, listener: Listener, text: bytes) -> None
         await engine.execute(command, listener)
     except StudioError as error:
         tell(listener, Refused(request=request, kind=type(error).__name__, reason=str(error)))
+    except asyncio.CancelledError:
+        if (task := asyncio.current_task()) is None or task.cancelling():
+            raise
+        # Not we were cancelled, but what we waited for: its document was closed.
+        reason = "The document was closed before this was done: open it again."
+        tell(listener, Refused(request=request, kind="ClosedError", reason=reason))
     except Exception:  # noqa: BLE001 - a bug of ours must not close the socket of a user
         _LOG.exception("A command failed")
         reason = "The studio failed at this command; its terminal says how."

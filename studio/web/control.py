@@ -38,17 +38,30 @@ class ControlLane:
         """Greet, then answer commands until the browser leaves.
 
         Commands start in their order but do not wait for each other: a slow one stops no slider.
+        What is under way when the browser leaves is finished; a save is not given up half-way.
         """
         self.post(hello.model_dump_json().encode())
         engine.attach(self)
-        room = asyncio.Semaphore(_UNDER_WAY_LIMIT)
         try:
-            async with asyncio.TaskGroup() as under_way:
-                while (text := await self._lane.receive()) is not None:
-                    await room.acquire()
-                    task = under_way.create_task(answer(engine, self, text))
-                    task.add_done_callback(lambda _: room.release())
+            async with asyncio.TaskGroup() as group:
+                under_way = await self._answer_all(engine, group)
+                if self._lane.server_ends:  # the engine has ended before: nothing can come of it
+                    for task in under_way:
+                        task.cancel()
         finally:
             engine.detach(self)
             self._outlet.close()
             await self._lane.finish()
+
+    async def _answer_all(
+        self, engine: OpenDocuments, group: asyncio.TaskGroup
+    ) -> set[asyncio.Task[None]]:
+        """Start every command that comes; gives those that are not done when the lane ends."""
+        under_way: set[asyncio.Task[None]] = set()
+        while (text := await self._lane.receive()) is not None:
+            task = group.create_task(answer(engine, self, text))
+            under_way.add(task)
+            task.add_done_callback(under_way.discard)
+            while len(under_way) >= _UNDER_WAY_LIMIT:
+                await asyncio.wait(under_way, return_when=asyncio.FIRST_COMPLETED)
+        return under_way

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 
     from starlette.websockets import WebSocket
 
+SERVER_ENDS: Final = 1012
+"""The close code with which uvicorn ends its websockets; the page waits for the return."""
 _FRAMER: Final = Framer()
 """One for all lanes, because one message goes to many of them in a row."""
 
@@ -36,11 +38,14 @@ class Lane:
         self._websocket = websocket
         self._socket = socket_of(websocket.scope)
         self._closing: asyncio.Task[None] | None = None
+        self.server_ends = False
+        """Set once `receive` answers None: whether it was the studio that went."""
 
     async def receive(self) -> bytes | None:
         """The next whole message, text as UTF-8; None once the other side is gone."""
         message = await self._websocket.receive()
         if message["type"] == "websocket.disconnect":
+            self.server_ends = message["code"] == SERVER_ENDS
             return None
         text = message.get("text")
         return text.encode() if text is not None else message["bytes"]

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from studio.engine.listeners import tell
 from studio.engine.messages import (
     AnimateJoints,
+    CloseDocument,
     Command,
     DocumentEntry,
     Documents,
@@ -56,7 +57,8 @@ class SmallDocument:
 
 
 class SmallEngine:
-    """Saving conflicts, undo has a bug, redo waits until `go_on`; all else is done at once."""
+    """Saving conflicts, undo has a bug, redo waits until `go_on`, closing cancels
+    what it waits for; all else is done at once."""
 
     def __init__(self) -> None:
         self.documents = {"small": SmallDocument()}
@@ -94,6 +96,10 @@ class SmallEngine:
             case ZeroJoints():
                 for number in range(3):
                     listener.post(bytes([1, number]), binary=True, key="joints")
+            case CloseDocument():
+                waiter: asyncio.Future[None] = asyncio.get_running_loop().create_future()
+                waiter.cancel()
+                await waiter
             case RandomizeJoints() | AnimateJoints():
                 key = "joints" if command.type == "animate_joints" else None
                 for number in range(FLOOD):

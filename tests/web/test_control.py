@@ -120,6 +120,16 @@ def test_a_bug_is_an_answer_and_the_lane_goes_on(web: RunningWeb, caplog: pytest
     assert "a bug" in caplog.text
 
 
+def test_a_command_whose_document_is_closed_meanwhile_is_answered(web: RunningWeb):
+    with web.websocket("/control") as lane:
+        greet(lane)
+        say(lane, type="close_document", request=4, document="small")
+        refused = hear(lane)
+        assert (refused["request"], refused["kind"]) == (4, "ClosedError")
+        say(lane, type="watch", request=5)
+        assert hear(lane) == {"type": "done", "request": 5}
+
+
 def test_a_viewer_is_refused_and_the_engine_hears_nothing(web: RunningWeb):
     before = len(web.engine.executed)
     with web.websocket("/control", Role.VIEWER) as lane:

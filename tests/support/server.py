@@ -1,0 +1,154 @@
+"""The real studio as a process of its own, as a person starts it."""
+
+from __future__ import annotations
+
+import queue
+import signal
+import subprocess
+import sys
+import threading
+import time
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+from urllib.parse import parse_qs, urlsplit
+
+import httpx2
+from websockets.sync.client import connect
+from websockets.typing import Origin, Subprotocol
+
+if TYPE_CHECKING:
+    from collections.abc import Generator, Iterator, Sequence
+
+    from websockets.sync.connection import Connection
+
+START_TIMEOUT_S = 40.0
+_END_TIMEOUT_S = 20.0
+
+
+class StudioDidNotStartError(RuntimeError):
+    """The studio ended, or said nothing in time; the message holds what it wrote to stderr."""
+
+
+class RunningStudio:
+    """A studio that has printed its address."""
+
+    def __init__(self, process: subprocess.Popen[str], line: str, errors: Path) -> None:
+        self.process, self.line, self._errors = process, line, errors
+        self.url = line.removeprefix("Studio: ")
+        parts = urlsplit(self.url)
+        self.port = parts.port or 0
+        self.origin = f"http://{parts.netloc}"
+        self.token = parse_qs(parts.query).get("token", [""])[0]
+
+    @property
+    def pid(self) -> int:
+        """Process id of the studio itself."""
+        return self.process.pid
+
+    @property
+    def stderr(self) -> str:
+        """What it wrote there so far."""
+        return self._errors.read_text(encoding="utf-8", errors="replace")
+
+    @contextmanager
+    def client(self) -> Generator[httpx2.Client]:
+        """A client that came by the printed address and so has the cookie."""
+        with httpx2.Client(
+            base_url=self.origin,
+            headers={"origin": self.origin},
+            follow_redirects=True,
+            trust_env=False,
+            timeout=20,
+        ) as client:
+            client.get(f"/?token={self.token}").raise_for_status()
+            yield client
+
+    def websocket(self, path: str, *subprotocols: str) -> Connection:
+        """A websocket as the studio's own page opens it."""
+        with self.client() as client:
+            cookie = "; ".join(f"{name}={value}" for name, value in client.cookies.items())
+        return connect(
+            f"ws://127.0.0.1:{self.port}{path}",
+            origin=Origin(self.origin),
+            subprotocols=[Subprotocol(one) for one in subprotocols] or None,
+            additional_headers={"Cookie": cookie},
+            proxy=None,
+            max_size=None,
+        )
+
+    def stop(self, number: signal.Signals = signal.SIGTERM) -> tuple[int, float]:
+        """Send a signal; answers the exit code and the seconds it took to end."""
+        begin_s = time.monotonic()
+        self.process.send_signal(number)
+        code = self.process.wait(_END_TIMEOUT_S)
+        return code, time.monotonic() - begin_s
+
+    def children(self) -> list[int]:
+        """Process ids of its workers now (Linux)."""
+        return list(_children(self.pid))
+
+
+def _children(pid: int) -> Iterator[int]:
+    for task in Path(f"/proc/{pid}/task").glob("*/children"):
+        for child in task.read_text().split():
+            yield int(child)
+            yield from _children(int(child))
+
+
+@contextmanager
+def running_studio(
+    arguments: Sequence[str], data_folder: Path, *, port: int | None = 0
+) -> Generator[RunningStudio]:
+    """Start `studio` with these arguments, and end it with the block.
+
+    Args:
+        arguments: The command and its options, e.g. `["demo", "--fresh"]`.
+        data_folder: Given as `--data-dir`; what it writes to stderr is kept beside.
+        port: None leaves `--port` out; 0 lets the system choose.
+
+    Raises:
+        StudioDidNotStartError: It printed no address in time.
+    """
+    options = ["--no-browser", "--data-dir", str(data_folder)]
+    options += [] if port is None else ["--port", str(port)]
+    errors = data_folder.with_name(f"{data_folder.name}.stderr")
+    with running_process(["studio", *arguments, *options], errors) as running:
+        yield running
+
+
+@contextmanager
+def running_process(module: Sequence[str], errors: Path) -> Generator[RunningStudio]:
+    """Run a module that prints its address, with stderr into a file, until the block ends."""
+    with errors.open("w") as sink:
+        process = subprocess.Popen(
+            [sys.executable, "-m", *module], stdout=subprocess.PIPE, stderr=sink, text=True
+        )
+    try:
+        yield RunningStudio(process, _until_address(process, errors), errors)
+    finally:
+        process.terminate()
+        try:
+            process.wait(_END_TIMEOUT_S)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+        if process.stdout is not None:
+            process.stdout.close()
+
+
+def _until_address(process: subprocess.Popen[str], errors: Path) -> str:
+    """The first line, which must be the address."""
+    assert process.stdout is not None
+    heard: queue.Queue[str] = queue.Queue()
+    stdout = process.stdout
+    reader = threading.Thread(target=lambda: heard.put(stdout.readline()), daemon=True)
+    reader.start()
+    try:
+        line = heard.get(timeout=START_TIMEOUT_S)
+    except queue.Empty:
+        line = ""
+    if not line.startswith("Studio: "):
+        process.kill()
+        raise StudioDidNotStartError(f"{line!r}\n{errors.read_text(errors='replace')}")
+    return line.rstrip("\n")
