@@ -51,7 +51,7 @@ class DocumentScene:
             robot: The whole robot as it is now.
             changed_links: Links whose visuals, collisions, inertial or used materials differ from
                 the robot shown before; None when it is not known, which looks at all of them.
-                Links that came, went or hang on another joint are found by themselves. A link
+                Links that came or went and joints that changed are found by themselves. A link
                 that came stands at the origin until `set_poses`.
         """
         self._robot.show(robot, changed_links)

@@ -54,7 +54,8 @@ class Graph:
             # Always all of them: viser keeps one message per set of names.
             self._tell(_messages.SceneNodeUpdateMessage(name, dict(node.props)))
         if old.wxyz != node.wxyz or old.position != node.position:
-            self.set_pose(name, node.wxyz, node.position)
+            self.turn(name, node.wxyz)
+            self.shift(name, node.position)
         if old.visible is not node.visible:
             self._tell(_messages.SetSceneNodeVisibilityMessage(name, node.visible))
 
@@ -63,9 +64,12 @@ class Graph:
         if self._nodes.pop(name, None) is not None:
             self._tell(_messages.RemoveSceneNodeMessage(name))
 
-    def set_pose(self, name: str, wxyz: Quaternion, position: Vector3) -> None:
-        """Move a node in its parent."""
+    def turn(self, name: str, wxyz: Quaternion) -> None:
+        """Turn a node in its parent."""
         self._tell(_messages.SetOrientationMessage(name, wxyz))
+
+    def shift(self, name: str, position: Vector3) -> None:
+        """Put a node at a place in its parent, m."""
         self._tell(_messages.SetPositionMessage(name, position))
 
     def _create(self, name: str, node: Node) -> None:
@@ -73,7 +77,8 @@ class Graph:
         self._server.get_message_buffer().remove_entity_state_from_buffer("scene", name)
         props = _PROPS[node.kind](**node.props, **node.arrays)
         self._tell(node.kind(name, props))  # pyright: ignore[reportCallIssue]
-        self.set_pose(name, node.wxyz, node.position)
+        self.turn(name, node.wxyz)
+        self.shift(name, node.position)
         self._tell(_messages.SetSceneNodeVisibilityMessage(name, node.visible))
 
     def _tell(self, message: _messages.Message) -> None:

@@ -45,18 +45,23 @@ class PoseWriter:
         poses = np.asarray(wxyz_xyz, dtype=np.float64)
         if self._names != link_names:
             self._rename(tuple(link_names))
-        near = np.abs(poses - self._sent) <= STEP  # NaN, never sent, is not near
-        moved = np.flatnonzero(~near.all(axis=1) & np.isfinite(poses).all(axis=1))
-        if moved.size == 0:
+        near: NDArray[np.bool_] = np.abs(poses - self._sent) <= STEP  # NaN, never sent, is not
+        far = np.logical_not(near) & np.isfinite(poses).all(axis=1, keepdims=True)
+        rows: list[int] = np.flatnonzero(far.any(axis=1)).tolist()
+        if not rows:
             return
         with self._graph.atomic():
-            for row in moved:
+            for row in rows:
                 if self._names[row] in drawn:
-                    w, x, y, z, *position = poses[row].tolist()
-                    self._graph.set_pose(
-                        self._nodes[row], (w, x, y, z), (position[0], position[1], position[2])
-                    )
-                    self._sent[row] = poses[row]
+                    self._send(row, poses[row], far[row])
+
+    def _send(self, row: int, pose: NDArray[np.float64], far: NDArray[np.bool_]) -> None:
+        w, qx, qy, qz, x, y, z = pose.tolist()
+        if far[:4].any():
+            self._graph.turn(self._nodes[row], (w, qx, qy, qz))
+        if far[4:].any():
+            self._graph.shift(self._nodes[row], (x, y, z))
+        self._sent[row] = pose
 
     def forget(self, link: str) -> None:
         """Send the pose of this link again next time."""

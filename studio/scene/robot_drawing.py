@@ -102,7 +102,7 @@ class RobotDrawing:
             for link in robot.links
             if link in changed_links
             or link not in self._drawn
-            or self._joint_of.get(link) != joint_of.get(link)
+            or ("axes" in self._made and self._joint_of.get(link) != joint_of.get(link))
         ]
 
     def _draw(self, link: Link) -> None:
