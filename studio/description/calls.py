@@ -50,7 +50,7 @@ def call_macro(
     run.frame = frame
     body = OutputElement("xacro:macro", macro.body.origin, frame)
     run.texts.at = macro.body.origin
-    body.attributes = dict(run.echo_attributes(macro.body, inner))
+    body.attributes = run.echo_attributes(macro.body, inner)
     run.children(macro.body, body, MacroTable(macros_in), inner)
     run.frame = outer_frame
     run.texts.at = node.origin

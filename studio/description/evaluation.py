@@ -107,8 +107,8 @@ class Evaluation:
         out = OutputElement(root.tag, root, None)
         target = root.attributes.get("xacro:targetNamespace")
         if target:
-            out.attributes["xmlns"] = text_of(self.texts.consumed(target, scope, ("", "xmlns")))
-        out.attributes |= self.attributes(root, scope)
+            out.attributes = {"xmlns": text_of(self.texts.consumed(target, scope, ("", "xmlns")))}
+        out.attributes = out.attributes | self.attributes(root, scope)
         self.children(root, out, macros, scope)
         return out
 
@@ -128,7 +128,7 @@ class Evaluation:
         """Evaluate a node's attributes; those of xacro itself are left out."""
         plan = plan_of(node)
         if plan.fixed is not None:
-            return plan.fixed.copy()
+            return plan.fixed
         consumed, path = self.texts.consumed, self.path
         values = {
             name: text if "$" not in text else text_of(consumed(text, scope, (path, name)))
@@ -244,7 +244,7 @@ def _set_attribute(
     value = text_of(run.texts.consumed(value_text, scope, (run.path, name)))
     if not name:
         raise Fault("empty-name", "xacro:attribute came to an empty name.")
-    out.attributes[name] = value
+    out.attributes = {**out.attributes, name: value}
 
 
 _HANDLERS: Final[dict[str, _Handler]] = {

@@ -106,6 +106,6 @@ def _evaluate(
 ) -> OutputElement:
     content = OutputElement(root.tag, root, run.frame)
     run.texts.at = root
-    content.attributes = dict(run.echo_attributes(root, scope))
+    content.attributes = run.echo_attributes(root, scope)
     run.children(root, content, macros, scope)
     return content

@@ -37,4 +37,4 @@ def import_namespaces(texts: Texts, into: OutputElement, attributes: dict[str, s
             if into.attributes.get(name, value) != value:
                 texts.warn("namespace-conflict", f"{name} is declared twice with different URIs.")
             else:
-                into.attributes[name] = value
+                into.attributes = {**into.attributes, name: value}

@@ -30,6 +30,7 @@ class OutputElement:
     def __init__(self, tag: str, origin: SourceElement, calls: CallFrame | None) -> None:
         self.tag, self.origin, self.calls = tag, origin, calls
         self.attributes: dict[str, str] = {}
+        """Replaced, never changed: elements share it with each other and with their source."""
         self.children: list[OutputElement | SourceText] = []
 
     def elements(self) -> Iterator[OutputElement]:
@@ -72,7 +73,8 @@ def macro_calls(frame: CallFrame | None) -> tuple[MacroCall, ...]:
 def write_xml(element: OutputElement, extra_attributes: dict[str, str] | None = None) -> str:
     """One line of XML, attributes in their order; `extra_attributes` go on the element itself."""
     out: list[str] = []
-    _write(element, out, {**element.attributes, **(extra_attributes or {})})
+    attributes = element.attributes
+    _write(element, out, attributes | extra_attributes if extra_attributes else attributes)
     return "".join(out)
 
 

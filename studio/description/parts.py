@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 from studio.description.output_tree import OutputElement, macro_calls, write_xml
 from studio.description.values import Part
@@ -31,26 +31,40 @@ def part_keys(root: OutputElement) -> list[tuple[str, OutputElement]]:
     return keyed
 
 
-def make_parts(root: OutputElement) -> tuple[Part, ...]:
+class WrittenPart(NamedTuple):
+    """A part as text; the rest of it is worked out by `part_of` when somebody asks."""
+
+    key: str
+    xml: str
+    element: OutputElement
+
+
+def write_parts(root: OutputElement) -> list[WrittenPart]:
     """Write each top-level element as XML that stands alone, prefixes declared."""
     prefixes = {
         name[6:]: (name, value)
         for name, value in root.attributes.items()
         if name.startswith("xmlns:")
     }
-    return tuple(_part(key, element, prefixes) for key, element in part_keys(root))
+    return [
+        WrittenPart(key, _write(element, prefixes), element) for key, element in part_keys(root)
+    ]
 
 
-def _part(key: str, element: OutputElement, prefixes: Mapping[str, tuple[str, str]]) -> Part:
+def part_of(written: WrittenPart) -> Part:
+    """A part with where it was written and the macro calls that led to it."""
+    element = written.element
+    return Part(written.key, written.xml, element.origin.place, macro_calls(element.calls))
+
+
+def _write(element: OutputElement, prefixes: Mapping[str, tuple[str, str]]) -> str:
     xml = write_xml(element)
     declared = {
         name: value
         for prefix, (name, value) in prefixes.items()
         if f"{prefix}:" in xml and name not in element.attributes
     }
-    if declared:
-        xml = write_xml(element, declared)
-    return Part(key, xml, element.origin.place, macro_calls(element.calls))
+    return write_xml(element, declared) if declared else xml
 
 
 def keys_by_source(root: OutputElement) -> dict[SourceElement, tuple[str, ...]]:

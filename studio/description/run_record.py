@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from studio.description.source_tree import SourceElement, SourceTree
-    from studio.description.values import Part, SiteKind
+    from studio.description.values import SiteKind
     from studio.problems import Problem
 
 VALUES_KEPT = 16
@@ -114,7 +114,6 @@ class RunRecord:
     bindings: tuple[Binding, ...]
     """In the order in which the run met them."""
     yaml: Mapping[str, YamlReads]
-    parts: tuple[Part, ...]
     part_keys: Mapping[SourceElement, tuple[str, ...]]
     """Which parts each source element came out in; an element that is in no part is missing."""
     arguments: Mapping[str, str]

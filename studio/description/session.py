@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, TypeAlias
 from studio.description.evaluation import Evaluation
 from studio.description.faults import Fault, Refusal, Unsupported
 from studio.description.output_tree import OutputElement
-from studio.description.parts import keys_by_source, make_parts
+from studio.description.parts import keys_by_source, part_of, write_parts
 from studio.description.run_record import RunRecord
 from studio.description.sites import SiteBuilder
 from studio.description.source_store import SourceStore
@@ -28,7 +28,7 @@ from studio.problems import Fix, Place, Problem, Severity
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from studio.description.values import Part, ReadPolicy, Site
+    from studio.description.values import ReadPolicy, Site
 
 Answer: TypeAlias = Expansion | Failure
 Request: TypeAlias = OpenRequest | EditRequest | ArgumentsRequest | ReloadRequest
@@ -98,17 +98,17 @@ class Session:
         return evaluation, _as_output(tree.root, origin)
 
     def _expansion(self, evaluation: Evaluation, root: OutputElement, reason: str) -> Expansion:
-        parts = make_parts(root)
-        record = self._record(evaluation, root, parts)
+        parts = write_parts(root)
+        record = self._record(evaluation, root)
         sites = self._site_builder.build(record)
         part_order, site_order = tuple(p.key for p in parts), tuple(s.id for s in sites)
         expansion = Expansion(
             robot_name=root.attributes.get("name", ""),
             root_attributes=tuple(root.attributes.items()),
             part_order=None if part_order == tuple(self._parts) else part_order,
-            changed_parts=tuple(p for p in parts if self._parts.get(p.key) != p.xml),
+            changed_parts=tuple(part_of(p) for p in parts if self._parts.get(p.key) != p.xml),
             site_order=None if site_order == tuple(self._sites) else site_order,
-            changed_sites=tuple(s for s in sites if self._sites.get(s.id) != s),
+            changed_sites=tuple(s for s in sites if self._is_new(s)),
             files=record.files,
             include_tree=record.includes,
             warnings=record.warnings,
@@ -119,9 +119,11 @@ class Session:
         self._sites = {site.id: site for site in sites}
         return expansion
 
-    def _record(
-        self, evaluation: Evaluation, root: OutputElement, parts: tuple[Part, ...]
-    ) -> RunRecord:
+    def _is_new(self, site: Site) -> bool:
+        before = self._sites.get(site.id)
+        return before is not site and before != site
+
+    def _record(self, evaluation: Evaluation, root: OutputElement) -> RunRecord:
         files = tuple(self._store.asked)
         return RunRecord(
             entry=self._store.resolve(self._entry),
@@ -130,7 +132,6 @@ class Session:
             includes=tuple(evaluation.includes),
             bindings=tuple(evaluation.bindings.values()),
             yaml=evaluation.texts.yaml,
-            parts=parts,
             part_keys=keys_by_source(root),
             arguments=_values(evaluation),
             warnings=tuple(evaluation.texts.warnings),

@@ -76,7 +76,11 @@ class Texts:
         segments = segments_of(text)
         if len(segments) == 1:
             return self._segment(*segments[0], scope)
-        joined = "".join([text_of(self._segment(*one, scope)) for one in segments])
+        pieces = [
+            piece if cut is Cut.TEXT else text_of(self._segment(cut, piece, scope))
+            for cut, piece in segments
+        ]
+        joined = "".join(pieces)
         if len(joined) > SIZE_LIMIT:
             raise Refusal("value-too-large", "A text grows too large.")
         return joined
@@ -91,7 +95,8 @@ class Texts:
             one.reads += 1
             if len(one.consumers) < CONSUMERS_KEPT:
                 one.consumers[consumer] = None
-        self._note_comparisons(text)
+        if "$(arg" in text:
+            self._note_comparisons(text)
         self._reads = outer
         return value
 
