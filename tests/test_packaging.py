@@ -126,8 +126,6 @@ def test_the_wheel_says_what_it_is(wheel: Path, names: list[str]):
 CALLED_BY_OTHERS = {
     "httptools": "uvicorn parses HTTP with it",
     "uvloop": "uvicorn runs its loop on it",
-    "lxml": "trimesh reads 3MF and COLLADA with it",
-    "pycollada": "trimesh reads COLLADA with it",
 }
 
 
