@@ -96,7 +96,7 @@ class FolderMemory:
         store = _Store(_VERSION, self._folders, self._manifests)
         if self._file is None or (store == self._old and not self.looks):
             return
-        with contextlib.suppress(OSError):
+        with contextlib.suppress(OSError, UnicodeEncodeError):  # the root's own name may be no text
             self._file.parent.mkdir(parents=True, exist_ok=True)
             fresh = self._file.with_name(f"{self._file.name}.{os.getpid()}")
             fresh.write_bytes(msgspec.msgpack.encode(store))
@@ -127,6 +127,8 @@ def _look(folder: str, mtime_ns: int) -> FolderFacts:
     names: set[str] = set()
     with os.scandir(folder) as entries:
         for entry in entries:
+            if not is_text(entry.name):
+                continue
             if entry.is_dir(follow_symlinks=False):
                 subfolders.append(entry.name)
             else:
@@ -140,6 +142,15 @@ def _look(folder: str, mtime_ns: int) -> FolderFacts:
         ignored=is_environment or not names.isdisjoint(_IGNORE_MARKERS),
         is_install_space=not names.isdisjoint(INSTALL_MARKERS),
     )
+
+
+def is_text(name: str) -> bool:
+    """Whether a file name is text: Linux allows any bytes, which no message can carry."""
+    try:
+        name.encode()
+    except UnicodeEncodeError:
+        return False
+    return True
 
 
 def is_robot_name(name: str) -> bool:

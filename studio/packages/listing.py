@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Final, Literal, NamedTuple, TypeAlias
 
 from studio.errors import UnreadableFileError
 from studio.packages.entry_points import survey
-from studio.packages.folder_memory import is_robot_name
+from studio.packages.folder_memory import is_robot_name, is_text
 from studio.packages.manifest import FILE_NAME
 
 if TYPE_CHECKING:
@@ -44,7 +44,8 @@ class Listing(NamedTuple):
 def list_folder(path: str, roots: ServedRoots) -> Listing:
     """List a served folder, folders first; an empty path lists the served roots.
 
-    Hidden files are left out. Robot files are judged in the light of the folder's other files.
+    Hidden files, and names that are no text, are left out. Robot files are judged in the light of
+    the folder's other files.
 
     Raises:
         OutsideRootsError: The folder is not served.
@@ -55,13 +56,17 @@ def list_folder(path: str, roots: ServedRoots) -> Listing:
     folder = roots.resolve(path)
     try:
         with os.scandir(folder) as found:
-            names = sorted(one.name for one in found if not one.name.startswith("."))
+            names = sorted(one.name for one in found if _is_shown(one.name))
     except OSError as error:
         reason = error.strerror or "cannot be listed"
         raise UnreadableFileError(path, f"cannot be listed as a folder ({reason}).") from error
     inside = [folder / name for name in names[:ENTRY_LIMIT]]
     entries = sorted(_entries(inside, roots), key=_order)
     return Listing(str(folder), _parent(folder, roots), tuple(entries))
+
+
+def _is_shown(name: str) -> bool:
+    return not name.startswith(".") and is_text(name)
 
 
 def _parent(folder: Path, roots: ServedRoots) -> str:

@@ -2,22 +2,64 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
 from typing import Final
+from xml.parsers import expat
 
 FILE_NAME: Final = "package.xml"
 SIZE_LIMIT_BYTES: Final = 1 << 20
 
-_COMMENT: Final = re.compile(rb"<!--.*?-->", re.DOTALL)
-_NAME: Final = re.compile(
-    rb"<package\b[^>]*>.*?<name\b[^>]*>\s*([\w.-]{1,200})\s*</name\s*>", re.DOTALL
-)
+_NAME: Final = re.compile(r"[A-Za-z0-9_.-]{1,200}")
 
 
 def package_name(manifest: bytes) -> str | None:
     """Find the name; None when there is none of letters, digits, `_`, `-` and `.`.
 
-    No XML parser: a manifest is hostile until shown otherwise, and there are hundreds of them.
+    Reads no further than the name: what is broken behind it does not matter here, and entities
+    are refused.
     """
-    found = _NAME.search(_COMMENT.sub(b"", manifest))
-    return found[1].decode("ascii", "replace") if found else None
+    reader = _Reader()
+    with contextlib.suppress(_DoneError, expat.ExpatError, LookupError, ValueError):
+        reader.parse(manifest)
+    name = reader.text.strip()
+    return name if _NAME.fullmatch(name) else None
+
+
+class _DoneError(Exception):
+    """The name was read, or there will be none."""
+
+
+class _Reader:
+    """Collects the text of the first `name` in `package`."""
+
+    def __init__(self) -> None:
+        self.text = ""
+        self._path: list[str] = []
+
+    def parse(self, manifest: bytes) -> None:
+        parser = expat.ParserCreate()
+        parser.buffer_text = True
+        parser.StartElementHandler = self._start
+        parser.EndElementHandler = self._end
+        parser.CharacterDataHandler = self._read
+        parser.EntityDeclHandler = _refuse_entity
+        parser.Parse(manifest, True)  # noqa: FBT003 - expat takes it by position only
+
+    def _start(self, tag: str, _attributes: dict[str, str]) -> None:
+        self._path.append(tag)
+        if self._path[0] != "package":
+            raise _DoneError
+
+    def _end(self, _tag: str) -> None:
+        if self._path == ["package", "name"]:
+            raise _DoneError
+        self._path.pop()
+
+    def _read(self, text: str) -> None:
+        if self._path == ["package", "name"]:
+            self.text += text
+
+
+def _refuse_entity(*_declaration: object) -> None:
+    raise _DoneError
