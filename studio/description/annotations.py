@@ -14,7 +14,8 @@ Which comment belongs to what:
 - A heading is one short comment of one line, without a bracket and without a full stop, that
   stands above a blank line, or directly above two or more values on consecutive lines, or is
   framed by rules (`==== Wheels ====`). It groups the values below it, until the next heading or
-  until anything that is no value (a link, a macro, an include, a nested YAML key).
+  until anything that is no value (a link, a macro, an include, a nested YAML key). Values below a
+  nested YAML key have that for a heading, and all comments above them are help.
 - Commented-out XML and long texts such as licences say nothing.
 """
 
@@ -81,11 +82,15 @@ class Comment:
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """A value that comments may speak of (`is_value`), or anything else that ends a group."""
+    """A value that comments may speak of (`is_value`), or anything else that ends a group.
+
+    `is_grouped`: it stands under a name already (a nested YAML key); comments there are help.
+    """
 
     first_line: int
     last_line: int
     is_value: bool = True
+    is_grouped: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -292,6 +297,8 @@ def _directly_above(
 def _is_heading(
     entries: Sequence[Entry], index: int, block: Sequence[Comment], comment: Comment
 ) -> bool:
+    if entries[index].is_grouped:
+        return False
     title = _plain(comment.text)
     lines = [line for line in _without_rules(comment.text).splitlines() if line.strip()]
     if not title or len(title) > _HEADING_LENGTH or len(lines) > 1 or _BRACKET.search(title):

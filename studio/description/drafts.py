@@ -40,6 +40,7 @@ _TEXTS = {
 _AROUND = frozenset(
     {"robot", "link", "joint", "visual", "collision", "inertial", "geometry", "material"}
 )
+_CONDITIONS = frozenset({"xacro:if", "xacro:unless"})
 _NAMED = frozenset({"link", "joint", "material"})
 _VECTOR_LENGTH = 16
 _TAG_UNITS = {
@@ -110,7 +111,10 @@ def draft_yaml(path: str, data: bytes) -> FileDrafts:
 def _yaml_remarks(document: YamlDocument) -> list[Remark]:
     """One remark per scalar; a key that opens a nested level ends the group above it."""
     marked = [(Entry(line, line, is_value=False), -1) for line in document.headings]
-    marked += [(Entry(one.line, one.line), index) for index, one in enumerate(document.scalars)]
+    marked += [
+        (Entry(one.line, one.line, is_grouped=len(one.path) > 1), index)
+        for index, one in enumerate(document.scalars)
+    ]
     marked.sort(key=lambda pair: (pair[0].first_line, pair[1]))
     remarks = attach_comments([entry for entry, _ in marked], document.comments)
     found = {index: remark for (_, index), remark in zip(marked, remarks, strict=True)}
@@ -216,7 +220,8 @@ def _ancestry(element: SourceElement) -> tuple[SourceElement, ...]:
     while above is not None:
         if above.tag not in _AROUND and above.xacro_name is None:
             return ()
-        if line[0].tag not in _NAMED and line[0].xacro_name is None and above.tag != "robot":
+        is_open = line[0].tag not in _NAMED and line[0].xacro_name is None
+        if is_open and above.tag != "robot" and above.tag not in _CONDITIONS:
             line.insert(0, above)
         above = above.parent
     return tuple(line)

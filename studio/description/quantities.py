@@ -18,6 +18,8 @@ class Sweep(Enum):
     """Half a turn to both sides."""
     FRACTION = auto()
     """From 0 to 1."""
+    DIRECTION = auto()
+    """From -1 to 1."""
     COUNT = auto()
     """Whole numbers."""
     FREE = auto()
@@ -46,9 +48,11 @@ EFFORT = Quantity("N m", Sweep.POSITIVE)
 FORCE = Quantity("N", Sweep.POSITIVE)
 ANGULAR_SPEED = Quantity("rad/s", Sweep.POSITIVE)
 LINEAR_SPEED = Quantity("m/s", Sweep.POSITIVE)
+ANGULAR_ACCELERATION = Quantity("rad/s^2", Sweep.POSITIVE)
 POSITIVE = Quantity("", Sweep.POSITIVE)
 FRACTION = Quantity("", Sweep.FRACTION)
-DIRECTION = Quantity("", Sweep.SYMMETRIC)
+DIRECTION = Quantity("", Sweep.DIRECTION)
+RATIO = Quantity("", Sweep.SYMMETRIC)
 COUNT = Quantity("", Sweep.COUNT)
 RATE = Quantity("Hz", Sweep.POSITIVE)
 CONSTANT = Quantity("", Sweep.CONSTANT)
@@ -73,7 +77,7 @@ _BY_ATTRIBUTE: dict[tuple[str, str], Quantity] = {
     ("calibration", "falling"): ANGLE,
     ("dynamics", "damping"): POSITIVE,
     ("dynamics", "friction"): POSITIVE,
-    ("mimic", "multiplier"): UNKNOWN,
+    ("mimic", "multiplier"): RATIO,
     ("mimic", "offset"): ANGLE,
     ("axis", "xyz"): DIRECTION,
     ("origin", "rpy"): ANGLE,
@@ -105,26 +109,27 @@ _WORDS: dict[Quantity, str] = {
     MASS: "mass weight payload masses",
     LENGTH: (
         "radius diameter length width height thickness depth size wheelbase track clearance "
-        "separation spacing distance gap range baseline rad_m radii dist len diam reach"
+        "separation spacing distance gap range baseline radii dist len diam reach"
     ),
     POSITION: "offset xyz x y z dx dy dz pos position shift origin translation",
     ANGLE: (
         "rpy roll pitch yaw angle theta tilt rotation orientation heading pan fov hfov vfov "
-        "lower upper limit azimuth elevation alpha_rad swing"
+        "lower upper limit azimuth elevation swing"
     ),
     EFFORT: "effort torque",
     FORCE: "force",
-    ANGULAR_SPEED: "velocity vel omega rpm_rad",
+    ANGULAR_SPEED: "velocity vel omega",
     LINEAR_SPEED: "speed",
+    ANGULAR_ACCELERATION: "acceleration accel",
     POSITIVE: (
-        "friction mu mu1 mu2 damping stiffness kp kd ki p i d gain scale ratio factor "
-        "multiplier reduction density acceleration accel jerk voltage"
+        "friction mu mu1 mu2 damping stiffness k kp kd ki gain gains scale ratio factor "
+        "multiplier reduction density jerk voltage"
     ),
     FRACTION: "rgba red green blue opacity transparency color colour brightness",
     INERTIA: "ixx iyy izz inertia",
     PRODUCT_OF_INERTIA: "ixy ixz iyz",
     COUNT: (
-        "count num number samples resolution pixels index id n port baud channels beams rings "
+        "count num number samples resolution pixels index id port baud channels beams rings "
         "rows columns fps"
     ),
     RATE: "rate frequency hz",
@@ -132,6 +137,7 @@ _WORDS: dict[Quantity, str] = {
 }
 _BY_WORD = {word: quantity for quantity, words in _WORDS.items() for word in words.split()}
 _BOUNDS = frozenset({"min", "max", "minimum", "maximum", "lower", "upper", "limit", "limits"})
+_AXES = frozenset({"x", "y", "z", "xyz"})
 _CONSTANTS = re.compile(
     r"(?:m_)?pi|half_pi|two_pi|deg(?:rees?)?_?(?:2|to)_?rad(?:ians?)?"
     r"|rad(?:ians?)?_?(?:2|to)_?deg(?:rees?)?",
@@ -146,7 +152,12 @@ def in_unit(quantity: Quantity, unit: str) -> Quantity:
     if not unit or unit == quantity.unit:
         return quantity
     if unit in {"deg", "rad"}:
-        return Quantity(unit, Sweep.ANGLE)
+        is_rate = quantity.unit.startswith("rad/")
+        return (
+            Quantity(quantity.unit.replace("rad", unit), Sweep.POSITIVE)
+            if is_rate
+            else Quantity(unit, Sweep.ANGLE)
+        )
     return Quantity(unit, Sweep.FREE if quantity.sweep is Sweep.ANGLE else quantity.sweep)
 
 
@@ -185,18 +196,23 @@ def _words_of(key: str) -> list[str]:
 
 
 def _quantity_of_words(words: list[str]) -> Quantity | None:
-    """The last word that names a quantity; `max_velocity` and `velocity_limit` are both speeds."""
+    """The last word that names a quantity: `max_velocity` and `velocity_limit` are both speeds.
+
+    Bounds and axes only count when no other word does: `size_y` is a length.
+    """
     weak: Quantity | None = None
     for word in reversed(words):
         quantity = _BY_WORD.get(word)
-        if quantity is not None and word not in _BOUNDS:
-            return _linear(quantity, words)
+        if quantity is not None and word not in _BOUNDS | _AXES:
+            return _specified(quantity, words)
         weak = weak or quantity
     return weak
 
 
-def _linear(quantity: Quantity, words: list[str]) -> Quantity:
-    """A velocity is one of a joint unless it is said to be linear."""
+def _specified(quantity: Quantity, words: list[str]) -> Quantity:
+    """A velocity is a joint's unless it is said to be linear; `k_position` is a gain."""
+    if "k" in words:
+        return POSITIVE
     return LINEAR_SPEED if quantity is ANGULAR_SPEED and "linear" in words else quantity
 
 

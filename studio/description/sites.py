@@ -93,7 +93,7 @@ def _site(draft: Draft, seen: Seen, before: Widget | None) -> Site:
         number=parse_number(value),
         reads=seen.reads,
         widget=_widget(draft, seen, value, before),
-        group=draft.group,
+        group=seen.owner.partition(":")[2] or draft.group,
         owner=seen.owner,
         values=seen.values if len(seen.values) > 1 else (),
     )

@@ -21,6 +21,8 @@ _BOOLEANS = frozenset({"true", "false"})
 _STEPS_ACROSS = 100
 """A slider has at least that many steps, so that a pixel of it is about one step."""
 _VECTOR_LENGTH = 16
+_NO_LENGTH_M = 1e-5
+"""Calibrations leave lengths such as 2e-11 m where a zero is meant."""
 
 
 def infer_widget(
@@ -73,7 +75,7 @@ def keep_range(widget: Widget, before: Widget, shown: str) -> Widget:
 def _annotated(annotation: Annotation, unit: str, shown: str) -> Widget:
     """What the comment says; choices over a range, a vector where the value is one."""
     if annotation.choices:
-        given = annotation.choices
+        given, unit = annotation.choices, annotation.unit
         return Widget(
             WidgetKind.CHOICE, unit=unit, choices=given, help=annotation.help, annotated=True
         )
@@ -114,21 +116,30 @@ def _turned(numbers: list[float], shown: str, quantity: Quantity, plain: Widget)
 def _range(
     numbers: list[float], quantity: Quantity, *, is_whole: bool
 ) -> tuple[float, float, float]:
+    """Minimum, maximum and step for these numbers of that quantity."""
     largest = max(numbers, key=abs)
+    is_count = quantity.sweep is Sweep.FREE and not quantity.unit and len(numbers) == 1
+    if quantity.sweep is Sweep.COUNT or (is_count and is_whole):
+        return _whole(largest)
+    if quantity.sweep is Sweep.FRACTION and all(0 <= number <= 1 for number in numbers):
+        return 0.0, 1.0, 0.01
+    reach = _reach_about_zero(largest, quantity)
+    return _quarter_to_four_times(numbers, quantity) if reach is None else _symmetric(reach)
+
+
+def _reach_about_zero(largest: float, quantity: Quantity) -> float | None:
+    """How far a slider about 0 goes to both sides; None for those that are not about 0."""
     match quantity.sweep:
         case Sweep.ANGLE:
             half_turn = 180.0 if quantity.unit == "deg" else math.pi
-            return _symmetric(half_turn * max(1, math.ceil(abs(largest) / half_turn - 1e-9)))
-        case Sweep.FRACTION if all(0 <= number <= 1 for number in numbers):
-            return 0.0, 1.0, 0.01
+            return half_turn * max(1, math.ceil(abs(largest) / half_turn - 1e-9))
+        case Sweep.DIRECTION:
+            return max(1.0, abs(largest))
         case Sweep.SYMMETRIC:
-            return _symmetric(4 * abs(largest) or 1.0)
-        case Sweep.COUNT:
-            return _whole(largest)
-        case _ if is_whole and not quantity.unit and len(numbers) == 1:
-            return _whole(largest)
+            is_zero = abs(largest) < (_NO_LENGTH_M if quantity.unit == "m" else 1e-30)
+            return 1.0 if is_zero else 4 * abs(largest)
         case _:
-            return _quarter_to_four_times(numbers, quantity)
+            return None
 
 
 def _quarter_to_four_times(numbers: list[float], quantity: Quantity) -> tuple[float, float, float]:

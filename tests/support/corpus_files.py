@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 from studio.description.source_tree import SourceError, SourceTree, parse_source
@@ -34,3 +35,13 @@ def _files(corpus: Path, suffixes: frozenset[str]) -> Iterator[Path]:
         for path in sorted(corpus.rglob("*"))
         if path.suffix.lower() in suffixes and path.is_file()
     )
+
+
+def package_folders(corpus: Path) -> dict[str, tuple[str, ...]]:
+    """The folders of each package of the corpus, by name."""
+    found: dict[str, tuple[str, ...]] = {}
+    for path in sorted(corpus.rglob("package.xml")):
+        name = re.search(r"<name>\s*([^<\s]+)", path.read_text("utf-8", "replace"))
+        if name:
+            found[name[1]] = (*found.get(name[1], ()), str(path.parent))
+    return found
