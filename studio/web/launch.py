@@ -56,22 +56,25 @@ def launch(settings: Settings, opening: Opening, *, viewer_link: bool = False) -
     credentials = Credentials(settings.token, key)
     with bind(settings.host, settings.port) as listener:
         port = port_of(listener)
-        _remark(settings, port)
+        for sentence in remarks(settings, port):
+            _warn(sentence)
         roles = (Role.PRESENTER, Role.VIEWER) if viewer_link else (Role.PRESENTER,)
         links = [address(settings.host, port, credentials.token_of(role)) for role in roles]
         visit = _Visit(opening, links, open_browser=settings.open_browser)
         visit.run(settings, credentials, listener)
 
 
-def _remark(settings: Settings, port: int) -> None:
-    """Say what is not as usual."""
+def remarks(settings: Settings, port: int) -> list[str]:
+    """What is not as usual about where the studio listens, in sentences."""
+    said: list[str] = []
     if settings.port is None and port != DEFAULT_PORT:
-        _warn(f"Port {DEFAULT_PORT} is taken by another program: this studio uses {port}.")
+        said.append(f"Port {DEFAULT_PORT} is taken by another program: this studio uses {port}.")
     if not is_loopback(settings.host):
-        _warn(
+        said.append(
             "Other machines reach this studio, and the connection is not encrypted: "
             "whoever has the address with its token can change and save files."
         )
+    return said
 
 
 class _Visit:

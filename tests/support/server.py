@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from websockets.sync.connection import Connection
 
 START_TIMEOUT_S = 40.0
+_LISTENING = "0A"
+"""State of a socket in /proc/net/tcp."""
 _END_TIMEOUT_S = 20.0
 
 
@@ -83,6 +85,25 @@ class RunningStudio:
         self.process.send_signal(number)
         code = self.process.wait(_END_TIMEOUT_S)
         return code, time.monotonic() - begin_s
+
+    def listening_ports(self) -> set[int]:
+        """Every TCP port that it or a worker of it listens on (Linux)."""
+        inodes = {
+            handle.stat().st_ino
+            for pid in (self.pid, *self.children())
+            for handle in Path(f"/proc/{pid}/fd").iterdir()
+            if handle.exists()
+        }
+        rows = [
+            line.split()
+            for table in ("tcp", "tcp6")
+            for line in Path(f"/proc/net/{table}").read_text().splitlines()[1:]
+        ]
+        return {
+            int(row[1].rsplit(":", 1)[1], 16)
+            for row in rows
+            if row[3] == _LISTENING and int(row[9]) in inodes
+        }
 
     def children(self) -> list[int]:
         """Process ids of its workers now (Linux)."""

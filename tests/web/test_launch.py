@@ -1,0 +1,165 @@
+"""The whole studio as a person starts it; all else of this room is tested beside it."""
+
+from __future__ import annotations
+
+import json
+import re
+import signal
+import socket
+import sys
+from collections import deque
+from contextlib import suppress
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import httpx2
+import pytest
+from websockets.exceptions import ConnectionClosed
+
+from studio.scene import SUBPROTOCOL
+from studio.settings import DEFAULT_PORT, Settings
+from studio.web.launch import remarks
+from tests.support.server import RunningStudio, running_studio
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from websockets.sync.connection import Connection
+
+linux = pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
+
+
+@pytest.fixture(scope="module")
+def demo(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningStudio]:
+    with running_studio(["demo"], tmp_path_factory.mktemp("demo") / "data") as running:
+        yield running
+
+
+def until(lane: Connection, kind: str) -> dict[str, Any]:
+    """The next event of a kind."""
+    while True:
+        message = lane.recv(timeout=30)
+        if isinstance(message, str):
+            event: dict[str, Any] = json.loads(message)
+            if event["type"] == kind:
+                return event
+
+
+def watch(studio: RunningStudio, document: str) -> Connection:
+    """A control lane that looks at a document."""
+    lane = studio.websocket("/control")
+    lane.send(json.dumps({"type": "watch", "document": document}))
+    return lane
+
+
+def test_one_plain_line_says_where_it_is(demo: RunningStudio):
+    assert re.fullmatch(r"Studio: http://127\.0\.0\.1:\d+/\?token=[\w-]{32}", demo.line)
+
+
+def test_the_page_answers_when_the_line_is_printed(demo: RunningStudio):
+    with demo.client() as client:
+        page = client.get("/", headers={"accept": "text/html"})
+        assert page.status_code == 200
+        assert page.url.path == "/d/rover"
+        assert "{{" not in page.text
+        for address in set(re.findall(r'(?:src|href)="(/a/[^"]+\.\w+)"', page.text)):
+            assert client.get(address).status_code == 200, address
+
+
+@linux
+def test_the_browser_needs_one_port_and_it_listens_on_no_other(demo: RunningStudio):
+    assert demo.listening_ports() == {demo.port}
+
+
+def test_the_scene_speaks_on_the_same_port(demo: RunningStudio):
+    with demo.client() as client:
+        page = client.get("/d/rover/viser/")
+        assert page.status_code == 200
+        for address in set(re.findall(r'(?:src|href)="(/a/[^"]+\.\w+)"', page.text)):
+            assert client.get(address).status_code == 200, address
+    with demo.websocket("/d/rover/viser", SUBPROTOCOL) as lane:
+        assert isinstance(lane.recv(timeout=20), bytes)
+
+
+def test_the_robot_comes_over_the_control_lane(demo: RunningStudio):
+    with watch(demo, "rover") as lane:
+        assert len(until(lane, "robot")["links"]) > 10
+
+
+def test_the_urdf_of_the_demo_comes_as_a_file(demo: RunningStudio):
+    with demo.client() as client, watch(demo, "rover") as lane:
+        until(lane, "robot")
+        assert "<robot name=" in client.get("/api/documents/rover/urdf").text
+
+
+@linux
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_ends_it_with_all_its_workers_within_two_seconds(
+    tmp_path: Path, number: signal.Signals
+):
+    with running_studio(["demo"], tmp_path / "data") as studio:
+        control = watch(studio, "rover")
+        scene = studio.websocket("/d/rover/viser", SUBPROTOCOL)
+        scene.recv(timeout=20)
+        site = until(control, "sites")["changed"][0]["id"]
+        for request in range(30):  # the workers are busy when the signal comes
+            edit = {"type": "edit_site", "document": "rover", "site": site}
+            control.send(json.dumps(edit | {"text": f"{request}", "request": request}))
+        workers = studio.children()
+        assert workers
+        code, took_s = studio.stop(number)
+        assert (code, took_s < 2) == (0, True)
+        assert not [pid for pid in workers if Path(f"/proc/{pid}").exists()]
+        for lane in (control, scene):
+            with pytest.raises(ConnectionClosed):
+                deque(iter(partial(lane.recv, timeout=5), None), maxlen=0)
+        assert studio.stderr == ""
+
+
+def test_the_default_port_or_the_next_free_one_and_it_says_so(tmp_path: Path):
+    with socket.socket() as held:
+        held.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        with suppress(OSError):  # taken by somebody else: as good
+            held.bind(("127.0.0.1", DEFAULT_PORT))
+            held.listen()
+        with running_studio(["demo"], tmp_path / "data", port=None) as studio:
+            assert DEFAULT_PORT < studio.port < DEFAULT_PORT + 100
+            assert f"Port {DEFAULT_PORT} is taken" in studio.stderr
+            assert f"uses {studio.port}" in studio.stderr
+
+
+def test_an_open_tab_is_still_known_after_a_restart(tmp_path: Path):
+    with running_studio(["demo"], tmp_path / "data") as first, first.client() as client:
+        port, cookies = first.port, dict(client.cookies)
+        first.stop()
+    with running_studio(["demo"], tmp_path / "data", port=port) as second:
+        assert second.token != first.token
+        with httpx2.Client(base_url=second.origin, cookies=cookies, trust_env=False) as client:
+            assert client.get("/api/health").status_code == 200
+            assert client.get(f"/?token={first.token}").status_code == 303
+
+
+def test_a_viewer_gets_an_address_of_their_own_and_only_looks(tmp_path: Path):
+    with running_studio(["demo", "--viewer-link"], tmp_path / "data") as studio:
+        assert studio.process.stdout is not None
+        line = studio.process.stdout.readline()
+        token = re.fullmatch(rf"Viewer: {studio.origin}/\?token=(\w+)\n", line)
+        assert token
+        headers = {"authorization": f"Bearer {token[1]}"}
+        with httpx2.Client(base_url=studio.origin, headers=headers, trust_env=False) as client:
+            assert client.get("/d/rover").status_code == 200
+            refused = client.post("/api/commands", json={"type": "save", "document": "rover"})
+            assert (refused.status_code, refused.json()["kind"]) == (403, "NotAllowedError")
+
+
+def test_without_a_token_the_address_has_none(tmp_path: Path):
+    with running_studio(["demo", "--no-token"], tmp_path / "data") as studio:
+        assert studio.line == f"Studio: http://127.0.0.1:{studio.port}/"
+        assert httpx2.get(f"{studio.origin}/d/rover", trust_env=False).status_code == 200
+
+
+def test_beyond_this_machine_it_warns():
+    assert remarks(Settings(), DEFAULT_PORT) == []
+    (warning,) = remarks(Settings(host="0.0.0.0", port=8000), 8000)
+    assert "not encrypted" in warning
