@@ -42,7 +42,7 @@ function ConfirmDialog({ title, text, action, run }) {
   return html`<${Dialog} title=${title} closeLabel=${t("close")} class="confirm" onClose=${close}>
     <p class="dialog-text">${text}</p>
     <footer><span class="push"></span>
-      <button type="button" class="button" autofocus onClick=${close}>${t("cancel")}</button>
+      <button type="button" class="button" data-first onClick=${close}>${t("cancel")}</button>
       <button type="button" class="button danger" onClick=${confirm}>${action}</button></footer>
   <//>`;
 }

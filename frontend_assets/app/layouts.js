@@ -23,20 +23,25 @@ export function sizeOf(width) {
  * @returns {Split[]} a row, left to right; a split in it stacks from top to bottom
  */
 export function modelLayout(kind, width, height) {
-  const low = Math.round(Math.min(220, height * 0.24));
-  const scene = { tabs: ["scene"], size: height - low };
-  const below = { tabs: ["problems", "urdf"], size: low };
   if (kind === "phone")
     return [
       { tabs: ["scene", "properties", "joints", "displays", "problems", "urdf"], size: width },
     ];
   if (kind === "medium") {
     const right = Math.round(Math.min(340, width * 0.42));
+    const low = Math.round(height * 0.32);
+    const left = [
+      { tabs: ["scene"], size: height - low },
+      { tabs: ["displays", "problems", "urdf"], size: low },
+    ];
     return [
-      { split: [scene, below], size: width - right },
-      { tabs: ["properties", "joints", "displays"], size: right },
+      { split: left, size: width - right },
+      { tabs: ["properties", "joints"], size: right },
     ];
   }
+  const low = Math.round(Math.min(220, height * 0.24));
+  const scene = { tabs: ["scene"], size: height - low };
+  const below = { tabs: ["problems", "urdf"], size: low };
   const left = Math.round(Math.min(280, width * 0.22));
   const right = Math.round(Math.min(340, width * 0.28));
   return [

@@ -39,7 +39,7 @@ export function Palette({ onClose }) {
     event.preventDefault();
   };
   return html`<${Dialog} title=${t("command.palette")} closeLabel=${t("close")} class="palette" onClose=${onClose}>
-    <input type="text" class="palette-input" role="combobox" aria-expanded="true" aria-controls="palette-list" autofocus
+    <input type="text" class="palette-input" role="combobox" aria-expanded="true" aria-controls="palette-list" data-first
       aria-activedescendant=${choices[active] ? `palette-${active}` : null} aria-label=${t("palette.hint")} placeholder=${t("palette.hint")}
       value=${words.value} spellcheck=${false} onKeyDown=${onKeyDown} onInput=${(
         /** @type {any} */ event,

@@ -8,7 +8,7 @@ import { commandById } from "./commands.js";
 import { Dialogs } from "./dialogs.js";
 import { PANELS, panelTitle } from "./panels.js";
 import { connection, role } from "./state/connection.js";
-import { changedCount, documentState, gone, problems } from "./state/document.js";
+import { documentState, gone } from "./state/document.js";
 import { activePanel, dismiss, notices, size } from "./state/view.js";
 import { StatusBar } from "./status-bar.js";
 import { TopBar } from "./top-bar.js";
@@ -80,11 +80,9 @@ function PhoneTabs() {
   )}</nav>`;
 }
 
-/** @param {{id: string}} props a dot where something waits to be seen; the words say how much */
+/** @param {{id: string}} props how much waits there to be seen */
 function Mark({ id }) {
-  const count =
-    id === "problems" ? problems.value.length : id === "properties" ? changedCount.value : 0;
-  if (count === 0) return null;
-  const label = id === "problems" ? t("problems.count", { count }) : t("unsaved.count", { count });
-  return html`<span class=${`badge ${id === "problems" ? "red" : "amber"}`} aria-label=${label}>${count}</span>`;
+  const badge = PANELS[id]?.badge?.();
+  if (!badge) return null;
+  return html`<span class=${`badge ${badge.tone}`} aria-label=${badge.label}>${badge.text}</span>`;
 }

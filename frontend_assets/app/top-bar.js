@@ -171,5 +171,5 @@ function ThemeButton() {
   const toggle = () => {
     themeChoice.value = next;
   };
-  return html`<${IconButton} icon=${next === "light" ? "sun" : "moon"} label=${t(`theme.to_${next}`)} onClick=${toggle} />`;
+  return html`<${IconButton} icon=${next === "light" ? "sun" : "moon"} label=${t(`theme.to_${next}`)} class="theme-button" onClick=${toggle} />`;
 }

@@ -1,7 +1,7 @@
 /** Small parts that every panel is made of. */
 
 import { ICONS } from "vendor/icons.js";
-import { html, useEffect, useId, useRef } from "vendor/preact.js";
+import { html, useEffect, useId, useLayoutEffect, useRef } from "vendor/preact.js";
 
 /** @import { ComponentChildren } from "vendor/preact.js" */
 
@@ -249,8 +249,12 @@ function onMenuKey(menu, event, close) {
 export function Dialog({ title, closeLabel, class: names, onClose, children }) {
   const element = useRef(/** @type {HTMLDialogElement | null} */ (null));
   const heading = useId();
-  useEffect(() => {
+  // Before the next key press: what is typed right after a shortcut belongs to the dialog.
+  useLayoutEffect(() => {
     element.current?.showModal();
+    /** @type {HTMLElement | null | undefined} */ (
+      element.current?.querySelector("[data-first]")
+    )?.focus();
   }, []);
   /** @param {MouseEvent} event */
   const closeBeside = (event) => {

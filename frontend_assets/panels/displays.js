@@ -9,7 +9,8 @@ import { displays, links, robot } from "../app/state/document.js";
 import { hiddenLinks, hovered, selected, showLink } from "../app/state/view.js";
 import { focusLink } from "../app/viewport.js";
 import { t } from "../lib/i18n.js";
-import { formatNumber } from "../lib/numbers.js";
+import { formatNumber, parseNumber } from "../lib/numbers.js";
+import { TextBox } from "../lib/slider.js";
 import { ancestorsOf, linkRows } from "../lib/tree.js";
 import { Icon, SearchBox } from "../lib/ui.js";
 import { LinkDetails } from "./link-details.js";
@@ -26,10 +27,12 @@ import { LinkDetails } from "./link-details.js";
  * @property {boolean} [warn] what `meta` says is a fault
  * @property {{on: boolean, label: string, set: (on: boolean) => void, shared: boolean}} [eye]
  * @property {{value: number, label: string, set: (value: number) => void}} [slider]
+ * @property {{value: number, unit: string, label: string, set: (value: number) => void}} [number]
  * @property {string} [link]
  */
 
-const SHARE = new Set(["opacity"]);
+/** Settings from 0 to 1. */
+const SHARES = new Set(["opacity"]);
 
 export function DisplaysPanel() {
   const filter = useSignal("");
@@ -53,7 +56,7 @@ export function DisplaysPanel() {
       }} />
     </div>
     <${Tree} rows=${rows} active=${active} setOpen=${setOpen} />
-    ${rows.length === 0 && html`<p class="nothing">${t("filter.nothing", { words: filter.value })}</p>`}
+    ${rows.length === 0 && filter.value !== "" && html`<p class="nothing">${t("filter.nothing", { words: filter.value })}</p>`}
     <${LinkDetails} />
   </section>`;
 }
@@ -173,17 +176,10 @@ function settingRow(display, name, value, level) {
   const label = settingLabel(display, name);
   const row = { id: `${display}.${name}`, level, label, icon: "" };
   if (typeof value === "boolean") return { ...row, ...eyeOf(display, name) };
-  if (typeof value === "number" && SHARE.has(name)) {
-    const set = (/** @type {number} */ one) => void setDisplay(display, name, one);
-    return { ...row, slider: { value, label, set } };
-  }
-  return {
-    ...row,
-    meta:
-      typeof value === "number"
-        ? `${formatNumber(value, 4)}${name.endsWith("_m") ? " m" : ""}`
-        : value,
-  };
+  if (typeof value === "string") return { ...row, meta: value };
+  const set = (/** @type {number} */ one) => void setDisplay(display, name, one);
+  if (SHARES.has(name)) return { ...row, slider: { value, label, set } };
+  return { ...row, number: { value, label, set, unit: name.endsWith("_m") ? "m" : "" } };
 }
 
 /** @param {string} filter @param {ReadonlySet<string>} closed @returns {Row[]} */
@@ -309,6 +305,7 @@ function TreeRow({ row, current, setOpen, onPick }) {
     <span class="tree-label">${row.label}</span>
     ${row.meta && html`<span class=${`tree-meta ${row.warn ? "warn" : ""}`} title=${row.meta}>${row.meta}</span>`}
     ${row.slider && html`<${ShareSlider} ...${row.slider} />`}
+    ${row.number && html`<${NumberBox} ...${row.number} />`}
     ${row.eye && html`<${Eye} eye=${row.eye} />`}
   </div>`;
 }
@@ -363,4 +360,15 @@ function ShareSlider({ value, label, set }) {
   return html`<input type="range" class="slider short" min="0" max="1" step="0.05" value=${value} aria-label=${label}
     disabled=${!mayEdit.value} style=${`--fill:${value * 100}%`} onClick=${stop}
     onInput=${(/** @type {any} */ event) => set(Number(event.currentTarget.value))} />`;
+}
+
+/** @param {{value: number, unit: string, label: string, set: (value: number) => void}} props */
+function NumberBox({ value, unit, label, set }) {
+  /** @param {string} typed */
+  const onWrite = (typed) => {
+    const number = parseNumber(typed);
+    if (number !== null) set(number);
+  };
+  return html`<${TextBox} class="number narrow" label=${label} text=${value === 0 ? t("automatic") : formatNumber(value, 5)}
+    disabled=${!mayEdit.value} onWrite=${onWrite} /><span class="unit">${unit}</span>`;
 }

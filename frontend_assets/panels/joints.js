@@ -76,8 +76,14 @@ function JointRow({ joint }) {
       <${JointBox} joint=${joint} />
     </div>
     <${JointSlider} joint=${joint} />
-    ${follows && html`<p class="note"><${Icon} name="link" size=${12} />${t("joint.follows", { name: joint.mimic })}</p>`}
+    ${follows && html`<p class="note"><${Icon} name="link" size=${12} />${followText(joint)}</p>`}
   </div>`;
+}
+
+/** @param {JointView} joint @returns {string} which joint it follows, and how far */
+function followText({ mimic, multiplier }) {
+  const name = multiplier === 1 ? mimic : `${mimic} × ${formatNumber(multiplier, 4)}`;
+  return t("joint.follows", { name });
 }
 
 /** @param {JointView} joint @returns {string} */

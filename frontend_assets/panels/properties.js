@@ -174,6 +174,10 @@ function Piece({ ids }) {
     watcher.observe(piece);
     return () => watcher.disconnect();
   }, []);
+  // The watcher sees the row only after it was scrolled to: until then it must stay drawn.
+  useEffect(() => {
+    if (sought) setNear(true);
+  }, [sought]);
   const drawn = near || sought;
   return html`<div ref=${element} style=${drawn ? "" : `height:${height.current}px`}>
     ${

@@ -29,7 +29,7 @@ export function UrdfPanel() {
       <button type="button" class="button small" onClick=${copy}><${Icon} name="copy" size=${14} />${t("copy")}</button>
       <button type="button" class="button small" onClick=${() => download(text.value)}><${Icon} name="download" size=${14} />${t("download")}</button>
     </div>
-    <pre class="code scroll" tabindex="0" aria-label=${t("panel.urdf")}>${lines.map((line, at) => html`<code key=${at}>${coloured(line)}</code>`)}</pre>
+    <pre class="code scroll" tabindex="0" aria-label=${t("panel.urdf")}>${lines.map((line, at) => html`<code key=${at} data-line=${at + 1}>${coloured(line)}</code>`)}</pre>
   </section>`;
 }
 

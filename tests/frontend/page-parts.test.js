@@ -21,6 +21,7 @@ const joint = (more = {}) => ({
   lower: -1,
   upper: 2,
   mimic: "",
+  multiplier: 1,
   file: "",
   line: 0,
   ...more,

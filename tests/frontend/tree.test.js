@@ -26,6 +26,7 @@ const joint = (parent, child) => ({
   lower: null,
   upper: null,
   mimic: "",
+  multiplier: 1,
   file: "",
   line: 0,
 });

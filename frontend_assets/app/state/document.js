@@ -134,6 +134,8 @@ const TAKERS = {
     role.value = event.role;
     version.value = event.version;
     session.value = event.session;
+    // Whatever was going on when the lane was lost is told anew, if it still is.
+    progress.value = new Map();
   },
   documents: (event) => {
     documents.value = event.documents;
