@@ -17,6 +17,8 @@ from studio.errors import EditError
 _DEFAULT = r"""\$\{.*?\}|\$\(.*?\)|(?:'.*?'|".*?"|[^\s'"]+)+|"""
 _PARAM = re.compile(rf"\s*([^\s:=]+?)\s*:?=\s*(?:\^\|?)?({_DEFAULT})(?:\s+|$)")
 _NO_DEFAULT = re.compile(r"\s*\S+(?:\s+|$)")
+_UNAMBIGUOUS = re.compile(r"""\$\{.*\}|\$\(.*\)|(?!\$[{(])(?:'[^']*'|"[^"]*"|[^\s'"]+)+""")
+"""Defaults that end where they should, whatever follows: the grammar's `.*?` reaches further."""
 _QUOTED = re.compile(r"""'[^']*'|"[^"]*\"""")
 
 
@@ -84,7 +86,7 @@ def _is_one_default(default: str, quoted_text: str | None) -> bool:
     if any(blank in default for blank in "\t\n\r"):
         return False
     found = _PARAM.fullmatch(f"p:={default}")
-    if found is None or found[2] != default or not default:
+    if found is None or found[2] != default or not _UNAMBIGUOUS.fullmatch(default):
         return False
     followed = _PARAM.match(f"p:={default} q:=1")
     if followed is None or followed[2] != default:
