@@ -78,7 +78,7 @@ class YamlMapping(dict[Any, Any]):
 
     def get(self, key: Any, default: Any = None) -> Any:  # noqa: ANN401
         """The value of a key, or a default."""
-        return self.get(key, default)
+        return self[key] if key in self else default  # noqa: SIM401 - this is `get`
 
     def __iter__(self) -> Iterator[Any]:  # so that `dict(m)` asks for each item
         return super().__iter__()
