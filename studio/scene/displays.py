@@ -24,10 +24,11 @@ DISPLAY_DEFAULTS: dict[str, dict[str, Value]] = {
         "cell_m": 0.25,
         "extent_m": 0.0,
         "shadow": True,
+        "under_robot": True,
     },
 }
 """By display, then setting. `axes` are the joint axes, `com` the centres of mass; a grid of extent
-0 has no end."""
+0 has no end, and one that is not under the robot lies at the height of the root link."""
 
 _RANGES: dict[tuple[str, str], tuple[float, float]] = {
     ("robot", "opacity"): (0.0, 1.0),

@@ -5,6 +5,8 @@ from __future__ import annotations
 from copy import deepcopy
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from studio.scene import node
 from studio.scene.connection import SUBPROTOCOL
 from studio.scene.displays import DISPLAY_DEFAULTS, checked
@@ -18,7 +20,6 @@ if TYPE_CHECKING:
     import asyncio
     from collections.abc import Callable, Sequence
 
-    import numpy as np
     from numpy.typing import NDArray
 
     from studio.robot.loaded_mesh import LoadedMesh
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
     from studio.scene.displays import Value
 
 _BAD_VERSION = 1002
+_STEP_M = 1e-5
 
 
 class DocumentScene:
@@ -42,6 +44,10 @@ class DocumentScene:
         self._poses = PoseWriter(self._graph)
         self._robot = RobotDrawing(self._graph, self._poses.forget)
         self._settings = deepcopy(DISPLAY_DEFAULTS)
+        self._height_m = 0.0
+        self._shown_anew = False
+        self._casts_shadow: bool | None = None
+        self._last_poses: tuple[Sequence[str], NDArray[np.floating]] = ((), np.empty((0, 7)))
         self._put_grid()
 
     def show(self, robot: Robot, changed_links: frozenset[str] | None) -> None:
@@ -55,6 +61,7 @@ class DocumentScene:
                 that came stands at the origin until `set_poses`.
         """
         self._robot.show(robot, changed_links)
+        self._shown_anew = True
 
     def missing_meshes(self) -> set[str]:
         """URIs of meshes to load and `provide`; changes with `show` and `set_display`."""
@@ -63,6 +70,7 @@ class DocumentScene:
     def provide_mesh(self, uri: str, mesh: LoadedMesh | None) -> None:
         """Draw a mesh that came; None marks one that cannot be loaded by a box of wire."""
         self._robot.provide_mesh(uri, mesh)
+        self._settle()
 
     def set_poses(self, link_names: Sequence[str], wxyz_xyz: NDArray[np.floating]) -> None:
         """Move the links that moved, in one atomic batch.
@@ -72,6 +80,11 @@ class DocumentScene:
             wxyz_xyz: Shape (L, 7): quaternion w, x, y, z, then x, y, z in m, in the root frame.
         """
         self._poses.write(link_names, wxyz_xyz, self._robot.links)
+        self._last_poses = (link_names, wxyz_xyz)
+        if self._shown_anew:
+            # Only a new model moves the ground; a robot that lifts a leg does not.
+            self._shown_anew = False
+            self._settle()
 
     def set_display(self, display: str, name: str, value: Value) -> None:
         """Change a setting of a shared display; ask `missing_meshes` afterwards.
@@ -120,6 +133,13 @@ class DocumentScene:
         """End all connections and forget everything."""
         self.viser.stop()
 
+    def _settle(self) -> None:
+        """Lay the grid under the robot as it stands."""
+        height_m = self._robot.ground.height_m(*self._last_poses)
+        if abs(height_m - self._height_m) > _STEP_M:
+            self._height_m = height_m
+            self._put_grid()
+
     def _put_grid(self) -> None:
         grid = self._settings["grid"]
         shadow = bool(grid["shadow"])
@@ -128,8 +148,11 @@ class DocumentScene:
             node.grid(
                 float(grid["cell_m"]),
                 float(grid["extent_m"]),
+                self._height_m if grid["under_robot"] else 0.0,
                 shadow=shadow,
                 visible=bool(grid["visible"]),
             ),
         )
-        self.viser.scene.configure_default_lights(enabled=True, cast_shadow=shadow)
+        if shadow is not self._casts_shadow:
+            self._casts_shadow = shadow
+            self.viser.scene.configure_default_lights(enabled=True, cast_shadow=shadow)

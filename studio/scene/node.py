@@ -150,8 +150,8 @@ def arrow(tail: Vector3, tip: Vector3, rgb: Rgb, *, visible: bool = True) -> Nod
     return Node(_messages.ArrowMessage, props, visible=visible, content=content, arrays=arrays)
 
 
-def grid(cell_m: float, extent_m: float, *, shadow: bool, visible: bool) -> Node:
-    """Squares on the ground with a stronger line every four; the page gives it its colours."""
+def grid(cell_m: float, extent_m: float, height_m: float, *, shadow: bool, visible: bool) -> Node:
+    """Squares with a stronger line every four; the page gives it its colours."""
     props = {
         "width": extent_m or 10.0,  # an endless grid is this times the fade distance
         "height": extent_m or 10.0,
@@ -171,4 +171,5 @@ def grid(cell_m: float, extent_m: float, *, shadow: bool, visible: bool) -> Node
         "plane_opacity": 0.0,
         "scale": 1.0,
     }
-    return Node(_messages.GridMessage, props, visible=visible)
+    at = (0.0, 0.0, height_m)
+    return Node(_messages.GridMessage, props, position=at, visible=visible)

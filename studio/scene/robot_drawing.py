@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from studio.robot.values import Mesh, Robot
 from studio.scene import node
 from studio.scene.geometry_drawing import MeshShelf
+from studio.scene.ground import Ground
 from studio.scene.layers import LAYERS, LinkContext
 from studio.scene.naming import ROBOT, link_node
 
@@ -38,6 +39,7 @@ class RobotDrawing:
         self._joint_of: dict[str, Joint] = {}
         self._made: dict[str, bool] = {"visual": True}  # layer to whether it is shown
         self._opacity = 1.0
+        self.ground = Ground()
         self._put_root()
 
     @property
@@ -117,12 +119,14 @@ class RobotDrawing:
         for below, drawn in new.items():
             self._graph.put(f"{root}/{below}", drawn)
         self._drawn[link.name] = new
+        self.ground.note(link, self._shelf)
 
     def _remove(self, link: str) -> None:
         root = link_node(link)
         for below in reversed(self._drawn.pop(link)):
             self._graph.drop(f"{root}/{below}")
         self._graph.drop(root)
+        self.ground.forget(link)
         self._moved(link)
 
     def _nodes(self, link: Link) -> Nodes:

@@ -392,3 +392,40 @@ def test_names_of_links_cannot_leave_their_place_in_the_tree():
         assert {name.count("/") for name in names} == {2, 3}
 
     watched(scenario)
+
+
+def test_the_grid_lies_under_a_robot_that_reaches_below_its_root():
+    async def scenario(scene: DocumentScene, peer: Peer) -> None:
+        leg = Link("leg", (Visual(Origin((0, 0, -0.5)), Box((0.1, 0.1, 1.0))),))
+        scene.show(Robot("one", {"leg": leg}), None)
+        scene.set_poses(("leg",), np.array([[1.0, 0, 0, 0, 0, 0, -0.25]]))
+        grid = [m for m in sent_by(scene, peer) if m.get("name") == "/grid"]
+        assert [m["position"] for m in grid if "position" in m] == [[0.0, 0.0, -1.25]]
+        scene.set_poses(("leg",), np.array([[0.0, 1.0, 0, 0, 0, 0, -0.25]]))
+        assert told_of(sent_by(scene, peer)) == {"/robot/leg"}
+        scene.set_display("grid", "under_robot", False)
+        grid = [m for m in sent_by(scene, peer) if m.get("name") == "/grid"]
+        assert [m["position"] for m in grid if "position" in m] == [[0.0, 0.0, 0.0]]
+
+    watched(scenario)
+
+
+def test_the_grid_sinks_with_a_mesh_that_came():
+    async def scenario(scene: DocumentScene, peer: Peer) -> None:
+        scene.show(robot_with_mesh(scale=-2.0), None)
+        scene.set_poses(("base",), np.array([[0.0, 1.0, 0, 0, 0, 0, 0]]))
+        sent_by(scene, peer)
+        tall = replace(triangle(), bounds_m=((0, 0, 0), (1, 1, 3)))
+        scene.provide_mesh(URI, tall)
+        assert [
+            m["position"][2]
+            for m in sent_by(scene, peer)
+            if m["name"] == "/grid" and "position" in m
+        ] == []
+        scene.set_poses(("base",), np.array([[1.0, 0, 0, 0, 0, 0, 0]]))
+        scene.show(robot_with_mesh(scale=-2.0), None)
+        scene.set_poses(("base",), np.array([[1.0, 0, 0, 0, 0, 0, 0]]))
+        grid = [m for m in sent_by(scene, peer) if m["name"] == "/grid" and "position" in m]
+        assert [m["position"][2] for m in grid] == [-6.0]
+
+    watched(scenario)
