@@ -200,7 +200,8 @@ class Kinematics:
             np.sin(positions)[..., None, None] * self._sine
             + (1.0 - np.cos(positions))[..., None, None] * self._versine
         )
-        moved[..., self._at, :3, 3] += positions[..., None] * self._slide
+        translations = moved[..., :3, 3]  # a view: an index list and a number beside it mix axes
+        translations[..., self._at, :] += positions[..., None] * self._slide
         links = np.empty((*batch, len(self.link_names) + 1, 4, 4))
         links[...] = np.eye(4)
         links[..., self._child, :, :] = moved

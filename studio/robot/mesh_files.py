@@ -81,11 +81,14 @@ class MeshFiles:
         path = self._beside(uri)
         try:
             return self._read(path)
-        except MeshError:
+        except MeshError as error:
             fallback = self.path.parent / path.name
             if fallback == path or not path.name:
                 raise
-            return self._read(fallback)
+            try:
+                return self._read(fallback)
+            except MeshError:
+                raise error from None  # what was written is what must be mended
 
     def _beside(self, uri: str) -> Path:
         scheme = _SCHEME.match(uri)

@@ -107,7 +107,7 @@ def _report_cycles(
     joint_of = {joint.child: joint.name for joint in held.values()}
     cycles = list(_cycles(robot.links, parents))
     for cycle in cycles:
-        loop = " -> ".join((*reversed(cycle), cycle[-1]))
+        loop = " -> ".join((cycle[0], *reversed(cycle)))
         sentence = f"The joints form a cycle ({loop}): a robot is a tree, cut one of them."
         problem = Problem(Severity.ERROR, "cycle", sentence)
         findings.append((problem, f"joint:{joint_of[cycle[0]]}"))

@@ -34,7 +34,7 @@ def check_urdf(text: str) -> CheckAnswer:
         return CheckAnswer(
             tuple(map(str, robot.link_map)),
             tuple(map(str, robot.actuated_joint_names)),
-            str(robot.base_link),
+            str(robot.base_link or ""),
             tuple(dict.fromkeys(problems)),
         )
     except Exception as error:  # noqa: BLE001 - it raises whatever a broken file leads it to
