@@ -62,7 +62,9 @@ const LOOK_AGAIN_MS = 50;
 export function attachViewport(frame) {
   /** @type {(() => void)[]} */
   let ends = [];
+  let turn = 0;
   const end = () => {
+    turn += 1;
     for (const one of ends) one();
     ends = [];
     viewport.value = null;
@@ -70,13 +72,16 @@ export function attachViewport(frame) {
   };
   const begin = async () => {
     end();
+    const mine = turn;
     const found = await studio3dOf(frame);
-    if (!found) return;
+    if (!found || mine !== turn) return;
     viewport.value = found;
     viewportConnected.value = found.connected;
     ends = [...tell(found), listen(found)];
   };
   frame.addEventListener("load", begin);
+  // The frame may have been loaded before anybody listened.
+  begin();
   return () => {
     frame.removeEventListener("load", begin);
     end();

@@ -48,6 +48,7 @@ export function createDock(element, panels, options) {
     createTabComponent: ({ name }) => tabOf(panels[name]),
     createRightHeaderActionComponent: (group) => maximizeButton(group, options),
   });
+  element.addEventListener("keydown", (event) => onTabKey(api, event));
   let quiet = false;
   let single = false;
   api.onDidLayoutChange(() => {
@@ -189,6 +190,30 @@ function focusNext(api, step) {
   /** @type {HTMLElement | null | undefined} */
   const tab = group?.element.querySelector('[role="tab"][aria-selected="true"], [role="tab"]');
   tab?.focus();
+}
+
+/** Arrow keys move along the tabs of a group, as people expect of tabs. @param {DockviewApi} api @param {KeyboardEvent} event */
+function onTabKey(api, event) {
+  const tab = event.target instanceof Element ? event.target.closest('[role="tab"]') : null;
+  const group = api.groups.find((one) => tab && one.element.contains(tab));
+  if (!tab || !group) return;
+  const tabs = [...group.element.querySelectorAll('[role="tab"]')];
+  const at = tabs.indexOf(tab);
+  /** @type {Record<string, number>} */
+  const targets = {
+    ArrowRight: at + 1,
+    ArrowLeft: at - 1 + tabs.length,
+    Home: 0,
+    End: tabs.length - 1,
+    Enter: at,
+    " ": at,
+  };
+  const target = targets[event.key];
+  if (target === undefined) return;
+  event.preventDefault();
+  const next = target % tabs.length;
+  group.panels[next]?.api.setActive();
+  /** @type {HTMLElement | undefined} */ (tabs[next])?.focus();
 }
 
 /** @param {DockviewApi} api */

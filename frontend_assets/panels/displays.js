@@ -12,7 +12,7 @@ import { t } from "../lib/i18n.js";
 import { formatNumber, parseNumber } from "../lib/numbers.js";
 import { TextBox } from "../lib/slider.js";
 import { ancestorsOf, linkRows } from "../lib/tree.js";
-import { Icon, SearchBox } from "../lib/ui.js";
+import { EmptyState, Icon, SearchBox } from "../lib/ui.js";
 import { LinkDetails } from "./link-details.js";
 
 /**
@@ -55,6 +55,7 @@ export function DisplaysPanel() {
         filter.value = text;
       }} />
     </div>
+    ${rows.length === 0 && filter.value === "" && html`<${EmptyState} icon="robot" title=${t("urdf.none")} />`}
     <${Tree} rows=${rows} active=${active} setOpen=${setOpen} />
     ${rows.length === 0 && filter.value !== "" && html`<p class="nothing">${t("filter.nothing", { words: filter.value })}</p>`}
     <${LinkDetails} />

@@ -41,8 +41,8 @@ export function JointsPanel() {
 
 /** @param {{words: string}} props */
 function Nothing({ words }) {
-  if (!robot.value) return null;
-  const title = words ? t("filter.nothing", { words }) : t("joints.none");
+  const none = t(robot.value ? "joints.none" : "urdf.none");
+  const title = words ? t("filter.nothing", { words }) : none;
   return html`<${EmptyState} icon="joints" title=${title} />`;
 }
 

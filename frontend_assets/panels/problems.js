@@ -4,8 +4,10 @@
 
 import { html } from "vendor/preact.js";
 import { mend } from "../app/actions.js";
+import { commandById } from "../app/commands.js";
 import { mayEdit } from "../app/state/connection.js";
-import { documentState, problems } from "../app/state/document.js";
+import { allSites, documentState, problems, sitesRevision } from "../app/state/document.js";
+import { propertyFilter, soughtSite } from "../app/state/view.js";
 import { t } from "../lib/i18n.js";
 import { placeText, shortPath } from "../lib/paths.js";
 import { EmptyState, Icon } from "../lib/ui.js";
@@ -34,10 +36,25 @@ function ProblemRow({ problem }) {
     <span class="problem-icon" title=${t(`severity.${severity}`)}><${Icon} name=${ICONS[severity]} /><span class="hidden-words">${t(`severity.${severity}`)}</span></span>
     <div class="problem-text">
       <p>${sentence}</p>
-      ${place && html`<p class="place" title=${shortPath(place.file, root)}>${placeWords(problem, root)}</p>`}
+      ${place && html`<${PlaceLine} problem=${problem} words=${placeWords(problem, root)} />`}
     </div>
     ${fix && mayEdit.value && html`<button type="button" class="button small" onClick=${() => mend(fix)}>${fix.label}</button>`}
   </li>`;
+}
+
+/** A place that is a property's own line leads to it. @param {{problem: Problem, words: string}} props */
+function PlaceLine({ problem: { place }, words }) {
+  sitesRevision.value;
+  const there = [...allSites().values()].find(
+    ({ file, line }) => file === place?.file && line === place.line,
+  );
+  if (!there) return html`<p class="place">${words}</p>`;
+  const go = () => {
+    commandById("panel.properties")?.run();
+    propertyFilter.value = "";
+    soughtSite.value = there.id;
+  };
+  return html`<p class="place"><button type="button" class="text-button" title=${t("palette.property", { name: there.name })} onClick=${go}>${words}</button></p>`;
 }
 
 /** @param {Problem} problem @param {string} root @returns {string} the place, and the way that led to it */

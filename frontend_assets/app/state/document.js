@@ -46,8 +46,10 @@ export const gone = signal(false);
 
 /** @type {Signal<readonly string[]>} */
 export const siteOrder = signal([]);
-/** Counts site events, for lists that look at many sites at once. */
+/** Counts changes of which sites there are and where they are listed, not of what they say. */
 export const sitesRevision = signal(0);
+/** @type {Signal<ReadonlySet<string>>} */
+const changedSites = signal(new Set());
 /** @type {Map<string, Signal<SiteView>>} */
 const sites = new Map();
 /** @type {Map<string, Signal<number>>} */
@@ -55,10 +57,8 @@ const positions = new Map();
 
 export const movable = computed(() => movableJoints(robot.value?.joints ?? []));
 export const links = computed(() => (robot.value ? linkTree(robot.value) : []));
-export const changedCount = computed(() => {
-  sitesRevision.value;
-  return [...sites.values()].filter((site) => isChanged(site.peek())).length;
-});
+/** How many sites say something else than the files on disk. */
+export const changedCount = computed(() => changedSites.value.size);
 export const title = computed(() => documentState.value?.title ?? "");
 export const unsaved = computed(
   () => history.value.unsaved_count > 0 || history.value.unsaved_files.length > 0,
@@ -86,17 +86,46 @@ export function position(joint) {
 
 /** @param {Sites} event */
 function takeSites({ order, changed }) {
+  const moved = changed.filter((one) => !sameEntry(sites.get(one.id)?.peek(), one)).length > 0;
+  const unsavedSites = new Set(changedSites.value);
   for (const one of changed) {
-    const known = sites.get(one.id);
-    if (known) known.value = one;
-    else sites.set(one.id, signal(one));
+    takeSite(one);
+    if (isChanged(one)) unsavedSites.add(one.id);
+    else unsavedSites.delete(one.id);
   }
-  if (order) {
-    const kept = new Set(order);
-    for (const id of sites.keys()) if (!kept.has(id)) sites.delete(id);
-    siteOrder.value = order;
+  if (order) dropOthers(order, unsavedSites);
+  changedSites.value = unsavedSites;
+  if (order) siteOrder.value = order;
+  if (order || moved) sitesRevision.value += 1;
+}
+
+/** @param {SiteView} one */
+function takeSite(one) {
+  const known = sites.get(one.id);
+  if (known) known.value = one;
+  else sites.set(one.id, signal(one));
+}
+
+/** @param {readonly string[]} order @param {Set<string>} unsavedSites */
+function dropOthers(order, unsavedSites) {
+  const kept = new Set(order);
+  for (const id of sites.keys()) {
+    if (kept.has(id)) continue;
+    sites.delete(id);
+    unsavedSites.delete(id);
   }
-  sitesRevision.value += 1;
+}
+
+/** @param {SiteView | undefined} a @param {SiteView} b @returns {boolean} listed at the same place under the same name */
+function sameEntry(a, b) {
+  return (
+    a !== undefined &&
+    a.name === b.name &&
+    a.kind === b.kind &&
+    a.file === b.file &&
+    a.group === b.group &&
+    a.owner === b.owner
+  );
 }
 
 /** @param {Progress} event */
