@@ -121,8 +121,12 @@ def _yaml_remarks(document: YamlDocument) -> list[Remark]:
     return [found[index] for index in range(len(document.scalars))]
 
 
-def draft_xml(tree: SourceTree) -> FileDrafts:
-    """Every arg, property, macro default and plain URDF number of an XML file."""
+def draft_xml(tree: SourceTree, before: FileDrafts | None = None) -> FileDrafts:
+    """Every arg, property, macro default and plain URDF number of an XML file.
+
+    What was a number in the drafts before stays one of them, whatever is written there now.
+    """
+    known = {one.id for one in before.drafts} if before else set[str]()
     remarks = _xml_remarks(tree)
     drafts: list[Draft] = []
     for element in tree.elements:
@@ -131,7 +135,7 @@ def draft_xml(tree: SourceTree) -> FileDrafts:
         elif element.tag == "xacro:macro":
             drafts += _macro_defaults(element)
         elif element.tag in NUMBERED_TAGS:
-            drafts += _literals(element)
+            drafts += _literals(element, known)
     return FileDrafts(tree.data, tuple(drafts))
 
 
@@ -176,12 +180,14 @@ def _macro_defaults(element: SourceElement) -> Iterator[Draft]:
         )
 
 
-def _literals(element: SourceElement) -> Iterator[Draft]:
-    """The attributes of a URDF element that are plain numbers."""
+def _literals(element: SourceElement, known: set[str]) -> Iterator[Draft]:
+    """The attributes of a URDF element that are plain numbers, or were."""
+    start = f"{element.tree.path}#{element.ordinal}@"
     wanted = [
         name
         for name, text in element.attributes.items()
-        if quantity_of_attribute(element.tag, name) is not None and _is_numbers(text)
+        if quantity_of_attribute(element.tag, name) is not None
+        and (_is_numbers(text) or start + name in known)
     ]
     line = _ancestry(element) if wanted else ()
     if not line:
@@ -190,7 +196,7 @@ def _literals(element: SourceElement) -> Iterator[Draft]:
     path = "/".join(_path_part(one) for one in line)
     for attribute in wanted:
         yield Draft(
-            id=f"{element.tree.path}#{element.ordinal}@{attribute}",
+            id=start + attribute,
             kind=SiteKind.LITERAL,
             name=f"{'/'.join(_shown_part(one) for one in line)} @{attribute}",
             place=element.place,

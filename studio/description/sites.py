@@ -29,6 +29,8 @@ class _Built:
     draft: Draft
     seen: Seen
     site: Site
+    first: Widget
+    """As it was inferred for the first time: a value that comes back gets its range back."""
 
 
 class SiteBuilder:
@@ -62,17 +64,19 @@ class SiteBuilder:
             if known is not None and known.data == data:
                 yield path, known
             elif tree is not None:
-                yield path, draft_xml(tree)
+                yield path, draft_xml(tree, known)
             elif document is not None:
                 yield path, draft_yaml(path, document.data)
 
     def _build(self, draft: Draft, seen: Seen) -> _Built:
         before = self._built.get(draft.id)
         if before is None or before.draft.name != draft.name:
-            return _Built(draft, seen, _site(draft, seen, None))
+            site = _site(draft, seen, ())
+            return _Built(draft, seen, site, site.widget)
         if before.seen == seen and (before.draft is draft or before.draft == draft):
             return before
-        return _Built(draft, seen, _site(draft, seen, before.site.widget))
+        site = _site(draft, seen, (before.first, before.site.widget))
+        return _Built(draft, seen, site, before.first)
 
 
 def build_sites(record: RunRecord) -> list[Site]:
@@ -80,7 +84,7 @@ def build_sites(record: RunRecord) -> list[Site]:
     return SiteBuilder().build(record)
 
 
-def _site(draft: Draft, seen: Seen, before: Widget | None) -> Site:
+def _site(draft: Draft, seen: Seen, before: tuple[Widget, ...]) -> Site:
     value = seen.values[0] if seen.values else ""
     return Site(
         id=draft.id,
@@ -99,9 +103,9 @@ def _site(draft: Draft, seen: Seen, before: Widget | None) -> Site:
     )
 
 
-def _widget(draft: Draft, seen: Seen, value: str, before: Widget | None) -> Widget:
+def _widget(draft: Draft, seen: Seen, value: str, before: tuple[Widget, ...]) -> Widget:
     is_literal = draft.kind is SiteKind.LITERAL
     consumers = ((draft.element_path, draft.attribute),) if is_literal else seen.consumers
     name = "" if is_literal else draft.name
     widget = infer_widget(name, draft.text, value, draft.annotation, consumers, seen.compared)
-    return widget if before is None else keep_range(widget, before, value or draft.text)
+    return keep_range(widget, before, value or draft.text)

@@ -61,15 +61,20 @@ def infer_widget(
     return Widget(kind, choices=choices, help=annotation.help)
 
 
-def keep_range(widget: Widget, before: Widget, shown: str) -> Widget:
-    """Leave an inferred range as it was while the value stays in it: a drag must not move it."""
-    same = (widget.kind, widget.unit, widget.annotated) == (before.kind, before.unit, False)
-    low, high = before.minimum, before.maximum
-    if widget == before or not same or low is None or high is None:
-        return widget
-    if not all(low <= number <= high for number in _numbers(shown)):
-        return widget
-    return replace(widget, minimum=low, maximum=high, step=before.step)
+def keep_range(widget: Widget, before: Iterable[Widget], shown: str) -> Widget:
+    """Leave an inferred range as it was while the value stays in it: a drag must not move it.
+
+    The first widget of `before` whose range holds the value `shown` gives it.
+    """
+    numbers = _numbers(shown)
+    for earlier in before:
+        same = (widget.kind, widget.unit, widget.annotated) == (earlier.kind, earlier.unit, False)
+        low, high = earlier.minimum, earlier.maximum
+        if not same or low is None or high is None:
+            continue
+        if all(low <= number <= high for number in numbers):
+            return replace(widget, minimum=low, maximum=high, step=earlier.step)
+    return widget
 
 
 def _annotated(annotation: Annotation, unit: str, shown: str) -> Widget:

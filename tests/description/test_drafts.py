@@ -85,6 +85,14 @@ def test_ids_outlast_an_edit_of_any_text_and_are_all_different():
     assert len(set(ids)) == len(ids)
 
 
+def test_a_number_that_became_an_expression_stays_editable():
+    before = draft_xml(parse_source("/r.xacro", ROBOT.encode()))
+    edited = ROBOT.replace('"0 -1 0"', '"0 ${-radius} 0"').encode()
+    after = draft_xml(parse_source("/r.xacro", edited), before)
+    assert [one.id for one in after.drafts] == [one.id for one in before.drafts]
+    assert "0 ${-radius} 0" in {one.text for one in after.drafts}
+
+
 def test_a_default_of_a_property_is_a_text_of_its_own():
     text = ROBOT.replace('name="mass" value="2"', 'name="mass" default="2"')
     one = drafts(text)["Wheels: mass"]

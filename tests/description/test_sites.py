@@ -9,7 +9,7 @@ import pytest
 
 from studio.description.session import Session
 from studio.description.sites import SiteBuilder
-from studio.description.splice import decode, difference, edit_at
+from studio.description.splice import decode, difference, edit_at, inverse
 from studio.description.values import (
     ArgumentsRequest,
     EditRequest,
@@ -146,6 +146,15 @@ def test_a_drag_keeps_the_range_of_its_slider(rover: Opened):
     before = rover.site("radius")
     rover.run(EditRequest((edit_at(rover.xacro, ROVER.encode(), before.span, "0.3"),)))
     assert rover.site("radius").widget == before.widget
+
+
+def test_a_value_that_comes_back_from_far_away_gets_its_slider_back(rover: Opened):
+    before = rover.site("radius")
+    far = edit_at(rover.xacro, ROVER.encode(), before.span, "50.0")
+    rover.run(EditRequest((far,)))
+    assert rover.site("radius").widget.maximum == 200
+    rover.run(EditRequest((inverse(ROVER.encode(), far),)))
+    assert rover.site("radius") == before
 
 
 def test_an_argument_from_outside_is_the_value_of_its_arg(rover: Opened):
