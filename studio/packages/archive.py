@@ -12,6 +12,7 @@ from pathlib import Path, PurePosixPath
 from typing import IO, TYPE_CHECKING, Final
 
 from studio.errors import UnsafeArchiveError
+from studio.packages.presence import is_file, is_folder
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -75,7 +76,7 @@ _DAMAGED: Final = (
 
 def _check_directory(zip_path: Path) -> None:
     """Refuse a list of entries that would fill the memory when the zipfile module reads it."""
-    if not zip_path.is_file():
+    if not is_file(zip_path):
         raise UnsafeArchiveError(str(zip_path), "it is no file.")
     size = zip_path.stat().st_size
     with zip_path.open("rb") as file:
@@ -95,7 +96,7 @@ def _check_directory(zip_path: Path) -> None:
 def folder_to_open(unpacked: Path) -> Path:
     """Enter the single folder at the top of what was unpacked."""
     inside = [one for one in unpacked.iterdir() if not one.name.startswith(".")]
-    return inside[0] if len(inside) == 1 and inside[0].is_dir() else unpacked
+    return inside[0] if len(inside) == 1 and is_folder(inside[0]) else unpacked
 
 
 class _Unpacking:

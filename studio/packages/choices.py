@@ -14,6 +14,7 @@ from studio.errors import PackageNotFoundError, UnreadableFileError
 from studio.packages.discovery import discover
 from studio.packages.folder_memory import FolderMemory
 from studio.packages.manifest import FILE_NAME
+from studio.packages.presence import is_folder, is_there
 from studio.packages.roots import ServedRoots, is_too_wide
 
 if TYPE_CHECKING:
@@ -27,7 +28,7 @@ def load_choices(data_folder: Path, workspace: Path) -> dict[str, Path]:
     """What was chosen for a workspace; folders that are gone are left out."""
     with contextlib.suppress(OSError, msgspec.MsgspecError):
         chosen = _CHOICES.decode(_file(data_folder, workspace).read_bytes())
-        return {name: Path(folder) for name, folder in chosen.items() if Path(folder).is_dir()}
+        return {name: Path(folder) for name, folder in chosen.items() if is_folder(Path(folder))}
     return {}
 
 
@@ -55,7 +56,7 @@ def folder_of_choice(name: str, chosen: Path) -> Path:
         PackageNotFoundError: There are packages, and none has that name.
     """
     folder = Path(os.path.realpath(chosen))
-    if not folder.is_dir():
+    if not is_folder(folder):
         raise UnreadableFileError(str(chosen), "is no folder.")
     if is_too_wide(folder):
         raise UnreadableFileError(str(chosen), "is too wide to serve: choose a folder inside it.")
@@ -63,7 +64,7 @@ def folder_of_choice(name: str, chosen: Path) -> Path:
     named = [one.folder for one in found if one.name == name]
     if named:
         return min(named, key=lambda one: len(one.parts))
-    if found or (folder / FILE_NAME).exists():
+    if found or is_there(folder / FILE_NAME):
         raise PackageNotFoundError(name, str(folder))
     return folder
 

@@ -8,6 +8,8 @@ from enum import Enum, auto
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
+from studio.packages.presence import is_folder
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
@@ -162,7 +164,7 @@ class _Search:
     def _note_generated(self, folder: str, facts: FolderFacts) -> None:
         """A folder that merely happens to be called `log` stays writable."""
         path = Path(folder)
-        if facts.ignored or facts.is_install_space or (path.parent / "src").is_dir():
+        if facts.ignored or facts.is_install_space or is_folder(path.parent / "src"):
             self.generated.append(path)
 
     def _take(self, folder: str, space: _Space) -> None:

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from studio.packages.folder_memory import INSTALL_MARKERS
+from studio.packages.presence import is_file, is_folder, is_there
 from studio.packages.roots import is_too_wide
 
 if TYPE_CHECKING:
@@ -43,13 +44,13 @@ class RosEnvironment:
     @property
     def folders(self) -> tuple[Path, ...]:
         """All that is served, with the sources that a symlink install leads to."""
-        beside = [one.parent / "src" for one in self.prefixes if (one.parent / "src").is_dir()]
+        beside = [one.parent / "src" for one in self.prefixes if is_folder(one.parent / "src")]
         return _unique([*self.prefixes, *self.sources, *beside])
 
 
 def is_install_space(folder: Path) -> bool:
     """Whether colcon or catkin installed into this folder."""
-    return any((folder / marker).exists() for marker in INSTALL_MARKERS)
+    return any(is_there(folder / marker) for marker in INSTALL_MARKERS)
 
 
 def is_installed(path: Path) -> bool:
@@ -61,13 +62,13 @@ def _folders(variable: str) -> list[Path]:
     """A relative entry means the working folder, which nobody chose: it is left out."""
     named = [Path(one) for one in variable.split(os.pathsep) if Path(one).is_absolute()]
     real = (Path(os.path.realpath(one)) for one in named)
-    return [one for one in real if one.is_dir() and not is_too_wide(one)]
+    return [one for one in real if is_folder(one) and not is_too_wide(one)]
 
 
 def _whole_prefix(prefix: Path) -> Path:
     """An isolated workspace names the prefix of each package; they have one folder in common."""
     layout = prefix.parent / ".colcon_install_layout"
-    return prefix.parent if layout.is_file() else prefix
+    return prefix.parent if is_file(layout) else prefix
 
 
 def _unique(folders: Iterable[Path] | Iterator[Path]) -> tuple[Path, ...]:

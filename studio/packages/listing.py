@@ -11,6 +11,7 @@ from studio.errors import UnreadableFileError
 from studio.packages.entry_points import survey
 from studio.packages.folder_memory import is_robot_name, is_text
 from studio.packages.manifest import FILE_NAME
+from studio.packages.presence import is_file
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -100,7 +101,7 @@ def _judge(
     except OSError as error:
         return "file", False, f"not readable: {error.strerror}"
     if stat.S_ISDIR(mode):
-        return "package" if (path / FILE_NAME).is_file() else "folder", True, ""
+        return "package" if is_file(path / FILE_NAME) else "folder", True, ""
     if not stat.S_ISREG(mode):
         return "file", False, "a pipe, device or socket"
     return _judge_file(path, robots)

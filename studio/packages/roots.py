@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import errno
 import os
+import stat
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from studio.errors import OutsideRootsError, UnreadableFileError
 from studio.packages.opening import NotRegularError, open_regular
+from studio.packages.presence import is_file, is_folder, is_there, is_writable
 from studio.settings import SOURCE_SIZE_LIMIT_BYTES
 
 if TYPE_CHECKING:
@@ -87,9 +89,9 @@ class ServedRoots:
             real, root = self._locate(path)
         except (OutsideRootsError, UnreadableFileError):
             return False
-        if root not in self.writable or not os.access(real.parent, os.W_OK):
+        if root not in self.writable or not is_writable(real.parent):
             return False
-        return not real.exists() or (real.is_file() and os.access(real, os.W_OK))
+        return not is_there(real) or (is_file(real) and is_writable(real))
 
     def _locate(self, path: Path | str) -> tuple[Path, Path]:
         """The real path, and the innermost root that holds it."""
@@ -124,12 +126,14 @@ def served_roots_for(opened: Path) -> tuple[Path, ...]:
         UnreadableFileError: A folder was named that is too wide to serve, or nothing is there.
     """
     real = Path(os.path.realpath(opened))
-    if real.is_dir():
+    try:
+        mode = real.stat().st_mode
+    except OSError as error:
+        raise UnreadableFileError(str(opened), _os_reason(error)) from error
+    if stat.S_ISDIR(mode):
         if is_too_wide(real):
             raise UnreadableFileError(str(real), "is too wide to open: choose a folder inside it.")
         return (real,)
-    if not real.exists():
-        raise UnreadableFileError(str(opened), "does not exist.")
     package = package_folder_of(real)
     if package is None:
         return (real,) if is_too_wide(real.parent) else (real.parent,)
@@ -141,7 +145,7 @@ def package_folder_of(path: Path) -> Path | None:
     for folder in (path, *path.parents):
         if is_too_wide(folder):
             return None
-        if (folder / "package.xml").is_file():
+        if is_file(folder / "package.xml"):
             return folder
     return None
 
@@ -173,7 +177,7 @@ def _marked(package: Path, levels: list[Path]) -> Path | None:
     source = next((one for one in levels if one.name == "src"), None)
     if source is not None:
         return source
-    return next((one for one in (package, *levels) if (one / ".git").exists()), None)
+    return next((one for one in (package, *levels) if is_there(one / ".git")), None)
 
 
 def _child_packages(folder: Path) -> list[Path]:
@@ -182,7 +186,7 @@ def _child_packages(folder: Path) -> list[Path]:
             names = sorted(one.name for one in entries if one.is_dir(follow_symlinks=False))
     except OSError:
         return []
-    return [folder / name for name in names if (folder / name / "package.xml").is_file()]
+    return [folder / name for name in names if is_file(folder / name / "package.xml")]
 
 
 def _resolved(folders: Iterable[Path]) -> tuple[Path, ...]:
@@ -192,7 +196,7 @@ def _resolved(folders: Iterable[Path]) -> tuple[Path, ...]:
 def _what_it_is(real: Path) -> str:
     if real.is_symlink():  # all links were followed, so this one never ends
         return "is a link that leads back to itself."
-    if real.is_dir():
+    if is_folder(real):
         return "is a folder, not a file."
     return "is no regular file but a pipe, device or socket, and was not read."
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Final
 from urllib.parse import unquote
 
 from studio.errors import UnreadableFileError
+from studio.packages.presence import is_there
 from studio.packages.roots import package_folder_of
 
 if TYPE_CHECKING:
@@ -39,9 +40,9 @@ def resolve_uri(uri: str, asking_file: Path | str, index: PackageIndex, roots: S
     candidates = _candidates(written, Path(asking_file), index)
     resolved = [roots.resolve(one) for one in candidates[:1]]
     for candidate in candidates[1:]:
-        if not resolved[-1].exists() and roots.serves(candidate):
+        if not is_there(resolved[-1]) and roots.serves(candidate):
             resolved.append(roots.resolve(candidate))
-    if not resolved[-1].exists():
+    if not is_there(resolved[-1]):
         raise UnreadableFileError(uri, f"does not exist (looked for {resolved[0]}).")
     return resolved[-1]
 

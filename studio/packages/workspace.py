@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import os
 from dataclasses import dataclass, replace
@@ -17,6 +18,7 @@ from studio.packages.environment import RosEnvironment, is_install_space, is_ins
 from studio.packages.folder_memory import FolderMemory
 from studio.packages.index import Indexed, PackageIndex, Standing
 from studio.packages.manifest import FILE_NAME
+from studio.packages.presence import is_file, is_folder, is_there
 from studio.packages.roots import (
     ServedRoots,
     is_below,
@@ -92,7 +94,7 @@ def open_location(
     tell = progress or _tell_nobody
     real = Path(os.path.realpath(path))
     roots = _roots_to_serve(real) if within is None else _roots_within(real, within)
-    if real.is_file() and real.suffix.lower() == ".zip":
+    if is_file(real) and real.suffix.lower() == ".zip":
         real = _unpacked(real, data_folder, tell)
         roots = (real,)
     survey = _Survey(roots, package_paths, environment, data_folder / _MEMORY)
@@ -102,7 +104,7 @@ def open_location(
     candidates = _candidates(real, served, survey.memory, tell)
     return Location(
         root=roots[0],
-        entry=real if real.is_file() else _best(candidates),
+        entry=real if is_file(real) else _best(candidates),
         served=served,
         index=PackageIndex(survey.packages, chosen),
         candidates=candidates,
@@ -112,9 +114,9 @@ def open_location(
 
 
 def _roots_to_serve(real: Path) -> tuple[Path, ...]:
-    if real.exists() and not (real.is_file() or real.is_dir()):
+    if is_there(real) and not (is_file(real) or is_folder(real)):
         raise UnreadableFileError(str(real), "is no file and no folder, and was not opened.")
-    if real.is_dir() and not is_too_wide(real):
+    if is_folder(real) and not is_too_wide(real):
         package = package_folder_of(real)
         if package is not None:
             return served_roots_for(package / FILE_NAME)
@@ -221,7 +223,7 @@ def _install_beside(roots: Iterable[Path]) -> list[Path]:
 
 def _package_path(path: Path) -> Path:
     real = Path(os.path.realpath(path))
-    if not real.is_dir():
+    if not is_folder(real):
         raise UnreadableFileError(str(path), "is no folder: give another --package-path.")
     if is_too_wide(real):
         raise UnreadableFileError(str(path), "is too wide to serve: give a folder inside it.")
@@ -236,7 +238,7 @@ def _serve_chosen(served: ServedRoots, chosen: Iterable[Path]) -> ServedRoots:
 def _candidates(
     opened: Path, served: ServedRoots, memory: FolderMemory, tell: Progress
 ) -> tuple[EntryPoint, ...]:
-    folder = opened if opened.is_dir() else package_folder_of(opened)
+    folder = opened if is_folder(opened) else package_folder_of(opened)
     if folder is None or not served.serves(folder):
         return ()
 
@@ -258,7 +260,7 @@ def _unpacked(zip_path: Path, data_folder: Path, tell: Progress) -> Path:
     except OSError as error:
         raise UnreadableFileError(str(zip_path), f"cannot be read ({error.strerror}).") from error
     uploads = data_folder / UPLOADS
-    if (uploads / digest).is_dir():
+    if is_folder(uploads / digest):
         return folder_to_open(uploads / digest)
     left = UPLOADS_QUOTA_BYTES - _size_bytes(uploads)
     if left <= 0:
@@ -272,11 +274,12 @@ def _unpacked(zip_path: Path, data_folder: Path, tell: Progress) -> Path:
 
 
 def _size_bytes(folder: Path) -> int:
-    return sum(
-        os.lstat(os.path.join(path, name)).st_size  # noqa: PTH118 - many thousands of files
-        for path, _, names in os.walk(folder)
-        for name in names
-    )
+    sizes = 0
+    for path, _, names in os.walk(folder):
+        for name in names:
+            with contextlib.suppress(OSError):  # deleted meanwhile
+                sizes += Path(path, name).lstat().st_size
+    return sizes
 
 
 def _is_in(folder: Path, folders: Iterable[Path]) -> bool:

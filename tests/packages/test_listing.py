@@ -11,6 +11,7 @@ from studio.errors import OutsideRootsError, UnreadableFileError
 from studio.packages.listing import list_folder
 from studio.packages.roots import ServedRoots
 from tests.support.packages import write_package
+from tests.support.permissions import open_folder, unprivileged
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -94,3 +95,20 @@ def test_pipes_broken_links_and_links_outwards_cannot_be_opened(tmp_path: Path):
         ("pipe.urdf", "out.urdf", "up", "broken.urdf"), False
     )
     assert all(one.reason for one in listing.entries)
+
+
+@pytest.mark.skipif(os.name == "nt", reason="modes of Unix")
+def test_closed_folders_and_files_are_listed_and_say_so_when_they_are_entered():
+    with open_folder() as folder:
+        (folder / "closed").mkdir()
+        (folder / "a.urdf").touch()
+        for one in folder.iterdir():
+            one.chmod(0)
+        served = ServedRoots([folder])
+        with unprivileged():
+            entries = {one.name: one for one in list_folder(str(folder), served).entries}
+            with pytest.raises(UnreadableFileError, match="Permission denied"):
+                list_folder(str(folder / "closed"), served)
+    assert entries["closed"].kind == "folder"
+    assert not entries["a.urdf"].openable
+    assert "permissions forbid it" in entries["a.urdf"].reason

@@ -11,6 +11,7 @@ import pytest
 from studio.errors import OutsideRootsError, UnreadableFileError
 from studio.packages.roots import ServedRoots, is_below, served_roots_for
 from tests.support.packages import write_package
+from tests.support.permissions import open_folder, unprivileged
 
 needs_links = pytest.mark.skipif(os.name == "nt", reason="symlinks and pipes of Unix")
 
@@ -137,11 +138,16 @@ def test_a_file_that_tells_no_size_is_still_counted():
 
 
 @needs_links
-@pytest.mark.skipif(os.name == "nt" or os.geteuid() == 0, reason="root may read everything")
-def test_a_file_without_permission_is_a_sentence(root: Path):
-    (root / "robot.urdf").chmod(0)
-    with pytest.raises(UnreadableFileError, match="permissions"):
-        ServedRoots([root]).read(root / "robot.urdf")
+def test_a_file_without_permission_is_a_sentence_and_not_written():
+    with open_folder() as folder:
+        (folder / "robot.urdf").touch()
+        (folder / "robot.urdf").chmod(0)
+        served = ServedRoots([folder])
+        with unprivileged(), pytest.raises(UnreadableFileError, match="permissions forbid it"):
+            served.read(folder / "robot.urdf")
+        with unprivileged():
+            assert not served.may_write(folder / "robot.urdf")
+            assert not served.may_write(folder / "new.urdf")
 
 
 def test_writing_is_for_writable_roots_only(tmp_path: Path, root: Path):

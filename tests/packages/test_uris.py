@@ -107,7 +107,9 @@ def test_an_unknown_package_is_named(place: Place):
         place.find("package://leg/meshes/base.stl")
 
 
-@pytest.mark.parametrize("uri", ["package://rover/meshes/no.stl", "no.stl", "package://rover/a%zz"])
+@pytest.mark.parametrize(
+    "uri", ["package://rover/meshes/no.stl", "no.stl", "package://rover/a%zz", "x" * 5000]
+)
 def test_a_missing_file_says_where_it_was_looked_for(place: Place, uri: str):
     with pytest.raises(UnreadableFileError, match=r"does not exist \(looked for /"):
         place.find(uri)

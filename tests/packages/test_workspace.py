@@ -18,6 +18,7 @@ from studio.packages import workspace
 from studio.packages.workspace import Location, open_location
 from tests.support.corpus import corpus
 from tests.support.packages import write_install, write_package
+from tests.support.permissions import open_folder, unprivileged
 
 ROBOT = "<robot name='r'><link name='l'/></robot>"
 needs_links = pytest.mark.skipif(os.name == "nt", reason="symlinks of Unix")
@@ -223,6 +224,20 @@ def test_opening_from_the_page_serves_nothing_more(desk: Desk, tmp_path: Path):
     assert "other" not in location.index
     with pytest.raises(OutsideRootsError):
         open_location(source / "other", (), desk.data_folder, desk.environment, within=opened)
+
+
+@pytest.mark.skipif(os.name == "nt", reason="modes of Unix")
+def test_a_workspace_with_closed_folders_opens_without_them():
+    with open_folder() as folder:
+        rover = write_package(folder / "ws" / "rover", files={"rover.urdf": ROBOT})
+        write_package(folder / "ws" / "closed")
+        (folder / "ws" / "closed").chmod(0)
+        with unprivileged():
+            location = open_location(folder / "ws", (), folder / "data", {})
+            with pytest.raises(UnreadableFileError, match="permissions"):
+                open_location(folder / "ws" / "closed" / "a.urdf", (), folder / "data", {})
+    assert location.entry == rover / "rover.urdf"
+    assert location.index.names == {"rover"}
 
 
 def test_what_was_read_only_stays_so_when_it_is_opened_from_the_page(desk: Desk, tmp_path: Path):
