@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from typing import TYPE_CHECKING
 
 import pytest
@@ -9,12 +10,24 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from studio.description.drafts import draft_xml, draft_yaml
+from studio.description.number_text import format_number, parse_number
+from studio.description.session import Session
 from studio.description.source_tree import parse_source
 from studio.description.sources import FileChange, Sources
 from studio.description.splice import apply, decode
-from studio.description.values import Edit, Expansion, Site, Widget, WidgetKind
+from studio.description.values import (
+    Edit,
+    EditRequest,
+    Expansion,
+    OpenRequest,
+    ReadPolicy,
+    Site,
+    Widget,
+    WidgetKind,
+)
 from studio.errors import EditError, SaveConflictError, StaleEditError, UnreadableFileError
 from studio.packages.roots import ServedRoots
+from tests.support.corpus_files import package_folders
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -292,3 +305,84 @@ def test_any_edits_and_undoing_them_all_leave_the_file_as_it_was(
     while sources.redo():
         pass
     assert sources.text(str(rover)) == edited
+
+
+def in_step(sources: Sources, session: Session, edits: tuple[Edit, ...]) -> Expansion:
+    """Send edits to the session that were applied here, and take over its run."""
+    version = sources.spans.version
+    answer = session.answer(EditRequest(edits))
+    assert isinstance(answer, Expansion), answer
+    sources.adopt(answer, version)
+    return answer
+
+
+@pytest.mark.corpus
+def test_a_limit_and_a_length_of_a_real_arm_are_saved_and_only_their_bytes(
+    corpus: Path, tmp_path: Path
+):
+    (arm,) = corpus.glob("Universal*")
+    folder = tmp_path / "ur_description"
+    shutil.copytree(arm, folder, ignore=shutil.ignore_patterns("meshes"))
+    for path in (folder, *folder.rglob("*")):
+        path.chmod(0o755 if path.is_dir() else 0o644)
+    before = {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+    policy = ReadPolicy((str(folder),), {"ur_description": (str(folder),)}, {})
+    entry = str(folder / "urdf" / "ur.urdf.xacro")
+    request = OpenRequest(entry, {"ur_type": "ur10e", "name": "ur"}, policy, {})
+    session, roots = Session(request), ServedRoots([folder])
+    sources = Sources(roots.read, roots.resolve, roots.may_write, request.arguments)
+    opened = session.run()
+    assert isinstance(opened, Expansion), opened
+    sources.adopt(opened, 0)
+    ids = {site.name: site.id for site in opened.changed_sites}
+    for name, text in [
+        ("joint_limits.elbow_joint.max_position", "170.0"),
+        ("kinematics.forearm.x", "-0.75"),
+    ]:
+        in_step(sources, session, (sources.edit_site(ids[name], text, gesture=name),))
+    assert len(sources.save()) == 2
+    config = folder / "config" / "ur10e"
+    after = {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+    changed = {path: data for path, data in after.items() if before[path] != data}
+    assert set(changed) == {config / "joint_limits.yaml", config / "default_kinematics.yaml"}
+    for path, data in changed.items():
+        assert len(data.splitlines()) == len(before[path].splitlines())
+        lines = zip(before[path].splitlines(), data.splitlines(), strict=True)
+        ((old, new),) = ((old, new) for old, new in lines if old != new)
+        assert new in {
+            old.replace(b"180.0", b"170.0"),
+            old.replace(b"-0.6127", b"-0.75"),
+        }
+
+
+@pytest.mark.corpus
+@pytest.mark.timeout(180)
+def test_edits_of_real_robots_keep_every_span_and_undo_gives_every_site_back(corpus: Path):
+    """In each robot some numbers are turned; session and sources stay in step all the way."""
+    folders, turned = package_folders(corpus), 0
+    for entry in sorted(corpus.rglob("*.urdf.xacro"))[::6]:
+        policy = ReadPolicy((str(corpus),), folders, {})
+        session = Session(OpenRequest(str(entry), {}, policy, {}))
+        opened = session.run()
+        if not isinstance(opened, Expansion):
+            continue
+        roots = ServedRoots([corpus])
+        sources = Sources(roots.read, roots.resolve, roots.may_write)
+        sources.adopt(opened, 0)
+        numbers = [one for one in opened.changed_sites if parse_number(one.text) is not None]
+        for before in numbers[:: max(1, len(numbers) // 5)]:
+            text = format_number((parse_number(before.text) or 0) * 1.37 + 0.1, before.text)
+            in_step(sources, session, (sources.edit_site(before.id, text),))
+            assert sources.spans.site(before.id).text == text
+            assert sources.saved_text(before.id) == before.text
+            for other in opened.changed_sites[:: max(1, len(opened.changed_sites) // 20)]:
+                now = sources.spans.site(other.id)
+                held = sources.text(now.place.file)
+                assert decode(held, sources.spans.span(other.id)) == now.text, other.id
+            undone = sources.undo()
+            assert undone is not None
+            in_step(sources, session, undone.edits)
+            assert sources.spans.site(before.id) == before
+            assert sources.unsaved_files == ()
+            turned += 1
+    assert turned > 30
