@@ -9,11 +9,11 @@ import sys
 from contextlib import suppress
 from dataclasses import dataclass
 from datetime import UTC, datetime
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from studio.engine.engine import Engine
 from studio.engine.roles import Role
-from studio.errors import SettingsError, StudioError
+from studio.errors import SettingsError
 from studio.settings import DEFAULT_PORT, Settings, repository_or_wheel
 from studio.web.app import make_app
 from studio.web.assets import Assets
@@ -21,11 +21,14 @@ from studio.web.browser import show
 from studio.web.credentials import Credentials, cookie_key
 from studio.web.origin import is_loopback
 from studio.web.ports import address, bind, port_of
+from studio.web.progress_bar import ProgressBar
 from studio.web.server import Server
 
 if TYPE_CHECKING:
     import socket
     from pathlib import Path
+
+_WAITING_STEP_S: Final = 0.25
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,13 +87,13 @@ class _Visit:
         self._opening, self._links = opening, links
         self._open_browser = open_browser
         self._opens: asyncio.Task[None] | None = None
-        self._failure: StudioError | None = None
+        self._failure: Exception | None = None
 
     def run(self, settings: Settings, credentials: Credentials, listener: socket.socket) -> None:
         """Serve until the end.
 
         Raises:
-            StudioError: What ended it early.
+            Exception: What ended it early; a StudioError unless it is a bug.
         """
         self._engine = Engine(settings)
         bound = (settings.host, port_of(listener))
@@ -118,13 +121,17 @@ class _Visit:
         await self._engine.close()
 
     async def _open(self) -> None:
-        opening = self._opening
+        waiting = asyncio.create_task(_show_waiting(self._opening.path.name))
         try:
-            await self._engine.open_path(opening.path, opening.arguments)
-        except StudioError as error:
+            await self._engine.open_path(self._opening.path, self._opening.arguments)
+        except Exception as error:  # noqa: BLE001 - `run` raises it, once all has ended
             self._failure = error
             self._server.should_exit = True
             return
+        finally:
+            waiting.cancel()
+            with suppress(asyncio.CancelledError):
+                await waiting
         for name, link in zip(("Studio", "Viewer"), self._links, strict=False):
             _say(f"{name}: {link}")
         if self._open_browser:
@@ -140,3 +147,16 @@ def _say(line: str) -> None:
 
 def _warn(line: str) -> None:
     sys.stderr.write(f"studio: {line}\n")
+
+
+async def _show_waiting(name: str) -> None:
+    """Count the seconds on the terminal while something large is opened."""
+    bar = ProgressBar(sys.stderr)
+    begin_s = asyncio.get_running_loop().time()
+    try:
+        while True:
+            await asyncio.sleep(_WAITING_STEP_S)
+            elapsed_s = int(asyncio.get_running_loop().time() - begin_s)
+            bar.show(f"s, opening {name}", elapsed_s, 0)
+    finally:
+        bar.end()
