@@ -31,6 +31,10 @@ if TYPE_CHECKING:
 
 _HEADING_LENGTH = 60
 _HELP_LENGTH = 400
+_READ_LENGTH = 4000
+"""Longer comments are not looked into."""
+_BLOCK_LENGTH = 50
+"""Of a longer row of comments only the last ones are looked at."""
 _RULE = re.compile(r"^[\s=*#~_+/|-]+|[\s=*#~_+/|-]+$", re.MULTILINE)
 _FRAME = re.compile(r"[=*#~_+/|-]{3,}")
 _MARKUP = re.compile(r"<\s*/?[A-Za-z][^>]*>")
@@ -223,7 +227,7 @@ def _joined(before: str, behind: str) -> str:
 
 def _plain(comment: str) -> str:
     """A comment's words on one line; nothing for commented-out XML, licences and long texts."""
-    if _MARKUP.search(comment) or _LICENCE.search(comment):
+    if len(comment) > _READ_LENGTH or _MARKUP.search(comment) or _LICENCE.search(comment):
         return ""
     words = " ".join(_without_rules(comment).split())
     return words if len(words) <= _HELP_LENGTH else ""
@@ -245,6 +249,10 @@ def attach_comments(entries: Sequence[Entry], comments: Sequence[Comment]) -> tu
     """Give each entry its comments and its heading; both in file order, the module says how."""
     own = [comment for comment in comments if comment.own_line]
     above = _blocks_above(entries, own)
+    behind: dict[int, list[str]] = {}
+    for comment in comments:
+        if not comment.own_line:
+            behind.setdefault(comment.first_line, []).append(comment.text)
     remarks: list[Remark] = []
     group = ""
     for index, entry in enumerate(entries):
@@ -254,7 +262,7 @@ def attach_comments(entries: Sequence[Entry], comments: Sequence[Comment]) -> tu
             remarks.append(Remark())
             continue
         texts = [comment.text for comment in _directly_above(entries, index, block)]
-        texts += [one.text for one in comments if _is_behind(one, entry)]
+        texts += behind.get(entry.last_line, ())
         remarks.append(Remark(tuple(texts), group))
     return tuple(remarks)
 
@@ -267,12 +275,8 @@ def _blocks_above(entries: Sequence[Entry], own: Sequence[Comment]) -> list[list
         start = position
         while position < len(own) and own[position].last_line <= entry.first_line:
             position += 1
-        blocks.append(list(own[start:position]))
+        blocks.append(list(own[max(start, position - _BLOCK_LENGTH) : position]))
     return blocks
-
-
-def _is_behind(comment: Comment, entry: Entry) -> bool:
-    return not comment.own_line and comment.first_line == entry.last_line
 
 
 def _last_heading(entries: Sequence[Entry], index: int, block: Sequence[Comment]) -> str:

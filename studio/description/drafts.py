@@ -127,7 +127,7 @@ def draft_xml(tree: SourceTree, before: FileDrafts | None = None) -> FileDrafts:
     What was a number in the drafts before stays one of them, whatever is written there now.
     """
     known = {one.id for one in before.drafts} if before else set[str]()
-    remarks = _xml_remarks(tree)
+    remarks, shown = _xml_remarks(tree), _shown_parts(tree)
     drafts: list[Draft] = []
     for element in tree.elements:
         if element.tag in _TEXTS:
@@ -135,7 +135,7 @@ def draft_xml(tree: SourceTree, before: FileDrafts | None = None) -> FileDrafts:
         elif element.tag == "xacro:macro":
             drafts += _macro_defaults(element)
         elif element.tag in NUMBERED_TAGS:
-            drafts += _literals(element, known)
+            drafts += _literals(element, known, shown)
     return FileDrafts(tree.data, tuple(drafts))
 
 
@@ -180,7 +180,9 @@ def _macro_defaults(element: SourceElement) -> Iterator[Draft]:
         )
 
 
-def _literals(element: SourceElement, known: set[str]) -> Iterator[Draft]:
+def _literals(
+    element: SourceElement, known: set[str], shown: dict[SourceElement, str]
+) -> Iterator[Draft]:
     """The attributes of a URDF element that are plain numbers, or were."""
     start = f"{element.tree.path}#{element.ordinal}@"
     wanted = [
@@ -198,7 +200,7 @@ def _literals(element: SourceElement, known: set[str]) -> Iterator[Draft]:
         yield Draft(
             id=start + attribute,
             kind=SiteKind.LITERAL,
-            name=f"{'/'.join(_shown_part(one) for one in line)} @{attribute}",
+            name=f"{'/'.join(shown.get(one, one.tag) for one in line)} @{attribute}",
             place=element.place,
             span=spans[attribute],
             text=element.attributes[attribute],
@@ -238,14 +240,18 @@ def _path_part(element: SourceElement) -> str:
     return "joint:prismatic" if slides else element.tag
 
 
-def _shown_part(element: SourceElement) -> str:
-    """The tag, with its number among those of its kind when it has brothers: `visual[2]`."""
-    brothers = (
-        [one for one in element.parent.elements() if one.tag == element.tag]
-        if (element.parent is not None and element.tag in _AROUND - _NAMED)
-        else []
-    )
-    return f"{element.tag}[{brothers.index(element) + 1}]" if len(brothers) > 1 else element.tag
+def _shown_parts(tree: SourceTree) -> dict[SourceElement, str]:
+    """The tag of each element inside a link, numbered among its like: `visual[2]` of several."""
+    likes: dict[tuple[SourceElement, str], list[SourceElement]] = {}
+    for element in tree.elements:
+        if element.parent is not None and element.tag in _AROUND - _NAMED:
+            likes.setdefault((element.parent, element.tag), []).append(element)
+    return {
+        element: f"{element.tag}[{number}]"
+        for like in likes.values()
+        if len(like) > 1
+        for number, element in enumerate(like, 1)
+    }
 
 
 def _xml_remarks(tree: SourceTree) -> dict[int, Remark]:

@@ -180,9 +180,8 @@ class _Reader:
     def _scalar(self, path: KeyPath, start: int, raw: str, event: yaml.ScalarEvent) -> YamlScalar:
         first = self._byte_offset(start)
         span = Span(first, first + len(raw.encode()), "yaml")
-        line_start = max(self.text.rfind("\n", 0, start), self.text.rfind("\r", 0, start)) + 1
-        line = event.end_mark.line + 1
-        return YamlScalar(path, span, event.value, line, start - line_start + 1, event.tag or "")
+        line, column = event.end_mark.line + 1, event.end_mark.column - len(raw) + 1
+        return YamlScalar(path, span, event.value, line, column, event.tag or "")
 
     def _take_alias(self, event: yaml.AliasEvent) -> None:
         if self._is_key():

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import time
+
 from studio.description.annotations import Annotation
 from studio.description.drafts import Draft, draft_xml, draft_yaml
 from studio.description.source_tree import parse_source
@@ -131,3 +133,16 @@ def test_yaml_values_are_named_by_their_keys_and_grouped_by_their_parent():
 def test_a_heading_above_values_at_the_top_of_a_yaml_file_groups_them():
     found = draft_yaml("/l.yaml", b"# Wheels\na: 1\nb: 2\n").drafts
     assert [one.group for one in found] == ["Wheels", "Wheels"]
+
+
+def test_large_hostile_files_are_drafted_soon():
+    """One line of many values, many comments above one value, many brothers in one link."""
+    started = time.monotonic()
+    flow = "[" + ", ".join(f"é{n}" for n in range(30_000)) + "]"
+    assert len(draft_yaml("/f.yaml", flow.encode()).drafts) == 30_000
+    commented = "".join(f"# {n}\n" for n in range(20_000)) + "a: 1 # x\n" * 20_000
+    assert len(draft_yaml("/f.yaml", commented.encode()).drafts) == 1
+    visuals = '<visual><origin xyz="0 0 0"/></visual>' * 10_000
+    robot = f'<robot name="r"><!-- {"<a" * 1_000_000} --><link name="l">{visuals}</link></robot>'
+    assert len(draft_xml(parse_source("/r.xacro", robot.encode())).drafts) == 10_000
+    assert time.monotonic() - started < 20  # about 1 s; what grows with the square takes minutes
