@@ -194,7 +194,8 @@ def _polylist(element: Element, stride: int, files: MeshFiles) -> tuple[Integers
     rows = _joined([_index_rows(p, stride, files) for p in element.findall("p")], stride)
     counts = element.find("vcount")
     sizes = np.zeros(0, dtype=np.int64) if counts is None else _index_rows(counts, 1, files)[:, 0]
-    if len(sizes) and (int(sizes.min()) < 0 or int(sizes.sum()) > len(rows)):
+    most = int(sizes.max(initial=0))  # looked at first: a sum of huge ones may wrap round
+    if int(sizes.min(initial=0)) < 0 or most > len(rows) or int(sizes.sum()) > len(rows):
         raise files.fault(f"its polygons need more than the {len(rows)} corners that it lists.")
     return rows, fan_corners(sizes)
 

@@ -34,7 +34,11 @@ class ColladaLooks:
     def look(self, material: str) -> Look | None:
         """The look of a material by its id or name; None when it says nothing."""
         if material not in self._looks:
-            self._looks[material] = self._read(material)
+            try:
+                self._looks[material] = self._read(material)
+            except (ValueError, IndexError):
+                self._files.warn("bad-material", f'its material "{material}" has broken numbers.')
+                self._looks[material] = None
         return self._looks[material]
 
     def _read(self, material: str) -> Look | None:

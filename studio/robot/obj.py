@@ -38,9 +38,9 @@ def read_obj(files: MeshFiles) -> list[Surface]:
     Raises:
         MeshError: A number of it is none, or a face points beyond its vertices.
     """
-    lines = _sort_lines(files.data.decode("utf-8", "replace"))
-    looks = _looks(lines, files)
     try:
+        lines = _sort_lines(files.data.decode("utf-8", "replace"))
+        looks = _looks(lines, files)
         tables = _Tables(lines, files)
         return [
             tables.surface(faces, looks.get(material)) for material, faces in lines.faces.items()
@@ -92,6 +92,8 @@ def _looks(lines: _Lines, files: MeshFiles) -> dict[str, Look | None]:
             looks |= read_materials(files.read_beside(library), files)
         except MeshError as error:
             files.warn("missing-material", f"{error.reason} It is drawn without its colours.")
+        except ValueError:
+            files.warn("bad-material", f'its material library "{library}" has broken numbers.')
     return looks
 
 

@@ -61,7 +61,8 @@ def _read_text(files: MeshFiles) -> Surface:
         raise files.fault("a facet of it has not three corners: it is cut off or no STL.")
     files.count_triangles(len(words) // 3)
     try:
-        positions = np.array(words, dtype=np.float32).reshape(-1, 3)
+        with np.errstate(over="ignore"):  # beyond float32 is infinite, and not drawn
+            positions = np.array(words, dtype=np.float64).astype(np.float32).reshape(-1, 3)
     except ValueError as error:
         raise files.fault("a vertex of it is not three numbers.") from error
     return Surface(positions)

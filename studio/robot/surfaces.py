@@ -62,8 +62,9 @@ class Surface:
         if np.array_equal(world_from_surface, np.eye(4)):
             return self
         linear = world_from_surface[:3, :3]
-        positions = self.positions @ linear.T.astype(np.float32)
-        positions += world_from_surface[:3, 3].astype(np.float32)
+        with np.errstate(over="ignore", invalid="ignore"):  # too far away is not drawn
+            positions = self.positions @ linear.T.astype(np.float32)
+            positions += world_from_surface[:3, 3].astype(np.float32)
         moved = dataclasses.replace(
             self, positions=positions, normals=_moved_normals(self.normals, linear)
         )
