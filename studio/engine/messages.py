@@ -19,9 +19,7 @@ class _Message(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid")
 
 
-class _Command(_Message):
-    model_config = ConfigDict(allow_inf_nan=False)
-
+class _Command(_Message, allow_inf_nan=False):
     request: int = 0
     """Chosen by the browser; the answer repeats it."""
     document: str = ""
