@@ -56,7 +56,7 @@ export function DisplaysPanel() {
       }} />
     </div>
     ${rows.length === 0 && filter.value === "" && html`<${EmptyState} icon="robot" title=${t("urdf.none")} />`}
-    <${Tree} rows=${rows} active=${active} setOpen=${setOpen} />
+    ${rows.length > 0 && html`<${Tree} rows=${rows} active=${active} setOpen=${setOpen} />`}
     ${rows.length === 0 && filter.value !== "" && html`<p class="nothing">${t("filter.nothing", { words: filter.value })}</p>`}
     <${LinkDetails} />
   </section>`;
