@@ -9,7 +9,7 @@ import numpy as np
 
 from studio.robot.number_lists import parse_floats, parse_integers
 from studio.robot.surfaces import Surface
-from studio.robot.triangulation import fan_corners, strip_corners
+from studio.robot.triangulation import fan_corners, polygon_corners, strip_corners
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -68,16 +68,19 @@ class ColladaGeometry:
     ) -> list[Primitive]:
         inputs = sources.inputs(element)
         stride = 1 + max((one.offset for one in inputs), default=0)
-        indices, corners = triangulate(element, stride, self._files)
+        rows, sizes, split = triangulate(element, stride, self._files)
+        places = next((one for one in inputs if one.semantic == "POSITION"), None)
+        if places is None:
+            raise self._files.fault("a primitive of it has no positions.")
+        listed = rows[: int(sizes.sum())]
+        corners = split(sizes, self._pick(sources.rows(places), listed[:, places.offset]))
         if not len(corners):
             return []
-        picked = indices[corners]
+        picked = rows[corners]
         streams = {
             one.semantic: self._pick(sources.rows(one), picked[:, one.offset])
             for one in reversed(inputs)  # of several texture coordinates the first set is drawn
         }
-        if "POSITION" not in streams:
-            raise self._files.fault("a primitive of it has no positions.")
         return [Primitive(_surface(streams), element.get("material", ""))]
 
     def _pick(self, rows: NDArray[np.float32], index: Integers) -> NDArray[np.float32]:
@@ -173,8 +176,11 @@ def _surface(streams: dict[str, NDArray[np.float32]]) -> Surface:
 
 
 if TYPE_CHECKING:
-    Triangulation: TypeAlias = Callable[[Element, int, MeshFiles], tuple[Integers, Integers]]
-    """(element, stride) to index rows (N, stride) and the row of each triangle corner (3 M,)."""
+    Split: TypeAlias = Callable[[Integers, NDArray[np.float32]], Integers]
+    """Sizes of polygons and the points of their corners to the rows of triangle corners."""
+    Polygons: TypeAlias = tuple[Integers, Integers, Split]
+    """Index rows (N, stride), how many of them each polygon takes, and how it is split."""
+    Triangulation: TypeAlias = Callable[[Element, int, MeshFiles], Polygons]
 
 
 def _index_rows(element: Element, stride: int, files: MeshFiles) -> Integers:
@@ -185,42 +191,37 @@ def _index_rows(element: Element, stride: int, files: MeshFiles) -> Integers:
     return numbers[: len(numbers) // stride * stride].reshape(-1, stride)
 
 
-def _triangles(element: Element, stride: int, files: MeshFiles) -> tuple[Integers, Integers]:
+def _triangles(element: Element, stride: int, files: MeshFiles) -> Polygons:
     rows = _joined([_index_rows(p, stride, files) for p in element.findall("p")], stride)
-    return rows, np.arange(len(rows) // 3 * 3)
+    return rows, np.full(len(rows) // 3, 3), polygon_corners
 
 
-def _polylist(element: Element, stride: int, files: MeshFiles) -> tuple[Integers, Integers]:
+def _polylist(element: Element, stride: int, files: MeshFiles) -> Polygons:
     rows = _joined([_index_rows(p, stride, files) for p in element.findall("p")], stride)
     counts = element.find("vcount")
     sizes = np.zeros(0, dtype=np.int64) if counts is None else _index_rows(counts, 1, files)[:, 0]
     most = int(sizes.max(initial=0))  # looked at first: a sum of huge ones may wrap round
     if int(sizes.min(initial=0)) < 0 or most > len(rows) or int(sizes.sum()) > len(rows):
         raise files.fault(f"its polygons need more than the {len(rows)} corners that it lists.")
-    return rows, fan_corners(sizes)
+    return rows, sizes, polygon_corners
 
 
-def _polygons(element: Element, stride: int, files: MeshFiles) -> tuple[Integers, Integers]:
+def _polygons(element: Element, stride: int, files: MeshFiles) -> Polygons:
     """Each `<p>` a polygon; of one with holes only the outline is drawn, as by most readers."""
-    outlines = [*element.findall("p"), *element.findall("ph/p")]
-    return _runs([_index_rows(p, stride, files) for p in outlines], stride, fan_corners)
+    return _runs([*element.findall("p"), *element.findall("ph/p")], stride, files, polygon_corners)
 
 
-def _trifans(element: Element, stride: int, files: MeshFiles) -> tuple[Integers, Integers]:
-    return _runs([_index_rows(p, stride, files) for p in element.findall("p")], stride, fan_corners)
+def _trifans(element: Element, stride: int, files: MeshFiles) -> Polygons:
+    return _runs(element.findall("p"), stride, files, lambda sizes, _: fan_corners(sizes))
 
 
-def _tristrips(element: Element, stride: int, files: MeshFiles) -> tuple[Integers, Integers]:
-    return _runs(
-        [_index_rows(p, stride, files) for p in element.findall("p")], stride, strip_corners
-    )
+def _tristrips(element: Element, stride: int, files: MeshFiles) -> Polygons:
+    return _runs(element.findall("p"), stride, files, lambda sizes, _: strip_corners(sizes))
 
 
-def _runs(
-    runs: list[Integers], stride: int, split: Callable[[Integers], Integers]
-) -> tuple[Integers, Integers]:
-    sizes = np.array([len(run) for run in runs], dtype=np.int64)
-    return _joined(runs, stride), split(sizes)
+def _runs(elements: list[Element], stride: int, files: MeshFiles, split: Split) -> Polygons:
+    runs = [_index_rows(one, stride, files) for one in elements]
+    return _joined(runs, stride), np.array([len(run) for run in runs], dtype=np.int64), split
 
 
 def _joined(runs: list[Integers], stride: int) -> Integers:

@@ -11,7 +11,7 @@ from studio.errors import MeshError
 from studio.robot.number_lists import parse_floats
 from studio.robot.obj_materials import read_materials
 from studio.robot.surfaces import Surface
-from studio.robot.triangulation import fan_corners
+from studio.robot.triangulation import polygon_corners
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -110,18 +110,20 @@ class _Tables:
 
     def surface(self, faces: list[list[str]], look: Look | None) -> Surface:
         """The triangles of these faces."""
-        corners = fan_corners(np.array([len(face) for face in faces], dtype=np.int64))
-        self._files.count_triangles(len(corners) // 3)
         numbers: dict[str, int] = {}
         distinct = [numbers.setdefault(word, len(numbers)) for face in faces for word in face]
-        rows = np.array([_indices(word) for word in numbers], dtype=np.int64).reshape(-1, 3)
-        rows = rows[np.array(distinct, dtype=np.int64)[corners]]
-        textured = look is not None and look.texture is not None
-        positions = self._pick(self._positions, rows[:, 0])
-        if positions is None:
+        table = np.array([_indices(word) for word in numbers], dtype=np.int64).reshape(-1, 3)
+        rows = table[np.array(distinct, dtype=np.int64)]
+        points = self._pick(self._positions, rows[:, 0])
+        if points is None:
             raise self._files.fault("a face of it points beyond its vertices.")
+        sizes = np.array([len(face) for face in faces], dtype=np.int64)
+        corners = polygon_corners(sizes, points)
+        self._files.count_triangles(len(corners) // 3)
+        rows = rows[corners]
+        textured = look is not None and look.texture is not None
         return Surface(
-            positions,
+            points[corners],
             self._pick(self._normals, rows[:, 2]),
             self._pick(self._uvs, rows[:, 1]) if textured else None,
             None if self._colors is None else self._colors[rows[:, 0]],
