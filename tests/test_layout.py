@@ -127,20 +127,15 @@ def test_every_requirement_is_pinned():
     assert wanted <= pinned
 
 
-def test_python_tests_mirror_the_sources():
-    """`tests/<room>/` belongs to `studio/<room>/`."""
-    strays = [name_of(path) for path in COMMITTED if is_stray(path)]
-    assert not strays
+# Folders of tests that go through several rooms, and tests of a room as a whole.
+ACROSS_ROOMS = {"benchmarks", "browser", "contract", "models"}
+OF_A_WHOLE_ROOM = {"test_browser_view.py", "test_corpus.py", "test_hostile_input.py"}
 
 
-FREE_FOLDERS = {"benchmarks", "browser", "contract", "models"}
-
-
-def is_stray(path: Path) -> bool:
-    """Whether a test file lies in a folder of no room."""
-    parts = path.relative_to(REPOSITORY).parts
-    if parts[0] != "tests" or not path.name.startswith("test_"):
-        return False
-    if len(parts) == 2:
-        return False
-    return parts[1] not in FREE_FOLDERS and REPOSITORY / "studio" / parts[1] not in ROOMS
+@pytest.mark.parametrize("path", [p for p in SOURCES if p.match("tests/*/test_*.py")], ids=name_of)
+def test_a_test_file_mirrors_a_source_file(path: Path):
+    room = path.parent.name
+    if room in ACROSS_ROOMS or path.name in OF_A_WHOLE_ROOM:
+        return
+    source = REPOSITORY / "studio" / room / path.name.removeprefix("test_")
+    assert source.is_file(), f"{name_of(path)} tests no file of studio/{room}/"
