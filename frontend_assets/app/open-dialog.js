@@ -5,6 +5,7 @@
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { parseArguments } from "../lib/expressions.js";
 import { t } from "../lib/i18n.js";
+import { baseName } from "../lib/paths.js";
 import { recall, remember } from "../lib/remembered.js";
 import { Dialog, EmptyState, Icon, IconButton, ProgressBar, SearchBox } from "../lib/ui.js";
 import { choosePackage, openPath } from "./actions.js";
@@ -148,8 +149,10 @@ function moveFocus(list, step) {
  */
 function Entry({ entry, busy, onEnter, onOpen }) {
   const enters = entry.kind === "folder" || entry.kind === "package";
-  const opens = onOpen !== null && entry.openable && !(entry.kind === "folder" && !entry.openable);
+  const opens = onOpen !== null && entry.openable;
   const off = busy || (!enters && !opens);
+  // A served folder comes with its whole path as its name.
+  const note = entry.reason || (entry.name === baseName(entry.name) ? "" : entry.path);
   /** @param {MouseEvent} event */
   const onClick = (event) => {
     if (enters) onEnter();
@@ -157,15 +160,15 @@ function Entry({ entry, busy, onEnter, onOpen }) {
   };
   return html`<li class=${`entry ${off ? "off" : ""}`}>
     <button type="button" class="entry-main" disabled=${off} onClick=${onClick} title=${entry.path}>
-      <${Icon} name=${ICONS[entry.kind]} /><span class="entry-name">${entry.name}</span>
-      ${entry.reason && html`<span class="entry-reason">${entry.reason}</span>`}
+      <${Icon} name=${ICONS[entry.kind]} /><span class="entry-name">${baseName(entry.name)}</span>
+      ${note && html`<span class="entry-reason">${note}</span>`}
       ${busy && html`<span class="spinner"></span>`}
     </button>
     ${
       opens &&
       html`<button type="button" class=${`button small ${entry.kind === "robot" || entry.kind === "package" ? "primary" : ""}`} disabled=${busy}
-      aria-label=${t("open.entry", { name: entry.name })} onClick=${() => onOpen?.(entry, false)}>${t("open.here")}</button>
-      <button type="button" class="button small" disabled=${busy} aria-label=${t("open.entry_tab", { name: entry.name })}
+      aria-label=${t("open.entry", { name: baseName(entry.name) })} onClick=${() => onOpen?.(entry, false)}>${t("open.here")}</button>
+      <button type="button" class="button small" disabled=${busy} aria-label=${t("open.entry_tab", { name: baseName(entry.name) })}
         onClick=${() => onOpen?.(entry, true)}>${t("open.tab")}</button>`
     }
   </li>`;

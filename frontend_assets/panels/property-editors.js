@@ -101,7 +101,7 @@ function NumberSlider({ site, text, writer }) {
   const unit = inDegrees(site) ? "°" : site.widget.unit;
   return html`<${Slider} label=${t("property.slider", { name: site.name })} min=${lower} max=${upper} step=${step}
     value=${shown} text=${`${formatNumber(shown, 6)} ${unit}`.trim()} disabled=${!mayEdit.value}
-    onMove=${(/** @type {number} */ moved) => writer.write(formatNumber(toFile(moved)))} onEnd=${writer.end} />`;
+    onMove=${(/** @type {number} */ moved) => writer.write(formatNumber(toFile(moved)), { held: true })} onEnd=${writer.end} />`;
 }
 
 /** @param {{site: SiteView}} props */

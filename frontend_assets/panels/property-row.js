@@ -20,9 +20,9 @@ import { Editor } from "./property-editors.js";
 
 /**
  * @typedef {object} Writer sends the newest text of one site, one request at a time
- * @property {(text: string) => void} write
- * @property {(stepped?: boolean) => Promise<void>} end fulfilled when the last text was answered; the
- *   gesture is over then, unless it was one step by a key
+ * @property {(text: string, options?: {held?: boolean}) => void} write `held`: by a drag that goes on
+ * @property {(stepped?: boolean) => Promise<void>} end of the gesture, unless it was one step by a key;
+ *   fulfilled when the last text was answered
  */
 
 /** @param {{site: Signal<SiteView>}} props */
@@ -59,15 +59,19 @@ export function PropertyRow({ site: followed }) {
 /** @param {Signal<SiteView>} followed @returns {Writer} */
 function createWriter(followed) {
   const gesture = createGesture();
-  const sender = latestSender((/** @type {string} */ text) => {
-    const { id, name, argument } = followed.peek();
-    return argument === null ? editSite(id, text, gesture.id()) : setArgument(name, text);
+  const sender = latestSender((/** @type {{text: string, id: string}} */ { text, id }) => {
+    const site = followed.peek();
+    return site.argument === null ? editSite(site.id, text, id) : setArgument(site.name, text);
   });
   return {
-    write: (text) => sender.push(text),
-    async end(stepped = false) {
-      await sender.settled();
-      if (!stepped) gesture.end();
+    write(text, { held = false } = {}) {
+      sender.push({ text, id: gesture.id() });
+      if (held) gesture.hold();
+    },
+    end(stepped = false) {
+      if (stepped) gesture.release();
+      else gesture.end();
+      return sender.settled();
     },
   };
 }

@@ -106,6 +106,21 @@ test("a burst of edits is one gesture; a pause or an end begins a new one", () =
   assert.notEqual(createGesture(() => now).id(), gesture.id());
 });
 
+test("a drag is one gesture, however long the pointer rests", () => {
+  let now = 0;
+  const gesture = createGesture(() => now);
+  const first = gesture.id();
+  gesture.hold();
+  now += 60_000;
+  assert.equal(gesture.id(), first);
+  gesture.release();
+  now += 100;
+  assert.equal(gesture.id(), first);
+  gesture.hold();
+  gesture.end();
+  assert.notEqual(gesture.id(), first);
+});
+
 test("a shortcut matches its own keys and no others", () => {
   assert.ok(matches("Mod+S", stroke("s", { ctrlKey: true })));
   assert.ok(matches("Mod+S", stroke("s", { metaKey: true })));
