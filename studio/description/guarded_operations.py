@@ -213,9 +213,18 @@ def text_of(value: Any) -> str:  # noqa: ANN401
     """`str(value)`, as xacro prints it, of a value that is not too large to print."""
     if isinstance(value, str):
         return value
+    check_printable(value)
+    return str(value)
+
+
+def check_printable(value: Any) -> None:  # noqa: ANN401
+    """See that a value can be printed: a list of lists of lists may be short and print without end.
+
+    Raises:
+        Refusal: It would print more than a tenth of SIZE_LIMIT items.
+    """
     if isinstance(value, list | tuple | dict | set):
         _count(cast("object", value), SIZE_LIMIT // 10)
-    return str(cast("object", value))
 
 
 def _count(value: Any, left: int) -> int:  # noqa: ANN401
@@ -228,8 +237,11 @@ def _count(value: Any, left: int) -> int:  # noqa: ANN401
 
 
 def _items(value: Any) -> Iterator[Any]:  # noqa: ANN401
+    """Raw items: looking at a YAML value must not count as reading it."""
     if isinstance(value, dict):
-        return iter(cast("dict[Any, Any]", value).values())
-    if isinstance(value, list | tuple | set):
+        return iter(dict.values(cast("dict[Any, Any]", value)))
+    if isinstance(value, list):
+        return list.__iter__(cast("list[Any]", value))
+    if isinstance(value, tuple | set):
         return iter(cast("Iterable[Any]", value))
     return iter(())

@@ -42,7 +42,7 @@ if TYPE_CHECKING:
 
     from studio.description.values import ReadPolicy
 
-_LIMITS: Final = Limits(seconds=8.0)
+EXPORT_LIMITS: Final = Limits(seconds=8.0)
 """Stock is about ten times slower than our own evaluator."""
 _BOUNDED: Final[dict[str, Any]] = {
     "range": guarded.bounded_range,
@@ -56,6 +56,7 @@ def export_urdf(
     arguments: Mapping[str, str],
     policy: ReadPolicy,
     overlay: Mapping[str, bytes] | None = None,
+    limits: Limits = EXPORT_LIMITS,
 ) -> str:
     """What the `xacro` command prints for a file, byte for byte; `file` appears in its banner.
 
@@ -64,22 +65,20 @@ def export_urdf(
         RefusedError: It asks for something unsafe or over budget.
     """
     store = SourceStore(ServedRoots(map(Path, policy.roots)), overlay or {})
-    return _process(file, arguments, policy, store).toprettyxml(indent="  ")
+    return _process(file, arguments, _Guard(policy, store, limits)).toprettyxml(indent="  ")
 
 
 def expand_root(
     file: str, arguments: Mapping[str, str], policy: ReadPolicy, store: SourceStore
 ) -> str:
     """The expanded root element as XML, with the texts of a store; raises as `export_urdf`."""
-    root = _process(file, arguments, policy, store).documentElement
+    root = _process(file, arguments, _Guard(policy, store, EXPORT_LIMITS)).documentElement
     assert root is not None
     return root.toxml()
 
 
-def _process(
-    file: str, arguments: Mapping[str, str], policy: ReadPolicy, store: SourceStore
-) -> Document:
-    with _guard(_Guard(policy, store)):
+def _process(file: str, arguments: Mapping[str, str], guard: _Guard) -> Document:
+    with _on(guard):
         try:
             return cast("Document", xacro.process_file(file, mappings=dict(arguments)))
         except (xacro.XacroException, ExpatError, Fault, RuntimeError, MemoryError) as error:
@@ -126,9 +125,9 @@ class _RefusedOpenError(OSError):
 class _Guard:
     """What stands in front of xacro's functions for one run; also the context of `$(...)`."""
 
-    def __init__(self, policy: ReadPolicy, store: SourceStore) -> None:
+    def __init__(self, policy: ReadPolicy, store: SourceStore, limits: Limits) -> None:
         self._policy, self._store = policy, store
-        self._budget = Budget(_LIMITS)
+        self._budget = Budget(limits)
         self._eval_text: Callable[[Any, Any], Any] = xacro.eval_text
         self.environment = policy.environment
 
@@ -144,6 +143,7 @@ class _Guard:
         if xacro.macrostack:
             self._budget.depth(len(xacro.macrostack), "?")
         value = self._eval_text(text, names)
+        guarded.check_printable(value)
         if isinstance(value, str) and len(value) > guarded.SIZE_LIMIT:
             raise guarded.too_large()
         return value
@@ -205,7 +205,7 @@ def _refuse_bombs(path: str, data: bytes) -> None:
 
 
 @contextmanager
-def _guard(guard: _Guard) -> Generator[None]:
+def _on(guard: _Guard) -> Generator[None]:
     """Put the guard on for one run."""
     METHODS[xacro.YamlDictWrapper] = METHODS[dict]
     METHODS[xacro.YamlListWrapper] = METHODS[list]
