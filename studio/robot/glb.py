@@ -9,7 +9,7 @@ import msgspec
 import numpy as np
 
 from studio.robot.colors import linear_from_srgb, linear_shorts
-from studio.robot.surfaces import Look
+from studio.robot.surfaces import Look, bounds
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -124,8 +124,7 @@ class _Writer:
         if rows.dtype == np.uint16:
             accessor["normalized"] = True
         if bounded:
-            accessor["min"] = rows.min(axis=0).tolist()
-            accessor["max"] = rows.max(axis=0).tolist()
+            accessor["min"], accessor["max"] = bounds(rows.astype(np.float32, copy=False))
         self._accessors.append(accessor)
         return len(self._accessors) - 1
 

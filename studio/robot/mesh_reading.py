@@ -14,7 +14,7 @@ from studio.robot.gltf import read_gltf
 from studio.robot.loaded_mesh import LoadedMesh
 from studio.robot.obj import read_obj
 from studio.robot.stl import read_stl
-from studio.robot.surfaces import Surface
+from studio.robot.surfaces import Surface, bounds
 from studio.robot.welding import Welded, weld
 
 if TYPE_CHECKING:
@@ -86,7 +86,7 @@ def _finish(files: MeshFiles, surfaces: list[Surface]) -> LoadedMesh:
         vertices,
         _joined_faces([welded for welded, _ in pieces]),
         write_glb(pieces) if own else b"",
-        (_corner(vertices.min(axis=0)), _corner(vertices.max(axis=0))),
+        _bounds_m(vertices),
         tuple(files.problems),
     )
 
@@ -125,9 +125,9 @@ def _digest_of_all(files: MeshFiles) -> str:
     return hashlib.sha256(all_of_them.encode()).hexdigest()
 
 
-def _corner(row: Floats) -> Vector3:
-    x, y, z = row.tolist()
-    return x, y, z
+def _bounds_m(vertices: Floats) -> tuple[Vector3, Vector3]:
+    (left, front, bottom), (right, back, top) = bounds(vertices)
+    return (left, front, bottom), (right, back, top)
 
 
 def _concatenated(arrays: list[NDArray[Number] | None]) -> NDArray[Number] | None:

@@ -93,6 +93,11 @@ class Surface:
         )
 
 
+def bounds(points: Floats) -> tuple[list[float], list[float]]:
+    """Least and greatest corner of points (N, 3), N > 0; by columns, as numpy is slow by rows."""
+    return [float(one.min()) for one in points.T], [float(one.max()) for one in points.T]
+
+
 def _moved_normals(normals: Floats | None, linear: Matrix) -> Floats | None:
     """Normals go by the inverse transpose; a flattening transform leaves none to keep."""
     if normals is None or abs(np.linalg.det(linear)) < 1e-30:
