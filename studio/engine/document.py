@@ -23,7 +23,7 @@ from studio.packages.roots import package_folder_of
 from studio.packages.uris import resolve_uri
 from studio.problems import Fix, Place, Problem, Severity
 from studio.scene import DocumentScene
-from studio.settings import XACRO_ENVIRONMENT
+from studio.settings import LOOPBACK_HOSTS, XACRO_ENVIRONMENT
 
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable, Mapping
@@ -66,7 +66,7 @@ class Document:
             services.description_worker(), self.sources, self._target(), self._take
         )
         self._meshes = MeshLoading(
-            services.meshes, self._resolve_mesh, self._roots, self._mesh_arrived, self._mesh_count
+            services.meshes, self._resolve_mesh, self._mesh_arrived, self._mesh_count
         )
         self._files: tuple[str, ...] = (self.path,)
         self._watch = FileWatch(self._changed_on_disk)
@@ -166,8 +166,14 @@ class Document:
         await self._timed(self._runs.edit(edits) if edits else self._runs.reopen())
 
     async def choose_package(self, name: str, folder: str) -> None:
-        """Use a served folder for a package from now on."""
-        chosen = self.location.served.resolve(Path(folder))
+        """Use a folder for a package from now on, read-only.
+
+        On the owner's own machine it may lie anywhere, for a missing package lies where nothing
+        is served; whoever presents from elsewhere chooses among the served folders.
+        """
+        chosen = Path(folder)
+        if self._services.settings.host not in LOOPBACK_HOSTS:
+            chosen = self.location.served.resolve(chosen)
         self.location = await asyncio.to_thread(self.location.choose_package, name, chosen)
         self._meshes.want(self._meshes.problems)
         await self._timed(self._runs.reopen(self._target()))
@@ -291,22 +297,30 @@ class Document:
     def _want_meshes(self) -> None:
         self._meshes.forget(self.model.mesh_uris())
         self._meshes.want(self.scene.missing_meshes())
-        self.board.find("mesh", self._meshes.problems.values())
+        self.board.find("mesh", self._mesh_problems())
 
     def _mesh_arrived(self, uri: str, mesh: LoadedMesh | None) -> None:
         self.scene.provide_mesh(uri, mesh)
         self.scene.flush()
         self._watch_files()
-        self.board.find("mesh", self._meshes.problems.values())
+        self.board.find("mesh", self._mesh_problems())
+
+    def _mesh_problems(self) -> list[Problem]:
+        """What is wrong with meshes, each at the first link that names it."""
+        users = self.model.mesh_users()
+        return [
+            replace(problem, place=part.place if (part := users.get(uri)) else None)
+            for uri, problem in self._meshes.problems.items()
+        ]
 
     def _mesh_count(self, done: int, total: int) -> None:
         self.board.progress("meshes", done, total)
 
-    def _resolve_mesh(self, uri: str) -> Path:
-        return resolve_uri(uri, self.entry, self.location.index, self.location.served)
-
-    def _roots(self) -> tuple[Path, ...]:
-        return self.location.served.all
+    def _resolve_mesh(self, uri: str) -> tuple[Path, tuple[Path, ...]]:
+        """Where a mesh lies, and the folders that it may draw on."""
+        location = self.location
+        path = resolve_uri(uri, self.entry, location.index, location.served)
+        return path, location.served.all
 
     async def _validate(self) -> None:
         await asyncio.sleep(_VALIDATE_AFTER_S)

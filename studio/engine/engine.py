@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import os
 import re
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -20,6 +21,7 @@ from studio.packages.workspace import Location, open_location
 
 if TYPE_CHECKING:
     from studio.engine.listeners import Listener
+    from studio.packages.workspace import Progress
     from studio.settings import Settings
 
 _DOCUMENT_LIMIT = 32
@@ -88,26 +90,36 @@ class Engine:
                 await carry_out(self.document(command.document), command, listener)
         tell(listener, m.Done(request=command.request))
 
-    async def open_path(self, path: Path, arguments: dict[str, str]) -> str:
+    async def open_path(
+        self, path: Path, arguments: dict[str, str], progress: Progress | None = None
+    ) -> str:
         """Open what the command line names; its folders are served from now on.
+
+        Args:
+            path: A file, a folder or a zip.
+            arguments: Passed to xacro.
+            progress: Told, in another thread, how far the search for packages is.
 
         Raises:
             StudioError: Nothing there can be opened.
         """
-        location = await self._locate(path, self._settings.package_paths)
-        self._served = self._served.with_roots(location.served.writable, location.served.read_only)
-        return self._open(location, arguments)
+        return self._open(await self._locate(path, progress), arguments)
 
     async def _open_served(self, command: m.OpenPath) -> str:
+        """Open out of the page: nothing is served then that was not before, but a zip's folder."""
         path = self._served.resolve(Path(command.path))
-        return self._open(await self._locate(path, self._settings.package_paths), command.arguments)
+        return self._open(await self._locate(path, within=self._served), command.arguments)
 
-    async def _locate(self, path: Path, package_paths: tuple[Path, ...]) -> Location:
-        return await asyncio.to_thread(
-            open_location, path, package_paths, self._settings.data_folder, dict(os.environ)
-        )
+    async def _locate(
+        self, path: Path, progress: Progress | None = None, within: ServedRoots | None = None
+    ) -> Location:
+        settings = self._settings
+        find = partial(open_location, path, settings.package_paths, settings.data_folder)
+        return await asyncio.to_thread(find, dict(os.environ), progress, within=within)
 
     def _open(self, location: Location, arguments: dict[str, str]) -> str:
+        served = location.served
+        self._served = self._served.with_roots(served.writable, served.read_only)
         if len(self.documents) >= _DOCUMENT_LIMIT:
             raise CommandError(f"{_DOCUMENT_LIMIT} documents are open: close one first.")
         document = Document(self._free_id(location), location, arguments, self._services)

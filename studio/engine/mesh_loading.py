@@ -21,8 +21,7 @@ class MeshLoading:
 
     Args:
         library: Loads a file once, whatever the number of askers.
-        resolve: From a URI to a file; raises PackageError.
-        roots: The folders that may be read now.
+        resolve: From a URI to a file and the folders that may be read; raises PackageError.
         arrived: Told of each mesh as it comes.
         progress: Told (done, total) of the batch under way.
     """
@@ -30,12 +29,11 @@ class MeshLoading:
     def __init__(
         self,
         library: MeshLibrary,
-        resolve: Callable[[str], Path],
-        roots: Callable[[], Iterable[Path]],
+        resolve: Callable[[str], tuple[Path, tuple[Path, ...]]],
         arrived: Callable[[str, LoadedMesh | None], None],
         progress: Callable[[int, int], None],
     ) -> None:
-        self._library, self._resolve, self._roots = library, resolve, roots
+        self._library, self._resolve = library, resolve
         self._arrived, self._progress = arrived, progress
         self._tasks: dict[str, asyncio.Task[None]] = {}
         self._done = self._total = 0
@@ -71,9 +69,9 @@ class MeshLoading:
     async def _load(self, uri: str) -> None:
         mesh: LoadedMesh | None = None
         try:
-            path = self._resolve(uri)
+            path, roots = self._resolve(uri)
             self.files[uri] = str(path)
-            mesh = await self._library.load(path, self._roots())
+            mesh = await self._library.load(path, roots)
             self.problems.pop(uri, None)
         except (PackageError, RobotError, WorkerError) as error:
             self.problems[uri] = Problem(Severity.WARNING, "mesh", f"Mesh {error}")

@@ -11,9 +11,9 @@ from studio.robot.kinematics import Kinematics
 from studio.robot.values import Mesh, Robot
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Iterator
 
-    from studio.description.values import Expansion
+    from studio.description.values import Expansion, Part
     from studio.scene import DocumentScene
 
 
@@ -55,12 +55,21 @@ class Model:
 
     def mesh_uris(self) -> frozenset[str]:
         """Every mesh that the robot names."""
-        return frozenset(
-            shape.geometry.uri
-            for link in self.robot.links.values()
-            for shape in (*link.visuals, *link.collisions)
-            if isinstance(shape.geometry, Mesh)
-        )
+        return frozenset(uri for _, uri in self._meshes_by_link())
+
+    def mesh_users(self) -> dict[str, Part]:
+        """For each mesh, the first link that names it, as it was written."""
+        users: dict[str, Part] = {}
+        for link, uri in self._meshes_by_link():
+            if part := self.assembly.part(f"link:{link}"):
+                users.setdefault(uri, part)
+        return users
+
+    def _meshes_by_link(self) -> Iterator[tuple[str, str]]:
+        for link in self.robot.links.values():
+            for shape in (*link.visuals, *link.collisions):
+                if isinstance(shape.geometry, Mesh):
+                    yield link.name, shape.geometry.uri
 
     def urdf(self, root_attributes: Iterable[tuple[str, str]]) -> str:
         """The robot as URDF text, one indented element after the other."""

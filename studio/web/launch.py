@@ -9,7 +9,7 @@ import sys
 from contextlib import suppress
 from dataclasses import dataclass
 from datetime import UTC, datetime
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
 from studio.engine.engine import Engine
 from studio.engine.roles import Role
@@ -27,8 +27,6 @@ from studio.web.server import Server
 if TYPE_CHECKING:
     import socket
     from pathlib import Path
-
-_WAITING_STEP_S: Final = 0.25
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,17 +119,16 @@ class _Visit:
         await self._engine.close()
 
     async def _open(self) -> None:
-        waiting = asyncio.create_task(_show_waiting(self._opening.path.name))
+        bar = ProgressBar(sys.stderr)
         try:
-            await self._engine.open_path(self._opening.path, self._opening.arguments)
+            opening = self._opening
+            await self._engine.open_path(opening.path, opening.arguments, bar.show)
         except Exception as error:  # noqa: BLE001 - `run` raises it, once all has ended
             self._failure = error
             self._server.should_exit = True
             return
         finally:
-            waiting.cancel()
-            with suppress(asyncio.CancelledError):
-                await waiting
+            bar.end()
         for name, link in zip(("Studio", "Viewer"), self._links, strict=False):
             _say(f"{name}: {link}")
         if self._open_browser:
@@ -147,16 +144,3 @@ def _say(line: str) -> None:
 
 def _warn(line: str) -> None:
     sys.stderr.write(f"studio: {line}\n")
-
-
-async def _show_waiting(name: str) -> None:
-    """Count the seconds on the terminal while something large is opened."""
-    bar = ProgressBar(sys.stderr)
-    begin_s = asyncio.get_running_loop().time()
-    try:
-        while True:
-            await asyncio.sleep(_WAITING_STEP_S)
-            elapsed_s = int(asyncio.get_running_loop().time() - begin_s)
-            bar.show(f"s, opening {name}", elapsed_s, 0)
-    finally:
-        bar.end()

@@ -1,0 +1,167 @@
+"""The closed union of commands: what a browser may ask of the studio."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, TypeAlias
+
+from pydantic import Field, TypeAdapter
+
+from studio.engine.message import Message
+
+
+class CommandMessage(Message, allow_inf_nan=False):
+    """What every command carries."""
+
+    request: int = 0
+    """Chosen by the browser; the answer repeats it."""
+    document: str = ""
+    """Id of the open document; empty for commands that need none."""
+
+
+class Watch(CommandMessage):
+    """Show me this document: its whole state now, then every change."""
+
+    type: Literal["watch"] = "watch"
+
+
+class OpenPath(CommandMessage):
+    """Open a file, package folder, workspace folder or zip below the served roots."""
+
+    type: Literal["open_path"] = "open_path"
+    path: str
+    arguments: dict[str, str] = Field(default_factory=dict)
+
+
+class CloseDocument(CommandMessage):
+    """Close a document; refused while it has unsaved edits unless `discard`."""
+
+    type: Literal["close_document"] = "close_document"
+    discard: bool = False
+
+
+class ListFolder(CommandMessage):
+    """What a served folder holds; an empty path lists the served roots."""
+
+    type: Literal["list_folder"] = "list_folder"
+    path: str = ""
+
+
+class EditSite(CommandMessage):
+    """Write a new text at a site. All edits of one `gesture` are one undo step."""
+
+    type: Literal["edit_site"] = "edit_site"
+    site: str
+    text: str = Field(max_length=100_000)
+    gesture: str = ""
+
+
+class ResetSite(CommandMessage):
+    """Put a site back to what the file on disk says."""
+
+    type: Literal["reset_site"] = "reset_site"
+    site: str
+
+
+class SetArgument(CommandMessage):
+    """Pass an argument as `name:=value` on the command line would; None takes it back."""
+
+    type: Literal["set_argument"] = "set_argument"
+    name: str
+    value: str | None
+
+
+class Undo(CommandMessage):
+    """Take back the last step."""
+
+    type: Literal["undo"] = "undo"
+
+
+class Redo(CommandMessage):
+    """Do again what was taken back."""
+
+    type: Literal["redo"] = "redo"
+
+
+class Save(CommandMessage):
+    """Write the edited bytes of all changed files of the document."""
+
+    type: Literal["save"] = "save"
+
+
+class Reload(CommandMessage):
+    """Read all files of the document from disk again; unsaved edits are given up."""
+
+    type: Literal["reload"] = "reload"
+
+
+class SetJoints(CommandMessage):
+    """Move joints: positions by name, rad or m; clamped to the limits, mimics follow."""
+
+    type: Literal["set_joints"] = "set_joints"
+    positions: dict[str, float]
+
+
+class ZeroJoints(CommandMessage):
+    """All joints to zero, or to the nearest position within their limits."""
+
+    type: Literal["zero_joints"] = "zero_joints"
+
+
+class RandomizeJoints(CommandMessage):
+    """All joints to random positions within their limits."""
+
+    type: Literal["randomize_joints"] = "randomize_joints"
+
+
+class AnimateJoints(CommandMessage):
+    """Swing the joints through their limits, or stop."""
+
+    type: Literal["animate_joints"] = "animate_joints"
+    running: bool
+
+
+class SetDisplay(CommandMessage):
+    """Change one setting of a shared display, e.g. `robot`, `collision`, True."""
+
+    type: Literal["set_display"] = "set_display"
+    display: Literal["grid", "robot"]
+    name: str
+    value: bool | float | str
+
+
+class ChoosePackage(CommandMessage):
+    """Use this folder for a package that was not found; remembered for the workspace."""
+
+    type: Literal["choose_package"] = "choose_package"
+    name: str
+    folder: str
+
+
+class GetUrdf(CommandMessage):
+    """The expanded URDF of the last good run."""
+
+    type: Literal["get_urdf"] = "get_urdf"
+
+
+Command: TypeAlias = Annotated[
+    Watch
+    | OpenPath
+    | CloseDocument
+    | ListFolder
+    | EditSite
+    | ResetSite
+    | SetArgument
+    | Undo
+    | Redo
+    | Save
+    | Reload
+    | SetJoints
+    | ZeroJoints
+    | RandomizeJoints
+    | AnimateJoints
+    | SetDisplay
+    | ChoosePackage
+    | GetUrdf,
+    Field(discriminator="type"),
+]
+COMMANDS: TypeAdapter[Command] = TypeAdapter(Command)

@@ -1,0 +1,115 @@
+"""The main job as a person does it: open the demo, turn a knob, see it, undo, save."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+
+from tests.support.server import running_studio
+from tests.support.studio_page import StudioPage, changed_bytes, studio_page, wait_until
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+    from playwright.sync_api import Browser
+
+    from tests.support.server import RunningStudio
+
+pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(240)]
+
+ROVER = "rover_description/urdf/rover.urdf.xacro"
+
+
+@pytest.fixture
+def studio(tmp_path: Path) -> Iterator[RunningStudio]:
+    with running_studio(["demo"], tmp_path / "data") as running:
+        yield running
+
+
+@pytest.fixture
+def tab(browser: Browser, studio: RunningStudio) -> Iterator[StudioPage]:
+    with studio_page(browser, studio) as page:
+        yield page
+
+
+def test_a_dragged_property_changes_the_pixels_is_undone_and_saved_byte_by_byte(
+    tab: StudioPage, models: Path, tmp_path: Path
+):
+    working_copy = tmp_path / "data" / "models" / ROVER
+    as_shipped = tab.settle()
+    assert tab.drag_slider("wheel_radius", 0.8) != "0.105"
+    assert tab.settle() != as_shipped
+
+    tab.page.keyboard.press("Control+z")
+    wait_until("the undo", lambda: tab.box("wheel_radius").input_value() == "0.105")
+    wait_until("the pixels to come back", lambda: tab.settle() == as_shipped)
+
+    value = tab.drag_slider("wheel_radius", 0.7)
+    assert working_copy.read_bytes() == (models / ROVER).read_bytes()
+    save = tab.page.get_by_role("button", name="Save", exact=True)
+    save.click()
+    wait_until("the file to be written", lambda: f'"{value}"' in working_copy.read_text())
+    (difference,) = changed_bytes(models / ROVER, working_copy.read_bytes())
+    assert difference[1] == difference[0].replace(b'"0.105"', f'"{value}"'.encode())
+    wait_until("nothing to be unsaved", lambda: not save.is_enabled())
+    assert tab.errors == []
+
+
+def test_one_drag_is_one_undo_step(tab: StudioPage):
+    undo = tab.page.get_by_role("button", name="Undo", exact=True)
+    assert tab.drag_slider("base_length", 0.9) != "0.62"
+    wait_until("the undo button", undo.is_enabled)
+    undo.click()
+    wait_until("the value to come back", lambda: tab.box("base_length").input_value() == "0.62")
+    wait_until("nothing to be left to undo", lambda: not undo.is_enabled())
+
+
+def test_a_broken_expression_says_where_and_the_last_good_model_stays(tab: StudioPage):
+    before = tab.settle()
+    tab.seek("wheel_radius")
+    box = tab.box("wheel_radius")
+    box.fill("${wheel_radiu * 2}")
+    box.press("Enter")
+    notice = tab.page.get_by_text("Showing the last good model")
+    wait_until("the notice over the 3D view", notice.is_visible)
+    assert tab.page.get_by_text("wheel_radiu").first.is_visible()
+    assert tab.page.get_by_text("rover.urdf.xacro:").first.is_visible()
+    assert tab.has_drawn_robot()
+    tab.page.get_by_role("button", name="Undo edit").first.click()
+    wait_until("the notice to go", lambda: not notice.is_visible())
+    wait_until("the picture to be as before", lambda: tab.settle() == before)
+
+
+def test_two_documents_in_two_tabs_are_independent(
+    tab: StudioPage, studio: RunningStudio, tmp_path: Path
+):
+    other = tmp_path / "data" / "models" / "r2d2_description" / "urdf"
+    entry = next(other.glob("*.urdf.xacro"))
+    with studio.client() as client:
+        command = {"type": "open_path", "path": str(entry)}
+        answer = client.post("/api/commands", json=command).json()
+    opened = next(event for event in answer["events"] if event["type"] == "opened")
+    second = StudioPage(tab.page.context.new_page())
+    second.open(f"{studio.origin}/d/{opened['document']}")
+    before = second.settle()
+    tab.page.bring_to_front()
+    assert tab.drag_slider("wheel_radius", 0.9) != "0.105"
+    second.page.bring_to_front()
+    assert second.settle() == before
+    assert second.row("wheel_radius").count() == 0
+    assert not second.page.get_by_role("button", name="Save", exact=True).is_enabled()
+
+
+def test_the_page_comes_back_by_itself_with_everything_as_it_was(browser: Browser, tmp_path: Path):
+    with running_studio(["demo"], tmp_path / "data") as first, studio_page(browser, first) as tab:
+        port = first.port
+        first.stop()
+        wait_until("the page to say so", lambda: "Not connected" in tab.page.inner_text("body"))
+        with running_studio(["demo"], tmp_path / "data", port=port):
+            wait_until(
+                "the page to be back", lambda: "Not connected" not in tab.page.inner_text("body")
+            )
+            wait_until("the robot to be drawn", tab.has_drawn_robot)
+            assert tab.drag_slider("wheel_radius", 0.9) != "0.105"

@@ -1,0 +1,133 @@
+"""The studio's page in a real browser, in the words of its user."""
+
+from __future__ import annotations
+
+import time
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+    from pathlib import Path
+
+    from playwright.sync_api import Browser, ConsoleMessage, Locator, Page
+
+    from tests.support.server import RunningStudio
+
+PATIENCE_S = 60.0
+_POLL_S = 0.1
+_COMPLAINTS = frozenset({"error"})
+_HAS_VISUALS = """() => {
+  const nodes = document.querySelector("iframe")?.contentWindow?.__viserMutable?.nodeRefFromName;
+  return Object.keys(nodes ?? {}).some((name) => name.includes("/visual/"));
+}"""
+
+
+class ConditionNotMetError(AssertionError):
+    """Something awaited did not come in time."""
+
+
+def wait_until(what: str, condition: Callable[[], bool], patience_s: float = PATIENCE_S) -> None:
+    """Ask again and again until it holds."""
+    end_s = time.monotonic() + patience_s
+    while not condition():
+        if time.monotonic() > end_s:
+            raise ConditionNotMetError(what)
+        time.sleep(_POLL_S)
+
+
+class StudioPage:
+    """One tab; `errors` collects what its console and its scripts complain of."""
+
+    def __init__(self, page: Page) -> None:
+        self.page = page
+        self.errors: list[str] = []
+        page.on("console", self._heard)
+        page.on("pageerror", lambda error: self.errors.append(str(error)))
+
+    def _heard(self, message: ConsoleMessage) -> None:
+        if message.type in _COMPLAINTS:
+            self.errors.append(message.text)
+
+    def open(self, url: str) -> None:
+        """Go there and wait until the robot is drawn."""
+        self.page.goto(url)
+        wait_until("the 3D view to draw the robot", self.has_drawn_robot)
+        self.settle()
+
+    def has_drawn_robot(self) -> bool:
+        """Whether viser's scene holds the visual of some link."""
+        return bool(self.page.evaluate(_HAS_VISUALS))
+
+    def seek(self, name: str) -> None:
+        """Bring a property into the list's view, of which only what is seen is drawn."""
+        self.page.get_by_role("searchbox", name="Filter properties").fill(name)
+        wait_until(f"the row of {name}", lambda: self.row(name).count() == 1)
+
+    def row(self, name: str) -> Locator:
+        """The row of a property."""
+        return self.page.get_by_role("group", name=name, exact=True)
+
+    def slider(self, name: str) -> Locator:
+        """The slider of a property."""
+        return self.row(name).get_by_role("slider")
+
+    def box(self, name: str) -> Locator:
+        """The number or text box of a property; `seek` it first."""
+        return self.row(name).get_by_role("textbox").first
+
+    def drag_slider(self, name: str, share: float) -> str:
+        """Drag a property's slider to a share of its length; the text that this gave it."""
+        self.seek(name)
+        slider = self.slider(name)
+        slider.scroll_into_view_if_needed()
+        box = slider.bounding_box()
+        assert box is not None
+        begin = float(slider.evaluate("one => (one.value - one.min) / (one.max - one.min)"))
+        y = box["y"] + box["height"] / 2
+        mouse = self.page.mouse
+        mouse.move(box["x"] + box["width"] * begin, y)
+        mouse.down()
+        mouse.move(box["x"] + box["width"] * share, y, steps=6)
+        mouse.up()
+        wanted = float(slider.input_value())
+        wait_until(
+            f"{name} to be {wanted:g}",
+            lambda: abs(float(self.box(name).input_value()) - wanted) < 1e-9,
+        )
+        return self.box(name).input_value()
+
+    def picture(self) -> bytes:
+        """The pixels of the 3D view as PNG."""
+        return self.page.locator("iframe").screenshot()
+
+    def settle(self) -> bytes:
+        """Wait until the 3D view stands still; its picture."""
+        last = self.picture()
+
+        def same() -> bool:
+            nonlocal last
+            before, last = last, self.picture()
+            return before == last
+
+        wait_until("the 3D view to stand still", same)
+        return last
+
+
+@contextmanager
+def studio_page(browser: Browser, studio: RunningStudio) -> Iterator[StudioPage]:
+    """A tab that has opened the studio's printed address."""
+    context = browser.new_context(viewport={"width": 1280, "height": 720}, reduced_motion="reduce")
+    page = StudioPage(context.new_page())
+    try:
+        page.open(studio.url)
+        yield page
+    finally:
+        context.close()
+
+
+def changed_bytes(before: Path, after: bytes) -> list[tuple[bytes, bytes]]:
+    """Pairs of differing lines of a file before and after."""
+    old, new = before.read_bytes().splitlines(), after.splitlines()
+    assert len(old) == len(new)
+    return [pair for pair in zip(old, new, strict=True) if pair[0] != pair[1]]
