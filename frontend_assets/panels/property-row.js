@@ -3,10 +3,10 @@
 /** @import { SiteView } from "../types/wire.d.ts" */
 /** @import { Signal } from "vendor/preact.js" */
 
-import { html, useMemo } from "vendor/preact.js";
+import { html, signal, useEffect, useMemo } from "vendor/preact.js";
 import { editSite, resetSite, setArgument } from "../app/actions.js";
 import { mayEdit } from "../app/state/connection.js";
-import { documentState, problems } from "../app/state/document.js";
+import { documentState, problems, showingLastGood } from "../app/state/document.js";
 import { degrees, hovered } from "../app/state/view.js";
 import { isExpression } from "../lib/expressions.js";
 import { createGesture } from "../lib/gesture.js";
@@ -20,6 +20,8 @@ import { Editor } from "./property-editors.js";
 
 /**
  * @typedef {object} Writer sends the newest text of one site, one request at a time
+ * @property {Signal<string | null>} attempt what was written last; it stands in the source even when
+ *   the run with it failed and the studio still tells of the one before
  * @property {(text: string, options?: {held?: boolean}) => void} write `held`: by a drag that goes on
  * @property {(stepped?: boolean) => Promise<void>} end of the gesture, unless it was one step by a key;
  *   fulfilled when the last text was answered
@@ -29,13 +31,14 @@ import { Editor } from "./property-editors.js";
 export function PropertyRow({ site: followed }) {
   const site = followed.value;
   const writer = useMemo(() => createWriter(followed), [followed]);
-  const failure = failureOf(site);
-  const changed = isChanged(site);
+  const attempt = useAttempt(writer, site);
+  const failure = failureOf(site, attempt !== null);
+  const changed = isChanged(site) || attempt !== null;
   const link = site.owner.startsWith("link:") ? site.owner.slice(5) : null;
   const states = [failure && "bad", changed && "changed", site.reads === 0 && "idle"]
     .filter(Boolean)
     .join(" ");
-  const text = site.argument ?? site.text;
+  const text = attempt ?? site.argument ?? site.text;
   return html`<div class=${`property ${states}`} role="group" aria-label=${site.name} data-site=${site.id}
     onPointerEnter=${() => {
       if (link) hovered.value = link;
@@ -48,7 +51,7 @@ export function PropertyRow({ site: followed }) {
       <${RowMenu} site=${site} writer=${writer} />
     </div>
     <${Editor} part="below" site=${site} text=${text} writer=${writer} invalid=${failure !== null} />
-    <${Result} site=${site} text=${text} />
+    ${failure === null && html`<${Result} site=${site} text=${text} />`}
     ${failure && html`<p class="note bad" role="alert"><${Icon} name="error" size=${13} />${failure}</p>`}
     ${site.argument !== null && html`<${PassedNote} site=${site} />`}
     ${site.reads === 0 && html`<p class="note">${t("property.no_effect")}</p>`}
@@ -59,12 +62,16 @@ export function PropertyRow({ site: followed }) {
 /** @param {Signal<SiteView>} followed @returns {Writer} */
 function createWriter(followed) {
   const gesture = createGesture();
+  /** @type {Signal<string | null>} */
+  const attempt = signal(null);
   const sender = latestSender((/** @type {{text: string, id: string}} */ { text, id }) => {
     const site = followed.peek();
     return site.argument === null ? editSite(site.id, text, id) : setArgument(site.name, text);
   });
   return {
+    attempt,
     write(text, { held = false } = {}) {
+      attempt.value = text;
       sender.push({ text, id: gesture.id() });
       if (held) gesture.hold();
     },
@@ -76,14 +83,28 @@ function createWriter(followed) {
   };
 }
 
-/** @param {SiteView} site @returns {string | null} the error that stands at its very line */
-function failureOf(site) {
+/** @param {Writer} writer @param {SiteView} site @returns {string | null} the text that failed, while it does */
+function useAttempt({ attempt }, site) {
+  const failing = showingLastGood.value;
+  useEffect(() => {
+    attempt.value = null;
+  }, [site]);
+  useEffect(() => {
+    if (!failing) attempt.value = null;
+  }, [failing]);
+  return failing && attempt.value !== (site.argument ?? site.text) ? attempt.value : null;
+}
+
+/** @param {SiteView} site @param {boolean} tried @returns {string | null} the error that stands at its very line */
+function failureOf(site, tried) {
   const found = problems.value.find(
     ({ severity, place }) =>
       severity === "error" && place?.file === site.file && place.line === site.line,
   );
   // Several texts may share a line: only one that was changed, or that alone stands there, is to blame.
-  return found && (isChanged(site) || found.sentence.includes(site.name)) ? found.sentence : null;
+  return found && (tried || isChanged(site) || found.sentence.includes(site.name))
+    ? found.sentence
+    : null;
 }
 
 /** @param {{site: SiteView, changed: boolean}} props */
