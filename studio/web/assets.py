@@ -78,6 +78,8 @@ class Assets:
 
     def find(self, digest: str, path: str) -> tuple[Asset, bool] | None:
         """The file, and whether it is of that very tree (then it never changes)."""
+        if self._stamp is None:  # the first to ask may be a tab from before a restart
+            self.current()
         asset = self._tree.files.get(path)
         if asset is None:
             return None
