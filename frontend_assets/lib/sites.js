@@ -15,6 +15,11 @@ export function isChanged(site) {
   return site.saved_text !== null && site.saved_text !== site.text;
 }
 
+/** @param {SiteView} site @returns {string} its name without the path that its heading already says */
+export function shortName({ name, group }) {
+  return group !== "" && name.startsWith(`${group}.`) ? name.slice(group.length + 1) : name;
+}
+
 /** @param {SiteView} site @param {string} words lower case, all must be found @returns {boolean} */
 export function matchesWords(site, words) {
   const heap = `${site.name} ${site.group} ${site.text} ${site.widget.help}`.toLowerCase();

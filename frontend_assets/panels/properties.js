@@ -146,7 +146,7 @@ function Group({ group, folded, onToggle }) {
   return html`<section class="group" aria-label=${name}>
     <h3><button type="button" aria-expanded=${!folded} onClick=${onToggle}>
       <${Icon} name=${folded ? "chevronRight" : "chevronDown"} size=${13} />
-      <span class="group-name">${name}</span>
+      <span class=${`group-name ${name.includes(".") ? "tail" : ""}`}><bdi>${name}</bdi></span>
       <span class="group-file" title=${shortPath(group.file, root)}>
         ${readOnly && html`<${Icon} name="lock" size=${11} />`}${folded ? group.sites.length : group.group ? baseName(group.file) : ""}</span>
     </button></h3>

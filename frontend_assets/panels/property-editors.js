@@ -28,13 +28,18 @@ export function Editor(props) {
   return drawn ? html`<${drawn} ...${props} />` : null;
 }
 
+/** Characters of name and text that fit side by side. */
+const ONE_LINE = 30;
+
 /** @param {SiteView} site @param {string} text @returns {keyof typeof EDITORS} */
-function editorOf({ widget }, text) {
+function editorOf({ name, widget }, text) {
+  const long = name.length + shownText(text).length > ONE_LINE;
   if (widget.kind === "vector" && splitVector(text).length > 1) return "vector";
-  if (isExpression(text)) return "expression";
+  if (isExpression(text)) return long ? "longText" : "expression";
   if (widget.kind === "switch" && isTruthWord(text)) return "switch";
   if (widget.kind === "choice" && widget.choices.length > 0) return "choice";
-  return widget.kind === "slider" && parseNumber(text) !== null ? "number" : "text";
+  if (widget.kind === "slider" && parseNumber(text) !== null) return "number";
+  return long ? "longText" : "text";
 }
 
 /** @param {string} text */
@@ -128,7 +133,7 @@ function ExpressionBox({ site, text, writer, invalid }) {
 /** @param {EditorProps} props */
 function SwitchHead({ site, text, writer }) {
   const on = /^(true|1)$/i.test(text.trim());
-  return html`<span class="push"></span><${Switch} label=${site.name} checked=${on} disabled=${!mayEdit.value}
+  return html`<${Switch} label=${site.name} checked=${on} disabled=${!mayEdit.value}
     onChange=${(/** @type {boolean} */ next) => write(writer, likeWord(text, next))} />`;
 }
 
@@ -155,7 +160,7 @@ const TURNS = ["roll", "pitch", "yaw"];
 /** @param {SiteView} site @param {number} count @returns {string[]} names of the numbers of a vector */
 function partNames({ name }, count) {
   if (/rpy$/i.test(name) && count === 3) return TURNS;
-  if (/rgba?$/i.test(name)) return ["r", "g", "b", "a"].slice(0, count);
+  if (/(rgba?|colou?r)$/i.test(name)) return ["r", "g", "b", "a"].slice(0, count);
   return Array.from({ length: count }, (_, at) => (count <= 4 ? (AXES[at] ?? "") : String(at + 1)));
 }
 
@@ -163,7 +168,7 @@ function partNames({ name }, count) {
 function VectorBoxes({ site, text, writer, invalid }) {
   const parts = splitVector(text);
   const names = partNames(site, parts.length);
-  return html`<div class="vector">
+  return html`<div class=${`vector of-${parts.length}`}>
     ${parts.map(
       (
         part,
@@ -205,9 +210,9 @@ function vectorStep(site) {
   return site.widget.step ?? 0.01;
 }
 
-/** @param {EditorProps} props */
-function VectorUnit({ site }) {
-  return html`<span class="push"></span><${Unit} site=${site} />`;
+/** @param {EditorProps} props what is turned stands below */
+function UnitOnly({ site }) {
+  return html`<${Unit} site=${site} />`;
 }
 
 /** @param {EditorProps} props */
@@ -217,13 +222,22 @@ function PlainText({ site, text, writer, invalid }) {
     ${site.widget.unit && html`<${Unit} site=${site} />`}`;
 }
 
+/** @param {EditorProps} props a text that needs the whole width, below its name */
+function LongText({ site, text, writer, invalid }) {
+  const wrapped = shownText(text) !== text;
+  const names = isExpression(text) ? "expression wide" : "wide";
+  return html`<${TextBox} class=${names} label=${site.name} text=${shownText(text)} disabled=${!mayEdit.value} invalid=${invalid}
+    onWrite=${(/** @type {string} */ typed) => write(writer, writtenText(typed, wrapped || wraps(site)))} />`;
+}
+
 /** @typedef {(props: EditorProps) => unknown} Part */
-/** @type {{[kind in "number" | "expression" | "switch" | "choice" | "vector" | "text"]: {head: Part, below?: Part}}} */
+/** @type {{[kind in "number" | "expression" | "switch" | "choice" | "vector" | "text" | "longText"]: {head: Part, below?: Part}}} */
 const EDITORS = {
   number: { head: NumberHead, below: NumberSlider },
   expression: { head: ExpressionBox },
   switch: { head: SwitchHead },
   choice: { head: ChoiceHead },
-  vector: { head: VectorUnit, below: VectorBoxes },
+  vector: { head: UnitOnly, below: VectorBoxes },
   text: { head: PlainText },
+  longText: { head: UnitOnly, below: LongText },
 };

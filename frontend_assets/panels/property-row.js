@@ -14,7 +14,7 @@ import { t } from "../lib/i18n.js";
 import { latestSender } from "../lib/latest.js";
 import { formatNumber, toDegrees } from "../lib/numbers.js";
 import { placeText } from "../lib/paths.js";
-import { isChanged } from "../lib/sites.js";
+import { isChanged, shortName } from "../lib/sites.js";
 import { Icon, IconButton, MenuButton } from "../lib/ui.js";
 import { Editor } from "./property-editors.js";
 
@@ -111,8 +111,9 @@ function failureOf(site, tried) {
 function Name({ site, changed }) {
   const reset = t("property.reset", { name: site.name });
   const was = t("property.saved", { text: site.saved_text ?? "" });
-  return html`<span class="property-name" title=${`${site.name}\n${placeText(site)}`}>
-    ${site.kind === "literal" ? html`<span class="literal-name">${site.name}</span>` : site.name}</span>
+  // Of a long path its end tells most.
+  const tail = site.kind === "literal" || site.kind === "yaml" ? "tail" : "";
+  return html`<span class=${`property-name ${tail}`} title=${`${site.name}\n${placeText(site)}`}><bdi>${shortName(site)}</bdi></span>
     ${
       changed &&
       html`<${IconButton} icon="reset" size=${13} class="reset" label=${reset} hint=${`${reset}\n${was}`}

@@ -1,6 +1,12 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { countKinds, groupSites, inPieces, isChanged } from "../../frontend_assets/lib/sites.js";
+import {
+  countKinds,
+  groupSites,
+  inPieces,
+  isChanged,
+  shortName,
+} from "../../frontend_assets/lib/sites.js";
 
 /** @import { SiteView } from "../../frontend_assets/types/wire.d.ts" */
 
@@ -95,4 +101,10 @@ test("kinds are counted as they occur", () => {
     arg: 1,
     literal: 1,
   });
+});
+
+test("a path is not said twice, in the heading and in the name", () => {
+  assert.equal(shortName(site("limits.pan.max", { group: "limits.pan" })), "max");
+  assert.equal(shortName(site("limits.panning", { group: "limits.pan" })), "limits.panning");
+  assert.equal(shortName(site("limits", { group: "" })), "limits");
 });
