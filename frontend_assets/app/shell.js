@@ -7,7 +7,7 @@ import { goTo, openPath } from "./actions.js";
 import { commandById } from "./commands.js";
 import { Dialogs } from "./dialogs.js";
 import { PANELS, panelTitle } from "./panels.js";
-import { connection, role } from "./state/connection.js";
+import { connection, role, turnedAway } from "./state/connection.js";
 import { documentState, gone } from "./state/document.js";
 import { activePanel, dismiss, notices, size } from "./state/view.js";
 import { StatusBar } from "./status-bar.js";
@@ -47,6 +47,9 @@ function LostBar() {
     return () => clearTimeout(later);
   }, [lost]);
   if (!said.value) return null;
+  if (turnedAway.value) {
+    return html`<div class="bar lost" role="alert"><${Icon} name="lock" /><span><strong>${t("turned_away")}</strong> ${t("turned_away.hint")}</span></div>`;
+  }
   return html`<div class="bar lost" role="alert"><span class="spinner"></span>
     <span><strong>${t("lost")}</strong> ${t("lost.hint")}</span></div>`;
 }

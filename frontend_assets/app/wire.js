@@ -5,7 +5,7 @@
 /** @import { Command, Done, Event, Folder, Opened, Refused, Urdf } from "../types/wire.d.ts" */
 
 import { readJointFrame } from "../lib/frames.js";
-import { connection } from "./state/connection.js";
+import { connection, turnedAway } from "./state/connection.js";
 import { documentId, receive, takeJointFrame } from "./state/document.js";
 
 /** @typedef {Done | Folder | Opened | Urdf} Answer */
@@ -16,6 +16,7 @@ import { documentId, receive, takeJointFrame } from "./state/document.js";
  */
 
 const RETRY_MS = [250, 500, 1000, 2000, 3000];
+const ASK_WHY_EVERY = 3;
 /** Nothing came for so long that the lane is given up: the socket alone may not notice. */
 const GREETING_TIMEOUT_MS = 8000;
 
@@ -92,6 +93,12 @@ function open() {
   };
 }
 
+/** A socket does not say why it was refused; a plain request does. */
+async function askWhy() {
+  const answer = await fetch("/api/documents", { cache: "no-store" }).catch(() => null);
+  turnedAway.value = answer?.status === 401 || answer?.status === 403;
+}
+
 function lose() {
   socket = null;
   connection.value = "lost";
@@ -99,6 +106,7 @@ function lose() {
   waiting.clear();
   const delay = RETRY_MS[Math.min(attempts, RETRY_MS.length - 1)];
   attempts += 1;
+  if (attempts % ASK_WHY_EVERY === 0) askWhy();
   retryTimer = setTimeout(open, delay);
 }
 
@@ -114,6 +122,7 @@ function take(data) {
   if ("request" in event) answer(event);
   if (event.type !== "hello") return;
   attempts = 0;
+  turnedAway.value = false;
   connection.value = "connected";
   whenOpen();
 }
