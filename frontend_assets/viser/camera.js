@@ -28,12 +28,19 @@ export class CameraView {
   #untouched = true;
   #meshes = 0;
   #usualSmoothTime = 0;
+  /** @type {"rviz" | "trackpad"} */
+  #mouse = "rviz";
+  /** @type {object | null} The control that has these buttons: viser may make another. */
+  #mouseOf = null;
 
   /** @param {Door} door @param {RobotView} robot */
   constructor(door, robot) {
     this.#door = door;
     this.#robot = robot;
-    door.onPicture(() => this.#fitWhileMeshesArrive());
+    door.onPicture(() => {
+      if (this.#control() !== this.#mouseOf) this.setMouse(this.#mouse);
+      this.#fitWhileMeshesArrive();
+    });
     door.ready.then(({ camera }) => {
       if (!camera) return;
       camera.fov = FIELD_OF_VIEW_DEG;
@@ -92,7 +99,9 @@ export class CameraView {
   /** `rviz`: left orbits, middle (or Shift and left) pans, right or wheel zooms; `trackpad`: left
    * orbits, right pans, wheel zooms. @param {"rviz" | "trackpad"} mode */
   setMouse(mode) {
+    this.#mouse = mode;
     const control = this.#control();
+    this.#mouseOf = control;
     if (!control) return;
     const { ROTATE = 1, TRUCK = 2, DOLLY = 16 } = control.constructor.ACTION;
     const right = mode === "trackpad" ? TRUCK : DOLLY;

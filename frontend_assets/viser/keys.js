@@ -5,7 +5,7 @@ const OURS = new Set(["s", "z", "y", "k", "o", "1", "2", "3"]);
 
 /**
  * Hand every key to the page around us, as if it had been pressed there.
- * @param {(detail: object) => boolean} tell Answers whether nobody prevented what we do by default.
+ * @param {(detail: { key: string, [field: string]: unknown }) => boolean} tell Answers whether nobody prevented what we do by default.
  * @param {(event: KeyboardEvent) => void} byDefault
  */
 export function forwardKeys(tell, byDefault) {

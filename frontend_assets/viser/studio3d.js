@@ -28,10 +28,10 @@ class Studio3d {
 
   constructor() {
     /** Settles when the scene can be drawn. @type {Promise<void>} */
-    this.ready = this.#door.ready.then(() => this.setMouse("rviz"));
+    this.ready = this.#door.ready.then(() => undefined);
     this.#door.onConnection((connected) => this.#tell("connection", { connected }));
     forwardKeys(
-      (detail) => this.#tell("key", detail),
+      (detail) => !this.#endsDrag(detail) && this.#tell("key", detail),
       (event) => this.#keyByDefault(event),
     );
   }
@@ -123,11 +123,16 @@ class Studio3d {
     return this.events.dispatchEvent(new CustomEvent(type, { detail, cancelable: true }));
   }
 
+  /** While a link is dragged, Escape means that and nothing else. @param {{ key: string }} stroke */
+  #endsDrag({ key }) {
+    if (key !== "Escape" || !this.#pointer.dragging) return false;
+    this.#pointer.cancel();
+    return true;
+  }
+
   /** @param {KeyboardEvent} event */
-  #keyByDefault(event) {
-    if (event.key === "Escape") this.#pointer.cancel();
-    else if (event.key.toLowerCase() === "f" && !event.ctrlKey && !event.metaKey && !event.altKey)
-      this.fit();
+  #keyByDefault({ key, ctrlKey, metaKey, altKey }) {
+    if (key.toLowerCase() === "f" && !ctrlKey && !metaKey && !altKey) this.fit();
   }
 }
 
