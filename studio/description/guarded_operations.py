@@ -239,9 +239,9 @@ def _count(value: Any, left: int) -> int:  # noqa: ANN401
 def _items(value: Any) -> Iterator[Any]:  # noqa: ANN401
     """Raw items: looking at a YAML value must not count as reading it."""
     if isinstance(value, dict):
-        return iter(dict.values(cast("dict[Any, Any]", value)))
+        return iter(cast("Any", dict).values(value))
     if isinstance(value, list):
-        return list.__iter__(cast("list[Any]", value))
+        return cast("Any", list).__iter__(value)
     if isinstance(value, tuple | set):
         return iter(cast("Iterable[Any]", value))
     return iter(())
