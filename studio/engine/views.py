@@ -85,6 +85,7 @@ def _joint_view(joint: Joint, axis: list[float], assembly: Assembly) -> JointVie
         lower=limit.lower if limit else None,
         upper=limit.upper if limit else None,
         mimic=joint.mimic.joint if joint.mimic else "",
+        multiplier=joint.mimic.multiplier if joint.mimic else 1.0,
         file=part.place.file if part else "",
         line=part.place.line if part else 0,
     )

@@ -122,13 +122,14 @@ def canonical_dom(element: minidom.Element) -> Canonical:
 
 
 def _add_text(children: list[Canonical | str], text: str) -> None:
-    """Texts that only a dropped comment separates are one."""
-    if not text.strip():
+    """Texts that only a dropped comment or blanks separate are one, and blanks do not count."""
+    solid = "".join(text.split())
+    if not solid:
         return
     if children and isinstance(children[-1], str):
-        children[-1] += text.strip()
+        children[-1] += solid
     else:
-        children.append(text.strip())
+        children.append(solid)
 
 
 def stock(
