@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Generator
     from pathlib import Path
 
     from playwright.sync_api import Browser, ConsoleMessage, Locator, Page
@@ -115,7 +115,7 @@ class StudioPage:
 
 
 @contextmanager
-def studio_page(browser: Browser, studio: RunningStudio) -> Iterator[StudioPage]:
+def studio_page(browser: Browser, studio: RunningStudio) -> Generator[StudioPage]:
     """A tab that has opened the studio's printed address."""
     context = browser.new_context(viewport={"width": 1280, "height": 720}, reduced_motion="reduce")
     page = StudioPage(context.new_page())
