@@ -38,6 +38,7 @@ def call_macro(
 ) -> None:
     """Evaluate a macro's body in a new scope, whose parent is the caller's."""
     macro, macros_in, scope_in = _resolve(node.tag[6:], macros, scope)
+    written = macro.body  # what stands inside the call may define the macro anew
     outer_frame = run.frame
     frame = CallFrame(macro.name, node.origin, outer_frame)
     run.budget.depth(frame.depth, macro.name)
@@ -48,10 +49,10 @@ def call_macro(
     if left:
         raise _missing(macro, left)
     run.frame = frame
-    body = OutputElement("xacro:macro", macro.body.origin, frame)
-    run.texts.at = macro.body.origin
-    body.attributes = run.echo_attributes(macro.body, inner)
-    run.children(macro.body, body, MacroTable(macros_in), inner)
+    body = OutputElement("xacro:macro", written.origin, frame)
+    run.texts.at = written.origin
+    body.attributes = run.echo_attributes(written, inner)
+    run.children(written, body, MacroTable(macros_in), inner)
     run.frame = outer_frame
     run.texts.at = node.origin
     import_namespaces(run.texts, out, body.attributes)

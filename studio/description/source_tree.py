@@ -292,6 +292,8 @@ def _sentence_of(error: expat.ExpatError) -> str:
     reason = expat.ErrorString(error.code)
     if reason == expat.errors.XML_ERROR_TAG_MISMATCH:
         return "A closing tag does not match the tag that is open here."
+    if reason == expat.errors.XML_ERROR_MISPLACED_XML_PI:
+        return "<?xml ...?> must be the very first thing of the file: move it up or remove it."
     if reason == expat.errors.XML_ERROR_NO_ELEMENTS:
         return "The file ends before its root element does: close every tag."
     return f"The XML is not well-formed here: {reason}."
