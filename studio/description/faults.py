@@ -5,10 +5,12 @@ from __future__ import annotations
 from difflib import get_close_matches
 from typing import TYPE_CHECKING
 
+from studio.problems import Fix, Place, Problem, Severity
+
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from studio.problems import MacroCall, Place
+    from studio.problems import MacroCall
 
 
 class Fault(Exception):  # noqa: N818 - a fault of the description, not of the studio
@@ -51,3 +53,19 @@ def shorten(text: str, limit: int = 120) -> str:
     """A text for a sentence: on one line, cut when long."""
     line = " ".join(text.split())
     return line if len(line) <= limit else line[: limit - 3] + "..."
+
+
+def problem_of(fault: Fault, entry: str) -> Problem:
+    """A fault as the studio reports it."""
+    fix = None
+    if fault.package:
+        fix = Fix("Choose its folder", "choose_package", fault.package)
+    return Problem(
+        Severity.ERROR,
+        fault.code,
+        fault.sentence,
+        fault.place or Place(entry),
+        fault.include_chain,
+        fault.macro_stack,
+        fix,
+    )

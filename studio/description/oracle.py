@@ -24,8 +24,9 @@ from xacro import substitution_args
 
 from studio.description import guarded_operations as guarded
 from studio.description.budget import Budget, Limits
+from studio.description.evaluation import Evaluation
 from studio.description.expressions import HELPERS, compile_expression
-from studio.description.faults import Fault, Refusal
+from studio.description.faults import Fault, Refusal, Unsupported, problem_of
 from studio.description.guarded_operations import METHODS
 from studio.description.packages_found import find_package
 from studio.description.source_store import SourceStore
@@ -65,7 +66,13 @@ def export_urdf(
         RefusedError: It asks for something unsafe or over budget.
     """
     store = SourceStore(ServedRoots(map(Path, policy.roots)), overlay or {})
-    return _process(file, arguments, _Guard(policy, store, limits)).toprettyxml(indent="  ")
+    try:
+        document = _process(file, arguments, _Guard(policy, store, limits))
+    except RefusedError:
+        raise
+    except ExpansionError as error:
+        raise _located(error, Evaluation(store, policy, arguments), file) from None
+    return document.toprettyxml(indent="  ")
 
 
 def expand_root(
@@ -85,6 +92,17 @@ def _process(file: str, arguments: Mapping[str, str], guard: _Guard) -> Document
             raise _translated(error, file) from None
         except (OSError, LookupError, TypeError, ValueError, AttributeError) as error:
             raise _translated(error, file) from None
+
+
+def _located(error: ExpansionError, evaluation: Evaluation, file: str) -> ExpansionError:
+    """The same error with a line and what to do, when our evaluator stops as well."""
+    try:
+        evaluation.run(file)
+    except Fault as fault:
+        return ExpansionError(problem_of(fault, file))
+    except Unsupported:
+        pass
+    return error
 
 
 def _translated(error: BaseException, file: str) -> ExpansionError:

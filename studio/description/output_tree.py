@@ -6,7 +6,7 @@ import re
 from typing import TYPE_CHECKING, Final, TypeAlias
 
 from studio.description.source_tree import SourceComment, SourceElement, SourceText
-from studio.problems import MacroCall, Place
+from studio.problems import MacroCall
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -97,8 +97,3 @@ def _write(element: OutputElement, out: list[str], attributes: dict[str, str]) -
 
 def _escape(match: re.Match[str]) -> str:
     return _ESCAPES[match[0]]
-
-
-def place_of(element: OutputElement) -> Place:
-    """Where the element is written."""
-    return element.origin.place

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
 from studio.description.evaluation import Evaluation
-from studio.description.faults import Fault, Refusal, Unsupported
+from studio.description.faults import Fault, Refusal, Unsupported, problem_of
 from studio.description.output_tree import OutputElement
 from studio.description.parts import keys_by_source, part_of, write_parts
 from studio.description.run_record import RunRecord
@@ -23,7 +23,7 @@ from studio.description.values import (
 )
 from studio.errors import DescriptionError, EditError, ExpansionError
 from studio.packages.roots import ServedRoots
-from studio.problems import Fix, Place, Problem, Severity
+from studio.problems import Place, Problem, Severity
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -159,22 +159,6 @@ def _check_root(root: OutputElement) -> None:
         fault = Fault("root-not-robot", sentence)
         fault.place = root.origin.place
         raise fault
-
-
-def problem_of(fault: Fault, entry: str) -> Problem:
-    """A fault as the studio reports it."""
-    fix = None
-    if fault.package:
-        fix = Fix("Choose its folder", "choose_package", fault.package)
-    return Problem(
-        Severity.ERROR,
-        fault.code,
-        fault.sentence,
-        fault.place or Place(entry),
-        fault.include_chain,
-        fault.macro_stack,
-        fix,
-    )
 
 
 def _problem_of_error(error: DescriptionError, entry: str) -> Problem:

@@ -86,7 +86,8 @@ class SourceStore:
                 data = self._data[real] = self._roots.read(real)
             except UnreadableFileError as error:
                 self._real.pop(path, None)  # it may come back as a link to elsewhere
-                raise Fault("file-unreadable", str(error), unreadable=True) from None
+                sentence = f"The file {error.path} {error.reason}"
+                raise Fault("file-unreadable", sentence, unreadable=True) from None
             except OutsideRootsError as error:
                 raise Refusal("outside-roots", str(error), unreadable=True) from None
         return real, data

@@ -135,7 +135,7 @@ def test_what_the_command_refuses_the_exporter_refuses_with_a_sentence(tmp_path:
     (tmp_path / "scratch").mkdir()
     with pytest.raises(subprocess.CalledProcessError):
         StockCommand(tmp_path / "scratch", {}).run(str(file))
-    with pytest.raises(ExpansionError, match="unknown macro name"):
+    with pytest.raises(ExpansionError, match=r"a\.xacro:1:\d+: There is no macro \"nope\""):
         export_urdf(str(file), {}, policy_for(tmp_path))
 
 
