@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import contextlib
 from typing import TYPE_CHECKING
 
 from studio.description.client import DescriptionWorker
@@ -12,6 +11,8 @@ from studio.robot.pool import mesh_pool
 from studio.robot.validation import UrdfValidator
 
 if TYPE_CHECKING:
+    from collections.abc import Coroutine
+
     from studio.settings import Settings
 
 
@@ -23,20 +24,29 @@ class Services:
         self._pool = mesh_pool()
         self.meshes = MeshLibrary(settings.data_folder / "meshes", self._pool)
         self.validator = UrdfValidator()
-        self._warming: asyncio.Task[None] | None = None
+        self._spare = DescriptionWorker()
+        self._warming: set[asyncio.Task[None]] = set()
 
     async def start(self) -> None:
-        """Warm the mesh workers in the background."""
-        self._warming = asyncio.create_task(self._pool.warm())
+        """Warm the workers in the background."""
+        self._warm(self._spare.warm())
+        self._warm(self._pool.warm())
 
     def description_worker(self) -> DescriptionWorker:
-        """A worker of one document's own."""
-        return DescriptionWorker()
+        """A worker of one document's own, warm where one was spare; the next spare is started."""
+        taken, self._spare = self._spare, DescriptionWorker()
+        self._warm(self._spare.warm())
+        return taken
+
+    def _warm(self, work: Coroutine[None, None, None]) -> None:
+        task = asyncio.create_task(work)
+        self._warming.add(task)
+        task.add_done_callback(self._warming.discard)
 
     async def close(self) -> None:
         """End all workers."""
-        if self._warming:
-            self._warming.cancel()
-            with contextlib.suppress(asyncio.CancelledError):
-                await self._warming
-        await asyncio.gather(self._pool.close(), self.validator.close())
+        warming = tuple(self._warming)
+        for task in warming:
+            task.cancel()
+        await asyncio.gather(*warming, return_exceptions=True)
+        await asyncio.gather(self._pool.close(), self._spare.close(), self.validator.close())

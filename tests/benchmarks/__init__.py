@@ -1,0 +1,1 @@
+"""`make bench`: each figure beside its peer, measured interleaved in the same run."""

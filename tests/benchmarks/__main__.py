@@ -1,0 +1,36 @@
+"""`python -m tests.benchmarks [name ...]`: all benchmarks, or those whose name is given."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING
+
+from tests.benchmarks import edit_to_pixels, edit_to_websocket, meshes_to_websocket, start
+from tests.benchmarks.report import say, say_machine
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+BENCHMARKS: dict[str, Callable[[], None]] = {
+    "start": start.run,
+    "edit": edit_to_websocket.run,
+    "pixels": edit_to_pixels.run,
+    "meshes": meshes_to_websocket.run,
+}
+
+
+def main(names: list[str]) -> int:
+    """Run the named ones; answers the exit code."""
+    unknown = [name for name in names if name not in BENCHMARKS]
+    if unknown:
+        say(f"There is no benchmark {unknown[0]}: choose of {', '.join(BENCHMARKS)}.")
+        return 2
+    say_machine()
+    for name in names or BENCHMARKS:
+        say(f"\n[{name}]")
+        BENCHMARKS[name]()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

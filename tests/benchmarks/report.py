@@ -1,0 +1,66 @@
+"""Figures and how they are printed: medians and p95, ratios first."""
+
+from __future__ import annotations
+
+import os
+import statistics
+import sys
+import time
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Generator
+
+
+@dataclass
+class Timings:
+    """Milliseconds of one thing, run after run."""
+
+    name: str
+    values_ms: list[float] = field(default_factory=list[float])
+
+    @contextmanager
+    def measure(self) -> Generator[None]:
+        """Time the block."""
+        begin_s = time.perf_counter()
+        yield
+        self.values_ms.append((time.perf_counter() - begin_s) * 1000)
+
+    @property
+    def median_ms(self) -> float:
+        """The middle value."""
+        return statistics.median(self.values_ms)
+
+    @property
+    def p95_ms(self) -> float:
+        """The value that one in twenty passes."""
+        ordered = sorted(self.values_ms)
+        return ordered[min(len(ordered) - 1, round(0.95 * (len(ordered) - 1)))]
+
+
+def say(line: str = "") -> None:
+    """Write a line at once."""
+    sys.stdout.write(f"{line}\n")
+    sys.stdout.flush()
+
+
+def say_machine() -> None:
+    """What the figures were measured on."""
+    load = f", load {os.getloadavg()[0]:.1f}" if hasattr(os, "getloadavg") else ""
+    say(f"{os.cpu_count()} cores{load}, Python {sys.version.split()[0]}; compare ratios")
+
+
+def say_beside(title: str, ours: Timings, *peers: Timings) -> None:
+    """One line for ours and one for each peer with how many times ours it takes."""
+    say(f"{title}")
+    say(f"  {ours.name:<44}{_figures(ours)}")
+    for peer in peers:
+        ratio = peer.median_ms / ours.median_ms if ours.median_ms else float("inf")
+        say(f"  {peer.name:<44}{_figures(peer)}   {ratio:.1f} x ours")
+
+
+def _figures(timings: Timings) -> str:
+    runs = len(timings.values_ms)
+    return f"median {timings.median_ms:9.2f} ms   p95 {timings.p95_ms:9.2f} ms   n {runs}"
