@@ -45,19 +45,13 @@ def run() -> None:
 
 
 def _robots(folder: Path) -> Iterable[MeasuredRobot]:
+    """Each with the folder that a person would open; turtlebot4 needs another repository."""
+    anymal = next(folder.rglob("urdf/anymal.urdf"))
+    yield MeasuredRobot("ANYmal C", anymal, packages=anymal.parents[1])
     ur = next(folder.rglob("ur.urdf.xacro"))
-    yield MeasuredRobot(
-        "ANYmal C",
-        next(folder.rglob("anymal_c_simple_description/urdf/anymal.urdf"), None)
-        or next(folder.rglob("anymal.urdf")),
-        (),
-        "",
-        folder,
-    )
-    yield MeasuredRobot("UR10e", ur, ("ur_type:=ur10e", "name:=ur"), "", folder)
-    yield MeasuredRobot(
-        "turtlebot4", next(folder.rglob("standard/turtlebot4.urdf.xacro")), (), "", folder
-    )
+    yield MeasuredRobot("UR10e", ur, ("ur_type:=ur10e", "name:=ur"), packages=ur.parents[1])
+    turtlebot = next(folder.rglob("standard/turtlebot4.urdf.xacro"))
+    yield MeasuredRobot("turtlebot4", turtlebot, packages=folder)
 
 
 def _measure(robot: MeasuredRobot, folder: Path) -> None:
@@ -67,7 +61,7 @@ def _measure(robot: MeasuredRobot, folder: Path) -> None:
     for _ in range(RUNS):
         with tempfile.TemporaryDirectory() as scratch:
             for timings in (cold, warm):
-                timings.values_ms.append(_opened_ms(robot, folder, Path(scratch) / "data"))
+                timings.values_ms.append(_opened_ms(robot, Path(scratch) / "data"))
         with load.measure():
             peer.load()
         with bare.measure():
@@ -76,9 +70,9 @@ def _measure(robot: MeasuredRobot, folder: Path) -> None:
     say_beside("", warm, load, bare)
 
 
-def _opened_ms(robot: MeasuredRobot, folder: Path, data: Path) -> float:
+def _opened_ms(robot: MeasuredRobot, data: Path) -> float:
     """Milliseconds from the command that opens the robot to the last frame that came of it."""
-    options = ["open", str(rover().file), "--package-path", str(folder)]
+    options = ["open", str(rover().file), "--package-path", str(robot.packages)]
     with running_studio(options, data) as studio:
         time.sleep(_WARM_S)  # the workers warm up in the background, which nothing tells
         return Opening(studio).measure_ms(robot)
