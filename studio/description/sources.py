@@ -203,6 +203,15 @@ class Sources:
         is_same = text.disk[base.start : base.end] == text.now[span.start : span.end]
         return None if is_same else decode(text.disk, base)
 
+    def current_text(self, site_id: str) -> str:
+        """What stands at a site now, whether or not a run has seen it.
+
+        Raises:
+            StaleEditError: The site is no longer where the last run saw it.
+        """
+        site = self.spans.site(site_id)
+        return decode(self._held(site.place.file).now, self.spans.span(site_id))
+
     def set_argument(self, name: str, value: str | None, gesture: str = "") -> None:
         """Pass an argument, or take it back with None; an undo step like any edit."""
         change = ArgumentChange(name, self._arguments.get(name), value)

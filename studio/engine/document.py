@@ -102,6 +102,11 @@ class Document:
         """Whether the joints swing now."""
         return self._animation.running
 
+    @property
+    def worker_pid(self) -> int | None:
+        """Process id of its xacro worker while that runs."""
+        return self._runs.worker_pid
+
     def packages_used(self) -> dict[str, str]:
         """Each package that a file of the last run or a mesh lies in, and which copy it is."""
         files = (*self._files, *self._meshes.files.values())
@@ -239,6 +244,7 @@ class Document:
         self.failed = True
         self._files = tuple(dict.fromkeys((*self._files, *failure.files)))
         self.sources.track(failure.files)
+        self.board.book.take_failure(self.sources)
         self.board.find("expansion", (self._with_undo(failure.problem),))
 
     def _take_expansion(self, expansion: Expansion, version: int) -> None:

@@ -57,6 +57,11 @@ class EditLoop:
         self._waiters: list[asyncio.Future[None]] = []
         self._turns: asyncio.Task[None] | None = None
 
+    @property
+    def worker_pid(self) -> int | None:
+        """Process id of the worker while it runs."""
+        return self._worker.pid
+
     async def edit(self, edits: Iterable[Edit]) -> None:
         """Run with these edits, which the sources already hold."""
         self._edits.extend(edits)

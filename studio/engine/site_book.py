@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from studio.description.values import SiteKind
@@ -24,16 +25,30 @@ class SiteBook:
         self._told: dict[str, SiteView] = {}
         self._unsure: set[str] = set()
         self._order_is_news = False
+        self._ahead: set[str] = set()
+        """Sites told with a text that no good run has seen."""
 
     def take(self, expansion: Expansion) -> None:
         """Take in a good run."""
         self.sites |= {site.id: site for site in expansion.changed_sites}
         self._unsure.update(site.id for site in expansion.changed_sites)
+        self._unsure |= self._ahead
+        self._ahead.clear()
         if expansion.site_order is None or expansion.site_order == self._order:
             return
         self._order, self._order_is_news = expansion.site_order, True
         self.sites = {name: self.sites[name] for name in self._order if name in self.sites}
         self._told = {name: view for name, view in self._told.items() if name in self.sites}
+
+    def take_failure(self, sources: Sources) -> None:
+        """A run failed: the texts as they stand in edited files are news, the values are not."""
+        unsaved = set(sources.unsaved_files)
+        for name, site in self.sites.items():
+            if name in self._ahead or (
+                site.place.file in unsaved and sources.current_text(name) != site.text
+            ):
+                self._ahead.add(name)
+        self._unsure |= self._ahead
 
     def doubt_all(self) -> None:
         """Compare every site at the next `news`: a save, a reload or an argument came between."""
@@ -44,7 +59,10 @@ class SiteBook:
         arguments = sources.arguments
         changed: list[SiteView] = []
         for name in self._unsure & self.sites.keys():
-            view = _view(self.sites[name], sources, arguments)
+            site = self.sites[name]
+            if name in self._ahead:
+                site = replace(site, text=sources.current_text(name))
+            view = _view(site, sources, arguments)
             if view != self._told.get(name):
                 self._told[name] = view
                 changed.append(view)
