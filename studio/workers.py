@@ -109,14 +109,25 @@ class Worker:
 
     async def _ensure_process(self) -> asyncio.subprocess.Process:
         if self._process is None or self._process.returncode is not None:
-            self._process = await asyncio.create_subprocess_exec(
-                *self._command,
-                stdin=asyncio.subprocess.PIPE,
-                stdout=asyncio.subprocess.PIPE,
-                limit=1 << 20,
-            )
+            self._process = await self._start()
             self.generation += 1
         return self._process
+
+    async def _start(self) -> asyncio.subprocess.Process:
+        starting = asyncio.ensure_future(self._spawn())
+        try:
+            return await asyncio.shield(starting)
+        except asyncio.CancelledError:
+            self._process = await starting  # else nobody would know of it and end it
+            raise
+
+    async def _spawn(self) -> asyncio.subprocess.Process:
+        return await asyncio.create_subprocess_exec(
+            *self._command,
+            stdin=asyncio.subprocess.PIPE,
+            stdout=asyncio.subprocess.PIPE,
+            limit=1 << 20,
+        )
 
     async def _exchange(self, process: asyncio.subprocess.Process, request: object) -> bytes:
         assert process.stdin is not None

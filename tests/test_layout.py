@@ -128,7 +128,7 @@ def test_every_requirement_is_pinned():
 
 
 # Folders of tests that go through several rooms, and tests of a room as a whole.
-ACROSS_ROOMS = {"benchmarks", "browser", "contract", "models"}
+ACROSS_ROOMS = {"bad_input", "benchmarks", "browser", "contract", "corpus", "course", "models"}
 OF_A_WHOLE_ROOM = {"test_browser_view.py", "test_corpus.py", "test_hostile_input.py"}
 
 

@@ -128,8 +128,10 @@ class Document:
     async def close(self) -> None:
         """End everything that runs for this document."""
         self._animation.stop()
-        for task in self._background.values():
+        background = tuple(self._background.values())
+        for task in background:
             task.cancel()
+        await asyncio.gather(*background, return_exceptions=True)
         await asyncio.gather(self._watch.close(), self._meshes.close(), self._runs.close())
         self.scene.close()
 

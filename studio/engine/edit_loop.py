@@ -85,10 +85,11 @@ class EditLoop:
 
     async def close(self) -> None:
         """End the worker; those who wait are cancelled."""
-        if self._turns:
-            self._turns.cancel()
         for waiter in self._waiters:
             waiter.cancel()
+        if self._turns:
+            self._turns.cancel()
+            await asyncio.gather(self._turns, return_exceptions=True)
         await self._worker.close()
 
     async def _next_run(self) -> None:
@@ -104,6 +105,10 @@ class EditLoop:
             try:
                 version = self._sources.spans.version
                 self._take(await self._run(), version)
+            except asyncio.CancelledError:
+                for waiter in waiters:
+                    waiter.cancel()
+                raise
             except Exception as error:  # noqa: BLE001 - handed on to everyone who waits for it
                 _settle(waiters, error)
             else:

@@ -17,6 +17,8 @@ from tests.support.packages import write_package
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from studio.engine.document import Document
+
 pytestmark = pytest.mark.timeout(120)
 
 ARM = """<?xml version="1.0"?>
@@ -42,9 +44,9 @@ def arm(tmp_path: Path) -> Path:
     return package / "urdf" / "arm.urdf.xacro"
 
 
-def height_of(document: object) -> float:
+def height_of(document: Document) -> float:
     """Where the tip stands, m."""
-    model = document.model  # type: ignore[attr-defined]
+    model = document.model
     return float(model.kinematics.wxyz_xyz(model.joints.values)[1, 6])
 
 
