@@ -70,17 +70,24 @@ export function OpenDialog({ onClose }) {
 export function PackageDialog({ name, onClose }) {
   const browser = useBrowser();
   const words = useSignal("");
+  // A missing package often lies where nothing is served: its folder can be written, too.
+  const written = useSignal("");
+  const path = written.value.trim() || browser.folder.value?.path;
   const choose = async () => {
-    const path = browser.folder.value?.path;
     if (path && (await choosePackage(name, path))) onClose();
   };
   return html`<${Dialog} title=${t("package.title", { name })} closeLabel=${t("close")} class="open-dialog" onClose=${onClose}>
     <p class="dialog-text">${t("package.text", { name })}</p>
     <${Bar} browser=${browser} words=${words} />
     <${Entries} browser=${browser} words=${words.value} opening="" onOpen=${null} />
-    <footer><span class="place">${browser.folder.value?.path ?? ""}</span><span class="push"></span>
+    <label class="field"><span>${t("package.path")}</span>
+      <input type="text" class="box wide" placeholder=${browser.folder.value?.path ?? ""} spellcheck=${false} value=${written.value}
+        onInput=${(/** @type {any} */ event) => {
+          written.value = event.currentTarget.value;
+        }} /></label>
+    <footer><span class="place">${path ?? ""}</span><span class="push"></span>
       <button type="button" class="button" onClick=${onClose}>${t("cancel")}</button>
-      <button type="button" class="button primary" disabled=${!browser.folder.value?.path} onClick=${choose}>${t("package.use")}</button></footer>
+      <button type="button" class="button primary" disabled=${!path} onClick=${choose}>${t("package.use")}</button></footer>
   <//>`;
 }
 
