@@ -13,6 +13,7 @@ from studio.description.sources import Change, FileChange, Sources
 from studio.description.values import Expansion, Failure, ReadPolicy
 from studio.engine.animation import Animation
 from studio.engine.board import Board
+from studio.engine.disk_problems import changed_on_disk, file_gone
 from studio.engine.edit_loop import EditLoop, Outcome, Target
 from studio.engine.mesh_loading import MeshLoading
 from studio.engine.messages import Built, Saved
@@ -21,7 +22,7 @@ from studio.engine.watching import FileWatch
 from studio.errors import CommandError
 from studio.packages.roots import package_folder_of
 from studio.packages.uris import resolve_uri
-from studio.problems import Fix, Place, Problem, Severity
+from studio.problems import Fix, Problem
 from studio.scene import DocumentScene
 from studio.settings import LOOPBACK_HOSTS, XACRO_ENVIRONMENT
 
@@ -117,7 +118,12 @@ class Document:
     def start(self) -> None:
         """Begin the first run; the audience hears how it goes."""
         self.sources.track([self.path])
-        self._spawn("opening", self._timed(self._runs.reopen()))
+        self._spawn("opening", self._open())
+
+    async def _open(self) -> None:
+        self.board.progress("expand", 0, 1)
+        await self._timed(self._runs.reopen())
+        self.board.progress("expand", 1, 1)
 
     async def opened(self) -> None:
         """Wait for the first run and the meshes that it named."""
@@ -257,6 +263,8 @@ class Document:
         change = self.model.take(expansion)
         self.board.find("expansion", expansion.warnings)
         self.board.find("robot", change.problems)
+        self.board.find("inertia", self.model.inertia_problems())
+        self.board.find("packages", (*self.location.problems, *self._duplicates()))
         self._want_meshes()
         if is_first or change.structural or change.changed_joints:
             self.board.robot()
@@ -293,8 +301,8 @@ class Document:
     async def _changed_on_disk(self, files: set[str]) -> None:
         self._meshes.want([uri for uri, file in self._meshes.files.items() if file in files])
         found = {file: self.sources.refresh(file) for file in files & set(self._files)}
-        gone = [_gone(file) for file, what in found.items() if what is FileChange.GONE]
-        conflicts = [_conflict(file) for file in sorted(self.sources.conflicts)]
+        gone = [file_gone(file) for file, what in found.items() if what is FileChange.GONE]
+        conflicts = [changed_on_disk(file) for file in sorted(self.sources.conflicts)]
         self.board.find("disk", (*gone, *conflicts))
         self.board.book.doubt_all()
         self._texts_changed()
@@ -312,6 +320,10 @@ class Document:
         self.scene.flush()
         self._watch_files()
         self.board.find("mesh", self._mesh_problems())
+
+    def _duplicates(self) -> list[Problem]:
+        """The packages in use of which there is more than one copy."""
+        return self.location.index.duplicates(self.entry, self.packages_used())
 
     def _mesh_problems(self) -> list[Problem]:
         """What is wrong with meshes, each at the first link that names it."""
@@ -376,16 +388,3 @@ class Document:
             trusted=trusted,
         )
         return Target(self.path, policy)
-
-
-def _conflict(file: str) -> Problem:
-    sentence = (
-        "This file was changed on disk while it has unsaved edits here: "
-        "reload to take the disk's text (undo brings your edits back)."
-    )
-    return Problem(Severity.WARNING, "changed-on-disk", sentence, Place(file))
-
-
-def _gone(file: str) -> Problem:
-    sentence = "This file can no longer be read from disk; its last text is kept here."
-    return Problem(Severity.WARNING, "file-gone", sentence, Place(file))

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 
 from studio.engine.joints import JointPositions
 from studio.robot.assembly import Assembly, Change
+from studio.robot.inertia import inertia_problems
 from studio.robot.kinematics import Kinematics
 from studio.robot.values import Mesh, Robot
 
@@ -14,6 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
     from studio.description.values import Expansion, Part
+    from studio.problems import Problem
     from studio.scene import DocumentScene
 
 
@@ -27,6 +30,7 @@ class Model:
         self.joints = JointPositions(self.kinematics)
         self.revision = 0
         """Counts structural changes."""
+        self._inertia: dict[str, list[Problem]] = {}
 
     @property
     def robot(self) -> Robot:
@@ -45,7 +49,23 @@ class Model:
             self.revision += change.structural
         self.scene.show(change.robot, change.changed_links | self._axes_of(change))
         self.pose()
+        self._weigh(change)
         return change
+
+    def inertia_problems(self) -> list[Problem]:
+        """What no body can have, at the links that have it."""
+        return [problem for found in self._inertia.values() for problem in found]
+
+    def _weigh(self, change: Change) -> None:
+        """Look at the inertias that changed; the others are as they were."""
+        links = change.robot.links
+        self._inertia = {name: found for name, found in self._inertia.items() if name in links}
+        for name in change.changed_links & links.keys():
+            part = self.assembly.part(f"link:{name}")
+            place = part.place if part else None
+            self._inertia[name] = [
+                replace(problem, place=place) for problem in inertia_problems(links[name])
+            ]
 
     def pose(self) -> None:
         """Send the links to where the joint positions put them."""
