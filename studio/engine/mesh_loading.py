@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from studio.errors import PackageError, RobotError, WorkerError
 from studio.problems import Problem, Severity
+from studio.robot.textured import split_textured
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -69,12 +70,14 @@ class MeshLoading:
     async def _load(self, uri: str) -> None:
         mesh: LoadedMesh | None = None
         try:
-            path, roots = self._resolve(uri)
+            shape, file = split_textured(uri)
+            path, roots = self._resolve(file)
             self.files[uri] = str(path)
-            mesh = await self._library.load(path, roots)
+            mesh = await self._library.load(path, roots, shape)
             self.problems.pop(uri, None)
         except (PackageError, RobotError, WorkerError) as error:
-            self.problems[uri] = Problem(Severity.WARNING, "mesh", f"Mesh {error}")
+            what = "Texture" if uri != split_textured(uri)[1] else "Mesh"
+            self.problems[uri] = Problem(Severity.WARNING, "mesh", f"{what} {error}")
         finally:
             self._tasks.pop(uri, None)
             self._done += 1

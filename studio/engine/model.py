@@ -10,7 +10,8 @@ from studio.engine.joints import JointPositions
 from studio.robot.assembly import Assembly, Change
 from studio.robot.inertia import inertia_problems
 from studio.robot.kinematics import Kinematics
-from studio.robot.values import Mesh, Robot
+from studio.robot.textured import mesh_uris
+from studio.robot.values import Robot
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -87,9 +88,8 @@ class Model:
 
     def _meshes_by_link(self) -> Iterator[tuple[str, str]]:
         for link in self.robot.links.values():
-            for shape in (*link.visuals, *link.collisions):
-                if isinstance(shape.geometry, Mesh):
-                    yield link.name, shape.geometry.uri
+            for uri in mesh_uris(link):
+                yield link.name, uri
 
     def urdf(self, root_attributes: Iterable[tuple[str, str]]) -> str:
         """The robot as URDF text, one indented element after the other."""

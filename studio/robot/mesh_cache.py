@@ -31,9 +31,9 @@ class MeshCache:
             folder.mkdir(parents=True, exist_ok=True, mode=0o700)
 
     @staticmethod
-    def name(path: Path, digest: str) -> str:
+    def name(path: Path, digest: str, shape: str = "") -> str:
         """What a mesh file with this content is kept under: the suffix chooses its reader."""
-        return digest + path.suffix.lower()
+        return f"{digest}{shape and f'.{shape}'}{path.suffix.lower()}"
 
     def read(self, name: str) -> tuple[LoadedMesh, dict[str, str]] | None:
         """The mesh and what it refers to, or None; a broken file is removed."""

@@ -14,7 +14,9 @@ from studio.robot.gltf import read_gltf
 from studio.robot.loaded_mesh import LoadedMesh
 from studio.robot.obj import read_obj
 from studio.robot.stl import read_stl
-from studio.robot.surfaces import Surface, bounds
+from studio.robot.surfaces import Look, Surface, bounds
+from studio.robot.textured import unit_shape
+from studio.robot.textures import encode_texture
 from studio.robot.welding import Welded, weld
 
 if TYPE_CHECKING:
@@ -23,7 +25,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from studio.robot.mesh_files import MeshFiles
-    from studio.robot.surfaces import Floats, Look
+    from studio.robot.surfaces import Floats
     from studio.robot.values import Vector3
 
 Number = TypeVar("Number", np.float32, np.uint8)
@@ -66,6 +68,19 @@ def read_mesh(files: MeshFiles) -> LoadedMesh:
     except Exception as error:  # a hostile file must not end the worker with the queue behind it
         reason = f"it cannot be read ({type(error).__name__}: {error})."
         raise files.fault(reason) from error
+
+
+def read_textured(files: MeshFiles, shape: str) -> LoadedMesh:
+    """A primitive of unit size with the image `files` on it.
+
+    Raises:
+        MeshError: It is no image that can be shown.
+    """
+    texture = encode_texture(files, files.path.name, files.data)
+    if texture is None:
+        raise files.fault("it is no image that can be put on a shape.")
+    positions, uv = unit_shape(shape)
+    return _finish(files, [Surface(positions, uv=uv, look=Look(texture=texture))])
 
 
 def _finish(files: MeshFiles, surfaces: list[Surface]) -> LoadedMesh:

@@ -48,13 +48,14 @@ class MeshLibrary:
         self._memory = _Memory(_MEMORY_LIMIT_BYTES)
         self._under_way: dict[Hashable, asyncio.Task[LoadedMesh]] = {}
 
-    async def load(self, path: Path, roots: Iterable[Path] = ()) -> LoadedMesh:
-        """Load a mesh file.
+    async def load(self, path: Path, roots: Iterable[Path] = (), shape: str = "") -> LoadedMesh:
+        """Load a mesh file, or an image on a primitive.
 
         Args:
             path: The file, resolved as `uris` does.
             roots: Folders that it and what it refers to may be read from; the file's own folder
                 when there are none.
+            shape: `box`, `cylinder` or `sphere` to put the image `path` on; empty for a mesh.
 
         Raises:
             MeshError: It cannot be shown.
@@ -62,32 +63,35 @@ class MeshLibrary:
             WorkerError: The worker fell over it, or took too long.
         """
         folders = tuple(roots) or (path.parent,)
-        key = (str(path), *map(str, folders))
-        return await self._shared(key, lambda: self._load(path, folders))
+        key = (shape, str(path), *map(str, folders))
+        return await self._shared(key, lambda: self._load(path, folders, shape))
 
-    async def _load(self, path: Path, folders: tuple[Path, ...]) -> LoadedMesh:
+    async def _load(self, path: Path, folders: tuple[Path, ...], shape: str) -> LoadedMesh:
         digest = await asyncio.to_thread(_digest_of, path, folders)
         # what a file refers to depends on where it lies
-        key = (digest, str(path.parent), path.suffix.lower(), *map(str, folders))
-        return await self._shared(key, lambda: self._load_content(path, folders, digest))
+        name = self._cache.name(path, digest, shape)
+        key = (name, str(path.parent), *map(str, folders))
+        return await self._shared(key, lambda: self._load_content(path, folders, shape, name))
 
-    async def _load_content(self, path: Path, folders: tuple[Path, ...], digest: str) -> LoadedMesh:
-        name = self._cache.name(path, digest)
+    async def _load_content(
+        self, path: Path, folders: tuple[Path, ...], shape: str, name: str
+    ) -> LoadedMesh:
         known = self._memory.get(name) or await asyncio.to_thread(self._cache.read, name)
         if known is not None and await _holds(known[1], folders):
             self._memory.put(name, known)
             return known[0]
         async with self._turns:
-            name, loaded = await self._ask(path, folders)
+            name, loaded = await self._ask(path, folders, shape)
         self._memory.put(name, loaded)
         await asyncio.to_thread(self._cache.trim)
         return loaded[0]
 
     async def _ask(
-        self, path: Path, folders: tuple[Path, ...]
+        self, path: Path, folders: tuple[Path, ...], shape: str
     ) -> tuple[str, tuple[LoadedMesh, dict[str, str]]]:
         """The mesh as the worker found it, and the name of that content: it may be newer."""
-        request = MeshRequest(str(path), tuple(map(str, folders)), str(self._cache.folder))
+        roots = tuple(map(str, folders))
+        request = MeshRequest(str(path), roots, str(self._cache.folder), shape)
         answer = await self._pool.ask(request, object, MESH_TIMEOUT_S)
         match answer:
             case MeshFault():

@@ -15,6 +15,8 @@ class MeshRequest:
     path: str
     roots: tuple[str, ...]
     cache_folder: str
+    shape: str = ""
+    """For an image: the primitive that it is put on; empty for a mesh file."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,7 +13,7 @@ from studio.errors import MeshError, PackageError, UnreadableFileError
 from studio.robot.mesh_blob import pack_mesh
 from studio.robot.mesh_cache import MeshCache
 from studio.robot.mesh_files import MeshFiles
-from studio.robot.mesh_reading import read_mesh
+from studio.robot.mesh_reading import read_mesh, read_textured
 from studio.robot.requests import (
     CheckAnswer,
     CheckRequest,
@@ -46,7 +46,7 @@ def _read(request: MeshRequest) -> MeshAnswer | MeshFault:
     path = Path(request.path)
     try:
         files = MeshFiles(path, map(Path, request.roots))
-        mesh = read_mesh(files)
+        mesh = read_textured(files, request.shape) if request.shape else read_mesh(files)
     except MeshError as error:
         return MeshFault("MeshError", error.uri, error.reason)
     except UnreadableFileError as error:
@@ -54,7 +54,7 @@ def _read(request: MeshRequest) -> MeshAnswer | MeshFault:
     except PackageError:
         return MeshFault("OutsideRootsError", request.path, "")
     blob, cache = pack_mesh(mesh, files.references), MeshCache(Path(request.cache_folder))
-    name = cache.name(path, files.digest)
+    name = cache.name(path, files.digest, request.shape)
     stored = cache.write(name, blob)
     return MeshAnswer(name, b"" if stored and len(blob) > _INLINE_BYTES else blob)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from studio.robot.textured import scale_of
 from studio.robot.values import Box, Cylinder, Mesh, Sphere
 from studio.scene import node
 from studio.scene.node import Look
@@ -58,7 +59,13 @@ def look_of(material: Material | None, robot: Robot) -> Look:
 
 
 def draw(
-    geometry: Geometry, origin: Origin, look: Look, shelf: MeshShelf, *, own_colors: bool = True
+    geometry: Geometry,
+    origin: Origin,
+    look: Look,
+    shelf: MeshShelf,
+    *,
+    own_colors: bool = True,
+    texture: str = "",
 ) -> Node | None:
     """The node of one geometry, or None while its mesh is on the way.
 
@@ -68,8 +75,11 @@ def draw(
         look: Colour, unless the mesh has its own and `own_colors` lets it.
         shelf: The meshes that came.
         own_colors: Materials of a mesh file win over `look`, as in RViz.
+        texture: URI of the primitive with an image on it; until that comes, `look` is drawn.
     """
     wxyz, at = wxyz_and_position(origin)
+    if texture and (textured := shelf.get(texture)) is not None:
+        return node.colored_mesh(textured, scale_of(geometry), wxyz, at)
     match geometry:
         case Box():
             return node.box(geometry.size_m, look, wxyz, at)

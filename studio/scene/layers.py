@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
 from studio.robot.inertia import inertia_box
+from studio.robot.textured import textured_uri
 from studio.robot.values import JointType
 from studio.scene import node
 from studio.scene.geometry_drawing import COLLISION_LOOK, draw, look_of
@@ -52,7 +53,8 @@ def visual_nodes(context: LinkContext) -> Nodes:
     nodes: Nodes = {"visual": node.group()}
     for index, visual in enumerate(context.link.visuals):
         look = look_of(visual.material, context.robot)
-        if drawn := draw(visual.geometry, visual.origin, look, context.shelf):
+        texture = textured_uri(visual.geometry, visual.material)
+        if drawn := draw(visual.geometry, visual.origin, look, context.shelf, texture=texture):
             nodes[f"visual/{index}"] = drawn
     return nodes
 

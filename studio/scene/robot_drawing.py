@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from studio.robot.values import Mesh, Robot
+from studio.robot.textured import mesh_uris
+from studio.robot.values import Robot
 from studio.scene import node
 from studio.scene.geometry_drawing import MeshShelf
 from studio.scene.ground import Ground
@@ -70,7 +71,7 @@ class RobotDrawing:
             return
         with self._graph.atomic():
             for link in self._robot.links.values():
-                if uri in _uris(link):
+                if uri in mesh_uris(link):
                     self._draw(link)
 
     def switch(self, layer: str, *, shown: bool) -> None:
@@ -143,10 +144,5 @@ class RobotDrawing:
         return {
             uri
             for link in self._robot.links.values()
-            for uri in _uris(link, collisions="collision" in made)
+            for uri in mesh_uris(link, collisions="collision" in made)
         }
-
-
-def _uris(link: Link, *, collisions: bool = True) -> set[str]:
-    shapes = (*link.visuals, *(link.collisions if collisions else ()))
-    return {shape.geometry.uri for shape in shapes if isinstance(shape.geometry, Mesh)}
