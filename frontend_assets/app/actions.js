@@ -4,7 +4,7 @@
 /** @import { Answer, Asked } from "./wire.js" */
 
 import { t } from "../lib/i18n.js";
-import { latestSender } from "../lib/latest.js";
+import { allSettled, latestSender } from "../lib/latest.js";
 import { role } from "./state/connection.js";
 import {
   animating,
@@ -63,6 +63,7 @@ export const jointsSettled = () => jointSender.settled();
 
 /** @param {number} [steps] */
 export async function undo(steps = 1) {
+  await allSettled();
   for (let n = 0; n < steps && history.value.undo.length > 0; n += 1) {
     if (!(await ask({ type: "undo" }))) return;
   }
@@ -70,12 +71,14 @@ export async function undo(steps = 1) {
 
 /** @param {number} [steps] */
 export async function redo(steps = 1) {
+  await allSettled();
   for (let n = 0; n < steps && history.value.redo.length > 0; n += 1) {
     if (!(await ask({ type: "redo" }))) return;
   }
 }
 
 export async function save() {
+  await allSettled();
   if (role.value !== "presenter" || !unsaved.value) return;
   const files = history.value.unsaved_files.length;
   if (await ask({ type: "save" })) notify(t("saved", { count: Math.max(files, 1) }));

@@ -1,3 +1,11 @@
+/** @type {Set<() => Promise<void>>} the senders that have something under way */
+const underWay = new Set();
+
+/** @returns {Promise<void>} when all that was pushed anywhere has been answered: undo must not overtake it */
+export async function allSettled() {
+  await Promise.all([...underWay].map((settled) => settled()));
+}
+
 /**
  * Newest wins: at most one value per frame and one request in flight; what was overtaken is never
  * sent, and the last value always is.
@@ -19,10 +27,18 @@ export function latestSender(send, nextFrame = (callback) => requestAnimationFra
 
   function settle() {
     if (busy()) return;
+    underWay.delete(settled);
     const done = watchers;
     watchers = [];
     for (const tell of done) tell();
   }
+
+  /** @type {() => Promise<void>} */
+  const settled = () =>
+    new Promise((resolve) => {
+      watchers.push(resolve);
+      settle();
+    });
 
   function schedule() {
     if (scheduled || inFlight || waiting === null) return;
@@ -50,12 +66,9 @@ export function latestSender(send, nextFrame = (callback) => requestAnimationFra
     busy,
     push(value) {
       waiting = { value };
+      underWay.add(settled);
       schedule();
     },
-    settled: () =>
-      new Promise((resolve) => {
-        watchers.push(resolve);
-        settle();
-      }),
+    settled,
   };
 }
