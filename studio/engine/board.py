@@ -108,7 +108,7 @@ class Board:
     def _joints(self) -> m.JointPositions:
         document = self._document
         return m.JointPositions(
-            positions=document.model.joints.by_name(), animating=document.animating
+            positions=document.model.joints.by_name(), animating=document.motion.swinging
         )
 
     def _history(self) -> m.History:

@@ -36,13 +36,13 @@ async def carry_out(document: Document, command: m.Command, listener: Listener) 
         case m.ChoosePackage():
             await document.choose_package(command.name, command.folder)
         case m.SetJoints():
-            document.set_joints(command.positions)
+            document.motion.set(command.positions)
         case m.ZeroJoints():
-            document.zero_joints()
+            document.motion.zero()
         case m.RandomizeJoints():
-            document.randomize_joints()
+            document.motion.randomize()
         case m.AnimateJoints():
-            document.animate_joints(running=command.running)
+            document.motion.animate(running=command.running)
         case m.SetDisplay():
             document.set_display(command.display, command.name, value=command.value)
         case m.GetUrdf():

@@ -3,28 +3,28 @@
 from __future__ import annotations
 
 import asyncio
-import os
 import time
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from studio.description.sources import Change, FileChange, Sources
-from studio.description.values import Expansion, Failure, ReadPolicy
-from studio.engine.animation import Animation
+from studio.description.values import Expansion, Failure
 from studio.engine.board import Board
 from studio.engine.disk_problems import changed_on_disk, file_gone
 from studio.engine.edit_loop import EditLoop, Outcome, Target
 from studio.engine.mesh_loading import MeshLoading
 from studio.engine.messages import Built, Saved
 from studio.engine.model import Model
+from studio.engine.motion import Motion
+from studio.engine.policy import target_of
 from studio.engine.watching import FileWatch
 from studio.errors import CommandError
 from studio.packages.roots import package_folder_of
 from studio.packages.uris import resolve_uri
 from studio.problems import Fix, Problem
 from studio.scene import DocumentScene
-from studio.settings import LOOPBACK_HOSTS, XACRO_ENVIRONMENT
+from studio.settings import LOOPBACK_HOSTS
 
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable, Mapping
@@ -62,17 +62,14 @@ class Document:
         self.sources = Sources(served.read, served.resolve, served.may_write, arguments)
         self.board = Board(self)
         self.board.find("packages", location.problems)
+        self.motion = Motion(self.model, self.board)
         self._services = services
-        self._runs = EditLoop(
-            services.description_worker(), self.sources, self._target(), self._take
-        )
+        self._runs = EditLoop(services.description_worker(), self.sources, self._target, self._take)
         self._meshes = MeshLoading(
             services.meshes, self._resolve_mesh, self._mesh_arrived, self._mesh_count
         )
         self._files: tuple[str, ...] = (self.path,)
         self._watch = FileWatch(self._changed_on_disk)
-        self._animation = Animation(self._swing)
-        self._swing_start = self.model.joints.values
         self._was_unsaved = False
         self._background: dict[str, asyncio.Task[None]] = {}
 
@@ -99,9 +96,8 @@ class Document:
         return bool(self.sources.unsaved_files)
 
     @property
-    def animating(self) -> bool:
-        """Whether the joints swing now."""
-        return self._animation.running
+    def _target(self) -> Target:
+        return target_of(self.location, trusted=self._services.settings.trusted)
 
     @property
     def worker_pid(self) -> int | None:
@@ -133,7 +129,7 @@ class Document:
 
     async def close(self) -> None:
         """End everything that runs for this document."""
-        self._animation.stop()
+        self.motion.close()
         background = tuple(self._background.values())
         for task in background:
             task.cancel()
@@ -189,34 +185,7 @@ class Document:
             chosen = self.location.served.resolve(chosen)
         self.location = await asyncio.to_thread(self.location.choose_package, name, chosen)
         self._meshes.want(self._meshes.problems)
-        await self._timed(self._runs.reopen(self._target()))
-
-    def set_joints(self, positions: Mapping[str, float]) -> None:
-        """Move joints; ends a swing."""
-        self._stop_swinging()
-        self.model.joints.set(positions)
-        self._show_positions()
-
-    def zero_joints(self) -> None:
-        """All joints to zero."""
-        self._stop_swinging()
-        self.model.joints.zero()
-        self._show_positions()
-
-    def randomize_joints(self) -> None:
-        """All joints to random positions."""
-        self._stop_swinging()
-        self.model.joints.randomize()
-        self._show_positions()
-
-    def animate_joints(self, *, running: bool) -> None:
-        """Swing the joints from where they are, or stop."""
-        if running and not self.animating:
-            self._swing_start = self.model.joints.values
-            self._animation.start()
-        elif not running:
-            self._animation.stop()
-        self.board.joints()
+        await self._timed(self._runs.reopen(self._target))
 
     def set_display(self, display: str, name: str, *, value: bool | float | str) -> None:
         """Change one shared display setting."""
@@ -346,19 +315,6 @@ class Document:
         await asyncio.sleep(_VALIDATE_AFTER_S)
         self.board.find("validation", await self._services.validator.validate(self.urdf()))
 
-    def _swing(self, time_s: float) -> None:
-        self.model.joints.swing(time_s, self._swing_start)
-        self._show_positions()
-
-    def _stop_swinging(self) -> None:
-        if self.animating:
-            self._animation.stop()
-            self.board.joints()
-
-    def _show_positions(self) -> None:
-        self.model.pose()
-        self.board.joint_frame()
-
     def _texts_changed(self) -> None:
         self.board.texts()
         if self.has_unsaved != self._was_unsaved:
@@ -373,18 +329,3 @@ class Document:
         if before := self._background.get(name):
             before.cancel()
         self._background[name] = asyncio.ensure_future(work)
-
-    def _target(self) -> Target:
-        trusted = self._services.settings.trusted
-        environment = {
-            name: value
-            for name, value in os.environ.items()
-            if trusted or name in XACRO_ENVIRONMENT
-        }
-        policy = ReadPolicy(
-            roots=tuple(map(str, self.location.served.all)),
-            packages=self.location.index.mapping_for(self.entry),
-            environment=environment,
-            trusted=trusted,
-        )
-        return Target(self.path, policy)

@@ -35,7 +35,7 @@ def test_d1_links_and_joints_are_listed_and_each_layer_toggles(models: Path, tmp
             assert len(robot["links"]) == len(document.model.robot.links) >= 5
             assert len(robot["joints"]) == len(robot["links"]) - 1
             moved = [joint["name"] for joint in robot["joints"] if joint["type"] == "continuous"]
-            document.set_joints({moved[0]: 0.5})
+            document.motion.set({moved[0]: 0.5})
             assert document.model.joints.by_name()[moved[0]] == 0.5
             for layer in LAYERS:
                 shown = ear.last("displays")["displays"]["robot"][layer]
@@ -128,7 +128,7 @@ def test_d7_the_r2d2_has_the_joints_that_the_course_moves(models: Path, tmp_path
             document, _ = await opened(made, models / "r2d2_description")
             assert {"swivel", "tilt", "periscope"} <= set(document.model.kinematics.free)
             before = document.model.kinematics.wxyz_xyz(document.model.joints.values).copy()
-            document.set_joints({"swivel": 0.5, "tilt": 0.2, "periscope": 0.05})
+            document.motion.set({"swivel": 0.5, "tilt": 0.2, "periscope": 0.05})
             after = document.model.kinematics.wxyz_xyz(document.model.joints.values)
             assert (before != after).any()
 

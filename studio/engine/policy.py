@@ -1,0 +1,28 @@
+"""What the xacro worker of a document may read: derived from where the document was opened."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+from studio.description.values import ReadPolicy
+from studio.engine.edit_loop import Target
+from studio.settings import XACRO_ENVIRONMENT
+
+if TYPE_CHECKING:
+    from studio.packages.workspace import Location
+
+
+def target_of(location: Location, *, trusted: bool) -> Target:
+    """The entry file of a location that has one, and the rules its expansion runs under."""
+    assert location.entry is not None
+    environment = {
+        name: value for name, value in os.environ.items() if trusted or name in XACRO_ENVIRONMENT
+    }
+    policy = ReadPolicy(
+        roots=tuple(map(str, location.served.all)),
+        packages=location.index.mapping_for(location.entry),
+        environment=environment,
+        trusted=trusted,
+    )
+    return Target(str(location.entry), policy)
