@@ -14,6 +14,8 @@ StudioError
             RefusedError
         EditError
             StaleEditError
+            StaleTextError
+            ReadOnlyTextError
             SaveConflictError
             NotSavedError
     RobotError
@@ -135,6 +137,22 @@ class StaleEditError(EditError):
             f"{site} is no longer in the source: the file was changed meanwhile, edit it again."
         )
         self.site = site
+
+
+class StaleTextError(EditError):
+    """An edit was made on a text that has changed since the editor saw it."""
+
+    def __init__(self, file: str) -> None:
+        super().__init__(f"{file} was changed meanwhile: load its text again.")
+        self.file = file
+
+
+class ReadOnlyTextError(EditError):
+    """A text that may be read only was to be edited."""
+
+    def __init__(self, file: str, reason: str) -> None:
+        super().__init__(f"{file} cannot be edited: {reason}")
+        self.file, self.reason = file, reason
 
 
 class SaveConflictError(EditError):

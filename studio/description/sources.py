@@ -144,16 +144,17 @@ class Sources:
         self.track(expansion.files)
         self.spans.adopt(expansion.changed_sites, expansion.site_order, version)
 
-    def edit(self, edit: Edit, name: str, gesture: str = "") -> None:
+    def edit(self, edit: Edit, name: str, gesture: str = "", *, is_value: bool = True) -> None:
         """Apply an edit as an undo step called `name`, e.g. `wheel_radius 0.1 → 0.12`.
 
-        Edits of the same gesture are one step, until something else happens.
+        Edits of the same gesture are one step, until something else happens. `is_value`: the step
+        shows what its bytes were and are.
 
         Raises:
             EditError: The edit lies outside the file.
             PackageError: The file cannot be read.
         """
-        self._push(edit, Step(name, gesture=gesture))
+        self._push(edit, Step(name, gesture=gesture, is_value=is_value))
 
     def edit_site(self, site_id: str, text: str, gesture: str = "") -> Edit:
         """Write a new text at a site, quoted and escaped as its place needs it.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, AnyStr
 
 from studio.description.attribute_spans import (
     attribute_bytes,
@@ -84,13 +84,13 @@ def difference(file: str, old: bytes, new: bytes) -> Edit | None:
     """The shortest single edit from `old` to `new`; None when they are equal."""
     if old == new:
         return None
-    start = _common_start(old, new)
-    end = _common_start(old[start:][::-1], new[start:][::-1])
+    start = common_start(old, new)
+    end = common_start(old[start:][::-1], new[start:][::-1])
     return Edit(file, start, len(old) - end, new[start : len(new) - end])
 
 
-def _common_start(one: bytes, other: bytes) -> int:
-    """Length of the common start, by halving: slices compare at the speed of memory."""
+def common_start(one: AnyStr, other: AnyStr) -> int:
+    """Length of what two texts begin with, by halving: slices compare at the speed of memory."""
     low, high = 0, min(len(one), len(other))
     while low < high:
         middle = (low + high + 1) // 2

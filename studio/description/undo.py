@@ -32,9 +32,12 @@ class Splice:
         return Edit(self.file, self.start, self.start + len(self.new), self.old)
 
     def then(self, later: Splice) -> Splice | None:
-        """Both as one, when the later one replaced exactly what this one wrote."""
-        same_place = (self.file, self.start) == (later.file, later.start)
-        return replace(self, new=later.new) if same_place and self.new == later.old else None
+        """Both as one, when the later one touched nothing but what this one wrote."""
+        begin = later.start - self.start
+        end = begin + len(later.old)
+        if self.file != later.file or not 0 <= begin <= end <= len(self.new):
+            return None
+        return replace(self, new=self.new[:begin] + later.new + self.new[end:])
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from studio.description.values import SiteKind
 from studio.engine.messages import Sites, SiteView
 from studio.engine.views import site_view
+from studio.errors import EditError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -45,7 +46,7 @@ class SiteBook:
         unsaved = set(sources.unsaved_files)
         for name, site in self.sites.items():
             if name in self._ahead or (
-                site.place.file in unsaved and sources.current_text(name) != site.text
+                site.place.file in unsaved and _text_now(site, sources) != site.text
             ):
                 self._ahead.add(name)
         self._unsure |= self._ahead
@@ -61,7 +62,7 @@ class SiteBook:
         for name in self._unsure & self.sites.keys():
             site = self.sites[name]
             if name in self._ahead:
-                site = replace(site, text=sources.current_text(name))
+                site = replace(site, text=_text_now(site, sources))
             view = _view(site, sources, arguments)
             if view != self._told.get(name):
                 self._told[name] = view
@@ -78,4 +79,18 @@ class SiteBook:
 
 def _view(site: Site, sources: Sources, arguments: Mapping[str, str]) -> SiteView:
     argument = arguments.get(site.name) if site.kind == SiteKind.ARG else None
-    return site_view(site, sources.saved_text(site.id), argument)
+    return site_view(site, _saved_text(site, sources), argument)
+
+
+def _saved_text(site: Site, sources: Sources) -> str | None:
+    try:
+        return sources.saved_text(site.id)
+    except EditError:
+        return None  # typed over since the last run, which the next one tells
+
+
+def _text_now(site: Site, sources: Sources) -> str:
+    try:
+        return sources.current_text(site.id)
+    except EditError:
+        return site.text  # as above

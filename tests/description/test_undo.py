@@ -94,3 +94,19 @@ def test_the_stack_forgets_the_oldest_of_a_thousand_steps():
         stack.push(turned(b"%d" % number, b"%d" % (number + 1)))
     assert len(stack.done) == 1000
     assert stack.done[0].label == "wheel_radius 2 → 3"
+
+
+def test_what_is_typed_letter_by_letter_and_partly_taken_back_is_one_splice():
+    stack = UndoStack()
+    stack.push(turned(b"", b"1", "type", start=7))
+    stack.push(turned(b"", b".5", "type", start=8))
+    stack.push(turned(b"5", b"", "type", start=9))
+    stack.push(turned(b"", b"25", "type", start=9))
+    assert stack.done[0].splices == (Splice("f", 7, b"", b"1.25"),)
+
+
+def test_what_reaches_beyond_the_typed_text_is_a_splice_of_its_own():
+    stack = UndoStack()
+    stack.push(turned(b"", b"ab", "type", start=7))
+    stack.push(turned(b"bc", b"", "type", start=8))
+    assert len(stack.done[0].splices) == 2
