@@ -86,6 +86,24 @@ export interface EditSite {
 }
 
 /**
+ * Type into a file's text; refused when its version is no longer this one.
+ *
+ * The changes are in order, none overlapping, each with offsets in the text before all of them.
+ * All edits of one `gesture` are one undo step. `origin`, chosen by the browser, comes back in the
+ * `texts_changed` that tells them, so that it knows its own.
+ */
+export interface EditText {
+  request?: number;
+  document?: string;
+  type: "edit_text";
+  file: string;
+  version: number;
+  changes: TextChange[];
+  gesture?: string;
+  origin?: string;
+}
+
+/**
  * One click that mends a Problem: `action` names it, `target` is what it works on.
  *
  * Actions: `choose_package` (target: package name), `undo` (target: empty), `open_file` (target:
@@ -113,6 +131,14 @@ export interface FolderEntry {
   kind: "folder" | "package" | "robot" | "zip" | "file";
   openable: boolean;
   reason: string;
+}
+
+/** The text of a file as it is edited; `texts_changed` tells from then on what happens to it. */
+export interface GetText {
+  request?: number;
+  document?: string;
+  type: "get_text";
+  file: string;
 }
 
 /** The expanded URDF of the last good run. */
@@ -367,6 +393,37 @@ export interface Sites {
   changed: SiteView[];
 }
 
+/** Answer to `get_text`: the text at a version, as `TextChange` describes texts. */
+export interface Text {
+  type: "text";
+  request: number;
+  file: string;
+  version: number;
+  text: string;
+  read_only: string;
+}
+
+/**
+ * In the text before, [start, end) gives way to `text`.
+ *
+ * The text is as an editor holds it: no byte order mark, every line break one LF. Offsets are
+ * UTF-16 code units from 0.
+ */
+export interface TextChange {
+  start: number;
+  end: number;
+  text: string;
+}
+
+/** A text that somebody asked for changed, by whatever way; it now has this version. */
+export interface TextsChanged {
+  type: "texts_changed";
+  file: string;
+  version: number;
+  changes: TextChange[];
+  origin: string;
+}
+
 /** Take back the last step. */
 export interface Undo {
   request?: number;
@@ -428,7 +485,9 @@ export type Command =
   | AnimateJoints
   | SetDisplay
   | ChoosePackage
-  | GetUrdf;
+  | GetUrdf
+  | GetText
+  | EditText;
 
 export type Event =
   | Hello
@@ -447,5 +506,7 @@ export type Event =
   | Folder
   | Opened
   | Urdf
+  | Text
+  | TextsChanged
   | Saved
   | Gone;

@@ -143,6 +143,41 @@ class GetUrdf(CommandMessage):
     type: Literal["get_urdf"] = "get_urdf"
 
 
+class GetText(CommandMessage):
+    """The text of a file as it is edited; `texts_changed` tells from then on what happens to it."""
+
+    type: Literal["get_text"] = "get_text"
+    file: str = Field(max_length=4096)
+
+
+class TextChange(Message):
+    """In the text before, [start, end) gives way to `text`.
+
+    The text is as an editor holds it: no byte order mark, every line break one LF. Offsets are
+    UTF-16 code units from 0.
+    """
+
+    start: int = Field(ge=0)
+    end: int = Field(ge=0)
+    text: str = Field(max_length=1_000_000)
+
+
+class EditText(CommandMessage):
+    """Type into a file's text; refused when its version is no longer this one.
+
+    The changes are in order, none overlapping, each with offsets in the text before all of them.
+    All edits of one `gesture` are one undo step. `origin`, chosen by the browser, comes back in
+    the `texts_changed` that tells them, so that it knows its own.
+    """
+
+    type: Literal["edit_text"] = "edit_text"
+    file: str = Field(max_length=4096)
+    version: int
+    changes: tuple[TextChange, ...] = Field(min_length=1, max_length=5000)
+    gesture: str = Field(default="", max_length=100)
+    origin: str = Field(default="", max_length=100)
+
+
 Command: TypeAlias = Annotated[
     Watch
     | OpenPath
@@ -161,7 +196,9 @@ Command: TypeAlias = Annotated[
     | AnimateJoints
     | SetDisplay
     | ChoosePackage
-    | GetUrdf,
+    | GetUrdf
+    | GetText
+    | EditText,
     Field(discriminator="type"),
 ]
 COMMANDS: TypeAdapter[Command] = TypeAdapter(Command)

@@ -47,6 +47,10 @@ async def carry_out(document: Document, command: m.Command, listener: Listener) 
             document.set_display(command.display, command.name, value=command.value)
         case m.GetUrdf():
             tell(listener, m.Urdf(request=command.request, text=document.urdf()))
+        case m.GetText():
+            tell(listener, document.texts.answer(command, listener.role))
+        case m.EditText():
+            await document.edit_text(command)
         case m.OpenPath() | m.CloseDocument() | m.ListFolder() | m.Watch():
             raise TypeError(f"{command.type} is the engine's own command")
         case _:

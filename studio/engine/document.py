@@ -18,6 +18,7 @@ from studio.engine.messages import Built, Saved
 from studio.engine.model import Model
 from studio.engine.motion import Motion
 from studio.engine.policy import target_of
+from studio.engine.texts import TextDesk
 from studio.engine.watching import FileWatch
 from studio.errors import CommandError
 from studio.packages.roots import package_folder_of
@@ -27,8 +28,10 @@ from studio.scene import DocumentScene
 from studio.settings import LOOPBACK_HOSTS
 
 if TYPE_CHECKING:
-    from collections.abc import Awaitable, Callable, Mapping
+    from collections.abc import Awaitable, Callable, Mapping, Sequence
 
+    from studio.description.values import Edit
+    from studio.engine.messages import EditText
     from studio.engine.services import Services
     from studio.packages.workspace import Location
     from studio.robot.loaded_mesh import LoadedMesh
@@ -62,6 +65,7 @@ class Document:
         self.sources = Sources(served.read, served.resolve, served.may_write, arguments)
         self.board = Board(self)
         self.board.find("packages", location.problems)
+        self.texts = TextDesk(self)
         self.motion = Motion(self.model, self.board)
         self._services = services
         self._runs = EditLoop(services.description_worker(), self.sources, self._target, self._take)
@@ -141,6 +145,12 @@ class Document:
         """Write a new text at a site and show what it does."""
         edit = self.sources.edit_site(site, text, gesture)
         await self._timed(self._runs.edit((edit,)))
+
+    async def edit_text(self, command: EditText) -> None:
+        """Write into a file's text, as an editor does, and show what it does."""
+        edits = self.texts.edit(command)
+        self._texts_changed()
+        await self._timed(self._run(edits))
 
     async def reset_site(self, site: str) -> None:
         """Put a site back to what the disk says."""
@@ -251,9 +261,17 @@ class Document:
         if change is None:
             return
         if change.arguments is None:
-            await self._timed(self._runs.edit(change.edits))
+            await self._timed(self._run(change.edits))
         else:
             await self._arguments_changed()
+
+    async def _run(self, edits: Sequence[Edit]) -> None:
+        """Run with edits; of files that the last run did not read, the worker holds no text."""
+        files = {edit.file for edit in edits}
+        if files <= set(self._files):
+            await self._runs.edit(edits)
+        else:
+            await self._runs.reload(files)
 
     async def _arguments_changed(self) -> None:
         self.board.book.doubt_all()
@@ -316,6 +334,7 @@ class Document:
         self.board.find("validation", await self._services.validator.validate(self.urdf()))
 
     def _texts_changed(self) -> None:
+        self.texts.follow()
         self.board.texts()
         if self.has_unsaved != self._was_unsaved:
             self._was_unsaved = self.has_unsaved

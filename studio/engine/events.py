@@ -7,6 +7,7 @@ from typing import Annotated, Literal, TypeAlias
 from pydantic import Field, TypeAdapter
 
 from studio.description.values import SiteKind, Widget
+from studio.engine.commands import TextChange
 from studio.engine.message import Message
 from studio.problems import Problem
 
@@ -233,6 +234,30 @@ class Urdf(Message):
     text: str
 
 
+class Text(Message):
+    """Answer to `get_text`: the text at a version, as `TextChange` describes texts."""
+
+    type: Literal["text"] = "text"
+    request: int
+    file: str
+    """As the studio names it, which may differ from how it was asked for."""
+    version: int
+    text: str
+    read_only: str
+    """Why it may not be edited, a sentence; empty: it may."""
+
+
+class TextsChanged(Message):
+    """A text that somebody asked for changed, by whatever way; it now has this version."""
+
+    type: Literal["texts_changed"] = "texts_changed"
+    file: str
+    version: int
+    changes: tuple[TextChange, ...]
+    origin: str
+    """Of the `edit_text` that did it; empty: it was none."""
+
+
 class Saved(Message):
     """These files were written."""
 
@@ -264,6 +289,8 @@ Event: TypeAlias = Annotated[
     | Folder
     | Opened
     | Urdf
+    | Text
+    | TextsChanged
     | Saved
     | Gone,
     Field(discriminator="type"),

@@ -41,6 +41,7 @@ _LOOK: Final = frozenset(
         "command",
         "watch",
         "get_urdf",
+        "get_text",
         "viser:ViewerCameraMessage",
     }
 )
@@ -62,6 +63,7 @@ _CONTROL: Final = frozenset(
         "animate_joints",
         "set_display",
         "choose_package",
+        "edit_text",
         "viser:SceneNodeClickMessage",
         "viser:SceneNodeDragMessage",
         "viser:ScenePointerMessage",
