@@ -8,7 +8,7 @@ import { size } from "./state/view.js";
 
 const PHONE_BELOW_PX = 700;
 const WIDE_FROM_PX = 1000;
-const VERSION = 1;
+const VERSION = 2;
 
 /** @param {number} width px @returns {"wide" | "medium" | "phone"} */
 export function sizeOf(width) {
@@ -25,23 +25,26 @@ export function sizeOf(width) {
 export function modelLayout(kind, width, height) {
   if (kind === "phone")
     return [
-      { tabs: ["scene", "properties", "joints", "displays", "problems", "urdf"], size: width },
+      {
+        tabs: ["scene", "properties", "joints", "displays", "source", "problems", "urdf"],
+        size: width,
+      },
     ];
   if (kind === "medium") {
     const right = Math.round(Math.min(340, width * 0.42));
-    const low = Math.round(height * 0.32);
+    const low = Math.round(height * 0.38);
     const left = [
       { tabs: ["scene"], size: height - low },
-      { tabs: ["displays", "problems", "urdf"], size: low },
+      { tabs: ["source", "displays", "problems", "urdf"], size: low },
     ];
     return [
       { split: left, size: width - right },
       { tabs: ["properties", "joints"], size: right },
     ];
   }
-  const low = Math.round(Math.min(220, height * 0.24));
+  const low = Math.round(Math.min(340, height * 0.36));
   const scene = { tabs: ["scene"], size: height - low };
-  const below = { tabs: ["problems", "urdf"], size: low };
+  const below = { tabs: ["source", "problems", "urdf"], size: low };
   const left = Math.round(Math.min(280, width * 0.22));
   const right = Math.round(Math.min(340, width * 0.28));
   return [

@@ -29,6 +29,7 @@ export const PANELS = {
     load: async () => (await import("../panels/properties.js")).PropertiesPanel,
   },
   joints: { icon: "joints", load: async () => (await import("../panels/joints.js")).JointsPanel },
+  source: { icon: "source", load: async () => (await import("../panels/source.js")).SourcePanel },
   problems: {
     icon: "problems",
     badge: problemsBadge,

@@ -7,6 +7,17 @@ export async function allSettled() {
 }
 
 /**
+ * Have `allSettled` wait for something of one's own, too.
+ *
+ * @param {() => Promise<void>} settled
+ * @returns {() => void} ends it
+ */
+export function settleFirst(settled) {
+  underWay.add(settled);
+  return () => underWay.delete(settled);
+}
+
+/**
  * Newest wins: at most one value per frame and one request in flight; what was overtaken is never
  * sent, and the last value always is.
  *

@@ -14,6 +14,7 @@ import { movableJoints } from "../../lib/joints.js";
 import { isChanged } from "../../lib/sites.js";
 import { linkTree } from "../../lib/tree.js";
 import { role, session, version } from "./connection.js";
+import { takeTextNews } from "./source.js";
 
 /** Id of the document that this page shows; empty: none. */
 export const documentId = signal("");
@@ -195,6 +196,7 @@ const TAKERS = {
   built: (event) => {
     built.value = event;
   },
+  texts_changed: takeTextNews,
   gone: (event) => {
     if (event.document === documentId.value) gone.value = true;
   },

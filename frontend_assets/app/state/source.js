@@ -1,6 +1,9 @@
-/** Which text the source panel shows and where in it; other panels ask here for a line to be shown. */
+/** Which texts the source panel has open and where in them one is; other panels ask here for a line. */
 
-/** @import { Signal } from "vendor/preact.js" */
+/**
+ * @import { Signal } from "vendor/preact.js"
+ * @import { TextsChanged } from "../../types/wire.d.ts"
+ */
 
 import { signal } from "vendor/preact.js";
 import { commandById } from "../commands.js";
@@ -14,8 +17,14 @@ import { commandById } from "../commands.js";
 /** Where the source panel goes next; it takes the wish away when it is there. @type {Signal<WantedPlace | null>} */
 export const wantedPlace = signal(null);
 
+/** Files that have a tab, in its order. @type {Signal<readonly string[]>} */
+export const openFiles = signal([]);
+
 /** The file in front in the source panel; empty: none. @type {Signal<string>} */
 export const shownFile = signal("");
+
+/** Where its cursor stands. @type {Signal<WantedPlace | null>} */
+export const cursorPlace = signal(null);
 
 /**
  * Bring the source panel to the front with this line in view and the cursor on it.
@@ -27,4 +36,33 @@ export const shownFile = signal("");
 export function showSource(file, line, column = 1) {
   wantedPlace.value = { file, line: Math.max(line, 1), column: Math.max(column, 1) };
   commandById("panel.source")?.run();
+}
+
+/** @param {string} file gets a tab, and is in front */
+export function openFile(file) {
+  if (!openFiles.value.includes(file)) openFiles.value = [...openFiles.value, file];
+  shownFile.value = file;
+}
+
+/** @param {string} file whose tab goes; its neighbour comes to the front */
+export function closeFile(file) {
+  const at = openFiles.value.indexOf(file);
+  const left = openFiles.value.filter((one) => one !== file);
+  openFiles.value = left;
+  if (shownFile.value === file) shownFile.value = left[Math.min(at, left.length - 1)] ?? "";
+}
+
+/** @type {Map<string, Set<(event: TextsChanged) => void>>} */
+const followers = new Map();
+
+/** @param {string} file @param {(event: TextsChanged) => void} take @returns {() => void} ends it */
+export function followText(file, take) {
+  const those = followers.get(file) ?? new Set();
+  followers.set(file, those.add(take));
+  return () => those.delete(take);
+}
+
+/** @param {TextsChanged} event */
+export function takeTextNews(event) {
+  for (const take of followers.get(event.file) ?? []) take(event);
 }

@@ -1,0 +1,116 @@
+/** The tabs of the source panel: a file each, what is unsaved in it, and all files of the robot. */
+
+import { html } from "vendor/preact.js";
+import { commandById, onMac } from "../app/commands.js";
+import { documentState, history } from "../app/state/document.js";
+import { closeFile, openFile, openFiles, shownFile } from "../app/state/source.js";
+import { t } from "../lib/i18n.js";
+import { shortcutText } from "../lib/keys.js";
+import { shortPath } from "../lib/paths.js";
+import { tabNames } from "../lib/tab-names.js";
+import { Icon, IconButton, MenuButton } from "../lib/ui.js";
+
+/** @param {{find: () => void, goToLine: () => void}} props what the menu offers for the text in front */
+export function SourceTabs({ find, goToLine }) {
+  const names = tabNames(openFiles.value);
+  const ready = shownFile.value !== "";
+  return html`<div class="source-bar">
+    <div class="source-tabs" role="tablist" aria-label=${t("source.files")} onKeyDown=${onTabKey}>
+      ${openFiles.value.map((file) => html`<${FileTab} key=${file} file=${file} ...${names.get(file)} />`)}
+    </div>
+    <${MenuButton} label=${t("source.all_files")} items=${fileItems}><${Icon} name="chevronDown" /><//>
+    <${IconButton} icon="search" label=${t("source.find")} disabled=${!ready} onClick=${find}
+      hint=${`${t("source.find")} (${shortcutText("Mod+F", onMac)})`} />
+    <${MenuButton} label=${t("source.menu")} items=${() => menuItems(goToLine)}><${Icon} name="dots" /><//>
+  </div>`;
+}
+
+/** @param {{file: string, name: string, folder: string}} props */
+function FileTab({ file, name, folder }) {
+  const shown = shownFile.value === file;
+  const unsaved = history.value.unsaved_files.includes(file);
+  const locked = documentState.value?.read_only.includes(file);
+  const root = documentState.value?.root ?? "";
+  /** @param {MouseEvent} event the middle button closes */
+  const onAux = (event) => {
+    if (event.button !== 1) return;
+    event.preventDefault();
+    closeFile(file);
+  };
+  return html`<div class=${`source-tab ${shown ? "shown" : ""}`} role="presentation" onAuxClick=${onAux}>
+    <button type="button" role="tab" id=${`source-tab-${file}`} aria-selected=${shown} tabindex=${shown ? 0 : -1}
+      title=${shortPath(file, root)} data-file=${file} onClick=${() => openFile(file)}>
+      ${locked && html`<${Icon} name="lock" size=${12} />`}
+      <span>${name}</span>${folder && html`<span class="muted">${folder}</span>`}
+      ${unsaved && html`<span class="dot" role="img" aria-label=${t("source.unsaved")} title=${t("source.unsaved")}></span>`}
+    </button>
+    <${IconButton} icon="close" size=${12} class="tab-close" label=${t("source.close", { name })} onClick=${() => closeFile(file)} />
+  </div>`;
+}
+
+/** @param {KeyboardEvent} event arrows move along the tabs, Delete closes one */
+function onTabKey(event) {
+  const files = openFiles.value;
+  const at = files.indexOf(shownFile.value);
+  /** @type {Record<string, number>} */
+  const moves = {
+    ArrowRight: at + 1,
+    ArrowLeft: at - 1 + files.length,
+    Home: 0,
+    End: files.length - 1,
+  };
+  const to = moves[event.key];
+  const isTab = event.target instanceof Element && event.target.role === "tab";
+  if (event.key === "Delete" && isTab) closeFile(shownFile.value);
+  else if (to !== undefined) openFile(files[to % files.length] ?? shownFile.value);
+  else return;
+  event.preventDefault();
+  const list = /** @type {HTMLElement} */ (event.currentTarget);
+  requestAnimationFrame(() => {
+    /** @type {HTMLElement | null} */ (list.querySelector('[aria-selected="true"]'))?.focus();
+  });
+}
+
+/** @returns {import("../lib/ui.js").MenuItem[]} the files of the robot, then others that have a tab */
+function fileItems() {
+  const own = documentState.value?.files ?? [];
+  const root = documentState.value?.root ?? "";
+  const files = [...own, ...openFiles.value.filter((file) => !own.includes(file))];
+  return [
+    { label: t("source.files_of"), heading: true },
+    ...files.map((file) => ({
+      label: shortPath(file, root),
+      checked: shownFile.value === file,
+      run: () => openFile(file),
+    })),
+  ];
+}
+
+/** @param {() => void} goToLine @returns {import("../lib/ui.js").MenuItem[]} */
+function menuItems(goToLine) {
+  const file = shownFile.value;
+  const others = openFiles.value.filter((one) => one !== file);
+  const closeOthers = () => {
+    for (const one of others) closeFile(one);
+  };
+  return [
+    {
+      label: t("source.go_to_line"),
+      icon: "jump",
+      disabled: file === "",
+      hint: shortcutText("Mod+Alt+G", onMac),
+      run: goToLine,
+    },
+    {
+      label: t("source.show_urdf"),
+      icon: "urdf",
+      run: () => commandById("panel.urdf")?.run(),
+    },
+    {
+      label: t("source.close_others"),
+      icon: "close",
+      disabled: others.length === 0,
+      run: closeOthers,
+    },
+  ];
+}

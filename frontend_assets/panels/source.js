@@ -1,0 +1,142 @@
+/** The source texts, read and written: a tab per file, an editor, and what is wrong at its very place. */
+
+import {
+  EditorState,
+  EditorView,
+  gotoLine,
+  openSearchPanel,
+  setDiagnostics,
+} from "vendor/codemirror.js";
+import { html, useEffect, useMemo, useRef } from "vendor/preact.js";
+import { mayEdit } from "../app/state/connection.js";
+import { documentState, problems } from "../app/state/document.js";
+import { cursorPlace, openFile, openFiles, shownFile, wantedPlace } from "../app/state/source.js";
+import { theme } from "../app/state/view.js";
+import { language, t } from "../lib/i18n.js";
+import { shortPath } from "../lib/paths.js";
+import { recall, remember } from "../lib/remembered.js";
+import { marksOf } from "../lib/text-problems.js";
+import { EmptyState, Icon, ProgressBar } from "../lib/ui.js";
+import { adjust, goToPlace } from "./source-editor.js";
+import { SourceTabs } from "./source-tabs.js";
+import { createTexts } from "./source-texts.js";
+
+/** @import { Texts } from "./source-texts.js" */
+
+export function SourcePanel() {
+  useRememberedFiles();
+  const host = useRef(/** @type {HTMLElement | null} */ (null));
+  const texts = useMemo(createTexts, []);
+  useEditor(texts, host);
+  const file = shownFile.value;
+  const shown = texts.shown.value;
+  const onView = (/** @type {(view: EditorView) => void} */ run) => () => {
+    if (texts.view) run(texts.view);
+  };
+  return html`<section class="panel-body source" aria-label=${t("panel.source")}>
+    <${SourceTabs} find=${onView(openSearchPanel)} goToLine=${onView(gotoLine)} />
+    ${shown?.link?.readOnly && html`<p class="source-note"><${Icon} name="lock" size=${13} />${shown.link.readOnly}</p>`}
+    <div class="source-editor" ref=${host} hidden=${!shown?.link} role="tabpanel" aria-labelledby=${`source-tab-${file}`}></div>
+    ${!shown?.link && html`<${Waiting} file=${file} reason=${shown?.reason ?? ""} />`}
+    ${shown?.link && html`<${Foot} />`}
+  </section>`;
+}
+
+/** @param {{file: string, reason: string}} props what stands where no text is shown yet */
+function Waiting({ file, reason }) {
+  if (file === "") {
+    const entry = documentState.value?.path;
+    return html`<${EmptyState} icon="source" title=${t("source.none")}>
+      ${entry && html`<button type="button" class="button" onClick=${() => openFile(entry)}>${t("source.open_entry")}</button>`}<//>`;
+  }
+  if (reason) return html`<${EmptyState} icon="alert" title=${reason} />`;
+  return html`<${ProgressBar} label=${t("loading")} done=${0} total=${0} />`;
+}
+
+/** Which file it is, and where in it one is. */
+function Foot() {
+  const place = cursorPlace.value;
+  const root = documentState.value?.root ?? "";
+  return html`<div class="source-foot">
+    <span class="source-path" title=${shownFile.value}><bdi>${shortPath(shownFile.value, root)}</bdi></span>
+    ${!mayEdit.value && html`<span class="muted"><${Icon} name="lock" size=${11} /> ${t("source.look_only")}</span>`}
+    ${place && html`<span class="numbers">${t("source.place", { line: place.line, column: place.column })}</span>`}
+  </div>`;
+}
+
+/** The tabs of this document are those of the last visit; at the first, the entry file. */
+function useRememberedFiles() {
+  const path = documentState.value?.path ?? "";
+  useEffect(() => {
+    if (path === "" || openFiles.value.length > 0) return;
+    const stored = recall(`source.${path}`);
+    const files = Array.isArray(stored) ? stored.filter((one) => typeof one === "string") : [];
+    const [shown = path, ...tabs] = files;
+    for (const file of tabs.length > 0 ? tabs : [path]) openFile(file);
+    openFile(shown);
+  }, [path]);
+  const files = openFiles.value;
+  const shown = shownFile.value;
+  useEffect(() => {
+    if (path !== "" && files.length > 0) remember(`source.${path}`, [shown, ...files]);
+  }, [path, files, shown]);
+}
+
+/** @param {Texts} texts @param {{current: HTMLElement | null}} host */
+function useEditor(texts, host) {
+  useEffect(() => {
+    if (!host.current) return undefined;
+    const view = new EditorView({ state: EditorState.create({}), parent: host.current });
+    texts.begin(view);
+    return () => texts.end();
+  }, []);
+  const file = shownFile.value;
+  const files = openFiles.value;
+  useEffect(() => texts.show(file), [file]);
+  useEffect(() => texts.keepOnly(files), [files]);
+  useWords(texts);
+  useMarks(texts);
+  useWanted(texts);
+}
+
+/** @param {Texts} texts */
+function useWords(texts) {
+  const link = texts.shown.value?.link;
+  const dark = theme.value === "dark";
+  const words = language.value;
+  const free = mayEdit.value;
+  useEffect(() => {
+    if (link && texts.view) adjust(texts.view, { dark, mayEdit: free, link });
+  }, [link, dark, free, words]);
+}
+
+/** @param {Texts} texts what is wrong is underlined where it is */
+function useMarks(texts) {
+  const link = texts.shown.value?.link;
+  const found = problems.value;
+  useEffect(() => {
+    const { view } = texts;
+    if (!link || !view) return;
+    const marks = marksOf(found, link.file, view.state.doc);
+    view.dispatch(setDiagnostics(view.state, marks));
+  }, [link, found]);
+}
+
+/** @param {Texts} texts another panel asked for a line */
+function useWanted(texts) {
+  const wanted = wantedPlace.value;
+  const shown = texts.shown.value;
+  useEffect(() => {
+    if (wanted) openFile(wanted.file);
+  }, [wanted]);
+  useEffect(() => {
+    if (!wanted || !shown?.link || shown.file !== wanted.file || !texts.view) return;
+    wantedPlace.value = null;
+    const { view } = texts;
+    // After the panel that was brought to the front has its size.
+    requestAnimationFrame(() => {
+      goToPlace(view, wanted.line, wanted.column);
+      view.focus();
+    });
+  }, [wanted, shown]);
+}
