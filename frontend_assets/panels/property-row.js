@@ -7,6 +7,7 @@ import { html, signal, useEffect, useMemo } from "vendor/preact.js";
 import { editSite, resetSite, setArgument } from "../app/actions.js";
 import { mayEdit } from "../app/state/connection.js";
 import { documentState, problems, showingLastGood } from "../app/state/document.js";
+import { showSource } from "../app/state/source.js";
 import { degrees, hovered } from "../app/state/view.js";
 import { isExpression } from "../lib/expressions.js";
 import { createGesture } from "../lib/gesture.js";
@@ -158,6 +159,11 @@ function menuItems(site, writer) {
   const locked = !mayEdit.value;
   /** @type {import("../lib/ui.js").MenuItem[]} */
   const items = [{ label: `${placeText(site)} · ${t(`kind.${site.kind}.one`)}`, heading: true }];
+  items.push({
+    label: t("property.show_source"),
+    icon: "source",
+    run: () => showSource(site.file, site.line),
+  });
   if (isExpression(site.text) && site.number !== null && site.argument === null) {
     const number = formatNumber(site.number);
     const run = () => {
