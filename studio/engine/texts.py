@@ -92,13 +92,16 @@ class TextDesk:
                 self._tell_new(file, told.text.text, EditorText(data))
 
     def _first(self, file: str) -> _Told:
-        data = self._document.sources.text(file)
+        sources = self._document.sources
+        # What is no text for us is not held for ever.
+        is_held = file in sources.files
+        data = sources.text(file) if is_held else self._document.location.served.read(file)
         if len(data) > TEXT_LIMIT_BYTES:
             limit_mb = TEXT_LIMIT_BYTES >> 20
             raise CommandError(f"{file} is larger than {limit_mb} MB: open it in another editor.")
         if b"\0" in data:
             raise CommandError(f"{file} is no text that can be shown: open another file.")
-        told = self._told[file] = _Told(1, EditorText(data))
+        told = self._told[file] = _Told(1, EditorText(sources.text(file)))
         return told
 
     def _take_typed(self, file: str, command: m.EditText) -> None:
@@ -141,9 +144,13 @@ class TextDesk:
         if not Path(file).is_absolute():
             raise CommandError(f"{file!r} is no whole path: name the file from the root on.")
         name = str(self._document.location.served.resolve(Path(file)))
-        if role is not Role.PRESENTER and name not in self._document.sources.files:
+        if role is not Role.PRESENTER and name not in self._read_by_the_run():
             raise CommandError(f"{file} is no file of this document: choose one of its files.")
         return name
+
+    def _read_by_the_run(self) -> tuple[str, ...]:
+        expansion = self._document.expansion
+        return expansion.files if expansion else (self._document.path,)
 
     def _may_write(self, file: str) -> bool:
         return self._document.location.served.may_write(Path(file))
