@@ -4,6 +4,7 @@ import { effect, html, render } from "vendor/preact.js";
 import { createDock } from "../lib/dock.js";
 import { nearestLanguage, t, useLanguage } from "../lib/i18n.js";
 import { takesText } from "../lib/keys.js";
+import { anyUnderWay } from "../lib/latest.js";
 import { documentOf } from "../lib/paths.js";
 import { iconElement } from "../lib/ui.js";
 import { clearSelection, redo, save, toggleAnimation, undo, watch, zeroJoints } from "./actions.js";
@@ -83,14 +84,14 @@ function addPageCommands() {
       icon: "disk",
       keys: ["Mod+S"],
       inText: true,
-      enabled: () => mayEdit.value && unsaved.value,
+      enabled: () => mayEdit.value && (unsaved.value || anyUnderWay()),
       run: save,
     },
     {
       id: "undo",
       icon: "undo",
       keys: ["Mod+Z"],
-      enabled: () => EDITING.enabled() && history.value.undo.length > 0,
+      enabled: () => EDITING.enabled() && (history.value.undo.length > 0 || anyUnderWay()),
       run: () => void undo(),
     },
     {

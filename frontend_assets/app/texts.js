@@ -56,7 +56,7 @@ export async function linkText(file, apply) {
       shared.take({ version, changes, own: origin === ORIGIN }),
     ),
     whenBack(refetch),
-    settleFirst(() => shared.settled()),
+    settleFirst(shared.settled, shared.busy),
   ];
   const close = () => {
     for (const end of ends) end();

@@ -1,19 +1,23 @@
-/** @type {Set<() => Promise<void>>} the senders that have something under way */
-const underWay = new Set();
+/** @type {Map<() => Promise<void>, () => boolean>} who may have something under way, and whether it has */
+const underWay = new Map();
 
 /** @returns {Promise<void>} when all that was pushed anywhere has been answered: undo must not overtake it */
 export async function allSettled() {
-  await Promise.all([...underWay].map((settled) => settled()));
+  await Promise.all([...underWay.keys()].map((settled) => settled()));
 }
+
+/** @returns {boolean} something was pushed or typed that the studio has not answered yet */
+export const anyUnderWay = () => [...underWay.values()].some((busy) => busy());
 
 /**
  * Have `allSettled` wait for something of one's own, too.
  *
  * @param {() => Promise<void>} settled
+ * @param {() => boolean} busy
  * @returns {() => void} ends it
  */
-export function settleFirst(settled) {
-  underWay.add(settled);
+export function settleFirst(settled, busy) {
+  underWay.set(settled, busy);
   return () => underWay.delete(settled);
 }
 
@@ -77,7 +81,7 @@ export function latestSender(send, nextFrame = (callback) => requestAnimationFra
     busy,
     push(value) {
       waiting = { value };
-      underWay.add(settled);
+      underWay.set(settled, busy);
       schedule();
     },
     settled,

@@ -60,13 +60,11 @@ export function createTexts() {
 
   /** @param {string} id @param {() => Promise<void>} run */
   async function step(id, run) {
-    if (!(commandById(id)?.enabled?.() ?? true) && !busy()) return;
+    if (!(commandById(id)?.enabled?.() ?? true)) return;
     follow = true;
     await run();
     follow = false;
   }
-
-  const busy = () => [...open.values()].some(({ link }) => link?.shared.busy());
 
   /** @param {string} file @param {ChangeSet} changes */
   function apply(file, changes) {

@@ -334,8 +334,8 @@ class Document:
         self.board.find("validation", await self._services.validator.validate(self.urdf()))
 
     def _texts_changed(self) -> None:
-        self.texts.follow()
         self.board.texts()
+        self.texts.follow()
         if self.has_unsaved != self._was_unsaved:
             self._was_unsaved = self.has_unsaved
             self.on_unsaved()

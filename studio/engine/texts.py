@@ -42,6 +42,8 @@ class TextDesk:
     def __init__(self, document: Document) -> None:
         self._document = document
         self._told: dict[str, _Told] = {}
+        self._typed: dict[str, m.EditText] = {}
+        """What was typed and is not told yet."""
 
     def answer(self, command: m.GetText, role: Role) -> m.Text:
         """A file's text; its changes are told from now on.
@@ -62,7 +64,7 @@ class TextDesk:
         )
 
     def edit(self, command: m.EditText) -> tuple[Edit, ...]:
-        """Type into a text; what was done to the sources, in order.
+        """Type into a text; what was done to the sources, in order. `follow` tells it.
 
         Raises:
             StaleTextError: The text is no longer the one that was seen.
@@ -81,14 +83,16 @@ class TextDesk:
         for edit in edits:
             name = f"Edit {Path(file).name}"
             self._document.sources.edit(edit, name, gesture, is_value=False)
-        self._take_typed(file, command)
+        self._typed[file] = command
         return edits
 
     def follow(self) -> None:
         """Tell what changed in the texts that somebody has."""
         for file, told in self._told.items():
             data = self._document.sources.text(file)
-            if data != told.text.data:
+            if typed := self._typed.pop(file, None):
+                self._tell_typed(file, typed)
+            elif data != told.text.data:
                 self._tell_new(file, told.text.text, EditorText(data))
 
     def _first(self, file: str) -> _Told:
@@ -104,7 +108,7 @@ class TextDesk:
         told = self._told[file] = _Told(1, EditorText(sources.text(file)))
         return told
 
-    def _take_typed(self, file: str, command: m.EditText) -> None:
+    def _tell_typed(self, file: str, command: m.EditText) -> None:
         """Tell the typed changes as they came, then what the file's bytes made of them beyond.
 
         A changed encoding declaration makes other letters of bytes that nobody touched.

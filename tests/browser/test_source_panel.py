@@ -1,0 +1,143 @@
+"""The source panel as a person uses it: type, see it, undo, break it, and watch sliders write."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+
+from tests.support.server import running_studio
+from tests.support.studio_page import StudioPage, studio_page, wait_until
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+    from playwright.sync_api import Browser, Locator
+
+    from tests.support.server import RunningStudio
+
+pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(240)]
+
+
+@pytest.fixture
+def studio(tmp_path: Path) -> Iterator[RunningStudio]:
+    with running_studio(["demo", "--viewer-link"], tmp_path / "data") as running:
+        yield running
+
+
+@pytest.fixture
+def tab(browser: Browser, studio: RunningStudio) -> Iterator[StudioPage]:
+    with studio_page(browser, studio) as page:
+        wait_until("the source", lambda: "<robot" in text_of(page))
+        yield page
+
+
+def text_of(tab: StudioPage) -> str:
+    """What the editor shows of the text in front."""
+    content = tab.page.locator(".cm-content")
+    return content.inner_text() if content.count() else ""
+
+
+def line_of(tab: StudioPage) -> str:
+    """The line with the cursor."""
+    return tab.page.locator(".cm-activeLine").inner_text()
+
+
+def go_to(tab: StudioPage, property_name: str) -> None:
+    """Go to a property's line by the menu of its row."""
+    tab.seek(property_name)
+    tab.row(property_name).get_by_role("button", name="More").click()
+    tab.page.get_by_role("menuitem", name="Show in the source").click()
+    wait_until("its line", lambda: f'name="{property_name}"' in line_of(tab))
+
+
+def put_cursor_behind(tab: StudioPage, words: str) -> None:
+    """Walk to the end of some words in the line of the cursor."""
+    tab.page.keyboard.press("Home")
+    line = line_of(tab).lstrip()
+    for _ in range(line.index(words) + len(words)):
+        tab.page.keyboard.press("ArrowRight")
+
+
+def notice(tab: StudioPage) -> Locator:
+    return tab.page.get_by_text("Showing the last good model")
+
+
+def test_a_typed_number_moves_the_pixels_and_its_slider_and_is_undone_as_one_step(
+    tab: StudioPage, tmp_path: Path
+):
+    go_to(tab, "wheel_radius")
+    before = tab.settle()
+    put_cursor_behind(tab, '"0.1')
+    tab.page.keyboard.press("Shift+ArrowRight")
+    tab.page.keyboard.press("Shift+ArrowRight")
+    tab.page.keyboard.type("55", delay=40)
+    wait_until("the slider to follow", lambda: tab.box("wheel_radius").input_value() == "0.155")
+    assert tab.settle() != before
+    dot = tab.page.get_by_role("tab", name="rover.urdf.xacro").get_by_label("unsaved")
+    wait_until("the tab to be unsaved", dot.is_visible)
+
+    tab.page.locator(".cm-content").press("Control+z")
+    wait_until("the undo", lambda: tab.box("wheel_radius").input_value() == "0.105")
+    assert 'value="0.105"' in line_of(tab)
+    wait_until("the pixels to come back", lambda: tab.settle() == before)
+    assert not tab.page.get_by_role("button", name="Undo", exact=True).is_enabled()
+
+    put_cursor_behind(tab, '"0.10')
+    tab.page.keyboard.type("2")
+    tab.page.keyboard.press("Control+s")
+    saved = tmp_path / "data" / "models" / "rover_description/urdf/rover.urdf.xacro"
+    wait_until("the file", lambda: b'"wheel_radius" value="0.1025"' in saved.read_bytes())
+    assert tab.errors == []
+
+
+def test_broken_text_is_underlined_and_the_last_good_model_stays(tab: StudioPage):
+    before = tab.settle()
+    go_to(tab, "wheel_radius")
+    put_cursor_behind(tab, "<xacro:propert")
+    tab.page.keyboard.press("Delete")
+    wait_until("the notice over the 3D view", notice(tab).is_visible)
+    underlined = tab.page.locator(".cm-lintRange-error")
+    wait_until("the underline", lambda: underlined.count() > 0)
+    assert "xacro:propert" in underlined.first.inner_text()
+    assert tab.has_drawn_robot()
+    tab.page.keyboard.type("y")
+    wait_until("the notice to go", lambda: not notice(tab).is_visible())
+    wait_until("the underline to go", lambda: underlined.count() == 0)
+    wait_until("the picture to be as before", lambda: tab.settle() == before)
+    assert tab.errors == []
+
+
+def test_a_slider_writes_into_the_text_and_leaves_cursor_and_scroll(tab: StudioPage):
+    go_to(tab, "wheel_radius")
+    place = tab.page.locator(".source-foot .numbers")
+    put_cursor_behind(tab, "<xacro:property")
+    scroller = tab.page.locator(".cm-scroller")
+    before = (place.inner_text(), scroller.evaluate("one => one.scrollTop"))
+    value = tab.drag_slider("wheel_radius", 0.8)
+    assert value != "0.105"
+    wait_until("the text to follow", lambda: f'value="{value}"' in line_of(tab))
+    assert (place.inner_text(), scroller.evaluate("one => one.scrollTop")) == before
+
+
+def test_what_one_types_another_sees_and_a_viewer_cannot_change(
+    tab: StudioPage, studio: RunningStudio, browser: Browser
+):
+    watching = browser.new_context(viewport={"width": 1280, "height": 720})
+    viewer = StudioPage(watching.new_page())
+    assert studio.process.stdout is not None
+    viewer.page.goto(studio.process.stdout.readline().removeprefix("Viewer: ").strip())
+    wait_until("the viewer's text", lambda: "<robot" in text_of(viewer))
+    go_to(viewer, "wheel_radius")
+    go_to(tab, "wheel_radius")
+    put_cursor_behind(tab, '"0.105')
+    tab.page.keyboard.type("7")
+    wait_until("it to arrive", lambda: 'value="0.1057"' in line_of(viewer))
+    seen = text_of(viewer)
+    viewer.page.keyboard.type("x")
+    viewer.page.keyboard.press("Backspace")
+    assert text_of(viewer) == seen
+    assert viewer.page.get_by_text("the text can be read only").is_visible()
+    assert viewer.errors == []
+    watching.close()
