@@ -2,7 +2,7 @@
 
 /** @import { Problem } from "../types/wire.d.ts" */
 
-const WORD = /^(?:<\/?[\w:.-]+|[\w:.-]+|\$\{[^}]*\}?)/;
+const WORD = /^(?:<\/?[\w:.-]+|[\w:.-]*\w|\$\{[^}]*\}?)/;
 
 /**
  * @typedef {object} Lines a text by its lines

@@ -7,6 +7,7 @@ import { mend } from "../app/actions.js";
 import { commandById } from "../app/commands.js";
 import { mayEdit } from "../app/state/connection.js";
 import { allSites, documentState, problems, sitesRevision } from "../app/state/document.js";
+import { showSource } from "../app/state/source.js";
 import { propertyFilter, soughtSite } from "../app/state/view.js";
 import { t } from "../lib/i18n.js";
 import { placeText, shortPath } from "../lib/paths.js";
@@ -42,19 +43,25 @@ function ProblemRow({ problem }) {
   </li>`;
 }
 
-/** A place that is a property's own line leads to it. @param {{problem: Problem, words: string}} props */
+/** Leads to the line; where that is a property's own, to the property as well. @param {{problem: Problem, words: string}} props */
 function PlaceLine({ problem: { place }, words }) {
+  if (!place?.line) return html`<p class="place">${words}</p>`;
+  const read = () => showSource(place.file, place.line, place.column || 1);
+  return html`<p class="place"><button type="button" class="text-button" title=${t("property.show_source")} onClick=${read}>${words}</button>
+    <${PropertyLink} file=${place.file} line=${place.line} /></p>`;
+}
+
+/** @param {{file: string, line: number}} props */
+function PropertyLink({ file, line }) {
   sitesRevision.value;
-  const there = [...allSites().values()].find(
-    ({ file, line }) => file === place?.file && line === place.line,
-  );
-  if (!there) return html`<p class="place">${words}</p>`;
+  const there = [...allSites().values()].find((one) => one.file === file && one.line === line);
+  if (!there) return null;
   const go = () => {
     commandById("panel.properties")?.run();
     propertyFilter.value = "";
     soughtSite.value = there.id;
   };
-  return html`<p class="place"><button type="button" class="text-button" title=${t("palette.property", { name: there.name })} onClick=${go}>${words}</button></p>`;
+  return html` · <button type="button" class="text-button" onClick=${go}>${t("palette.property", { name: there.name })}</button>`;
 }
 
 /** @param {Problem} problem @param {string} root @returns {string} the place, and the way that led to it */
