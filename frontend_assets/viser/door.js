@@ -16,6 +16,9 @@ export class Door {
   #before = [];
   /** @type {(() => void)[]} */
   #after = [];
+  /** @type {(() => void)[]} */
+  #redraws = [];
+  #takesInSoon = false;
   /** @type {(mutable: Mutable) => void} */
   #opened = () => {};
 
@@ -50,11 +53,16 @@ export class Door {
     if (after) this.#after.push(after);
   }
 
+  /** Hear that somebody asks for a picture. @param {() => void} watcher */
+  onRedraw(watcher) {
+    this.#redraws.push(watcher);
+  }
+
   /** Tell viser something that only this browser shall know. @param {Message[]} messages */
   inject(...messages) {
     if (!this.mutable || messages.length === 0) return;
     for (const message of messages) Array.prototype.push.call(this.mutable.messageQueue, message);
-    this.mutable.requestRender();
+    this.#takeInSoon();
   }
 
   /** Draw soon. */
@@ -74,6 +82,7 @@ export class Door {
     this.#tapMessages(mutable);
     this.#tapConnection(mutable);
     this.#tapPictures(mutable);
+    this.#tapRedraws(mutable);
     this.#readWhatCameBefore();
     this.#opened(mutable);
   }
@@ -85,10 +94,26 @@ export class Door {
       for (const reader of this.#readers) reader(message);
     };
     mutable.messageQueue.forEach(read);
+    const takeInSoon = () => this.#takeInSoon();
     mutable.messageQueue.push = function push(...messages) {
       messages.forEach(read);
+      takeInSoon();
       return Array.prototype.push.apply(this, messages);
     };
+  }
+
+  /**
+   * viser takes a batch in at the beginning of a picture, and what React makes of it is seen in the
+   * next one; taken in as soon as it is there whole, it is seen in the first.
+   */
+  #takeInSoon() {
+    if (this.#takesInSoon) return;
+    this.#takesInSoon = true;
+    queueMicrotask(() => {
+      this.#takesInSoon = false;
+      this.mutable?.drainMessageQueue?.();
+      this.mutable?.requestRender();
+    });
   }
 
   /** viser marks a first batch and gives itself a way to send when it connects; when it loses the
@@ -134,6 +159,22 @@ export class Door {
     scene.onAfterRender = () => {
       for (const after of this.#after) after();
     };
+  }
+
+  /** viser replaces its way to ask when its canvas stands. @param {Mutable} mutable */
+  #tapRedraws(mutable) {
+    let ask = mutable.requestRender;
+    const askAndTell = () => {
+      ask();
+      for (const redraw of this.#redraws) redraw();
+    };
+    Object.defineProperty(mutable, "requestRender", {
+      configurable: true,
+      get: () => askAndTell,
+      set: (value) => {
+        ask = value;
+      },
+    });
   }
 
   /** The page may have drawn before the door was there. */

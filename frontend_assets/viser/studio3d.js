@@ -2,10 +2,12 @@
 import { CameraView } from "./camera.js";
 import { Door } from "./door.js";
 import { forwardKeys } from "./keys.js";
+import { Light } from "./light.js";
 import { Looks } from "./looks.js";
 import { pick } from "./picking.js";
 import { Pointer } from "./pointer.js";
 import { RobotView } from "./robot.js";
+import { Still } from "./still.js";
 import { Theme } from "./theme.js";
 
 /**
@@ -20,6 +22,8 @@ class Studio3d {
   #door = new Door();
   #robot = new RobotView(this.#door);
   #camera = new CameraView(this.#door, this.#robot);
+  #light = new Light(this.#door);
+  #still = new Still(this.#door);
   #theme = new Theme(this.#door, () => this.#camera.distance());
   #looks = new Looks(this.#door, this.#robot, this.#theme);
   #pointer = new Pointer(this.#door, this.#robot, this.#looks, this.#camera, (type, detail) =>

@@ -6,8 +6,6 @@
 
 const GRID = "/grid";
 const NEUTRAL_TONES = 7;
-const SURROUNDING_LIGHT = 1.25;
-const DIRECT_LIGHT = 0.8;
 /** The grid ends at this many times the distance to what we look at. */
 const FADE = 16;
 
@@ -31,8 +29,6 @@ export class Theme {
   #distance;
   /** @type {WeakSet<Material>} */
   #calmed = new WeakSet();
-  /** @type {WeakSet<object>} */
-  #softened = new WeakSet();
   #shadowed = true;
 
   /** @param {Door} door @param {() => number} distance From the eye to what it looks at, m. */
@@ -42,7 +38,6 @@ export class Theme {
     door.onMessage((message) => this.#paintGrid(message));
     door.onPicture((renderer) => {
       renderer.toneMapping = NEUTRAL_TONES;
-      this.#softenLight();
       this.#calmGrid();
     });
     this.set(matchMedia("(prefers-color-scheme: light)").matches ? "light" : "dark");
@@ -77,20 +72,6 @@ export class Theme {
 
   #shadow() {
     return { shadow_opacity: this.#shadowed ? THEMES[this.name].shadow : 0 };
-  }
-
-  /** More light from all around and less from above; shadows that do not stripe what casts them. */
-  #softenLight() {
-    const scene = this.#door.mutable?.scene;
-    if (!scene) return;
-    scene.environmentIntensity = SURROUNDING_LIGHT;
-    for (const object of scene.children) {
-      if (!object.shadow || this.#softened.has(object)) continue;
-      this.#softened.add(object);
-      object.intensity *= DIRECT_LIGHT;
-      object.shadow.normalBias = 0.02;
-      object.shadow.radius = 1.5;
-    }
   }
 
   #calmGrid() {

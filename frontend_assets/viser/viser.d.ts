@@ -118,9 +118,13 @@ export interface Camera extends Object3D {
 export interface Renderer {
   toneMapping: number;
   toneMappingExposure: number;
+  getPixelRatio(): number;
+  setPixelRatio(ratio: number): void;
+  render(scene: Scene, camera: Camera): void;
 }
 
 export interface Scene extends Object3D {
+  environment: object | null;
   environmentIntensity: number;
   onBeforeRender: (renderer: Renderer) => void;
   onAfterRender: (renderer: Renderer) => void;
@@ -151,6 +155,8 @@ export interface Message {
   name?: string;
   owner?: string;
   visible?: boolean;
+  position?: [number, number, number];
+  virtual?: boolean;
   props?: Record<string, unknown>;
   updates?: Record<string, unknown>;
 }
@@ -162,6 +168,8 @@ export interface Mutable {
   cameraControl: CameraControl | null;
   nodeRefFromName: Record<string, Object3D | undefined>;
   messageQueue: Message[];
+  /** Null until the canvas stands. */
+  drainMessageQueue: (() => void) | null;
   firstMessageBatch: boolean;
   sendMessage: (message: Message) => void;
   requestRender: () => void;
