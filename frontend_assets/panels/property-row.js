@@ -3,9 +3,10 @@
 /** @import { SiteView } from "../types/wire.d.ts" */
 /** @import { Signal } from "vendor/preact.js" */
 
-import { html, signal, useEffect, useMemo } from "vendor/preact.js";
+import { html, signal, useComputed, useEffect, useMemo } from "vendor/preact.js";
 import { editSite, resetSite, setArgument } from "../app/actions.js";
 import { mayEdit } from "../app/state/connection.js";
+import { cursorSites } from "../app/state/cursor-sites.js";
 import { documentState, problems, showingLastGood } from "../app/state/document.js";
 import { showSource } from "../app/state/source.js";
 import { degrees, hovered } from "../app/state/view.js";
@@ -36,7 +37,13 @@ export function PropertyRow({ site: followed }) {
   const failure = failureOf(site, attempt !== null);
   const changed = isChanged(site) || attempt !== null;
   const link = site.owner.startsWith("link:") ? site.owner.slice(5) : null;
-  const states = [failure && "bad", changed && "changed", site.reads === 0 && "idle"]
+  const atCursor = useComputed(() => cursorSites.value.has(site.id)).value;
+  const states = [
+    failure && "bad",
+    changed && "changed",
+    site.reads === 0 && "idle",
+    atCursor && "at-cursor",
+  ]
     .filter(Boolean)
     .join(" ");
   const text = attempt ?? site.argument ?? site.text;
