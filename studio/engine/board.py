@@ -8,7 +8,7 @@ from studio.engine import messages as m
 from studio.engine.findings import Findings
 from studio.engine.listeners import Audience, Listener, tell
 from studio.engine.site_book import SiteBook
-from studio.engine.views import robot_state
+from studio.engine.views import RobotViews
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -25,6 +25,9 @@ class Board:
         self.book = SiteBook()
         self._document = document
         self._findings = Findings()
+        self._views = RobotViews()
+        self._robot_told: m.RobotState | None = None
+        self._joints_told: m.JointPositions | None = None
 
     def attach(self, listener: Listener) -> None:
         """Tell a newcomer the whole state, then let it hear every change."""
@@ -37,9 +40,14 @@ class Board:
         self.audience.tell(self._state())
 
     def robot(self) -> None:
-        """Tell the robot's tree and where its joints stand."""
-        self.audience.tell(robot_state(self._document.model))
-        self.joints()
+        """Tell the robot's tree and where its joints stand, as far as that is news."""
+        robot, joints = self._views.state(self._document.model), self._joints()
+        if robot != self._robot_told:
+            self._robot_told, self._joints_told = robot, None
+            self.audience.tell(robot)
+        if joints != self._joints_told:
+            self.audience.tell(joints)
+        self._joints_told = joints
 
     def joints(self) -> None:
         """Tell where the joints stand, by name."""
@@ -79,7 +87,7 @@ class Board:
     def _snapshot(self) -> Iterable[m.Event]:
         yield self._state()
         if self._document.expansion:
-            yield robot_state(self._document.model)
+            yield self._views.state(self._document.model)
             yield self._joints()
             yield self.book.everything()
         yield self._displays()

@@ -17,11 +17,11 @@ from studio.engine.mesh_loading import MeshLoading
 from studio.engine.messages import Built, Saved
 from studio.engine.model import Model
 from studio.engine.motion import Motion
+from studio.engine.packages_used import PackagesUsed
 from studio.engine.policy import target_of
 from studio.engine.texts import TextDesk
 from studio.engine.watching import FileWatch
 from studio.errors import CommandError
-from studio.packages.roots import package_folder_of
 from studio.packages.uris import resolve_uri
 from studio.problems import Fix, Problem
 from studio.scene import DocumentScene
@@ -74,6 +74,8 @@ class Document:
         )
         self._files: tuple[str, ...] = (self.path,)
         self._watch = FileWatch(self._changed_on_disk)
+        self._packages = PackagesUsed()
+        self._packages_seen: dict[str, str] | None = None
         self._was_unsaved = False
         self._background: dict[str, asyncio.Task[None]] = {}
 
@@ -111,9 +113,7 @@ class Document:
     def packages_used(self) -> dict[str, str]:
         """Each package that a file of the last run or a mesh lies in, and which copy it is."""
         files = (*self._files, *self._meshes.files.values())
-        folders = {package_folder_of(Path(file)) for file in files}
-        packages = self.location.index.packages
-        return {one.name: str(one.folder) for one in packages if one.folder in folders}
+        return self._packages.of(files, self.location)
 
     def start(self) -> None:
         """Begin the first run; the audience hears how it goes."""
@@ -237,16 +237,16 @@ class Document:
     def _take_expansion(self, expansion: Expansion, version: int) -> None:
         is_first = self.expansion is None
         self.expansion, self.failed, self._files = expansion, False, expansion.files
+        change = self.model.take(expansion)  # first: this is the picture, what follows is talk
         self.sources.adopt(expansion, version)
         self.board.book.take(expansion)
-        change = self.model.take(expansion)
         self.board.find("expansion", expansion.warnings)
         self.board.find("robot", change.problems)
         self.board.find("inertia", self.model.inertia_problems())
-        self.board.find("packages", (*self.location.problems, *self._duplicates()))
-        self._want_meshes()
-        if is_first or change.structural or change.changed_joints:
-            self.board.robot()
+        self._look_at_packages()
+        if is_first or change.new_meshes:
+            self._want_meshes()
+        self.board.robot()
         if is_first or change.structural:
             self._spawn("validation", self._validate())
 
@@ -308,13 +308,17 @@ class Document:
         self._watch_files()
         self.board.find("mesh", self._mesh_problems())
 
-    def _duplicates(self) -> list[Problem]:
-        """The packages in use of which there is more than one copy."""
-        return self.location.index.duplicates(self.entry, self.packages_used())
+    def _look_at_packages(self) -> None:
+        """Tell of the packages in use of which there is more than one copy."""
+        used = self.packages_used()
+        if used is not self._packages_seen:
+            self._packages_seen = used
+            duplicates = self.location.index.duplicates(self.entry, used)
+            self.board.find("packages", (*self.location.problems, *duplicates))
 
     def _mesh_problems(self) -> list[Problem]:
         """What is wrong with meshes, each at the first link that names it."""
-        users = self.model.mesh_users()
+        users = self.model.mesh_users() if self._meshes.problems else {}
         return [
             replace(problem, place=part.place if (part := users.get(uri)) else None)
             for uri, problem in self._meshes.problems.items()

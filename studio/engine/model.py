@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 
@@ -21,6 +21,17 @@ if TYPE_CHECKING:
     from studio.scene import DocumentScene
 
 
+@dataclass(frozen=True, slots=True)
+class Taken:
+    """What a run came to in the model."""
+
+    structural: bool
+    problems: tuple[Problem, ...]
+    """All problems of the robot now."""
+    new_meshes: bool
+    """The robot names other meshes than before."""
+
+
 class Model:
     """Assembly, kinematics and joint positions of one robot, and the scene that shows it."""
 
@@ -32,18 +43,19 @@ class Model:
         self.revision = 0
         """Counts structural changes."""
         self._inertia: dict[str, list[Problem]] = {}
+        self._meshes: dict[str, tuple[str, ...]] = {}
 
     @property
     def robot(self) -> Robot:
         """The last good robot; without links before the first."""
         return self.assembly.robot
 
-    def take(self, expansion: Expansion) -> Change:
+    def take(self, expansion: Expansion) -> Taken:
         """Take in a run and show what it changed."""
         self.assembly.rename(expansion.robot_name)
         change = self.assembly.apply(expansion.part_order, expansion.changed_parts)
         if change.kept_last_good:
-            return change
+            return Taken(structural=False, problems=change.problems, new_meshes=False)
         if change.structural or change.changed_joints:
             self.kinematics = Kinematics(change.robot)
             self.joints.adopt(self.kinematics)
@@ -51,7 +63,8 @@ class Model:
         self.scene.show(change.robot, change.changed_links | self._axes_of(change))
         self.pose()
         self._weigh(change)
-        return change
+        new_meshes = self._note_meshes(change)
+        return Taken(change.structural, change.problems, new_meshes)
 
     def inertia_problems(self) -> list[Problem]:
         """What no body can have, at the links that have it."""
@@ -67,6 +80,17 @@ class Model:
             self._inertia[name] = [
                 replace(problem, place=place) for problem in inertia_problems(links[name])
             ]
+
+    def _note_meshes(self, change: Change) -> bool:
+        """Look at the meshes of the links that changed; whether any is other than before."""
+        links = change.robot.links
+        known = self._meshes
+        meshes = {name: known[name] for name in links if name in known}
+        for name in links:
+            if name in change.changed_links or name not in known:
+                meshes[name] = tuple(mesh_uris(links[name]))
+        self._meshes = meshes
+        return meshes != known
 
     def pose(self) -> None:
         """Send the links to where the joint positions put them."""

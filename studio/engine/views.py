@@ -5,30 +5,54 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from studio.engine.messages import JointView, LinkView, RobotState, SiteView
-from studio.robot.values import Joint, JointType, Link, Mesh
+from studio.robot.values import JointType, Mesh
 
 if TYPE_CHECKING:
     from studio.description.values import Part, Site
     from studio.engine.model import Model
     from studio.robot.assembly import Assembly
+    from studio.robot.values import Joint, Link, Robot
 
 _LIMITED = frozenset({JointType.REVOLUTE, JointType.PRISMATIC})
 
 
-def robot_state(model: Model) -> RobotState:
-    """The robot's tree with the place where each part was written."""
-    robot, assembly = model.robot, model.assembly
-    axes = dict(zip(model.kinematics.movable, model.kinematics.axes.tolist(), strict=True))
-    return RobotState(
-        revision=model.revision,
-        name=robot.name,
-        root=_root(model),
-        links=tuple(_link_view(link, assembly) for link in robot.links.values()),
-        joints=tuple(
-            _joint_view(joint, axes.get(joint.name, [1.0, 0.0, 0.0]), assembly)
-            for joint in robot.joints.values()
-        ),
-    )
+class RobotViews:
+    """Makes the state of a robot for the page; of what stayed the same it keeps the views."""
+
+    def __init__(self) -> None:
+        self._links: dict[str, tuple[Link, Part | None, LinkView]] = {}
+        self._joints: dict[str, tuple[Joint, Part | None, JointView]] = {}
+
+    def state(self, model: Model) -> RobotState:
+        """The robot's tree with the place where each part was written."""
+        robot = model.robot
+        return RobotState.model_construct(
+            revision=model.revision,
+            name=robot.name,
+            root=_root(model),
+            links=self._link_views(robot, model.assembly),
+            joints=self._joint_views(robot, model),
+        )
+
+    def _link_views(self, robot: Robot, assembly: Assembly) -> tuple[LinkView, ...]:
+        before, self._links = self._links, {}
+        for name, link in robot.links.items():
+            part = assembly.part(f"link:{name}")
+            known = before.get(name)
+            if known is None or known[0] is not link or known[1] is not part:
+                known = link, part, _link_view(link, part)
+            self._links[name] = known
+        return tuple(view for _, _, view in self._links.values())
+
+    def _joint_views(self, robot: Robot, model: Model) -> tuple[JointView, ...]:
+        before, self._joints = self._joints, {}
+        for name, joint in robot.joints.items():
+            part = model.assembly.part(f"joint:{name}")
+            known = before.get(name)
+            if known is None or known[0] is not joint or known[1] is not part:
+                known = joint, part, _joint_view(joint, model.kinematics.axis_of(name), part)
+            self._joints[name] = known
+        return tuple(view for _, _, view in self._joints.values())
 
 
 def site_view(site: Site, saved_text: str | None, argument: str | None) -> SiteView:
@@ -57,8 +81,7 @@ def _root(model: Model) -> str:
     return next((name for name in model.robot.links if name not in children), "")
 
 
-def _link_view(link: Link, assembly: Assembly) -> LinkView:
-    part = assembly.part(f"link:{link.name}")
+def _link_view(link: Link, part: Part | None) -> LinkView:
     shapes = (*link.visuals, *link.collisions)
     meshes = (shape.geometry.uri for shape in shapes if isinstance(shape.geometry, Mesh))
     return LinkView(
@@ -73,15 +96,14 @@ def _link_view(link: Link, assembly: Assembly) -> LinkView:
     )
 
 
-def _joint_view(joint: Joint, axis: list[float], assembly: Assembly) -> JointView:
-    part = assembly.part(f"joint:{joint.name}")
+def _joint_view(joint: Joint, axis: tuple[float, float, float], part: Part | None) -> JointView:
     limit = joint.limit if joint.type in _LIMITED else None
     return JointView(
         name=joint.name,
         type=joint.type.value,
         parent=joint.parent,
         child=joint.child,
-        axis=(axis[0], axis[1], axis[2]),
+        axis=axis,
         lower=limit.lower if limit else None,
         upper=limit.upper if limit else None,
         mimic=joint.mimic.joint if joint.mimic else "",

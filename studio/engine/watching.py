@@ -27,15 +27,19 @@ class FileWatch:
         self._changed = changed
         self._files: frozenset[str] = frozenset()
         self._folders: frozenset[str] = frozenset()
+        self._some_missing = False
         self._stop = asyncio.Event()
         self._task: asyncio.Task[None] | None = None
 
     def watch(self, files: Iterable[str]) -> None:
         """Watch these files from now on; cheap when their folders stay the same."""
-        self._files = frozenset(files)
-        folders = frozenset(
-            str(folder) for folder in {Path(file).parent for file in self._files} if folder.is_dir()
-        )
+        wanted = frozenset(files)
+        if wanted == self._files and not self._some_missing:
+            return
+        self._files = wanted
+        parents = {Path(file).parent for file in wanted}
+        folders = frozenset(str(folder) for folder in parents if folder.is_dir())
+        self._some_missing = len(folders) < len(parents)
         if folders == self._folders:
             return
         self._folders = folders

@@ -104,6 +104,14 @@ class Kinematics:
         """Unit axis of each movable joint in its own frame, (J, 3); zero where none is given."""
         return self._axes
 
+    def axis_of(self, joint: str) -> tuple[float, float, float]:
+        """Unit axis of a joint in its own frame; x for one that does not move."""
+        index = self._index.get(joint)
+        if index is None:
+            return (1.0, 0.0, 0.0)
+        x, y, z = self._axes[index].tolist()
+        return (x, y, z)
+
     def zero_positions(self) -> Floats:
         """Zero for every movable joint, or the nearest position within its limits."""
         return self._followed(np.clip(0.0, self.lower, self.upper))
