@@ -400,6 +400,7 @@ export interface Text {
   file: string;
   version: number;
   text: string;
+  saved: string | null;
   read_only: string;
 }
 

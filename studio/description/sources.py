@@ -131,6 +131,14 @@ class Sources:
         """
         return self._held(file).now
 
+    def saved(self, file: str) -> bytes:
+        """A file's text as it was last read from the disk or written to it.
+
+        Raises:
+            PackageError: It is not held and cannot be read.
+        """
+        return self._held(file).disk
+
     def track(self, files: Iterable[str]) -> None:
         """Hold the texts of these files too; one that cannot be read is left out."""
         for file in files:

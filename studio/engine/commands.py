@@ -159,7 +159,7 @@ class TextChange(Message):
 
     start: int = Field(ge=0)
     end: int = Field(ge=0)
-    text: str = Field(max_length=1_000_000)
+    text: str = Field(max_length=4_194_304)
 
 
 class EditText(CommandMessage):

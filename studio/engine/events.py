@@ -243,6 +243,8 @@ class Text(Message):
     """As the studio names it, which may differ from how it was asked for."""
     version: int
     text: str
+    saved: str | None
+    """The text on disk, where it is another one."""
     read_only: str
     """Why it may not be edited, a sentence; empty: it may."""
 

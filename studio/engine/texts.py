@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 TEXT_LIMIT_BYTES: Final = 4 << 20
 """More than any robot description; an editor in a browser holds it with ease."""
+_LIMIT_MB: Final = TEXT_LIMIT_BYTES >> 20
 _READ_ONLY: Final = "it lies where the studio may only read."
 
 
@@ -55,11 +56,13 @@ class TextDesk:
         file = self._name(command.file, role)
         self.follow()
         told = self._told.get(file) or self._first(file)
+        saved = self._document.sources.saved(file)
         return m.Text(
             request=command.request,
             file=file,
             version=told.version,
             text=told.text.text,
+            saved=None if saved == told.text.data else EditorText(saved).text,
             read_only="" if self._may_write(file) else f"{file} cannot be edited: {_READ_ONLY}",
         )
 
@@ -79,6 +82,8 @@ class TextDesk:
         if told is None or told.version != command.version:
             raise StaleTextError(file)
         edits = _edits(file, told.text, command.changes)
+        if len(told.text.data) + sum(len(edit.new) for edit in edits) > TEXT_LIMIT_BYTES:
+            raise EditError(f"{file} would grow beyond {_LIMIT_MB} MB: leave something out.")
         gesture = command.gesture or f"text {file} {told.version}"
         for edit in edits:
             name = f"Edit {Path(file).name}"
@@ -101,8 +106,7 @@ class TextDesk:
         is_held = file in sources.files
         data = sources.text(file) if is_held else self._document.location.served.read(file)
         if len(data) > TEXT_LIMIT_BYTES:
-            limit_mb = TEXT_LIMIT_BYTES >> 20
-            raise CommandError(f"{file} is larger than {limit_mb} MB: open it in another editor.")
+            raise CommandError(f"{file} is larger than {_LIMIT_MB} MB: open it in another editor.")
         if b"\0" in data:
             raise CommandError(f"{file} is no text that can be shown: open another file.")
         told = self._told[file] = _Told(1, EditorText(sources.text(file)))

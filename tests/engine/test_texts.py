@@ -114,6 +114,8 @@ def test_typing_moves_the_robot_touches_only_its_bytes_and_is_one_step(mast: Pat
             await tab.type(tab.change('0."', '0.5"'), gesture="g", origin="here")
             assert height_of(document) == pytest.approx(0.5)
             assert tab.ear.last("texts_changed")["origin"] == "here"
+            late = document.texts.answer(m.GetText(file=tab.file), Role.PRESENTER)
+            assert (late.text, late.saved) == (MAST.replace("0.4", "0.5"), MAST)
             assert document.sources.text(str(mast)) == AWKWARD.replace(b'"0.4"', b'"0.5"')
             assert tab.ear.last("history")["undo"] == ["Edit mast.urdf.xacro"]
             await document.undo()
@@ -284,6 +286,18 @@ def test_texts_that_are_none_or_not_ours_are_refused_in_words(mast: Path, tmp_pa
             )
             with pytest.raises(StaleTextError):
                 await document.edit_text(never_asked)
+
+    asyncio.run(run())
+
+
+def test_a_text_cannot_be_made_larger_than_an_editor_holds(mast: Path, tmp_path: Path):
+    async def run() -> None:
+        async with engine(tmp_path / "data") as made:
+            document, _ = await opened(made, mast)
+            tab = Tab(document, mast)
+            with pytest.raises(EditError, match="would grow beyond 4 MB"):
+                await tab.type(m.TextChange(start=0, end=0, text=" " * TEXT_LIMIT_BYTES))
+            assert document.sources.text(str(mast)) == AWKWARD
 
     asyncio.run(run())
 
