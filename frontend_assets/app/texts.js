@@ -21,7 +21,8 @@ const ORIGIN = crypto.getRandomValues(new Uint32Array(2)).join("-");
 /**
  * @typedef {object} TextLink
  * @property {string} file as the studio names it
- * @property {Text} doc
+ * @property {Text} doc as the studio has it
+ * @property {Text} saved as the disk has it
  * @property {string} readOnly why it may not be edited; empty: it may
  * @property {SharedText} shared
  * @property {() => void} close
@@ -40,6 +41,7 @@ export async function linkText(file, apply) {
   const answer = await fetchText(file);
   const name = answer.file;
   const doc = Text.of(answer.text.split("\n"));
+  const saved = answer.saved === null ? doc : Text.of(answer.saved.split("\n"));
   const refetch = async () => {
     const again = await fetchText(name).catch(() => null);
     if (again) shared.resync(again);
@@ -61,7 +63,7 @@ export async function linkText(file, apply) {
   const close = () => {
     for (const end of ends) end();
   };
-  return { file: name, doc, readOnly: answer.read_only, shared, close };
+  return { file: name, doc, saved, readOnly: answer.read_only, shared, close };
 }
 
 /** @param {string} file */

@@ -35,6 +35,7 @@ const AT_MOST_MS = 350;
  * @property {(news: News) => void} take what the studio told
  * @property {(text: {version: number, text: string}) => void} resync after the lane was lost
  * @property {() => Promise<void>} settled all that was typed has arrived, or cannot
+ * @property {() => Text} known as the studio has it, without what is typed and not there yet
  * @property {() => boolean} busy something typed is not at the studio yet
  */
 
@@ -136,6 +137,7 @@ export function createSharedText({ doc, version, post, apply, refetch, wait = la
   return {
     busy,
     flush,
+    known: () => base,
     type(changes, gesture) {
       const before = unsent;
       if (before && before.gesture !== gesture) flush();

@@ -36,6 +36,7 @@ import {
 import { createGesture } from "../lib/gesture.js";
 import { language, t } from "../lib/i18n.js";
 import { indentationOf } from "../lib/indentation.js";
+import { changeMarks } from "./source-changes.js";
 import { SOURCE_LOOK } from "./source-look.js";
 
 /** Marks what did not come from the keyboard here. */
@@ -128,6 +129,7 @@ export function stateOf(link, common, { dark, mayEdit, more }) {
     doc: link.doc,
     extensions: [
       typing(link),
+      changeMarks(link.saved),
       more,
       common,
       isYaml ? yaml() : xml(),

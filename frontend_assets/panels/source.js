@@ -9,7 +9,7 @@ import {
 } from "vendor/codemirror.js";
 import { html, useEffect, useMemo, useRef } from "vendor/preact.js";
 import { mayEdit } from "../app/state/connection.js";
-import { documentState, problems } from "../app/state/document.js";
+import { documentState, history, problems } from "../app/state/document.js";
 import { cursorPlace, openFile, openFiles, shownFile, wantedPlace } from "../app/state/source.js";
 import { theme } from "../app/state/view.js";
 import { language, t } from "../lib/i18n.js";
@@ -17,6 +17,7 @@ import { shortPath } from "../lib/paths.js";
 import { recall, remember } from "../lib/remembered.js";
 import { marksOf } from "../lib/text-problems.js";
 import { EmptyState, Icon, ProgressBar } from "../lib/ui.js";
+import { setSaved } from "./source-changes.js";
 import { adjust, goToPlace } from "./source-editor.js";
 import { SourceTabs } from "./source-tabs.js";
 import { createTexts } from "./source-texts.js";
@@ -96,6 +97,7 @@ function useEditor(texts, host) {
   useEffect(() => texts.keepOnly(files), [files]);
   useWords(texts);
   useMarks(texts);
+  useSaved(texts);
   useWanted(texts);
 }
 
@@ -120,6 +122,16 @@ function useMarks(texts) {
     const marks = marksOf(found, link.file, view.state.doc);
     view.dispatch(setDiagnostics(view.state, marks));
   }, [link, found]);
+}
+
+/** @param {Texts} texts what is saved is no longer marked as changed */
+function useSaved(texts) {
+  const link = texts.shown.value?.link;
+  const unsaved = history.value.unsaved_files;
+  useEffect(() => {
+    if (!link || !texts.view || unsaved.includes(link.file)) return;
+    texts.view.dispatch({ effects: setSaved.of(link.shared.known()) });
+  }, [link, unsaved]);
 }
 
 /** @param {Texts} texts another panel asked for a line */

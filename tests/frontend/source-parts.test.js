@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { indentationOf } from "../../frontend_assets/lib/indentation.js";
+import { changedLines } from "../../frontend_assets/lib/line-diff.js";
 import { tabNames } from "../../frontend_assets/lib/tab-names.js";
 import { marksOf } from "../../frontend_assets/lib/text-problems.js";
 import { Text } from "../../frontend_assets/vendor/codemirror.js";
@@ -64,4 +65,24 @@ test("a tab says as much of the folder as tells two files of one name apart", ()
       { name: "base.xacro", folder: "" },
     ],
   );
+});
+
+/** @param {string} before @param {string} now one letter a line */
+const marked = (before, now) =>
+  changedLines([...before], [...now]).map(({ line, kind }) => `${line} ${kind}`);
+
+test("lines that changed, came and went are told apart", () => {
+  assert.deepEqual(marked("abc", "abc"), []);
+  assert.deepEqual(marked("abc", "aXc"), ["2 changed"]);
+  assert.deepEqual(marked("abc", "abXYc"), ["3 added", "4 added"]);
+  assert.deepEqual(marked("abcd", "ad"), ["2 removed"]);
+  assert.deepEqual(marked("abc", "ab"), ["2 removed"]);
+  assert.deepEqual(marked("abcdef", "aXcdYZf"), ["2 changed", "5 changed", "6 added"]);
+});
+
+test("two long texts with little in common are compared all the same, quickly", () => {
+  const before = Array.from({ length: 9000 }, (_, n) => `old ${n}`);
+  const now = before.map((line, n) => (n % 2 ? line : `new ${n}`));
+  assert.equal(changedLines(before, now).length, 4500);
+  assert.equal(changedLines(before, [...now, "x"]).length, 9001);
 });

@@ -1,0 +1,83 @@
+/** Which lines of a text differ from what it was, as an editor marks them at its edge. */
+
+const TABLE_LIMIT = 400_000;
+
+/**
+ * @typedef {{line: number, kind: "changed" | "added" | "removed"}} LineMark `line` from 1 in the text as it
+ *   is; `removed`: lines are missing above it
+ */
+
+/** @param {readonly string[]} before @param {readonly string[]} now @returns {LineMark[]} in order, one a line */
+export function changedLines(before, now) {
+  const shorter = Math.min(before.length, now.length);
+  let start = 0;
+  while (start < shorter && before[start] === now[start]) start += 1;
+  let end = 0;
+  while (end < shorter - start && before.at(-1 - end) === now.at(-1 - end)) end += 1;
+  const old = before.slice(start, before.length - end);
+  const fresh = now.slice(start, now.length - end);
+  const kept = keptPairs(old, fresh);
+  /** @type {LineMark[]} */
+  const marks = [];
+  let [from, to] = [0, 0];
+  for (const [there, here] of [
+    ...kept,
+    /** @type {[number, number]} */ ([old.length, fresh.length]),
+  ]) {
+    marks.push(...marksOf(there - from, here - to, start + to + 1));
+    [from, to] = [there + 1, here + 1];
+  }
+  return marks.map((mark) => ({ ...mark, line: Math.min(mark.line, Math.max(now.length, 1)) }));
+}
+
+/** @param {number} gone lines that stood there @param {number} came @param {number} line the first @returns {LineMark[]} */
+function marksOf(gone, came, line) {
+  if (came === 0) return gone > 0 ? [{ line, kind: "removed" }] : [];
+  return Array.from({ length: came }, (_, at) => ({
+    line: line + at,
+    kind: at < gone ? "changed" : "added",
+  }));
+}
+
+/**
+ * The longest row of lines that stayed, as pairs of places; of two large stretches only what stands at
+ * the same place in both, for the table would grow too large.
+ *
+ * @param {string[]} old
+ * @param {string[]} fresh
+ * @returns {[number, number][]}
+ */
+function keptPairs(old, fresh) {
+  if (old.length * fresh.length > TABLE_LIMIT) return samePlaces(old, fresh);
+  const width = fresh.length + 1;
+  const table = new Uint32Array((old.length + 1) * width);
+  for (let i = old.length - 1; i >= 0; i -= 1)
+    for (let j = fresh.length - 1; j >= 0; j -= 1)
+      table[i * width + j] =
+        old[i] === fresh[j]
+          ? (table[(i + 1) * width + j + 1] ?? 0) + 1
+          : Math.max(table[(i + 1) * width + j] ?? 0, table[i * width + j + 1] ?? 0);
+  return walk(old, fresh, table, width);
+}
+
+/** @param {string[]} old @param {string[]} fresh @param {Uint32Array} table @param {number} width @returns {[number, number][]} */
+function walk(old, fresh, table, width) {
+  /** @type {[number, number][]} */
+  const pairs = [];
+  let [i, j] = [0, 0];
+  while (i < old.length && j < fresh.length) {
+    if (old[i] === fresh[j]) {
+      pairs.push([i, j]);
+      i += 1;
+      j += 1;
+    } else if ((table[(i + 1) * width + j] ?? 0) >= (table[i * width + j + 1] ?? 0)) i += 1;
+    else j += 1;
+  }
+  return pairs;
+}
+
+/** @param {string[]} old @param {string[]} fresh @returns {[number, number][]} */
+function samePlaces(old, fresh) {
+  if (old.length !== fresh.length) return [];
+  return old.flatMap((line, at) => (line === fresh[at] ? [[at, at]] : []));
+}
