@@ -57,7 +57,11 @@ class Model:
         if change.kept_last_good:
             return Taken(structural=False, problems=change.problems, new_meshes=False)
         if change.structural or change.changed_joints:
-            self.kinematics = Kinematics(change.robot)
+            self.kinematics = (
+                Kinematics(change.robot)
+                if change.structural
+                else self.kinematics.refitted(change.robot, change.changed_joints)
+            )
             self.joints.adopt(self.kinematics)
             self.revision += change.structural
         self.scene.show(change.robot, change.changed_links | self._axes_of(change))

@@ -7,8 +7,8 @@ rest of the element still comes out, so that one typing error never hides a robo
 
 from __future__ import annotations
 
-import contextlib
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import TYPE_CHECKING, TypeVar
 
 from studio.errors import RobotError
@@ -32,7 +32,7 @@ from studio.robot.values import (
 from studio.robot.xml_tree import parse_tree
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Generator
+    from collections.abc import Callable
     from xml.etree.ElementTree import Element
 
     from studio.robot.values import Vector3
@@ -54,27 +54,23 @@ class ParsedElement:
 def parse_element(xml: str) -> ParsedElement:
     """Parse the text of one top-level element; anything but link, joint, material gives None."""
     parsed = ParsedElement()
-    with _collected(parsed.faults):
+    try:
         element = parse_tree(xml)
         reader = _READERS.get(element.tag)
         if reader is not None:
             parsed.value = reader(element, parsed)
-    return parsed
-
-
-@contextlib.contextmanager
-def _collected(faults: list[RobotError]) -> Generator[None]:
-    try:
-        yield
     except RobotError as error:
-        faults.append(error)
+        parsed.faults.append(error)
+    return parsed
 
 
 def _attempt(faults: list[RobotError], read: Callable[[], Value], otherwise: Value) -> Value:
     """The value of `read`, or `otherwise` with the fault noted."""
-    with _collected(faults):
+    try:
         return read()
-    return otherwise
+    except RobotError as error:
+        faults.append(error)
+        return otherwise
 
 
 def _read_link(element: Element, parsed: ParsedElement) -> Link:
@@ -297,12 +293,12 @@ def _number(element: Element, key: str, where: str, default: float | None = None
 
 
 def _vector(element: Element, key: str, where: str, default: Vector3 | None = None) -> Vector3:
-    if element.get(key) is None and default is not None:
+    if default is not None and element.get(key) is None:
         return default
     numbers = _numbers(element, key, where)
     if len(numbers) != 3:
         raise _wrong(where, element, key, "three numbers separated by blanks")
-    return numbers[0], numbers[1], numbers[2]
+    return numbers
 
 
 def _numbers(element: Element, key: str, where: str) -> tuple[float, ...]:
@@ -315,12 +311,24 @@ def _numbers(element: Element, key: str, where: str) -> tuple[float, ...]:
     if written is None:
         raise RobotError(f"{where}: <{element.tag}> has no {key}: write one.")
     try:
-        numbers = tuple(map(float, written.split()))
+        numbers = _read_numbers(written)
     except ValueError as error:
         raise _wrong(where, element, key, "numbers") from error
-    if not all(abs(one) < _COORDINATE_LIMIT for one in numbers):
+    if numbers is None:
         raise _wrong(where, element, key, "finite numbers")
     return numbers
+
+
+@lru_cache(maxsize=4096)
+def _read_numbers(written: str) -> tuple[float, ...] | None:
+    """Numbers between blanks, None when one is not finite; most texts of a part stay as they were.
+
+    Raises:
+        ValueError: A word is no number.
+    """
+    numbers = tuple(map(float, written.split()))
+    finite = all(-_COORDINATE_LIMIT < one < _COORDINATE_LIMIT for one in numbers)
+    return numbers if finite else None
 
 
 def _wrong(where: str, element: Element, key: str, wanted: str) -> RobotError:

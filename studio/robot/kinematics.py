@@ -7,7 +7,8 @@ at its origin in the parent link; moving the joint moves the child link in that 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, TypeAlias
+from copy import copy
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -20,7 +21,7 @@ from studio.robot.rotations import (
 from studio.robot.values import JointType
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Mapping, Sequence
 
     from numpy.typing import NDArray
 
@@ -36,7 +37,7 @@ _SWING_PERIOD_S = 4.0
 
 
 class Kinematics:
-    """The kinematics of one robot; immutable, rebuilt when a joint changes.
+    """The kinematics of one robot; immutable: `refitted` makes that of a robot with other numbers.
 
     Positions are arrays of shape (..., J) in the order of `movable`: revolute, continuous and
     prismatic joints with the followers of mimic among them, in document order. Planar and floating
@@ -50,11 +51,32 @@ class Kinematics:
         self.movable = tuple(joint.name for joint in moving)
         self.free = tuple(joint.name for joint in moving if joint.mimic is None)
         self._index = {name: index for index, name in enumerate(self.movable)}
+        self._row = {joint.name: row for row, joint in enumerate(joints)}
         self._joints = {joint.name: joint for joint in moving}
         self.lower, self.upper = _limits(moving)
         self._lead_in(robot)
-        self._lay_out(joints)
+        self._motion = _Motion.of(joints)
+        self._at = np.array([i for i, one in enumerate(joints) if one.type in _MOVES], np.intp)
         self._link_up(joints)
+
+    def refitted(self, robot: Robot, changed: Iterable[str]) -> Kinematics:
+        """The kinematics of `robot`, which has the same links and joints but for numbers.
+
+        Args:
+            robot: Its links, and its joints' types, parents, children and leaders, are as here.
+            changed: Names of the joints whose origin, axis, limits or mimic differ.
+        """
+        joints = [robot.joints[name] for name in changed]
+        made = copy(self)
+        moving = [joint for joint in joints if joint.name in self._index]
+        at = [self._index[joint.name] for joint in moving]
+        made._joints = self._joints | {joint.name: joint for joint in moving}
+        made.lower, made.upper = self.lower.copy(), self.upper.copy()
+        made.lower[at], made.upper[at] = _limits(moving)
+        if any(joint.mimic for joint in joints):
+            made._lead_in(robot)
+        made._motion = self._motion.with_rows([self._row[one.name] for one in joints], joints)
+        return made
 
     def clamp(self, name: str, value: float) -> float:
         """The nearest position within the limits of a movable joint.
@@ -97,19 +119,22 @@ class Kinematics:
     def joint_frames(self, positions: Floats) -> Floats:
         """Pose of each movable joint's frame before it moves, (..., J, 4, 4)."""
         world_from_links = self._chain(self._parent_from_child(positions))
-        return world_from_links[..., self._movable_parent, :, :] @ self._parent_from_joint[self._at]
+        return (
+            world_from_links[..., self._movable_parent, :, :]
+            @ self._motion.parent_from_joint[self._at]
+        )
 
     @property
     def axes(self) -> Floats:
         """Unit axis of each movable joint in its own frame, (J, 3); zero where none is given."""
-        return self._axes
+        return self._motion.axes[self._at]
 
     def axis_of(self, joint: str) -> tuple[float, float, float]:
         """Unit axis of a joint in its own frame; x for one that does not move."""
         index = self._index.get(joint)
         if index is None:
             return (1.0, 0.0, 0.0)
-        x, y, z = self._axes[index].tolist()
+        x, y, z = self._motion.axes[self._at[index]].tolist()
         return (x, y, z)
 
     def zero_positions(self) -> Floats:
@@ -162,27 +187,6 @@ class Kinematics:
         self._turns = np.array([one is JointType.CONTINUOUS for one in types], dtype=np.bool_)
         self._default_half = np.array([_UNLIMITED_SWING.get(one, math.pi) for one in types])
 
-    def _lay_out(self, joints: tuple[Joint, ...]) -> None:
-        """Each joint's motion as matrices: R(q) = A + sin(q) B + (1 - cos(q)) C, t(q) = t + q d."""
-        count = len(joints)
-        self._parent_from_joint = np.zeros((count, 4, 4))
-        self._parent_from_joint[:, :3, :3] = matrix_from_rpy(
-            np.array([joint.origin.rpy for joint in joints], dtype=np.float64).reshape(-1, 3)
-        )
-        self._parent_from_joint[:, :3, 3] = np.reshape([one.origin.xyz for one in joints], (-1, 3))
-        self._parent_from_joint[:, 3, 3] = 1.0
-        axes = unit_vectors(np.array([one.axis for one in joints], dtype=np.float64).reshape(-1, 3))
-        self._at = np.array(
-            [i for i, one in enumerate(joints) if one.type in _MOVES], dtype=np.intp
-        )
-        self._axes = axes[self._at]
-        turns = np.array([one.type in _TURNS for one in joints], dtype=np.bool_)[self._at]
-        rotations = self._parent_from_joint[self._at, :3, :3]
-        cross = cross_matrices(self._axes) * turns[:, None, None]
-        self._sine = rotations @ cross
-        self._versine = self._sine @ cross
-        self._slide = np.einsum("jab,jb->ja", rotations, self._axes) * ~turns[:, None]
-
     def _link_up(self, joints: tuple[Joint, ...]) -> None:
         """Index arrays of the tree; index L stands for the world, above all roots."""
         place = {name: index for index, name in enumerate(self.link_names)}
@@ -201,15 +205,15 @@ class Kinematics:
     def _parent_from_child(self, positions: Floats) -> Floats:
         """Pose of each link in its parent, (..., L + 1, 4, 4); roots and the world: identity."""
         batch = positions.shape[:-1]
-        moved = np.broadcast_to(
-            self._parent_from_joint, (*batch, *self._parent_from_joint.shape)
-        ).copy()
-        moved[..., self._at, :3, :3] += (
-            np.sin(positions)[..., None, None] * self._sine
-            + (1.0 - np.cos(positions))[..., None, None] * self._versine
+        motion, at = self._motion, self._at
+        shape = motion.parent_from_joint.shape
+        moved = np.broadcast_to(motion.parent_from_joint, (*batch, *shape)).copy()
+        moved[..., at, :3, :3] += (
+            np.sin(positions)[..., None, None] * motion.sine[at]
+            + (1.0 - np.cos(positions))[..., None, None] * motion.versine[at]
         )
         translations = moved[..., :3, 3]  # a view: an index list and a number beside it mix axes
-        translations[..., self._at, :] += positions[..., None] * self._slide
+        translations[..., at, :] += positions[..., None] * motion.slide[at]
         links = np.empty((*batch, len(self.link_names) + 1, 4, 4))
         links[...] = np.eye(4)
         links[..., self._child, :, :] = moved
@@ -221,6 +225,47 @@ class Kinematics:
         for jump in self._jumps:
             world_from_links = world_from_links[..., jump, :, :] @ world_from_links
         return world_from_links
+
+
+class _Motion(NamedTuple):
+    """Each joint's motion as matrices: R(q) = A + sin(q) B + (1 - cos(q)) C, t(q) = t + q d."""
+
+    parent_from_joint: Floats
+    """Shape (N, 4, 4): the pose at zero, A and t."""
+    axes: Floats
+    """Shape (N, 3), of length 1; zero where none is given."""
+    sine: Floats
+    """Shape (N, 3, 3): B, zero for a joint that does not turn."""
+    versine: Floats
+    """Shape (N, 3, 3): C."""
+    slide: Floats
+    """Shape (N, 3): d, zero for a joint that turns."""
+
+    @classmethod
+    def of(cls, joints: Sequence[Joint]) -> _Motion:
+        """All joints, in order."""
+        origins = np.array([(*one.origin.xyz, *one.origin.rpy) for one in joints], np.float64)
+        origins = origins.reshape(-1, 6)
+        parent_from_joint = np.zeros((len(joints), 4, 4))
+        parent_from_joint[:, :3, :3] = rotations = matrix_from_rpy(origins[:, 3:])
+        parent_from_joint[:, :3, 3] = origins[:, :3]
+        parent_from_joint[:, 3, 3] = 1.0
+        axes = unit_vectors(np.array([one.axis for one in joints], np.float64).reshape(-1, 3))
+        turns = np.array([one.type in _TURNS for one in joints], np.bool_)
+        cross = cross_matrices(axes) * turns[:, None, None]
+        sine = rotations @ cross
+        slide = (rotations @ axes[:, :, None])[:, :, 0] * ~turns[:, None]
+        return cls(parent_from_joint, axes, sine, sine @ cross, slide)
+
+    def with_rows(self, rows: Sequence[int], joints: Sequence[Joint]) -> _Motion:
+        """The same with other joints in some rows."""
+        if not rows:
+            return self
+        new = _Motion.of(joints)
+        copies = [array.copy() for array in self]
+        for array, values in zip(copies, new, strict=True):
+            array[rows] = values
+        return _Motion(*copies)
 
 
 def planar_motion(x_m: float, y_m: float, yaw_rad: float, axis: Floats) -> Floats:

@@ -23,7 +23,7 @@ def parse_tree(xml: str | bytes) -> Element:
     builder = TreeBuilder()
     parser = expat.ParserCreate()
     parser.buffer_text = True
-    parser.buffer_size = _TEXT_BUFFER_BYTES
+    parser.buffer_size = min(max(len(xml), 1), _TEXT_BUFFER_BYTES)
     parser.StartElementHandler = builder.start
     parser.EndElementHandler = builder.end
     parser.CharacterDataHandler = builder.data

@@ -2,43 +2,49 @@
 
 from __future__ import annotations
 
-import itertools
+import math
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from studio.robot.rotations import matrix_from_rpy
 from studio.robot.values import Box, Cylinder, Mesh, Sphere
+from studio.scene.pose import rows_from_rpy
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
-    from studio.robot.values import Geometry, Link, Visual
+    from studio.robot.values import Geometry, Link, Vector3, Visual
     from studio.scene.geometry_drawing import MeshShelf
 
     Floats: TypeAlias = NDArray[np.float64]
-
-_SIGNS = np.array(list(itertools.product((-0.5, 0.5), repeat=3)))
+    _Boxes: TypeAlias = tuple[Floats, Floats]
 
 
 class Ground:
-    """Corners of the boxes around the visuals of each link."""
+    """The boxes around the visuals of each link.
+
+    Of one link with n visuals: their centres, (n, 3), and half their edges as vectors, (n, 3, 3),
+    in the link's frame, m.
+    """
 
     def __init__(self) -> None:
-        self._corners: dict[str, Floats] = {}
+        self._boxes: dict[str, _Boxes] = {}
 
     def note(self, link: Link, shelf: MeshShelf) -> None:
         """Look at a link as it is now; meshes that have not come count for nothing."""
-        corners = _corners_of(link, shelf)
-        self._corners.pop(link.name, None)
-        if corners.size:
-            self._corners[link.name] = corners
+        found = [box for visual in link.visuals if (box := _box_of(visual, shelf))]
+        self._boxes.pop(link.name, None)
+        if found:
+            self._boxes[link.name] = (
+                np.array([centre for centre, _ in found]),
+                np.array([edges for _, edges in found]),
+            )
 
     def forget(self, link: str) -> None:
         """A link is no more."""
-        self._corners.pop(link, None)
+        self._boxes.pop(link, None)
 
     def height_m(self, link_names: Sequence[str], wxyz_xyz: NDArray[np.floating]) -> float:
         """Lowest corner in the root frame, at most 0: a robot above its origin hovers on purpose.
@@ -49,49 +55,53 @@ class Ground:
         """
         lowest = 0.0
         for name, pose in zip(link_names, np.asarray(wxyz_xyz, dtype=np.float64), strict=True):
-            corners = self._corners.get(name)
-            if corners is not None:
-                heights = corners @ _up_in_link(pose) + pose[6]
+            boxes = self._boxes.get(name)
+            if boxes is not None:
+                centres, edges = boxes
+                up = _up_in_link(pose)
+                heights = centres @ up - np.abs(edges @ up).sum(axis=1) + pose[6]
                 lowest = min(lowest, float(heights.min()))
-        return lowest if np.isfinite(lowest) else 0.0
+        return lowest if math.isfinite(lowest) else 0.0
 
 
 def _up_in_link(pose: Floats) -> Floats:
     """The third row of the rotation: how much each axis of the link points up."""
-    w, x, y, z = pose[:4]
+    w, x, y, z = pose[:4].tolist()
     return np.array([2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)])
 
 
-def _corners_of(link: Link, shelf: MeshShelf) -> Floats:
-    """Shape (8 n, 3), in the link's frame."""
-    boxes = [_corners(visual, shelf) for visual in link.visuals]
-    return np.concatenate([box for box in boxes if box is not None] or [np.empty((0, 3))])
-
-
-def _corners(visual: Visual, shelf: MeshShelf) -> Floats | None:
-    box = _box(visual.geometry, shelf)
-    if box is None:
+def _box_of(visual: Visual, shelf: MeshShelf) -> tuple[Vector3, tuple[Vector3, ...]] | None:
+    """Centre, and half of each edge as a vector; None for a visual without extent."""
+    found = _extent(visual.geometry, shelf)
+    if found is None:
         return None
-    low, high = box
-    corners = (low + high) / 2 + _SIGNS * (high - low)
-    origin = visual.origin
-    placed = corners @ matrix_from_rpy(np.array(origin.rpy)).T + np.array(origin.xyz)
-    return placed if np.isfinite(placed).all() else None
+    (mx, my, mz), half = found
+    rows = rows_from_rpy(visual.origin.rpy)
+    x, y, z = (
+        row[0] * mx + row[1] * my + row[2] * mz + at
+        for row, at in zip(rows, visual.origin.xyz, strict=True)
+    )
+    edges = tuple(
+        (rows[0][i] * half[i], rows[1][i] * half[i], rows[2][i] * half[i]) for i in range(3)
+    )
+    finite = all(map(math.isfinite, (x, y, z, *edges[0], *edges[1], *edges[2])))
+    return ((x, y, z), edges) if finite else None
 
 
-def _box(geometry: Geometry, shelf: MeshShelf) -> tuple[Floats, Floats] | None:
-    """Least and greatest corner in the frame of the geometry."""
+def _extent(geometry: Geometry, shelf: MeshShelf) -> tuple[Vector3, Vector3] | None:
+    """Middle and half of the size, in the frame of the geometry."""
+    middle = (0.0, 0.0, 0.0)
     match geometry:
-        case Box():
-            half = np.array(geometry.size_m) / 2
-        case Cylinder():
-            half = np.array([geometry.radius_m, geometry.radius_m, geometry.length_m / 2])
-        case Sphere():
-            half = np.full(3, geometry.radius_m)
+        case Box((x, y, z)):
+            return middle, (x / 2, y / 2, z / 2)
+        case Cylinder(radius_m, length_m):
+            return middle, (radius_m, radius_m, length_m / 2)
+        case Sphere(radius_m):
+            return middle, (radius_m, radius_m, radius_m)
         case Mesh():
             loaded = shelf.get(geometry.uri)
             if loaded is None:
                 return None
-            scaled = np.array(loaded.bounds_m) * np.array(geometry.scale)
-            return scaled.min(axis=0), scaled.max(axis=0)
-    return -half, half
+            low, high = np.array(loaded.bounds_m) * np.array(geometry.scale)
+            (mx, my, mz), (hx, hy, hz) = ((low + high) / 2).tolist(), ((high - low) / 2).tolist()
+            return (mx, my, mz), (abs(hx), abs(hy), abs(hz))

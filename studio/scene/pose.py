@@ -28,6 +28,18 @@ def wxyz_from_rpy(rpy_rad: Vector3) -> Quaternion:
     )
 
 
+def rows_from_rpy(rpy_rad: Vector3) -> tuple[Vector3, Vector3, Vector3]:
+    """The rotation matrix of fixed-axis roll, pitch, yaw, row by row."""
+    roll, pitch, yaw = (angle if math.isfinite(angle) else 0.0 for angle in rpy_rad)
+    cr, cp, cy = math.cos(roll), math.cos(pitch), math.cos(yaw)
+    sr, sp, sy = math.sin(roll), math.sin(pitch), math.sin(yaw)
+    return (
+        (cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr),
+        (sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr),
+        (-sp, cp * sr, cp * cr),
+    )
+
+
 def wxyz_and_position(origin: Origin) -> tuple[Quaternion, Vector3]:
     """The pose of an `<origin>`."""
     return wxyz_from_rpy(origin.rpy), origin.xyz

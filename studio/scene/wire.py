@@ -12,7 +12,11 @@ from typing import TYPE_CHECKING, Any
 
 import msgspec
 import zstandard
-from viser._messages import SetOrientationMessage, SetPositionMessage
+from viser._messages import (
+    SceneNodeUpdateMessage,
+    SetOrientationMessage,
+    SetPositionMessage,
+)
 
 from studio.errors import SceneError
 
@@ -59,7 +63,7 @@ class Encoder:
 
 
 def _as_dict(message: Message, arrays: list[memoryview]) -> dict[str, Any]:
-    """As viser does; poses, which come by the thousand, without its walk over type hints."""
+    """As viser does; what an edit or a joint changes, without its walk over type hints."""
     if type(message) is SetPositionMessage:
         return {
             "type": "SetPositionMessage",
@@ -72,6 +76,14 @@ def _as_dict(message: Message, arrays: list[memoryview]) -> dict[str, Any]:
             "type": "SetOrientationMessage",
             "name": message.name,
             "wxyz": message.wxyz,
+            "owner": message.owner,
+        }
+    if type(message) is SceneNodeUpdateMessage:
+        # Of plain values only: graph.py sends arrays with a new node, never with an update.
+        return {
+            "type": "SceneNodeUpdateMessage",
+            "name": message.name,
+            "updates": message.updates,
             "owner": message.owner,
         }
     return message.as_serializable_dict(arrays)
