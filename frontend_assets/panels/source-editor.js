@@ -50,7 +50,6 @@ const spoken = new Compartment();
  * @property {(line: number, column: number) => void} onCursor both from 1
  * @property {() => void} onUndo
  * @property {() => void} onRedo
- * @property {(file: string) => Extension} more what else the editor of a file can
  */
 
 /** @param {EditorEvents} events @returns {Extension} what the editors of all files have in common */

@@ -55,7 +55,6 @@ export function createTexts() {
     },
     onUndo: () => step("undo", undo),
     onRedo: () => step("redo", redo),
-    more: () => [],
   });
 
   /** @param {string} id @param {() => Promise<void>} run */

@@ -28,10 +28,13 @@ def changes_between(old: str, new: str) -> tuple[Piece, ...]:
     """
     if old == new:
         return ()
-    before, after = old.split("\n"), new.split("\n")
-    if len(before) == len(after):
-        return tuple(_line_by_line(before, after))
-    return (_one_piece(old, new, 0),)
+    # Only what lies between the first and the last difference is looked at closely.
+    start = old.rfind("\n", 0, common_start(old, new)) + 1
+    end = common_start(old[start:][::-1], new[start:][::-1])
+    before, after = old[start : len(old) - end], new[start : len(new) - end]
+    if before.count("\n") == after.count("\n"):
+        return tuple(_line_by_line(before.split("\n"), after.split("\n"), start))
+    return (_one_piece(before, after, start),)
 
 
 def patched(old: str, pieces: Iterable[Piece]) -> str:
@@ -44,8 +47,7 @@ def patched(old: str, pieces: Iterable[Piece]) -> str:
     return "".join((*parts, old[at:]))
 
 
-def _line_by_line(before: list[str], after: list[str]) -> Iterator[Piece]:
-    at = 0
+def _line_by_line(before: list[str], after: list[str], at: int) -> Iterator[Piece]:
     for old, new in zip(before, after, strict=True):
         if old != new:
             yield _one_piece(old, new, at)

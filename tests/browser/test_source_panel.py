@@ -141,3 +141,18 @@ def test_what_one_types_another_sees_and_a_viewer_cannot_change(
     assert viewer.page.get_by_text("the text can be read only").is_visible()
     assert viewer.errors == []
     watching.close()
+
+
+def test_after_a_restart_of_the_studio_the_open_text_is_typed_into_as_before(
+    browser: Browser, tmp_path: Path
+):
+    with running_studio(["demo"], tmp_path / "data") as first, studio_page(browser, first) as tab:
+        go_to(tab, "wheel_radius")
+        first.stop()
+        wait_until("the page to say so", lambda: "Not connected" in tab.page.inner_text("body"))
+        with running_studio(["demo"], tmp_path / "data", port=first.port):
+            wait_until("it to be back", lambda: "Not connected" not in tab.page.inner_text("body"))
+            tab.page.locator(".cm-content").focus()
+            put_cursor_behind(tab, '"0.10')
+            tab.page.keyboard.type("7")
+            wait_until("the row", lambda: tab.box("wheel_radius").input_value() == "0.1075")
