@@ -5,9 +5,9 @@
 import { html } from "vendor/preact.js";
 import { mend } from "../app/actions.js";
 import { commandById } from "../app/commands.js";
+import { PlaceLink } from "../app/place-link.js";
 import { mayEdit } from "../app/state/connection.js";
 import { allSites, documentState, problems, sitesRevision } from "../app/state/document.js";
-import { showSource } from "../app/state/source.js";
 import { propertyFilter, soughtSite } from "../app/state/view.js";
 import { t } from "../lib/i18n.js";
 import { placeText, shortPath } from "../lib/paths.js";
@@ -45,10 +45,8 @@ function ProblemRow({ problem }) {
 
 /** Leads to the line; where that is a property's own, to the property as well. @param {{problem: Problem, words: string}} props */
 function PlaceLine({ problem: { place }, words }) {
-  if (!place?.line) return html`<p class="place">${words}</p>`;
-  const read = () => showSource(place.file, place.line, place.column || 1);
-  return html`<p class="place"><button type="button" class="text-button" title=${t("property.show_source")} onClick=${read}>${words}</button>
-    <${PropertyLink} file=${place.file} line=${place.line} /></p>`;
+  return html`<p class="place"><${PlaceLink} place=${place} words=${words} />
+    ${place?.line ? html`<${PropertyLink} file=${place.file} line=${place.line} />` : null}</p>`;
 }
 
 /** @param {{file: string, line: number}} props */

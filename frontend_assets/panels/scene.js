@@ -2,6 +2,7 @@
 
 import { html, useEffect, useRef } from "vendor/preact.js";
 import { mend, openPath, setDisplay, undo, worstProblem } from "../app/actions.js";
+import { PlaceLink } from "../app/place-link.js";
 import { mayEdit, role } from "../app/state/connection.js";
 import {
   displays,
@@ -15,7 +16,6 @@ import {
 import { dialog, mouseMode, theme } from "../app/state/view.js";
 import { attachViewport, VIEWS, viewport } from "../app/viewport.js";
 import { t } from "../lib/i18n.js";
-import { placeText } from "../lib/paths.js";
 import { Icon, IconButton, MenuButton, ProgressBar } from "../lib/ui.js";
 
 export function ScenePanel() {
@@ -115,7 +115,7 @@ function Failed() {
     <div class="card bad" role="alert">
       <h2><${Icon} name="error" size=${20} />${t("failed", { file: state?.title ?? "" })}</h2>
       <p>${problem?.sentence ?? t("failed.unknown")}</p>
-      ${problem?.place && html`<p class="place">${placeText(problem.place)}</p>`}
+      ${problem?.place && html`<p><${PlaceLink} place=${problem.place} /></p>`}
       ${
         mayEdit.value &&
         html`<div class="buttons">
@@ -145,10 +145,9 @@ function MeshProgress() {
 function LastGoodNotice() {
   if (!showingLastGood.value) return null;
   const problem = worstProblem();
-  const place = placeText(problem?.place ?? null);
   return html`<div class="last-good" role="alert">
     <${Icon} name="error" size=${18} />
-    <p><strong>${t("last_good")}</strong> ${problem?.sentence} ${place && html`<span class="place">${place}</span>`}</p>
+    <p><strong>${t("last_good")}</strong> ${problem?.sentence} <${PlaceLink} place=${problem?.place} /></p>
     ${mayEdit.value && html`<${NoticeButton} fix=${problem?.fix} />`}
   </div>`;
 }

@@ -2,7 +2,7 @@
 
 import { html } from "vendor/preact.js";
 import { commandById, onMac } from "../app/commands.js";
-import { documentState, history } from "../app/state/document.js";
+import { documentState, history, problems } from "../app/state/document.js";
 import { closeFile, openFile, openFiles, shownFile } from "../app/state/source.js";
 import { t } from "../lib/i18n.js";
 import { shortcutText } from "../lib/keys.js";
@@ -31,15 +31,19 @@ function FileTab({ file, name, folder }) {
   const unsaved = history.value.unsaved_files.includes(file);
   const locked = documentState.value?.read_only.includes(file);
   const root = documentState.value?.root ?? "";
+  const bad = problems.value.some(
+    ({ severity, place }) => severity === "error" && place?.file === file,
+  );
   /** @param {MouseEvent} event the middle button closes */
   const onAux = (event) => {
     if (event.button !== 1) return;
     event.preventDefault();
     closeFile(file);
   };
-  return html`<div class=${`source-tab ${shown ? "shown" : ""}`} role="presentation" onAuxClick=${onAux}>
+  return html`<div class=${`source-tab ${shown ? "shown" : ""} ${bad ? "bad" : ""}`} role="presentation" onAuxClick=${onAux}>
     <button type="button" role="tab" id=${`source-tab-${file}`} aria-selected=${shown} tabindex=${shown ? 0 : -1}
       title=${shortPath(file, root)} data-file=${file} onClick=${() => openFile(file)}>
+      ${bad && html`<${Icon} name="error" size=${12} /><span class="hidden-words">${t("severity.error")}</span>`}
       ${locked && html`<${Icon} name="lock" size=${12} />`}
       <span>${name}</span>${folder && html`<span class="muted">${folder}</span>`}
       ${unsaved && html`<span class="dot" role="img" aria-label=${t("source.unsaved")} title=${t("source.unsaved")}></span>`}
