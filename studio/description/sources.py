@@ -223,9 +223,16 @@ class Sources:
 
     def set_argument(self, name: str, value: str | None, gesture: str = "") -> None:
         """Pass an argument, or take it back with None; an undo step like any edit."""
-        change = ArgumentChange(name, self._arguments.get(name), value)
-        self._put_argument(name, value)
-        self._steps.push(Step(name, argument=change, gesture=gesture))
+        self.set_arguments({name: value}, name, gesture)
+
+    def set_arguments(
+        self, values: Mapping[str, str | None], label: str, gesture: str = ""
+    ) -> None:
+        """Pass several arguments, or take those with None back, as one undo step."""
+        old = self._arguments
+        changes = [ArgumentChange(one, old.get(one), value) for one, value in values.items()]
+        self._put_arguments(values)
+        self._steps.push(Step(label, arguments=tuple(changes), gesture=gesture))
 
     def undo(self) -> Change | None:
         """Take the newest step back; None when there is none."""
@@ -233,7 +240,7 @@ class Sources:
         if step is None:
             return None
         edits = tuple(splice.backward() for splice in reversed(step.splices))
-        return self._carry_out(step, edits, step.argument and step.argument.old)
+        return self._carry_out(step, edits, {one.name: one.old for one in step.arguments})
 
     def redo(self) -> Change | None:
         """Do the step last taken back again; None when there is none."""
@@ -241,7 +248,7 @@ class Sources:
         if step is None:
             return None
         edits = tuple(splice.forward() for splice in step.splices)
-        return self._carry_out(step, edits, step.argument and step.argument.new)
+        return self._carry_out(step, edits, {one.name: one.new for one in step.arguments})
 
     def save(self) -> tuple[str, ...]:
         """Write every changed file, all or none; the files written.
@@ -321,18 +328,18 @@ class Sources:
             text.regions.note(edit, text.now)
             self.spans.note((edit,))
 
-    def _carry_out(self, step: Step, edits: tuple[Edit, ...], value: str | None) -> Change:
+    def _carry_out(
+        self, step: Step, edits: tuple[Edit, ...], arguments: Mapping[str, str | None]
+    ) -> Change:
         self._apply(edits)
-        if step.argument is None:
+        if not arguments:
             return Change(step.label, edits)
-        self._put_argument(step.argument.name, value)
+        self._put_arguments(arguments)
         return Change(step.label, edits, self.arguments)
 
-    def _put_argument(self, name: str, value: str | None) -> None:
-        if value is None:
-            self._arguments.pop(name, None)
-        else:
-            self._arguments[name] = value
+    def _put_arguments(self, values: Mapping[str, str | None]) -> None:
+        now = {**self._arguments, **values}
+        self._arguments = {name: value for name, value in now.items() if value is not None}
 
     def _saved(self, saved: FileToSave) -> None:
         self._texts[saved.file] = _Text.of(saved.data)

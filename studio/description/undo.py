@@ -1,4 +1,4 @@
-"""Undo and redo: a stack of steps, each a list of splices or one changed argument.
+"""Undo and redo: a stack of steps, each a list of splices and changed arguments.
 
 Edits of one gesture (one drag, one round of typing) are one step; a gesture that ends where it
 began leaves none.
@@ -55,7 +55,7 @@ class Step:
 
     name: str
     splices: tuple[Splice, ...] = ()
-    argument: ArgumentChange | None = None
+    arguments: tuple[ArgumentChange, ...] = ()
     gesture: str = ""
     is_value: bool = True
 
@@ -70,9 +70,9 @@ class Step:
 
     def _texts(self) -> tuple[str, str] | None:
         """The one value that changed, before and after."""
-        if self.argument is not None and not self.splices:
-            return (self.argument.old or "", self.argument.new or "")
-        if self.argument is not None or len(self.splices) != 1 or not self.is_value:
+        if len(self.arguments) == 1 and not self.splices:
+            return (self.arguments[0].old or "", self.arguments[0].new or "")
+        if self.arguments or len(self.splices) != 1 or not self.is_value:
             return None
         (splice,) = self.splices
         return (splice.old.decode("utf-8", "replace"), splice.new.decode("utf-8", "replace"))
@@ -80,7 +80,7 @@ class Step:
     @property
     def is_nothing(self) -> bool:
         """Whether it ends where it began."""
-        kept = self.argument is None or self.argument.old == self.argument.new
+        kept = all(change.old == change.new for change in self.arguments)
         return kept and all(splice.old == splice.new for splice in self.splices)
 
     def with_later(self, later: Step) -> Step:
@@ -92,13 +92,20 @@ class Step:
         return replace(
             self,
             splices=tuple(one for one in splices if one.old != one.new),
-            argument=_joined(self.argument, later.argument),
+            arguments=_joined(self.arguments, later.arguments),
             is_value=self.is_value and later.is_value,
         )
 
 
-def _joined(first: ArgumentChange | None, later: ArgumentChange | None) -> ArgumentChange | None:
-    return replace(later, old=first.old) if first and later else later or first
+def _joined(
+    first: tuple[ArgumentChange, ...], later: tuple[ArgumentChange, ...]
+) -> tuple[ArgumentChange, ...]:
+    """Both, each name once: from what it was to what it is."""
+    known = {change.name: change for change in first}
+    for change in later:
+        before = known.get(change.name)
+        known[change.name] = replace(change, old=before.old) if before else change
+    return tuple(known.values())
 
 
 @dataclass(slots=True)
@@ -150,7 +157,6 @@ class UndoStack:
 
 
 def _can_grow(newest: Step, step: Step) -> bool:
-    """Arguments of two names are two steps."""
-    if newest.argument is None or step.argument is None:
-        return True
-    return newest.argument.name == step.argument.name
+    """Arguments of other names are another step."""
+    names = {change.name for change in newest.arguments}, {c.name for c in step.arguments}
+    return not all(names) or names[0] == names[1]

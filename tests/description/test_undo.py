@@ -20,7 +20,7 @@ def test_a_step_names_its_value_before_and_after():
 
 
 def test_an_argument_names_its_value_too():
-    step = Step("arm", argument=ArgumentChange("arm", None, "false"))
+    step = Step("arm", arguments=(ArgumentChange("arm", None, "false"),))
     assert step.label == "arm (empty) → false"
 
 
@@ -84,7 +84,7 @@ def test_an_empty_stack_has_nothing_to_undo_or_redo():
 def test_one_argument_in_one_gesture_is_one_step_and_two_arguments_are_two():
     stack = UndoStack()
     for name, old, new in [("a", None, "1"), ("a", "1", "2"), ("b", None, "3")]:
-        stack.push(Step(name, argument=ArgumentChange(name, old, new), gesture="g"))
+        stack.push(Step(name, arguments=(ArgumentChange(name, old, new),), gesture="g"))
     assert labels(stack) == ["a (empty) → 2", "b (empty) → 3"]
 
 
