@@ -1,12 +1,14 @@
-/** The palette: every command, panel, property and link by its name. */
+/** The palette: every command, panel, property, link and file by its name. */
 
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { shownText } from "../lib/expressions.js";
 import { t } from "../lib/i18n.js";
 import { shortcutText } from "../lib/keys.js";
+import { shortPath } from "../lib/paths.js";
 import { Dialog, Icon } from "../lib/ui.js";
 import { commandById, commandLabel, commands, onMac } from "./commands.js";
-import { allSites, robot, siteOrder } from "./state/document.js";
+import { allSites, documentState, robot, siteOrder } from "./state/document.js";
+import { showFile } from "./state/source.js";
 import { propertyFilter, soughtSite } from "./state/view.js";
 import { focusLink } from "./viewport.js";
 
@@ -67,7 +69,7 @@ function found(text) {
   const words = text.trim().toLowerCase().split(/\s+/).filter(Boolean);
   const all = [
     ...commandChoices(),
-    ...(words.length > 0 ? [...propertyChoices(), ...linkChoices()] : []),
+    ...(words.length > 0 ? [...propertyChoices(), ...linkChoices(), ...fileChoices()] : []),
   ];
   const fits = all.filter(({ label }) => words.every((word) => label.toLowerCase().includes(word)));
   const first = words[0] ?? "";
@@ -123,5 +125,17 @@ function linkChoices() {
     label: t("palette.link", { name }),
     hint: "",
     run: () => focusLink(name),
+  }));
+}
+
+/** @returns {Choice[]} */
+function fileChoices() {
+  const state = documentState.value;
+  return (state?.files ?? []).map((file) => ({
+    key: `file ${file}`,
+    icon: "fileCode",
+    label: t("palette.file", { name: shortPath(file, state?.root ?? "") }),
+    hint: "",
+    run: () => showFile(file),
   }));
 }

@@ -8,7 +8,7 @@ import { editSite, resetSite, setArgument } from "../app/actions.js";
 import { mayEdit } from "../app/state/connection.js";
 import { cursorSites } from "../app/state/cursor-sites.js";
 import { documentState, problems, showingLastGood } from "../app/state/document.js";
-import { showSource } from "../app/state/source.js";
+import { litPlaces, showSource } from "../app/state/source.js";
 import { degrees, hovered } from "../app/state/view.js";
 import { isExpression } from "../lib/expressions.js";
 import { createGesture } from "../lib/gesture.js";
@@ -50,8 +50,10 @@ export function PropertyRow({ site: followed }) {
   return html`<div class=${`property ${states}`} role="group" aria-label=${site.name} data-site=${site.id}
     onPointerEnter=${() => {
       if (link) hovered.value = link;
+      litPlaces.value = [{ file: site.file, line: site.line }];
     }} onPointerLeave=${() => {
       if (link) hovered.value = null;
+      litPlaces.value = [];
     }}>
     <div class="property-head">
       <${Name} site=${site} changed=${changed} />

@@ -1,7 +1,7 @@
 /** The editor of the source panel: one CodeMirror view, and a state for each open file. */
 
 /**
- * @import { Extension, ViewUpdate } from "vendor/codemirror.js"
+ * @import { Extension } from "vendor/codemirror.js"
  * @import { TextLink } from "../app/texts.js"
  */
 
@@ -16,6 +16,8 @@ import {
   drawSelection,
   EditorState,
   EditorView,
+  foldGutter,
+  foldKeymap,
   highlightActiveLine,
   highlightActiveLineGutter,
   highlightSelectionMatches,
@@ -36,7 +38,9 @@ import {
 import { createGesture } from "../lib/gesture.js";
 import { language, t } from "../lib/i18n.js";
 import { indentationOf } from "../lib/indentation.js";
+import { iconElement } from "../lib/ui.js";
 import { changeMarks } from "./source-changes.js";
+import { LIGHTS } from "./source-lights.js";
 import { SOURCE_LOOK } from "./source-look.js";
 
 /** Marks what did not come from the keyboard here. */
@@ -57,6 +61,7 @@ export function commonExtensions(events) {
   return [
     lineNumbers(),
     lintGutter(),
+    foldGutter({ markerDOM: foldMark }),
     highlightActiveLineGutter(),
     highlightActiveLine(),
     highlightSpecialChars(),
@@ -74,12 +79,25 @@ export function commonExtensions(events) {
       ...closeBracketsKeymap,
       ...defaultKeymap,
       ...searchKeymap,
+      ...foldKeymap,
       ...lintKeymap,
       indentWithTab,
     ]),
     SOURCE_LOOK,
-    EditorView.updateListener.of((update) => tellCursor(update, events)),
+    LIGHTS,
+    EditorView.updateListener.of(({ state, docChanged, selectionSet }) => {
+      if (docChanged || selectionSet) tellCursor(state, events);
+    }),
   ];
+}
+
+/** @param {boolean} open @returns {HTMLElement} */
+function foldMark(open) {
+  const mark = document.createElement("span");
+  mark.className = `source-fold ${open ? "" : "folded"}`;
+  mark.title = open ? t("source.fold") : t("source.unfold");
+  mark.append(iconElement(open ? "chevronDown" : "chevronRight"));
+  return mark;
 }
 
 /** The document's own undo, for there is no second one. @param {EditorEvents} events @returns {Extension} */
@@ -107,9 +125,8 @@ function historyKeys({ onUndo, onRedo }) {
   ];
 }
 
-/** @param {ViewUpdate} update @param {EditorEvents} events */
-function tellCursor({ state, docChanged, selectionSet }, { onCursor }) {
-  if (!docChanged && !selectionSet) return;
+/** @param {EditorState} state @param {Pick<EditorEvents, "onCursor">} events */
+export function tellCursor(state, { onCursor }) {
   const { head } = state.selection.main;
   const line = state.doc.lineAt(head);
   onCursor(line.number, head - line.from + 1);
@@ -175,6 +192,8 @@ function wordsFor(file) {
     "replaced match on line $",
     "replaced $ matches",
     "on line",
+    "folded code",
+    "unfold",
   ];
   return [
     EditorView.contentAttributes.of({ "aria-label": t("source.text", { file }) }),

@@ -15,7 +15,7 @@ import { theme } from "../app/state/view.js";
 import { linkText } from "../app/texts.js";
 import { RefusedError } from "../app/wire.js";
 import { t } from "../lib/i18n.js";
-import { commonExtensions, fromElsewhere, stateOf } from "./source-editor.js";
+import { commonExtensions, fromElsewhere, stateOf, tellCursor } from "./source-editor.js";
 
 /**
  * @typedef {object} Shown what the panel draws
@@ -49,13 +49,14 @@ export function createTexts() {
   const shown = signal(null);
   /** Undo asked for here shows what it did. */
   let follow = false;
-  const common = commonExtensions({
-    onCursor: (line, column) => {
+  const events = {
+    onCursor: (/** @type {number} */ line, /** @type {number} */ column) => {
       cursorPlace.value = { file: shownFile.value, line, column };
     },
     onUndo: () => step("undo", undo),
     onRedo: () => step("redo", redo),
-  });
+  };
+  const common = commonExtensions(events);
 
   /** @param {string} id @param {() => Promise<void>} run */
   async function step(id, run) {
@@ -126,6 +127,7 @@ export function createTexts() {
   function enter(one) {
     if (!one.state || !texts.view) return;
     texts.view.setState(one.state);
+    tellCursor(one.state, events);
     if (one.scroll) texts.view.dispatch({ effects: one.scroll });
     one.state = null;
   }

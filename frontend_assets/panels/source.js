@@ -10,7 +10,14 @@ import {
 import { html, useEffect, useMemo, useRef } from "vendor/preact.js";
 import { mayEdit } from "../app/state/connection.js";
 import { documentState, history, problems } from "../app/state/document.js";
-import { cursorPlace, openFile, openFiles, shownFile, wantedPlace } from "../app/state/source.js";
+import {
+  cursorPlace,
+  litPlaces,
+  openFile,
+  openFiles,
+  shownFile,
+  wantedPlace,
+} from "../app/state/source.js";
 import { theme } from "../app/state/view.js";
 import { language, t } from "../lib/i18n.js";
 import { shortPath } from "../lib/paths.js";
@@ -19,6 +26,7 @@ import { marksOf } from "../lib/text-problems.js";
 import { EmptyState, Icon, ProgressBar } from "../lib/ui.js";
 import { setSaved } from "./source-changes.js";
 import { adjust, goToPlace } from "./source-editor.js";
+import { setLit } from "./source-lights.js";
 import { SourceTabs } from "./source-tabs.js";
 import { createTexts } from "./source-texts.js";
 
@@ -98,6 +106,7 @@ function useEditor(texts, host) {
   useWords(texts);
   useMarks(texts);
   useSaved(texts);
+  useLights(texts);
   useWanted(texts);
 }
 
@@ -132,6 +141,17 @@ function useSaved(texts) {
     if (!link || !texts.view || unsaved.includes(link.file)) return;
     texts.view.dispatch({ effects: setSaved.of(link.shared.known()) });
   }, [link, unsaved]);
+}
+
+/** @param {Texts} texts */
+function useLights(texts) {
+  const link = texts.shown.value?.link;
+  const places = litPlaces.value;
+  useEffect(() => {
+    if (!link || !texts.view) return;
+    const lines = places.filter(({ file }) => file === link.file).map(({ line }) => line);
+    texts.view.dispatch({ effects: setLit.of(lines) });
+  }, [link, places]);
 }
 
 /** @param {Texts} texts another panel asked for a line */

@@ -26,6 +26,9 @@ export const shownFile = signal("");
 /** Where its cursor stands. @type {Signal<WantedPlace | null>} */
 export const cursorPlace = signal(null);
 
+/** Lines that light up in the source, for instance those of the property under the pointer. @type {Signal<readonly {file: string, line: number}[]>} */
+export const litPlaces = signal([]);
+
 /**
  * Bring the source panel to the front with this line in view and the cursor on it.
  *
@@ -35,6 +38,12 @@ export const cursorPlace = signal(null);
  */
 export function showSource(file, line, column = 1) {
   wantedPlace.value = { file, line: Math.max(line, 1), column: Math.max(column, 1) };
+  commandById("panel.source")?.run();
+}
+
+/** @param {string} file comes to the front, the cursor where it was left */
+export function showFile(file) {
+  openFile(file);
   commandById("panel.source")?.run();
 }
 
