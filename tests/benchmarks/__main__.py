@@ -5,16 +5,27 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING
 
-from tests.benchmarks import edit_to_pixels, edit_to_websocket, meshes_to_websocket, start
-from tests.benchmarks.report import say, say_machine
+from tests.benchmarks import (
+    drag,
+    edit_to_pixels,
+    edit_to_websocket,
+    evaluator,
+    fan_out,
+    meshes_to_websocket,
+    start,
+)
+from tests.benchmarks.report import say, say_machine, say_verdicts
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
 BENCHMARKS: dict[str, Callable[[], None]] = {
     "start": start.run,
+    "evaluator": evaluator.run,
     "edit": edit_to_websocket.run,
     "pixels": edit_to_pixels.run,
+    "drag": drag.run,
+    "fanout": fan_out.run,
     "meshes": meshes_to_websocket.run,
 }
 
@@ -29,6 +40,7 @@ def main(names: list[str]) -> int:
     for name in names or BENCHMARKS:
         say(f"\n[{name}]")
         BENCHMARKS[name]()
+    say_verdicts()
     return 0
 
 

@@ -7,14 +7,13 @@ notes when its colour changed; page and server share the clock of this machine.
 
 from __future__ import annotations
 
-import json
 import tempfile
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tests.benchmarks.edit_to_websocket import Lane
-from tests.benchmarks.report import Timings, say_beside
+from tests.benchmarks.report import Timings, judge, say_beside
 from tests.support.browser import open_browser
 from tests.support.server import RunningStudio, running_studio
 
@@ -65,11 +64,13 @@ def run() -> None:
                 _measure(studio, page, moves, resizes)
                 context.close()
     say_beside("edit to pixels, the rover", moves, resizes)
+    judge("edit to pixels p50, a part moves", moves.median_ms, at_most=40)
+    judge("edit to pixels p50, a primitive changes", resizes.median_ms, at_most=60)
 
 
 def _measure(studio: RunningStudio, page: Page, moves: Timings, resizes: Timings) -> None:
     lane = Lane(studio)
-    _send(lane, "set_display", display="grid", name="shadow", value=False)
+    lane.send("set_display", display="grid", name="shadow", value=False)
     lane.drain()
     time.sleep(_WARM_S)  # the first frames of software GL are slower than all others
     page.evaluate(_PROBE)
@@ -86,10 +87,6 @@ def _until_changed(page: Page, timings: Timings, lane: Lane, fields: dict[str, o
     page.wait_for_timeout(300)
     page.evaluate("() => { window.changes.length = 0; }")
     begin_ms = time.time_ns() / 1e6
-    _send(lane, "set_joints" if "positions" in fields else "edit_site", **fields)
+    lane.send("set_joints" if "positions" in fields else "edit_site", **fields)
     page.wait_for_function("() => window.changes.length > 0", polling=30)
     timings.values_ms.append(page.evaluate("() => window.changes[0]") - begin_ms)
-
-
-def _send(lane: Lane, kind: str, **fields: object) -> None:
-    lane.control.send(json.dumps({"type": kind, "document": lane.document, "request": 1, **fields}))

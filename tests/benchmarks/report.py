@@ -1,4 +1,4 @@
-"""Figures and how they are printed: medians and p95, ratios first."""
+"""Figures and how they are printed: medians and p95, ratios, and what was asked of them."""
 
 from __future__ import annotations
 
@@ -40,6 +40,54 @@ class Timings:
         return ordered[min(len(ordered) - 1, round(0.95 * (len(ordered) - 1)))]
 
 
+@dataclass(frozen=True)
+class Verdict:
+    """One asked measure and what came of it."""
+
+    what: str
+    asked: str
+    got: str
+    met: bool
+
+    def __str__(self) -> str:
+        """One line of the table."""
+        word = "met" if self.met else "MISSED"
+        return f"  {word:<8}{self.what:<56}{self.asked:>18}{self.got:>16}"
+
+
+VERDICTS: list[Verdict] = []
+"""Of this run, in the order in which they were found."""
+
+
+def judge(what: str, got: float, *, at_most: float, unit: str = "ms") -> None:
+    """Say whether a figure is small enough, and keep it for the table at the end."""
+    _keep(Verdict(what, f"<= {at_most:.4g} {unit}", f"{got:.3g} {unit}", got <= at_most))
+
+
+def judge_ratio(what: str, got: float, *, at_least: float) -> None:
+    """Say whether something is so many times better than its peer, and keep it for the table."""
+    _keep(Verdict(what, f">= {at_least:g} times", f"{got:.3g} times", got >= at_least))
+
+
+def judge_that(what: str, *, holds: bool) -> None:
+    """Say whether something holds, and keep it for the table."""
+    _keep(Verdict(what, "yes", "yes" if holds else "no", holds))
+
+
+def _keep(verdict: Verdict) -> None:
+    VERDICTS.append(verdict)
+    say(str(verdict))
+
+
+def say_verdicts() -> None:
+    """The table of everything that was asked."""
+    if VERDICTS:
+        say("\n[asked]")
+        for verdict in VERDICTS:
+            say(str(verdict))
+        say(f"{sum(one.met for one in VERDICTS)} of {len(VERDICTS)} met")
+
+
 def say(line: str = "") -> None:
     """Write a line at once."""
     sys.stdout.write(f"{line}\n")
@@ -63,4 +111,4 @@ def say_beside(title: str, ours: Timings, *peers: Timings) -> None:
 
 def _figures(timings: Timings) -> str:
     runs = len(timings.values_ms)
-    return f"median {timings.median_ms:9.2f} ms   p95 {timings.p95_ms:9.2f} ms   n {runs}"
+    return f"median {timings.median_ms:9.3f} ms   p95 {timings.p95_ms:9.3f} ms   n {runs}"
