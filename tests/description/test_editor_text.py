@@ -9,6 +9,8 @@ from hypothesis import strategies as st
 from studio.description.editor_text import EditorText
 from studio.description.splice import apply
 from studio.errors import EditError
+from tests.support.corpus import corpus
+from tests.support.corpus_files import xml_trees
 
 LATIN = b'<?xml version="1.0" encoding="iso-8859-1"?>\n<robot name="Gr\xfc\xdfe"/>'
 PIECES = st.sampled_from(
@@ -108,3 +110,18 @@ def test_an_edit_puts_its_text_there_and_leaves_all_other_bytes(data: bytes, dra
     assert data.endswith(edited.data[edit.start + len(edit.new) :])
     if not re.search(rb"\r", data) and "\ufffd" not in text.text and "\ufeff" not in text.text:
         assert edited.text == text.text[:first] + new + text.text[last:]
+
+
+@pytest.mark.timeout(120)
+def test_a_letter_typed_into_any_real_file_touches_no_other_byte():
+    for tree in xml_trees(corpus()):
+        text = EditorText(tree.data)
+        lines = text.text.split("\n")
+        at = text.length - units("\n".join(lines[len(lines) // 2 :]))
+        edited = apply(tree.data, [text.edit(tree.path, at, at, "x")])
+        byte = text.byte_at(at)
+        assert edited == tree.data[:byte] + b"x" + tree.data[byte:]
+        assert EditorText(edited).text == "\n".join(
+            [*lines[: len(lines) // 2], "x" + lines[len(lines) // 2], *lines[len(lines) // 2 + 1 :]]
+        )
+        assert text.offset_at(byte) == at

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from hypothesis import given
+from hypothesis import strategies as st
+
+from studio.description.splice import apply
 from studio.description.undo import ArgumentChange, Splice, Step, UndoStack
 
 
@@ -110,3 +114,29 @@ def test_what_reaches_beyond_the_typed_text_is_a_splice_of_its_own():
     stack.push(turned(b"", b"ab", "type", start=7))
     stack.push(turned(b"bc", b"", "type", start=8))
     assert len(stack.done[0].splices) == 2
+
+
+STROKES = st.lists(
+    st.tuples(st.integers(0, 40), st.integers(0, 3), st.binary(max_size=3), st.sampled_from("ab")),
+    max_size=25,
+)
+
+
+@given(STROKES)
+def test_whatever_is_typed_in_whatever_order_is_taken_back_and_done_again(
+    strokes: list[tuple[int, int, bytes, str]],
+):
+    before = text = b"<robot name='r'/>"
+    stack = UndoStack()
+    for at, length, new, gesture in strokes:
+        start = min(at, len(text))
+        splice = Splice("f", start, text[start : start + length], new)
+        text = apply(text, [splice.forward()])
+        stack.push(Step("typed", (splice,), gesture=gesture))
+    after = text
+    while step := stack.undo():
+        text = apply(text, [splice.backward() for splice in reversed(step.splices)])
+    assert text == before
+    while step := stack.redo():
+        text = apply(text, [splice.forward() for splice in step.splices])
+    assert text == after
