@@ -41,7 +41,7 @@ function FileTab({ file, name, folder }) {
     closeFile(file);
   };
   return html`<div class=${`source-tab ${shown ? "shown" : ""} ${bad ? "bad" : ""}`} role="presentation" onAuxClick=${onAux}>
-    <button type="button" role="tab" id=${`source-tab-${file}`} aria-selected=${shown} tabindex=${shown ? 0 : -1}
+    <button type="button" role="tab" aria-selected=${shown} tabindex=${shown ? 0 : -1}
       title=${shortPath(file, root)} data-file=${file} onClick=${() => openFile(file)}>
       ${bad && html`<${Icon} name="error" size=${12} /><span class="hidden-words">${t("severity.error")}</span>`}
       ${locked && html`<${Icon} name="lock" size=${12} />`}
@@ -115,6 +115,10 @@ function menuItems(goToLine) {
       icon: "close",
       disabled: others.length === 0,
       run: closeOthers,
+    },
+    {
+      label: t("source.tab_key", { keys: shortcutText(onMac ? "Shift+Alt+M" : "Mod+M", onMac) }),
+      heading: true,
     },
   ];
 }

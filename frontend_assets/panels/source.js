@@ -8,7 +8,7 @@ import {
   setDiagnostics,
 } from "vendor/codemirror.js";
 import { html, useEffect, useMemo, useRef } from "vendor/preact.js";
-import { mayEdit } from "../app/state/connection.js";
+import { connection, mayEdit } from "../app/state/connection.js";
 import { documentState, history, problems } from "../app/state/document.js";
 import {
   cursorPlace,
@@ -20,7 +20,7 @@ import {
 } from "../app/state/source.js";
 import { theme } from "../app/state/view.js";
 import { language, t } from "../lib/i18n.js";
-import { shortPath } from "../lib/paths.js";
+import { baseName, shortPath } from "../lib/paths.js";
 import { recall, remember } from "../lib/remembered.js";
 import { marksOf } from "../lib/text-problems.js";
 import { EmptyState, Icon, ProgressBar } from "../lib/ui.js";
@@ -45,7 +45,7 @@ export function SourcePanel() {
   return html`<section class="panel-body source" aria-label=${t("panel.source")}>
     <${SourceTabs} find=${onView(openSearchPanel)} goToLine=${onView(gotoLine)} />
     ${shown?.link?.readOnly && html`<p class="source-note"><${Icon} name="lock" size=${13} />${shown.link.readOnly}</p>`}
-    <div class="source-editor" ref=${host} hidden=${!shown?.link} role="tabpanel" aria-labelledby=${`source-tab-${file}`}></div>
+    <div class="source-editor" ref=${host} hidden=${!shown?.link} role="tabpanel" aria-label=${baseName(file)}></div>
     ${!shown?.link && html`<${Waiting} file=${file} reason=${shown?.reason ?? ""} />`}
     ${shown?.link && html`<${Foot} />`}
   </section>`;
@@ -101,7 +101,9 @@ function useEditor(texts, host) {
   }, []);
   const file = shownFile.value;
   const files = openFiles.value;
-  useEffect(() => texts.show(file), [file]);
+  const there = connection.value === "connected";
+  // Again when the studio is back: a text that was not to be had then may be now.
+  useEffect(() => texts.show(file), [file, there]);
   useEffect(() => texts.keepOnly(files), [files]);
   useWords(texts);
   useMarks(texts);
