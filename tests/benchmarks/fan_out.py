@@ -85,6 +85,7 @@ def _ours(scratch: Path) -> Generator[Server]:
     with running_studio(["demo"], scratch / "data") as studio:
         lane = Lane(studio)
         lane.send("animate_joints", running=True)
+        lane.close()
         yield Server(
             "the studio",
             f"ws://127.0.0.1:{studio.port}/d/{lane.document}/viser",
@@ -92,7 +93,6 @@ def _ours(scratch: Path) -> Generator[Server]:
             _cookie(studio),
             studio.origin,
         )
-        lane.close()
 
 
 def _cookie(studio: RunningStudio) -> dict[str, str]:
@@ -109,7 +109,8 @@ def _stock() -> Generator[Server]:
     )
     try:
         assert process.stdout is not None
-        port = int(process.stdout.readline())
+        said = iter(process.stdout.readline, "")
+        port = next(int(line.split()[1]) for line in said if line.startswith("port "))
         yield Server("stock viser", f"ws://127.0.0.1:{port}", process.pid, {}, "http://127.0.0.1")
     finally:
         process.kill()

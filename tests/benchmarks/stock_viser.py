@@ -1,7 +1,7 @@
 """Stock viser as the peer: `python -m tests.benchmarks.stock_viser LINKS` moves a robot at 60 Hz.
 
 As a viser script is written: a frame with a box for each link, posed by its handle, all of them in
-one atomic block. Prints its port.
+one atomic block. Prints `port N` below viser's lines.
 """
 
 # pyright: reportUnknownMemberType=false
@@ -22,7 +22,7 @@ def main(count: int) -> None:
     links = [server.scene.add_frame(f"/robot/{n}", show_axes=False) for n in range(count)]
     for number in range(count):
         server.scene.add_box(f"/robot/{number}/box", dimensions=(0.1, 0.1, 0.1))
-    sys.stdout.write(f"{server.get_port()}\n")
+    sys.stdout.write(f"port {server.get_port()}\n")
     sys.stdout.flush()
     next_s = time.perf_counter()
     step = 0
