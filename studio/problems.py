@@ -41,7 +41,8 @@ class Fix:
     """One click that mends a Problem: `action` names it, `target` is what it works on.
 
     Actions: `choose_package` (target: package name), `undo` (target: empty),
-    `open_file` (target: path).
+    `open_file` (target: path), `resolve_collisions` (target: path of the file), `give_arguments`
+    (target: empty).
     """
 
     label: str

@@ -9,6 +9,27 @@ export interface AnimateJoints {
   running: boolean;
 }
 
+/** One argument of a robot, as a form shows it. */
+export interface ArgumentView {
+  name: string;
+  file: string;
+  line: number;
+  default: string | null;
+  value: string | null;
+  shown: string;
+  widget: Widget;
+  is_file: boolean;
+}
+
+/** Answer to `get_arguments`; `missing`: those without which it cannot be shown. */
+export interface Arguments {
+  type: "arguments";
+  request: number;
+  path: string;
+  arguments: ArgumentView[];
+  missing: string[];
+}
+
 /** A run ended: how long it took from the edit to the scene. */
 export interface Built {
   type: "built";
@@ -31,6 +52,30 @@ export interface CloseDocument {
   document?: string;
   type: "close_document";
   discard?: boolean;
+}
+
+/** Whole lines that were edited here and changed on disk; `line` counts from 1 in the base. */
+export interface CollisionView {
+  line: number;
+  base: string;
+  mine: string;
+  theirs: string;
+}
+
+/** Answer to `get_collisions`: the first of `count` places. */
+export interface Collisions {
+  type: "collisions";
+  request: number;
+  file: string;
+  places: CollisionView[];
+  count: number;
+}
+
+/** Another program wrote a file; its changes are taken, and so many edits are kept unsaved. */
+export interface DiskMerged {
+  type: "disk_merged";
+  file: string;
+  kept: number;
 }
 
 /** The shared display settings: display, then setting, then value. */
@@ -107,7 +152,7 @@ export interface EditText {
  * One click that mends a Problem: `action` names it, `target` is what it works on.
  *
  * Actions: `choose_package` (target: package name), `undo` (target: empty), `open_file` (target:
- * path).
+ * path), `resolve_collisions` (target: path of the file), `give_arguments` (target: empty).
  */
 export interface Fix {
   label: string;
@@ -131,6 +176,29 @@ export interface FolderEntry {
   kind: "folder" | "package" | "robot" | "zip" | "file";
   openable: boolean;
   reason: string;
+}
+
+/** What a robot can be launched with: the open document's, or that of a file not yet open. */
+export interface GetArguments {
+  request?: number;
+  document?: string;
+  type: "get_arguments";
+  path?: string;
+}
+
+/** Where a file's unsaved edits collide with what another program wrote. */
+export interface GetCollisions {
+  request?: number;
+  document?: string;
+  type: "get_collisions";
+  file: string;
+}
+
+/** A link that opens this robot with its arguments and unsaved edits. */
+export interface GetLink {
+  request?: number;
+  document?: string;
+  type: "get_link";
 }
 
 /** The text of a file as it is edited; `texts_changed` tells from then on what happens to it. */
@@ -193,6 +261,24 @@ export interface JointView {
   line: number;
 }
 
+/** Answer to `get_link`: `text` goes behind `#robot=` of the studio's address. */
+export interface Link {
+  type: "link";
+  request: number;
+  text: string;
+  arguments: number;
+  files: string[];
+  edits: number;
+}
+
+/** Answer to `open_link`: go to `/d/<document>`; `left_out` says which edits found no place. */
+export interface LinkOpened {
+  type: "link_opened";
+  request: number;
+  document: string;
+  left_out: string[];
+}
+
 /** One link as the page lists it; the parent joint is in the joints. */
 export interface LinkView {
   name: string;
@@ -217,6 +303,14 @@ export interface ListFolder {
 export interface MacroCall {
   macro: string;
   called_at: Place;
+}
+
+/** Open what a link holds as a document of its own; its edits are unsaved there. */
+export interface OpenLink {
+  request?: number;
+  document?: string;
+  type: "open_link";
+  link: string;
 }
 
 /** Open a file, package folder, workspace folder or zip below the served roots. */
@@ -311,6 +405,15 @@ export interface ResetSite {
   site: string;
 }
 
+/** Take a file's changes on disk; where they collide with unsaved edits, one side's. */
+export interface ResolveCollisions {
+  request?: number;
+  document?: string;
+  type: "resolve_collisions";
+  file: string;
+  keep: "mine" | "theirs";
+}
+
 /** The robot's tree. `revision` counts structural changes; joint frames carry it. */
 export interface RobotState {
   type: "robot";
@@ -341,6 +444,14 @@ export interface SetArgument {
   type: "set_argument";
   name: string;
   value: string | null;
+}
+
+/** Pass several arguments at once, as one run and one undo step; None takes one back. */
+export interface SetArguments {
+  request?: number;
+  document?: string;
+  type: "set_arguments";
+  values: Record<string, string | null>;
 }
 
 /** Change one setting of a shared display, e.g. `robot`, `collision`, True. */
@@ -480,6 +591,12 @@ export type Command =
   | Redo
   | Save
   | Reload
+  | GetCollisions
+  | ResolveCollisions
+  | GetArguments
+  | SetArguments
+  | GetLink
+  | OpenLink
   | SetJoints
   | ZeroJoints
   | RandomizeJoints
@@ -509,5 +626,10 @@ export type Event =
   | Urdf
   | Text
   | TextsChanged
+  | DiskMerged
+  | Collisions
+  | Arguments
+  | Link
+  | LinkOpened
   | Saved
   | Gone;

@@ -7,11 +7,12 @@ it reads and writes files when asked, and waits for nothing.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from enum import Enum, auto
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from studio.description.changed_regions import ChangedRegions
+from studio.description.disk_news import DiskNews, FileChange
+from studio.description.merging import hunks_between, merge
 from studio.description.saving import FileToSave, save_files
 from studio.description.span_table import SpanTable
 from studio.description.splice import apply, decode, difference, edit_at, inverse
@@ -22,20 +23,8 @@ from studio.errors import EditError, PackageError
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
 
+    from studio.description.merging import Merge, Side
     from studio.description.values import Expansion
-
-
-class FileChange(Enum):
-    """What a look at the disk found."""
-
-    NONE = auto()
-    """The file is as it was read, or as it is edited here."""
-    RELOADED = auto()
-    """It changed and had no unsaved edits: its new text is taken."""
-    CONFLICT = auto()
-    """It changed and has unsaved edits: they are kept, saving is refused until it is reloaded."""
-    GONE = auto()
-    """It cannot be read any more; its text here is kept."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,6 +48,11 @@ class _Text:
     def of(cls, disk: bytes) -> _Text:
         return cls(disk, disk, ChangedRegions(disk))
 
+    def apply(self, edit: Edit) -> None:
+        """Apply an edit and note what differs then."""
+        self.now = apply(self.now, (edit,))
+        self.regions.note(edit, self.now)
+
 
 class Sources:
     """The files of one document; `spans` answers where its sites stand now.
@@ -81,7 +75,8 @@ class Sources:
         self._texts: dict[str, _Text] = {}
         self._steps = UndoStack()
         self._arguments = dict(arguments or {})
-        self._conflicts: set[str] = set()
+        self._conflicts: dict[str, bytes] = {}
+        """By file, what the disk has where it collides with unsaved edits."""
         self.spans = SpanTable()
 
     @property
@@ -116,7 +111,7 @@ class Sources:
 
     @property
     def conflicts(self) -> frozenset[str]:
-        """Files with unsaved edits that changed on disk."""
+        """Files that changed on disk where they have unsaved edits."""
         return frozenset(self._conflicts)
 
     def overlay(self) -> dict[str, bytes]:
@@ -266,24 +261,60 @@ class Sources:
         save_files(changed, self._resolve, self._may_write, self._saved)
         return tuple(one.file for one in changed)
 
-    def refresh(self, file: str) -> FileChange:
-        """Look at the disk after somebody may have written a file that is held."""
+    def refresh(self, file: str) -> DiskNews:
+        """Look at the disk after somebody may have written a file that is held.
+
+        What the disk changed is taken, as a step to take back, and unsaved edits stay unsaved
+        against the new text; where both changed the same place nothing is taken.
+        """
         text = self._texts.get(file)
         if text is None:
-            return FileChange.NONE
+            return DiskNews(FileChange.NONE)
         try:
             disk = self._disk(file)
         except PackageError:
-            return FileChange.GONE
-        if disk == text.disk:
-            self._conflicts.discard(file)
-            return FileChange.NONE
-        if text.now not in {disk, text.disk}:
-            self._conflicts.add(file)
-            return FileChange.CONFLICT
-        is_news = disk != text.now
-        self._take(file, disk)
-        return FileChange.RELOADED if is_news else FileChange.NONE
+            return DiskNews(FileChange.GONE)
+        self._conflicts.pop(file, None)
+        merged = merge(text.disk, text.now, disk)
+        if merged.collisions:
+            self._conflicts[file] = disk
+            return DiskNews(FileChange.CONFLICT)
+        # A burst of writes is one step.
+        step = Step(f"Changed on disk: {Path(file).name}", gesture=f"disk {file}", is_value=False)
+        edits = self._become(file, merged.text(), step)
+        self._rebase(file, disk)
+        if not edits:
+            return DiskNews(FileChange.NONE)
+        what = FileChange.MERGED if merged.kept else FileChange.RELOADED
+        return DiskNews(what, edits, merged.kept)
+
+    def collisions(self, file: str) -> Merge:
+        """The unsaved edits and the disk's changes of a file, as they stand now.
+
+        Raises:
+            EditError: They do not collide.
+        """
+        disk, text = self._conflicts.get(file), self._texts.get(file)
+        if disk is None or text is None:
+            raise EditError(f"{file}: its edits collide with no change on disk any more.")
+        return merge(text.disk, text.now, disk)
+
+    def resolve(self, file: str, wins: Side) -> tuple[Edit, ...]:
+        """Take the disk's changes; where they collide with unsaved edits, the winner's.
+
+        Undo brings back the other one's, and then the text before.
+
+        Raises:
+            EditError: They do not collide.
+        """
+        merged, name = self.collisions(file), Path(file).name
+        taken = Step(f"Take the changes on disk: {name}", is_value=False)
+        edits = self._become(file, merged.text("theirs"), taken)
+        if wins == "mine":
+            kept = Step(f"Keep the edits: {name}", is_value=False)
+            edits += self._become(file, merged.text("mine"), kept)
+        self._rebase(file, self._conflicts.pop(file))
+        return edits
 
     def reload(self, file: str) -> Edit | None:
         """Take the disk's text, unsaved edits given up (undo brings them back).
@@ -311,21 +342,36 @@ class Sources:
         if edit is not None:
             self._push(edit, Step(f"Reload {Path(file).name}", is_value=False))
         self._texts[file] = _Text.of(disk)
-        self._conflicts.discard(file)
+        self._conflicts.pop(file, None)
         return edit
 
+    def _become(self, file: str, wanted: bytes, step: Step) -> tuple[Edit, ...]:
+        """Make a text another one, place by place; the edits that did it, the last place first."""
+        edits = _edits_between(file, self._held(file).now, wanted)
+        splices = tuple(self._splice(edit) for edit in edits)
+        if splices:
+            self._steps.push(replace(step, splices=splices))
+        return edits
+
+    def _rebase(self, file: str, disk: bytes) -> None:
+        """Count what differs against another text of the disk from now on."""
+        text, wanted = _Text.of(disk), self._held(file).now
+        for edit in _edits_between(file, disk, wanted):
+            text.apply(edit)
+        self._texts[file] = text
+
     def _push(self, edit: Edit, step: Step) -> None:
-        before = self._held(edit.file).now
-        undone = inverse(before, edit)
+        self._steps.push(replace(step, splices=(self._splice(edit),)))
+
+    def _splice(self, edit: Edit) -> Splice:
+        """Apply an edit; what it did."""
+        undone = inverse(self._held(edit.file).now, edit)
         self._apply((edit,))
-        splice = Splice(edit.file, edit.start, undone.new, edit.new)
-        self._steps.push(replace(step, splices=(splice,)))
+        return Splice(edit.file, edit.start, undone.new, edit.new)
 
     def _apply(self, edits: Iterable[Edit]) -> None:
         for edit in edits:
-            text = self._held(edit.file)
-            text.now = apply(text.now, (edit,))
-            text.regions.note(edit, text.now)
+            self._held(edit.file).apply(edit)
             self.spans.note((edit,))
 
     def _carry_out(
@@ -343,4 +389,10 @@ class Sources:
 
     def _saved(self, saved: FileToSave) -> None:
         self._texts[saved.file] = _Text.of(saved.data)
-        self._conflicts.discard(saved.file)
+        self._conflicts.pop(saved.file, None)
+
+
+def _edits_between(file: str, old: bytes, new: bytes) -> tuple[Edit, ...]:
+    """The edits from one text to the other, the last place first: so each one's offsets hold."""
+    hunks = reversed(hunks_between(old, new))
+    return tuple(Edit(file, hunk.start, hunk.end, hunk.new) for hunk in hunks)

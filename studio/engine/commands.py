@@ -94,6 +94,48 @@ class Reload(CommandMessage):
     type: Literal["reload"] = "reload"
 
 
+class GetCollisions(CommandMessage):
+    """Where a file's unsaved edits collide with what another program wrote."""
+
+    type: Literal["get_collisions"] = "get_collisions"
+    file: str = Field(max_length=4096)
+
+
+class ResolveCollisions(CommandMessage):
+    """Take a file's changes on disk; where they collide with unsaved edits, one side's."""
+
+    type: Literal["resolve_collisions"] = "resolve_collisions"
+    file: str = Field(max_length=4096)
+    keep: Literal["mine", "theirs"]
+
+
+class GetArguments(CommandMessage):
+    """What a robot can be launched with: the open document's, or that of a file not yet open."""
+
+    type: Literal["get_arguments"] = "get_arguments"
+    path: str = Field(default="", max_length=4096)
+
+
+class SetArguments(CommandMessage):
+    """Pass several arguments at once, as one run and one undo step; None takes one back."""
+
+    type: Literal["set_arguments"] = "set_arguments"
+    values: dict[str, str | None] = Field(min_length=1, max_length=1000)
+
+
+class GetLink(CommandMessage):
+    """A link that opens this robot with its arguments and unsaved edits."""
+
+    type: Literal["get_link"] = "get_link"
+
+
+class OpenLink(CommandMessage):
+    """Open what a link holds as a document of its own; its edits are unsaved there."""
+
+    type: Literal["open_link"] = "open_link"
+    link: str = Field(max_length=400_000)
+
+
 class SetJoints(CommandMessage):
     """Move joints: positions by name, rad or m; clamped to the limits, mimics follow."""
 
@@ -190,6 +232,12 @@ Command: TypeAlias = Annotated[
     | Redo
     | Save
     | Reload
+    | GetCollisions
+    | ResolveCollisions
+    | GetArguments
+    | SetArguments
+    | GetLink
+    | OpenLink
     | SetJoints
     | ZeroJoints
     | RandomizeJoints

@@ -1,15 +1,16 @@
 """What the disk did to an open document, as Problems."""
 
-from studio.problems import Place, Problem, Severity
+from studio.problems import Fix, Place, Problem, Severity
 
 
 def changed_on_disk(file: str) -> Problem:
-    """Somebody else wrote a file that has unsaved edits here."""
+    """Somebody else wrote a file in the very places that have unsaved edits here."""
     sentence = (
-        "This file was changed on disk while it has unsaved edits here: "
-        "reload to take the disk's text (undo brings your edits back)."
+        "This file was changed on disk where it has unsaved edits: "
+        "choose whose text stands (undo brings the other back)."
     )
-    return Problem(Severity.WARNING, "changed-on-disk", sentence, Place(file))
+    fix = Fix("Compare and choose", "resolve_collisions", file)
+    return Problem(Severity.WARNING, "changed-on-disk", sentence, Place(file), fix=fix)
 
 
 def file_gone(file: str) -> Problem:

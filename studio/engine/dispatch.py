@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from studio.engine.listeners import Listener
 
 
-async def carry_out(document: Document, command: m.Command, listener: Listener) -> None:  # noqa: C901, PLR0912 - one arm a command
+async def carry_out(document: Document, command: m.Command, listener: Listener) -> None:  # noqa: C901, PLR0912, PLR0915 - one arm a command
     """Carry out one command of a document; returns when it is done.
 
     Raises:
@@ -25,6 +25,12 @@ async def carry_out(document: Document, command: m.Command, listener: Listener) 
             await document.reset_site(command.site)
         case m.SetArgument():
             await document.set_argument(command.name, command.value)
+        case m.SetArguments():
+            await document.set_arguments(command.values)
+        case m.GetCollisions():
+            tell(listener, document.disk.answer(command))
+        case m.ResolveCollisions():
+            await document.resolve_collisions(command.file, command.keep)
         case m.Undo():
             await document.undo()
         case m.Redo():
@@ -51,7 +57,15 @@ async def carry_out(document: Document, command: m.Command, listener: Listener) 
             tell(listener, document.texts.answer(command, listener.role))
         case m.EditText():
             await document.edit_text(command)
-        case m.OpenPath() | m.CloseDocument() | m.ListFolder() | m.Watch():
+        case (
+            m.GetArguments()
+            | m.GetLink()
+            | m.OpenLink()
+            | m.OpenPath()
+            | m.CloseDocument()
+            | m.ListFolder()
+            | m.Watch()
+        ):
             raise TypeError(f"{command.type} is the engine's own command")
         case _:
             assert_never(command)

@@ -8,10 +8,10 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
-from studio.description.sources import Change, FileChange, Sources
+from studio.description.sources import Change, Sources
 from studio.description.values import Expansion, Failure
 from studio.engine.board import Board
-from studio.engine.disk_problems import changed_on_disk, file_gone
+from studio.engine.disk import DiskDesk
 from studio.engine.edit_loop import EditLoop, Outcome, Target
 from studio.engine.mesh_loading import MeshLoading
 from studio.engine.messages import Built, Saved
@@ -30,6 +30,7 @@ from studio.settings import LOOPBACK_HOSTS
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable, Mapping, Sequence
 
+    from studio.description.merging import Side
     from studio.description.values import Edit
     from studio.engine.messages import EditText
     from studio.engine.services import Services
@@ -66,6 +67,7 @@ class Document:
         self.board = Board(self)
         self.board.find("packages", location.problems)
         self.texts = TextDesk(self)
+        self.disk = DiskDesk(self.sources, served, self.board)
         self.motion = Motion(self.model, self.board)
         self._services = services
         self._runs = EditLoop(services.description_worker(), self.sources, self._target, self._take)
@@ -162,6 +164,19 @@ class Document:
         self.sources.set_argument(name, value)
         await self._arguments_changed()
 
+    async def set_arguments(self, values: Mapping[str, str | None]) -> None:
+        """Pass or take back several arguments at once."""
+        self.sources.set_arguments(values, "Arguments" if len(values) > 1 else next(iter(values)))
+        await self._arguments_changed()
+
+    async def resolve_collisions(self, file: str, keep: Side) -> None:
+        """Let one side win where edits collide with a change on disk."""
+        edits = self.disk.resolve(file, keep)
+        self.board.book.doubt_all()
+        self._texts_changed()
+        if edits:
+            await self._timed(self._run(edits))
+
     async def undo(self) -> None:
         """Take the last step back."""
         await self._follow(self.sources.undo())
@@ -172,6 +187,7 @@ class Document:
 
     async def save(self) -> None:
         """Write all changed files."""
+        await self._changed_on_disk(set(self.sources.unsaved_files))
         written = self.sources.save()
         self.board.book.doubt_all()
         self._texts_changed()
@@ -226,6 +242,8 @@ class Document:
             self.board.problems()
         self._watch_files()
         self._texts_changed()
+        if self.sources.conflicts:  # an undo, say, may have ended them
+            self._spawn("disk", self._changed_on_disk(set(self.sources.conflicts)))
 
     def _take_failure(self, failure: Failure) -> None:
         self.failed = True
@@ -262,6 +280,9 @@ class Document:
             return
         if change.arguments is None:
             await self._timed(self._run(change.edits))
+            return
+        if change.edits:  # both wait for the same run
+            await asyncio.gather(self._run(change.edits), self._arguments_changed())
         else:
             await self._arguments_changed()
 
@@ -287,15 +308,14 @@ class Document:
 
     async def _changed_on_disk(self, files: set[str]) -> None:
         self._meshes.want([uri for uri, file in self._meshes.files.items() if file in files])
-        found = {file: self.sources.refresh(file) for file in files & set(self._files)}
-        gone = [file_gone(file) for file, what in found.items() if what is FileChange.GONE]
-        conflicts = [changed_on_disk(file) for file in sorted(self.sources.conflicts)]
-        self.board.find("disk", (*gone, *conflicts))
+        ours = files & {*self._files, *self.sources.conflicts}
+        edits = self.disk.look(sorted(ours))
         self.board.book.doubt_all()
         self._texts_changed()
-        news = [file for file, what in found.items() if what is FileChange.RELOADED]
-        if news or (self.failed and files - set(found)):
-            await self._timed(self._runs.reload(news))
+        if edits:
+            await self._timed(self._run(edits))
+        elif self.failed and files - ours:
+            await self._timed(self._runs.reload(()))
 
     def _want_meshes(self) -> None:
         self._meshes.forget(self.model.mesh_uris())

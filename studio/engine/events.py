@@ -260,6 +260,81 @@ class TextsChanged(Message):
     """Of the `edit_text` that did it; empty: it was none."""
 
 
+class DiskMerged(Message):
+    """Another program wrote a file; its changes are taken, and so many edits are kept unsaved."""
+
+    type: Literal["disk_merged"] = "disk_merged"
+    file: str
+    kept: int
+
+
+class CollisionView(Message):
+    """Whole lines that were edited here and changed on disk; `line` counts from 1 in the base."""
+
+    line: int
+    base: str
+    mine: str
+    theirs: str
+
+
+class Collisions(Message):
+    """Answer to `get_collisions`: the first of `count` places."""
+
+    type: Literal["collisions"] = "collisions"
+    request: int
+    file: str
+    places: tuple[CollisionView, ...]
+    count: int
+
+
+class ArgumentView(Message):
+    """One argument of a robot, as a form shows it."""
+
+    name: str
+    file: str
+    line: int
+    default: str | None
+    """As written in the file; None: the robot needs a value from outside."""
+    value: str | None
+    """What is passed now."""
+    shown: str
+    """What it comes to now, where that is known without a run."""
+    widget: Widget
+    is_file: bool
+    """Its value names a file."""
+
+
+class Arguments(Message):
+    """Answer to `get_arguments`; `missing`: those without which it cannot be shown."""
+
+    type: Literal["arguments"] = "arguments"
+    request: int
+    path: str
+    arguments: tuple[ArgumentView, ...]
+    missing: tuple[str, ...]
+
+
+class Link(Message):
+    """Answer to `get_link`: `text` goes behind `#robot=` of the studio's address."""
+
+    type: Literal["link"] = "link"
+    request: int
+    text: str
+    arguments: int
+    files: tuple[str, ...]
+    """Those whose unsaved edits it holds."""
+    edits: int
+
+
+class LinkOpened(Message):
+    """Answer to `open_link`: go to `/d/<document>`; `left_out` says which edits found no place."""
+
+    type: Literal["link_opened"] = "link_opened"
+    request: int
+    document: str
+    left_out: tuple[str, ...]
+
+
 class Saved(Message):
     """These files were written."""
 
@@ -293,6 +368,11 @@ Event: TypeAlias = Annotated[
     | Urdf
     | Text
     | TextsChanged
+    | DiskMerged
+    | Collisions
+    | Arguments
+    | Link
+    | LinkOpened
     | Saved
     | Gone,
     Field(discriminator="type"),

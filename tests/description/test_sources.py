@@ -9,11 +9,9 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from studio.description.drafts import draft_xml, draft_yaml
 from studio.description.number_text import format_number, parse_number
 from studio.description.session import Session
-from studio.description.source_tree import parse_source
-from studio.description.sources import FileChange, Sources
+from studio.description.sources import Sources
 from studio.description.splice import apply, decode
 from studio.description.values import (
     Edit,
@@ -21,47 +19,14 @@ from studio.description.values import (
     Expansion,
     OpenRequest,
     ReadPolicy,
-    Site,
-    Widget,
-    WidgetKind,
 )
 from studio.errors import EditError, SaveConflictError, StaleEditError, UnreadableFileError
 from studio.packages.roots import ServedRoots
 from tests.support.corpus_files import package_folders
+from tests.support.edited_rover import LIMITS, ROVER, count, opened, radius
 
 if TYPE_CHECKING:
     from pathlib import Path
-
-    from studio.description.drafts import Draft
-
-ROVER = """\
-<robot name="rover" xmlns:xacro="http://www.ros.org/wiki/xacro">\r
-  <!-- Räder -->\r
-  <xacro:property name="wheel_radius" value="0.1"/>\r
-  <xacro:property name="wheel_count" value='4'/>\r
-  <xacro:arg name="arm" default="true"/>\r
-</robot>\r
-"""
-LIMITS = "pan: {max: 1.50, name: 'π'}\n"
-
-
-def expansion_of(*files: Path) -> Expansion:
-    sites = tuple(_site(draft) for path in files for draft in _drafts(path))
-    order = tuple(site.id for site in sites)
-    names = tuple(str(path) for path in files)
-    return Expansion("rover", (), None, (), order, sites, names, (), (), "studio")
-
-
-def _drafts(path: Path) -> tuple[Draft, ...]:
-    data = path.read_bytes()
-    if path.suffix == ".yaml":
-        return draft_yaml(str(path), data).drafts
-    return draft_xml(parse_source(str(path), data)).drafts
-
-
-def _site(one: Draft) -> Site:
-    widget = Widget(WidgetKind.TEXT)
-    return Site(one.id, one.kind, one.name, one.place, one.span, one.text, "", None, 0, widget, "")
 
 
 @pytest.fixture
@@ -81,21 +46,6 @@ def limits(tmp_path: Path) -> Path:
 @pytest.fixture
 def sources(tmp_path: Path, rover: Path, limits: Path) -> Sources:
     return opened(tmp_path, rover, limits)
-
-
-def opened(root: Path, *files: Path) -> Sources:
-    roots = ServedRoots([root])
-    sources = Sources(roots.read, roots.resolve, roots.may_write, {"arm": "false"})
-    sources.adopt(expansion_of(*files), 0)
-    return sources
-
-
-def radius(path: Path) -> str:
-    return f"{path}#1@value"
-
-
-def count(path: Path) -> str:
-    return f"{path}#2@value"
 
 
 def test_an_edit_changes_the_text_here_and_not_the_disk(sources: Sources, rover: Path):
@@ -216,28 +166,6 @@ def test_a_save_is_refused_when_the_disk_has_changed_and_nothing_is_lost(
     assert b"'8'" in rover.read_bytes()
 
 
-def test_a_change_on_disk_is_taken_when_there_is_nothing_to_lose(sources: Sources, rover: Path):
-    theirs = ROVER.replace("'4'", "'8'").encode()
-    rover.write_bytes(theirs)
-    assert sources.refresh(str(rover)) is FileChange.RELOADED
-    assert (sources.text(str(rover)), sources.unsaved_files) == (theirs, ())
-    assert sources.refresh(str(rover)) is FileChange.NONE
-
-
-def test_a_change_on_disk_of_a_file_with_unsaved_edits_is_a_conflict(
-    sources: Sources, rover: Path, limits: Path
-):
-    sources.edit_site(radius(rover), "0.125")
-    sources.edit_site(f"{limits}#pan.max", "2.0")
-    ours, theirs = sources.text(str(rover)), ROVER.replace("'4'", "'8'").encode()
-    rover.write_bytes(theirs)
-    assert sources.refresh(str(rover)) is FileChange.CONFLICT
-    assert (sources.text(str(rover)), sources.conflicts) == (ours, {str(rover)})
-    sources.reload(str(rover))
-    assert (sources.text(str(rover)), sources.conflicts) == (theirs, frozenset())
-    assert sources.unsaved_files == (str(limits),)
-
-
 def test_undo_brings_back_what_a_reload_gave_up(sources: Sources, rover: Path):
     sources.edit_site(radius(rover), "0.125")
     ours = sources.text(str(rover))
@@ -247,25 +175,6 @@ def test_undo_brings_back_what_a_reload_gave_up(sources: Sources, rover: Path):
     assert sources.text(str(rover)) == ours
     sources.undo()
     assert sources.text(str(rover)) == ROVER.encode()
-
-
-def test_a_change_on_disk_that_says_what_we_say_is_none(sources: Sources, rover: Path):
-    sources.edit_site(radius(rover), "0.125")
-    rover.write_bytes(sources.text(str(rover)))
-    assert sources.refresh(str(rover)) is FileChange.NONE
-    assert (sources.unsaved_files, sources.conflicts) == ((), frozenset())
-
-
-def test_a_file_that_went_away_keeps_its_text_here(sources: Sources, rover: Path):
-    rover.unlink()
-    assert sources.refresh(str(rover)) is FileChange.GONE
-    assert sources.text(str(rover)) == ROVER.encode()
-    with pytest.raises(UnreadableFileError):
-        sources.reload(str(rover))
-
-
-def test_a_file_that_nobody_holds_changes_nothing(sources: Sources, tmp_path: Path):
-    assert sources.refresh(str(tmp_path / "other")) is FileChange.NONE
 
 
 def test_a_failed_run_may_be_followed_by_more_edits(sources: Sources, rover: Path):

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio.errors import CommandError, SaveConflictError, StaleEditError
+from studio.errors import CommandError, StaleEditError
 from tests.support.open_documents import Ear, engine, opened, until
 from tests.support.packages import write_package
 
@@ -143,33 +143,6 @@ def test_a_change_on_disk_is_taken(arm: Path, tmp_path: Path):
             changed = ARM.replace('value="0.4"', 'value="0.8"')
             await until(lambda: bool(arm.write_text(changed)) and height_of(document) > 0.7)
             assert not document.has_unsaved
-
-    asyncio.run(run())
-
-
-def test_a_change_on_disk_beside_unsaved_edits_is_a_conflict_that_nobody_overwrites(
-    arm: Path, tmp_path: Path
-):
-    async def run() -> None:
-        async with engine(tmp_path / "data") as made:
-            document, ear = await opened(made, arm)
-            await document.edit_site(ear.site("reach")["id"], "0.5", "")
-            theirs = ARM.replace('value="0.4"', 'value="0.9"')
-
-            def told() -> bool:
-                arm.write_text(theirs)
-                codes = [one["code"] for one in ear.last("problems")["problems"]]
-                return "changed-on-disk" in codes
-
-            await until(told)
-            assert height_of(document) == pytest.approx(0.5)
-            with pytest.raises(SaveConflictError):
-                await document.save()
-            assert arm.read_text() == theirs
-            await document.reload()
-            assert height_of(document) == pytest.approx(0.9)
-            await document.undo()
-            assert height_of(document) == pytest.approx(0.5)
 
     asyncio.run(run())
 
