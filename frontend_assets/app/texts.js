@@ -2,12 +2,14 @@
 
 /**
  * @import { ChangeSet } from "vendor/codemirror.js"
- * @import { Fate, Packet, SharedText } from "../lib/shared-text.js"
+ * @import { EditText } from "../types/wire.d.ts"
+ * @import { Asked } from "./wire.js"
+ * @import { Fate } from "../lib/shared-text.js"
  */
 
 import { effect, untracked } from "vendor/preact.js";
 import { settleFirst } from "../lib/latest.js";
-import { createSharedText } from "../lib/shared-text.js";
+import { SharedText } from "../lib/shared-text.js";
 import { Text } from "../vendor/codemirror.js";
 import { connection } from "./state/connection.js";
 import { documentId } from "./state/document.js";
@@ -15,8 +17,8 @@ import { followText } from "./state/source.js";
 import { notify } from "./state/view.js";
 import { LostError, RefusedError, send } from "./wire.js";
 
-/** Tells our own edits from those of other tabs and people. */
-const ORIGIN = crypto.getRandomValues(new Uint32Array(2)).join("-");
+const OWN = crypto.getRandomValues(new Uint32Array(2)).join("-");
+let links = 0;
 
 /**
  * @typedef {object} TextLink
@@ -40,25 +42,29 @@ const ORIGIN = crypto.getRandomValues(new Uint32Array(2)).join("-");
 export async function linkText(file, apply) {
   const answer = await fetchText(file);
   const name = answer.file;
+  links += 1;
+  // Tells what was typed here from the edits of other tabs and people.
+  const origin = `${OWN}-${links}`;
   const doc = Text.of(answer.text.split("\n"));
   const saved = answer.saved === null ? doc : Text.of(answer.saved.split("\n"));
   const refetch = async () => {
     const again = await fetchText(name).catch(() => null);
     if (again) shared.resync(again);
   };
-  const shared = createSharedText({
+  const shared = new SharedText({
     doc,
     version: answer.version,
-    post: (packet) => post(name, packet),
+    post: (packet) => post({ type: "edit_text", file: name, origin, ...packet }),
     apply,
     refetch,
   });
   const ends = [
-    followText(name, ({ version, changes, origin }) =>
-      shared.take({ version, changes, own: origin === ORIGIN }),
-    ),
+    followText(name, (news) => shared.take({ ...news, own: news.origin === origin })),
     whenBack(refetch),
-    settleFirst(shared.settled, shared.busy),
+    settleFirst(
+      () => shared.settled(),
+      () => shared.busy,
+    ),
   ];
   const close = () => {
     for (const end of ends) end();
@@ -73,16 +79,10 @@ async function fetchText(file) {
   return answer;
 }
 
-/** @param {string} file @param {Packet} packet @returns {Promise<Fate>} */
-async function post(file, packet) {
+/** @param {Asked<EditText>} command @returns {Promise<Fate>} */
+async function post(command) {
   try {
-    await send({
-      type: "edit_text",
-      file,
-      ...packet,
-      changes: [...packet.changes],
-      origin: ORIGIN,
-    });
+    await send(command);
     return "taken";
   } catch (error) {
     if (!(error instanceof RefusedError)) return "lost";

@@ -12,7 +12,7 @@ const IDLE_MS = 120;
 const AT_MOST_MS = 350;
 
 /**
- * @typedef {{version: number, changes: readonly TextChange[], gesture: string}} Packet
+ * @typedef {{version: number, changes: TextChange[], gesture: string}} Packet
  * @typedef {"taken" | "stale" | "refused" | "lost"} Fate of a packet; `taken` says nothing new: its echo did
  * @typedef {{version: number, changes: readonly TextChange[], own: boolean}} News
  * @typedef {{changes: ChangeSet, gesture: string}} Typed
@@ -25,160 +25,162 @@ const AT_MOST_MS = 350;
  * @property {(packet: Packet) => Promise<Fate>} post
  * @property {(changes: ChangeSet) => void} apply what others did, for the text as it stands here
  * @property {() => void} refetch ask for the whole text, which then comes by `resync`
- * @property {(run: () => void, ms: number) => () => void} [wait] calls later, unless what it returns is called
+ * @property {(run: () => void, ms: number) => () => void} [wait] calls later, unless what it returns is called;
+ *   a timer, when it is left out
  */
 
-/**
- * @typedef {object} SharedText
- * @property {(changes: ChangeSet, gesture: string) => void} type
- * @property {() => void} flush send at once, when the way is free
- * @property {(news: News) => void} take what the studio told
- * @property {(text: {version: number, text: string}) => void} resync after the lane was lost
- * @property {() => Promise<void>} settled all that was typed has arrived, or cannot
- * @property {() => Text} known as the studio has it, without what is typed and not there yet
- * @property {() => boolean} busy something typed is not at the studio yet
- */
-
-/** @param {Options} options @returns {SharedText} */
-export function createSharedText({ doc, version, post, apply, refetch, wait = later }) {
-  let base = doc;
-  let at = version;
-  /** @type {Typed | null} */
-  let flight = null;
-  /** @type {Typed | null} */
-  let unsent = null;
-  let lost = false;
-  /** @type {(() => void) | null} */
-  let stopWaiting = null;
-  let firstTyped = 0;
+export class SharedText {
+  /** The studio's text, at its version. */
+  #base;
+  #version;
+  /** Under way. @type {Typed | null} */
+  #flight = null;
+  /** Typed since. @type {Typed | null} */
+  #unsent = null;
+  /** The lane was lost, or the whole text is on its way: nothing is sent until `resync`. */
+  #lost = false;
+  #waiting = { stop: () => {}, since: 0 };
   /** @type {(() => void)[]} */
-  let watchers = [];
+  #watchers = [];
+  #options;
 
-  const busy = () => flight !== null || unsent !== null;
+  /** @param {Options} options */
+  constructor(options) {
+    this.#base = options.doc;
+    this.#version = options.version;
+    this.#options = { wait: later, ...options };
+  }
 
-  function settle() {
-    if (busy() && !lost) return;
-    const done = watchers;
-    watchers = [];
+  /** The text as the studio has it, without what is typed and not there yet. */
+  get known() {
+    return this.#base;
+  }
+
+  /** Something typed is not at the studio yet. */
+  get busy() {
+    return this.#flight !== null || this.#unsent !== null;
+  }
+
+  /** @param {ChangeSet} changes of the text as it stands here @param {string} gesture one step of undo */
+  type(changes, gesture) {
+    if (this.#unsent && this.#unsent.gesture !== gesture) this.flush();
+    this.#unsent = joined(this.#unsent, { changes, gesture });
+    this.#arrange();
+  }
+
+  /** Send at once, when the way is free. */
+  flush() {
+    this.#waiting.stop();
+    this.#waiting = { stop: () => {}, since: 0 };
+    if (this.#flight || !this.#unsent || this.#lost) return;
+    const { changes, gesture } = this.#unsent;
+    const seen = this.#version;
+    this.#flight = this.#unsent;
+    this.#unsent = null;
+    this.#options
+      .post({ version: seen, changes: onWire(changes), gesture })
+      .then((fate) => this.#land(fate, seen));
+  }
+
+  /** @param {News} news that the studio told */
+  take({ version, changes, own }) {
+    if (version <= this.#version) return;
+    if (version !== this.#version + 1) {
+      this.#refetch();
+      return;
+    }
+    const incoming = fromWire(changes, this.#base.length);
+    this.#base = incoming.apply(this.#base);
+    this.#version = version;
+    if (own && this.#flight) this.#flight = null;
+    else this.#weave(incoming);
+    this.#arrange();
+  }
+
+  /** @param {{version: number, text: string}} text whole, after the lane was lost */
+  resync({ version, text }) {
+    const now = Text.of(text.split("\n"));
+    const arrived = this.#flight?.changes.apply(this.#base).eq(now) ?? false;
+    const incoming = difference(this.#base, now);
+    this.#base = now;
+    this.#version = version;
+    this.#lost = false;
+    if (arrived) this.#flight = null;
+    else this.#weave(incoming);
+    this.#unsent = joined(this.#flight, this.#unsent);
+    this.#flight = null;
+    this.#arrange();
+  }
+
+  /** @returns {Promise<void>} when all that was typed has arrived, or cannot */
+  settled() {
+    this.flush();
+    return new Promise((resolve) => {
+      this.#watchers.push(resolve);
+      this.#settle();
+    });
+  }
+
+  /** Send what is typed when the typing rests, or has gone on for long. */
+  #arrange() {
+    if (this.#unsent?.changes.empty) this.#unsent = null;
+    this.#settle();
+    if (!this.#unsent) return;
+    const now = Date.now();
+    const since = this.#waiting.since || now;
+    const ms = Math.min(IDLE_MS, Math.max(0, since + AT_MOST_MS - now));
+    this.#waiting.stop();
+    this.#waiting = { stop: this.#options.wait(() => this.flush(), ms), since };
+  }
+
+  #settle() {
+    if (this.busy && !this.#lost) return;
+    const done = this.#watchers;
+    this.#watchers = [];
     for (const tell of done) tell();
   }
 
-  function flush() {
-    stopWaiting?.();
-    stopWaiting = null;
-    if (flight || !unsent || lost) return;
-    const packet = unsent;
-    flight = packet;
-    unsent = null;
-    const seen = at;
-    post({ version: at, changes: onWire(packet.changes), gesture: packet.gesture }).then((fate) =>
-      land(fate, seen),
-    );
+  /** @param {Fate} fate of the packet under way @param {number} seen version that it was typed in */
+  #land(fate, seen) {
+    if (!this.#flight || fate === "taken") return;
+    if (fate === "refused") this.#giveUp();
+    else if (fate === "stale") this.#sendAgain(seen);
+    else this.#lost = true;
+    this.#settle();
   }
 
-  function arrange() {
-    if (unsent?.changes.empty) unsent = null;
-    if (!unsent) return settle();
-    const now = Date.now();
-    firstTyped ||= now;
-    stopWaiting?.();
-    stopWaiting = wait(
-      () => {
-        firstTyped = 0;
-        flush();
-      },
-      Math.min(IDLE_MS, Math.max(0, firstTyped + AT_MOST_MS - now)),
-    );
-    return undefined;
+  /** @param {number} seen where nothing newer came since, the studio knows another text */
+  #sendAgain(seen) {
+    this.#unsent = joined(this.#flight, this.#unsent);
+    this.#flight = null;
+    if (seen === this.#version) this.#refetch();
+    else this.flush();
   }
 
-  /** @param {Fate} fate @param {number} seen version that it was typed in */
-  function land(fate, seen) {
-    if (!flight || fate === "taken") return;
-    if (fate === "refused") return giveUp();
-    if (fate === "lost") {
-      lost = true;
-      return settle();
-    }
-    const again = flight;
-    flight = null;
-    unsent = joined(again, unsent);
-    // Nothing newer came, and yet it is stale: the studio knows another text.
-    if (seen === at) refetchOnce();
-    else flush();
-    return undefined;
+  #refetch() {
+    this.#lost = true;
+    this.#options.refetch();
   }
 
-  function refetchOnce() {
-    lost = true;
-    refetch();
+  /** Take out again what the studio refused, and what was typed on top of it. */
+  #giveUp() {
+    const all = joined(this.#flight, this.#unsent);
+    this.#flight = null;
+    this.#unsent = null;
+    if (all) this.#options.apply(all.changes.invert(this.#base));
   }
 
-  function giveUp() {
-    const all = joined(flight, unsent);
-    flight = null;
-    unsent = null;
-    if (all) apply(all.changes.invert(base));
-    settle();
-  }
-
-  /** @param {ChangeSet} incoming for `base` as it was before it */
-  function weave(incoming) {
+  /** @param {ChangeSet} incoming for the studio's text as it was before it */
+  #weave(incoming) {
     let remote = incoming;
-    for (const typed of [flight, unsent]) {
+    for (const typed of [this.#flight, this.#unsent]) {
       if (!typed) continue;
       const mine = typed.changes;
       typed.changes = mine.map(remote);
       remote = remote.map(mine, true);
     }
-    if (!remote.empty) apply(remote);
+    if (!remote.empty) this.#options.apply(remote);
   }
-
-  return {
-    busy,
-    flush,
-    known: () => base,
-    type(changes, gesture) {
-      const before = unsent;
-      if (before && before.gesture !== gesture) flush();
-      unsent = joined(unsent, { changes, gesture });
-      arrange();
-    },
-    take(news) {
-      if (news.version <= at) return;
-      if (news.version !== at + 1) return refetchOnce();
-      const incoming = fromWire(news.changes, base.length);
-      const mine = news.own && flight !== null;
-      base = incoming.apply(base);
-      at = news.version;
-      if (mine) flight = null;
-      else weave(incoming);
-      if (mine && unsent) arrange();
-      else settle();
-      return undefined;
-    },
-    resync({ version: newVersion, text }) {
-      const now = Text.of(text.split("\n"));
-      const arrived = flight?.changes.apply(base).eq(now) ?? false;
-      const incoming = difference(base, now);
-      base = now;
-      at = newVersion;
-      lost = false;
-      if (arrived) flight = null;
-      else weave(incoming);
-      unsent = joined(flight, unsent);
-      flight = null;
-      arrange();
-    },
-    settled() {
-      firstTyped = 0;
-      flush();
-      return new Promise((resolve) => {
-        watchers.push(resolve);
-        settle();
-      });
-    },
-  };
 }
 
 /** @param {() => void} run @param {number} ms @returns {() => void} */

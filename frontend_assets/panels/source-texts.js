@@ -31,130 +31,117 @@ import { commonExtensions, fromElsewhere, stateOf, tellCursor } from "./source-e
  * @property {StateEffect<unknown> | null} scroll
  */
 
-/**
- * @typedef {object} Texts
- * @property {Signal<Shown | null>} shown
- * @property {EditorView | null} view
- * @property {(view: EditorView) => void} begin
- * @property {(file: string) => void} show
- * @property {(files: readonly string[]) => void} keepOnly the others are closed
- * @property {() => void} end
- */
-
-/** @returns {Texts} */
-export function createTexts() {
-  /** @type {Map<string, Open>} */
-  const open = new Map();
+export class SourceTexts {
   /** @type {Signal<Shown | null>} */
-  const shown = signal(null);
+  shown = signal(null);
+  /** @type {EditorView | null} */
+  view = null;
+  /** @type {Map<string, Open>} */
+  #open = new Map();
   /** Undo asked for here shows what it did. */
-  let follow = false;
-  const events = {
+  #follows = false;
+  #events = {
     onCursor: (/** @type {number} */ line, /** @type {number} */ column) => {
       cursorPlace.value = { file: shownFile.value, line, column };
     },
-    onUndo: () => step("undo", undo),
-    onRedo: () => step("redo", redo),
+    onUndo: () => this.#step("undo", undo),
+    onRedo: () => this.#step("redo", redo),
   };
-  const common = commonExtensions(events);
+  #common = commonExtensions(this.#events);
 
-  /** @param {string} id @param {() => Promise<void>} run */
-  async function step(id, run) {
-    if (!(commandById(id)?.enabled?.() ?? true)) return;
-    follow = true;
-    await run();
-    follow = false;
+  /** @param {EditorView} view draws the text in front from now on */
+  begin(view) {
+    this.view = view;
   }
 
-  /** @param {string} file @param {ChangeSet} changes */
-  function apply(file, changes) {
-    const one = open.get(file);
-    const spec = { changes, annotations: fromElsewhere.of(true) };
-    if (shown.value?.file === file && shown.value.link && texts.view) {
-      texts.view.dispatch(
-        spec,
-        follow
-          ? { selection: { anchor: endOf(changes) }, scrollIntoView: true, sequential: true }
-          : {},
-      );
-    } else if (one?.state) one.state = one.state.update(spec).state;
+  end() {
+    this.keepOnly([]);
+    this.view?.destroy();
+    this.view = null;
   }
 
-  /** @param {string} file */
-  async function fetch(file) {
-    const one = { link: null, state: null, scroll: null };
-    open.set(file, one);
-    let reason = "";
-    try {
-      await adopt(file, one);
-    } catch (error) {
-      open.delete(file);
-      reason = error instanceof RefusedError ? error.message : t("source.lost");
+  /** @param {string} file comes to the front; empty: none */
+  show(file) {
+    const one = this.#open.get(file);
+    if (one && this.shown.value?.file === file && this.shown.value.link) return;
+    this.#leave();
+    if (one) this.#enter(one);
+    else if (file) this.#fetch(file);
+    this.shown.value = file ? { file, link: one?.link ?? null, reason: "" } : null;
+  }
+
+  /** @param {readonly string[]} files the others are closed, once what was typed in them has arrived */
+  keepOnly(files) {
+    for (const [file, { link }] of this.#open) {
+      if (files.includes(file)) continue;
+      this.#open.delete(file);
+      link?.shared.settled().then(link.close);
     }
-    if (shownFile.value !== file) return;
-    if (reason) shown.value = { file, link: null, reason };
-    else show(file);
   }
 
-  /** @param {string} file @param {Open} one */
-  async function adopt(file, one) {
-    const link = await linkText(file, (changes) => apply(file, changes));
-    if (open.get(file) !== one) return link.close();
-    one.link = link;
-    const options = { dark: theme.value === "dark", mayEdit: mayEdit.value, more: [] };
-    one.state = stateOf(link, common, options);
-    return undefined;
+  /** @param {string} id of the page's command @param {() => Promise<void>} run */
+  async #step(id, run) {
+    if (!(commandById(id)?.enabled?.() ?? true)) return;
+    this.#follows = true;
+    await run();
+    this.#follows = false;
   }
 
-  function leave() {
-    const before = shown.value?.link ? open.get(shown.value.file) : undefined;
-    if (!before || !texts.view) return;
-    before.state = texts.view.state;
-    before.scroll = texts.view.scrollSnapshot();
+  /** @param {string} file @param {ChangeSet} changes that came from elsewhere */
+  #apply(file, changes) {
+    const one = this.#open.get(file);
+    const spec = { changes, annotations: fromElsewhere.of(true) };
+    if (one?.state) one.state = one.state.update(spec).state;
+    else if (one && this.view) this.view.dispatch(spec, this.#follows ? whereItIs(changes) : {});
   }
 
   /** @param {string} file */
-  function show(file) {
-    const one = open.get(file);
-    if (one && shown.value?.file === file && shown.value.link) return;
-    leave();
-    if (one) enter(one);
-    else if (file) fetch(file);
-    shown.value = file ? { file, link: one?.link ?? null, reason: "" } : null;
+  async #fetch(file) {
+    /** @type {Open} */
+    const one = { link: null, state: null, scroll: null };
+    this.#open.set(file, one);
+    const reason = await this.#adopt(file, one);
+    if (this.#open.get(file) !== one) return;
+    if (reason) this.#open.delete(file);
+    if (shownFile.value !== file) return;
+    if (reason) this.shown.value = { file, link: null, reason };
+    else this.show(file);
+  }
+
+  /** @param {string} file @param {Open} one @returns {Promise<string>} why it cannot be shown */
+  async #adopt(file, one) {
+    try {
+      const link = await linkText(file, (changes) => this.#apply(file, changes));
+      if (this.#open.get(file) !== one) link.close();
+      one.link = link;
+      const options = { dark: theme.value === "dark", mayEdit: mayEdit.value, more: [] };
+      one.state = stateOf(link, this.#common, options);
+      return "";
+    } catch (error) {
+      return error instanceof RefusedError ? error.message : t("source.lost");
+    }
+  }
+
+  #leave() {
+    const before = this.shown.value?.link ? this.#open.get(this.shown.value.file) : undefined;
+    if (!before || !this.view) return;
+    before.state = this.view.state;
+    before.scroll = this.view.scrollSnapshot();
   }
 
   /** @param {Open} one */
-  function enter(one) {
-    if (!one.state || !texts.view) return;
-    texts.view.setState(one.state);
-    tellCursor(one.state, events);
-    if (one.scroll) texts.view.dispatch({ effects: one.scroll });
+  #enter(one) {
+    if (!one.state || !this.view) return;
+    this.view.setState(one.state);
+    tellCursor(one.state, this.#events);
+    if (one.scroll) this.view.dispatch({ effects: one.scroll });
     one.state = null;
   }
+}
 
-  /** @type {Texts} */
-  const texts = {
-    shown,
-    view: null,
-    begin(view) {
-      texts.view = view;
-    },
-    show,
-    keepOnly(files) {
-      for (const [file, { link }] of open) {
-        if (files.includes(file)) continue;
-        link?.shared.flush();
-        link?.close();
-        open.delete(file);
-      }
-    },
-    end() {
-      texts.keepOnly([]);
-      texts.view?.destroy();
-      texts.view = null;
-    },
-  };
-  return texts;
+/** @param {ChangeSet} changes @returns {import("vendor/codemirror.js").TransactionSpec} the cursor goes there */
+function whereItIs(changes) {
+  return { selection: { anchor: endOf(changes) }, scrollIntoView: true, sequential: true };
 }
 
 /** @param {ChangeSet} changes @returns {number} where the last of them ends in the new text */

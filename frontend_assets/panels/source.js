@@ -28,14 +28,12 @@ import { setSaved } from "./source-changes.js";
 import { adjust, goToPlace } from "./source-editor.js";
 import { setLit } from "./source-lights.js";
 import { SourceTabs } from "./source-tabs.js";
-import { createTexts } from "./source-texts.js";
-
-/** @import { Texts } from "./source-texts.js" */
+import { SourceTexts } from "./source-texts.js";
 
 export function SourcePanel() {
   useRememberedFiles();
   const host = useRef(/** @type {HTMLElement | null} */ (null));
-  const texts = useMemo(createTexts, []);
+  const texts = useMemo(() => new SourceTexts(), []);
   useEditor(texts, host);
   const file = shownFile.value;
   const shown = texts.shown.value;
@@ -91,7 +89,7 @@ function useRememberedFiles() {
   }, [path, files, shown]);
 }
 
-/** @param {Texts} texts @param {{current: HTMLElement | null}} host */
+/** @param {SourceTexts} texts @param {{current: HTMLElement | null}} host */
 function useEditor(texts, host) {
   useEffect(() => {
     if (!host.current) return undefined;
@@ -112,7 +110,7 @@ function useEditor(texts, host) {
   useWanted(texts);
 }
 
-/** @param {Texts} texts */
+/** @param {SourceTexts} texts */
 function useWords(texts) {
   const link = texts.shown.value?.link;
   const dark = theme.value === "dark";
@@ -123,7 +121,7 @@ function useWords(texts) {
   }, [link, dark, free, words]);
 }
 
-/** @param {Texts} texts what is wrong is underlined where it is */
+/** @param {SourceTexts} texts what is wrong is underlined where it is */
 function useMarks(texts) {
   const link = texts.shown.value?.link;
   const found = problems.value;
@@ -135,17 +133,17 @@ function useMarks(texts) {
   }, [link, found]);
 }
 
-/** @param {Texts} texts what is saved is no longer marked as changed */
+/** @param {SourceTexts} texts what is saved is no longer marked as changed */
 function useSaved(texts) {
   const link = texts.shown.value?.link;
   const unsaved = history.value.unsaved_files;
   useEffect(() => {
     if (!link || !texts.view || unsaved.includes(link.file)) return;
-    texts.view.dispatch({ effects: setSaved.of(link.shared.known()) });
+    texts.view.dispatch({ effects: setSaved.of(link.shared.known) });
   }, [link, unsaved]);
 }
 
-/** @param {Texts} texts */
+/** @param {SourceTexts} texts */
 function useLights(texts) {
   const link = texts.shown.value?.link;
   const places = litPlaces.value;
@@ -156,7 +154,7 @@ function useLights(texts) {
   }, [link, places]);
 }
 
-/** @param {Texts} texts another panel asked for a line */
+/** @param {SourceTexts} texts another panel asked for a line */
 function useWanted(texts) {
   const wanted = wantedPlace.value;
   const shown = texts.shown.value;

@@ -1,9 +1,9 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { createSharedText, difference, onWire } from "../../frontend_assets/lib/shared-text.js";
+import { difference, onWire, SharedText } from "../../frontend_assets/lib/shared-text.js";
 import { ChangeSet, Text } from "../../frontend_assets/vendor/codemirror.js";
 
-/** @import { Fate, Packet, SharedText } from "../../frontend_assets/lib/shared-text.js" */
+/** @import { Fate, Packet } from "../../frontend_assets/lib/shared-text.js" */
 
 /** @param {string} text */
 const textOf = (text) => Text.of(text.split("\n"));
@@ -62,8 +62,7 @@ class Browser {
   constructor(studio) {
     this.doc = studio.doc;
     this.refetches = 0;
-    /** @type {SharedText} */
-    this.shared = createSharedText({
+    this.shared = new SharedText({
       doc: studio.doc,
       version: studio.version,
       post: (packet) => studio.post(this, packet),
@@ -98,11 +97,11 @@ test("what is typed arrives, one packet under way at a time", async () => {
   one.type(11, 11, "5");
   one.shared.flush();
   assert.equal(studio.waiting.length, 1);
-  assert.equal(one.shared.busy(), true);
+  assert.equal(one.shared.busy, true);
   await studio.settle();
   assert.deepEqual(texts(studio), ["radius 0.125", "radius 0.125"]);
   assert.equal(studio.version, 3);
-  assert.equal(one.shared.busy(), false);
+  assert.equal(one.shared.busy, false);
 });
 
 test("two who type at the same place both keep every letter, in one order", async () => {
