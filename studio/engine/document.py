@@ -19,6 +19,7 @@ from studio.engine.model import Model
 from studio.engine.motion import Motion
 from studio.engine.packages_used import PackagesUsed
 from studio.engine.policy import target_of
+from studio.engine.sharing import SharedFile, place_edits
 from studio.engine.texts import TextDesk
 from studio.engine.watching import FileWatch
 from studio.errors import CommandError
@@ -112,6 +113,11 @@ class Document:
         """Process id of its xacro worker while that runs."""
         return self._runs.worker_pid
 
+    @property
+    def files_read(self) -> tuple[str, ...]:
+        """What the last run read, whether or not it came to an end."""
+        return self._files
+
     def packages_used(self) -> dict[str, str]:
         """Each package that a file of the last run or a mesh lies in, and which copy it is."""
         files = (*self._files, *self._meshes.files.values())
@@ -168,6 +174,14 @@ class Document:
         """Pass or take back several arguments at once."""
         self.sources.set_arguments(values, "Arguments" if len(values) > 1 else next(iter(values)))
         await self._arguments_changed()
+
+    async def take_shared(self, files: Sequence[SharedFile]) -> tuple[str, ...]:
+        """Take a link's edits as unsaved ones, in one step; says which found no place."""
+        edits, left_out = place_edits(self.sources, self.location, files)
+        if edits:
+            self._texts_changed()
+            await self._timed(self._run(edits))
+        return left_out
 
     async def resolve_collisions(self, file: str, keep: Side) -> None:
         """Let one side win where edits collide with a change on disk."""
@@ -269,7 +283,9 @@ class Document:
             self._spawn("validation", self._validate())
 
     def _with_undo(self, problem: Problem) -> Problem:
-        """Offer to take the edit back that may have broken it."""
+        """Offer to give what is missing, or to take the edit back that may have broken it."""
+        if problem.code == "undefined-argument" and self.expansion is None:
+            return replace(problem, fix=Fix("Give it a value", "give_arguments"))
         if problem.fix or not self.sources.undo_labels or self.expansion is None:
             return problem
         return replace(problem, fix=Fix("Undo edit", "undo"))

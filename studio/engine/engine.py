@@ -12,8 +12,10 @@ from typing import TYPE_CHECKING
 from studio.engine import messages as m
 from studio.engine.dispatch import carry_out
 from studio.engine.document import Document
+from studio.engine.launching import form_at, form_of
 from studio.engine.listeners import Audience, tell
 from studio.engine.services import Services
+from studio.engine.sharing import found_again, link_to, read_link
 from studio.errors import CommandError, UnknownDocumentError
 from studio.packages.listing import list_folder
 from studio.packages.roots import ServedRoots
@@ -84,6 +86,13 @@ class Engine:
                 tell(listener, m.Opened(request=command.request, document=name))
             case m.CloseDocument():
                 await self._close(self.document(command.document), discard=command.discard)
+            case m.GetArguments():
+                tell(listener, await self._launch_form(command))
+            case m.GetLink():
+                document = self.document(command.document)
+                tell(listener, link_to(document.sources, document.location, command.request))
+            case m.OpenLink():
+                tell(listener, await self._open_link(command))
             case m.ListFolder():
                 tell(listener, await self._list_folder(command))
             case _:
@@ -109,6 +118,23 @@ class Engine:
         """Open out of the page: nothing is served then that was not before, but a zip's folder."""
         path = self._served.resolve(Path(command.path))
         return self._open(await self._locate(path, within=self._served), command.arguments)
+
+    async def _launch_form(self, command: m.GetArguments) -> m.Arguments:
+        """The form of an open document, or of a file below the served folders."""
+        if not command.path:
+            return await form_of(self.document(command.document), command.request)
+        path = self._served.resolve(Path(command.path))
+        return await form_at(await self._locate(path, within=self._served), command.request)
+
+    async def _open_link(self, command: m.OpenLink) -> m.LinkOpened:
+        """Open what a link holds by the ordinary way, then make its edits."""
+        shared = read_link(command.link)
+        locations = [one.location for one in self.documents.values()]
+        path = found_again(shared.entry, self._served, locations)
+        opening = m.OpenPath(path=str(path), arguments=shared.arguments)
+        name = await self._open_served(opening)
+        left_out = await self.document(name).take_shared(shared.files)
+        return m.LinkOpened(request=command.request, document=name, left_out=left_out)
 
     async def _locate(
         self, path: Path, progress: Progress | None = None, within: ServedRoots | None = None
