@@ -3,6 +3,7 @@ from __future__ import annotations
 import io
 import math
 import time
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,6 +21,8 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from numpy.typing import NDArray
+
+    from studio.robot.values import Vector3
 
 REVOLUTE, CONTINUOUS, PRISMATIC = JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC
 Z = (0.0, 0.0, 1.0)
@@ -50,6 +53,54 @@ def test_a_revolute_joint_turns_about_its_axis_at_its_origin():
 def test_a_prismatic_joint_slides_along_its_turned_axis():
     kinematics = single(PRISMATIC, origin=Origin((0, 0, 1), (0, 0, math.pi / 2)))
     np.testing.assert_allclose(pose_of(kinematics, "b", j=2)[:3, 3], [0, 2, 1], atol=1e-12)
+
+
+finite = st.floats(-3, 3, allow_nan=False)
+
+
+@given(
+    st.tuples(finite, finite, finite),
+    st.tuples(finite, finite, finite),
+    st.tuples(finite, finite, finite),
+    finite,
+    st.sampled_from(["turn", "slide", "hold", "follow"]),
+)
+def test_refitted_kinematics_are_those_of_the_robot_with_other_numbers(
+    xyz: Vector3, rpy: Vector3, axis: Vector3, limit: float, name: str
+):
+    before = chain(
+        Joint("turn", REVOLUTE, "a", "b", Origin((1, 0, 0)), Z, Limit(-1, 1)),
+        Joint("slide", PRISMATIC, "b", "c", limit=Limit(0, 1)),
+        Joint("hold", JointType.FIXED, "c", "d", Origin((0, 0, 1))),
+        Joint("follow", CONTINUOUS, "d", "e", axis=Z, mimic=Mimic("turn", 2.0, 0.1)),
+    )
+    old = before.joints[name]
+    new = replace(
+        old,
+        origin=Origin(xyz, rpy),
+        axis=axis,
+        limit=Limit(-abs(limit), abs(limit)),
+        mimic=old.mimic and Mimic("turn", limit, 0.3),
+    )
+    after = replace(before, joints={**before.joints, name: new})
+    refitted, fresh = Kinematics(before).refitted(after, [name]), Kinematics(after)
+    at = fresh.random_positions(np.random.default_rng(0))
+    np.testing.assert_array_equal(refitted.random_positions(np.random.default_rng(0)), at)
+    np.testing.assert_array_equal(refitted.wxyz_xyz(at), fresh.wxyz_xyz(at))
+    np.testing.assert_array_equal(refitted.axes, fresh.axes)
+    assert (refitted.lower.tolist(), refitted.upper.tolist()) == (
+        fresh.lower.tolist(),
+        fresh.upper.tolist(),
+    )
+
+
+def test_refitted_kinematics_leave_the_old_ones_as_they_were():
+    robot = chain(Joint("j", REVOLUTE, "a", "b", limit=Limit(-1, 1)))
+    kinematics = Kinematics(robot)
+    moved = replace(robot.joints["j"], origin=Origin((5, 0, 0)), limit=Limit(-2, 2))
+    kinematics.refitted(replace(robot, joints={"j": moved}), ["j"])
+    assert pose_of(kinematics, "b")[:3, 3].tolist() == [0, 0, 0]
+    assert kinematics.upper.tolist() == [1]
 
 
 def test_roll_pitch_and_yaw_are_about_fixed_axes():

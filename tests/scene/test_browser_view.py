@@ -70,6 +70,42 @@ def test_a_wheel_that_grew_changes_on_screen_and_nothing_else_is_made_anew(view:
     assert view.run("mast === __viserMutable.nodeRefFromName['/robot/mast/visual/0']")
 
 
+def test_a_wheel_that_grew_is_in_the_first_picture_after_it(view: ScenePage):
+    view.run(
+        """() => {
+          const wheel = __viserMutable.nodeRefFromName["/robot/wheel_1/visual/0"];
+          const { scene, messageQueue } = __viserMutable;
+          const [push, before] = [messageQueue.push, scene.onBeforeRender];
+          messageQueue.push = function (...messages) {
+            if (messages.some(({ updates }) => updates?.radius === 0.2)) window.came = true;
+            return push.apply(this, messages);
+          };
+          scene.onBeforeRender = (renderer) => {
+            if (window.came) window.firstSeen ??= wheel.children[0].scale.x;
+            before(renderer);
+          };
+        }"""
+    )
+    wheels = frozenset(f"wheel_{number}" for number in range(4))
+    view.server.call(lambda scene: (scene.show(rover(0.2), wheels), scene.flush()))
+    view.until("window.firstSeen !== undefined")
+    assert math.isclose(view.run("firstSeen"), 0.2, abs_tol=1e-6)
+
+
+def test_a_picture_that_rests_is_drawn_finer_where_the_processor_draws(
+    browser: Browser, server: SceneServer
+):
+    context = browser.new_context(viewport={"width": WIDTH, "height": HEIGHT})
+    page = context.new_page()
+    page.goto(server.url)
+    assert page.evaluate("document.documentElement.dataset.gl") == "software"
+    page.wait_for_function("window.__viserMutable?.canvas?.width === 2 * innerWidth")
+    page.evaluate("() => studio3d.setSelection('mast')")
+    assert page.evaluate("__viserMutable.canvas.width") == WIDTH
+    page.wait_for_function("__viserMutable.canvas.width === 2 * innerWidth")
+    context.close()
+
+
 @pytest.mark.parametrize(
     ("node", "link"),
     [
