@@ -57,6 +57,8 @@ class Assembly:
         self._order: tuple[str, ...] = ()
         self._elements: dict[str, _Element] = {}
         self._structure = Structure.of(self.robot)
+        self._kept: Change | None = None
+        """What the last `apply` came to, unless it kept the robot before it."""
         self._resolved: dict[str, tuple[Link, tuple[Material | None, ...], Link]] = {}
 
     def rename(self, name: str) -> None:
@@ -74,8 +76,10 @@ class Assembly:
 
     def apply(self, order: tuple[str, ...] | None, changed_parts: Iterable[Part]) -> Change:
         """Take in changed parts; `order` lists all keys, or is None when it stayed as it was."""
-        for part in changed_parts:
-            self._elements[part.key] = self._parse(part)
+        parsed = {part.key: self._parse(part) for part in changed_parts}
+        if order is None and (change := self._swapped(parsed)) is not None:
+            return change
+        self._elements |= parsed
         if order is not None:
             self._order = order
             self._elements = {key: self._elements[key] for key in order if key in self._elements}
@@ -87,7 +91,60 @@ class Assembly:
         keep = bool(parsed.faults) and before is not None and before.value is not None
         return _Element(part, parsed, before.value if keep and before else parsed.value)
 
+    def _swapped(self, parsed: Mapping[str, _Element]) -> Change | None:
+        """Put values of other numbers in the place of old ones; None when it is not that simple.
+
+        What is dragged changes a few numbers sixty times a second: names, ties, materials and
+        problems are then as they were, and nothing else need be looked at.
+        """
+        before = self._kept
+        if before is None or self._name != self.robot.name:
+            return None
+        if not all(self._is_swap(self._elements.get(key), one) for key, one in parsed.items()):
+            return None
+        links, joints = dict(self.robot.links), dict(self.robot.joints)
+        for one in parsed.values():
+            match one.value:
+                case Link() as link:
+                    links[link.name] = self._dress(link, self._resolved[link.name][1])
+                case Joint() as joint:
+                    joints[joint.name] = joint
+                case _:
+                    pass
+        self._elements |= parsed
+        was, self.robot = self.robot, dataclasses.replace(self.robot, links=links, joints=joints)
+        self._kept = dataclasses.replace(
+            before,
+            robot=self.robot,
+            changed_links=_differing(was.links, links),
+            changed_joints=_differing(was.joints, joints),
+            structural=False,
+        )
+        return self._kept
+
+    def _is_swap(self, old: _Element | None, new: _Element) -> bool:
+        """Whether only numbers differ, in an element that is drawn and has nothing wrong."""
+        if old is None or (old.part.place, old.part.calls) != (new.part.place, new.part.calls):
+            return False
+        if old.parsed.faults or old.parsed.notes or new.parsed.faults or new.parsed.notes:
+            return False
+        match old.value, new.value:
+            case Link() as was, Link() as link:
+                known = self._resolved.get(was.name)
+                dressed = [visual.material for visual in was.visuals]
+                return (
+                    was.name == link.name
+                    and known is not None
+                    and known[0] is was
+                    and dressed == [visual.material for visual in link.visuals]
+                )
+            case Joint() as was, Joint() as joint:
+                return _ties(was) == _ties(joint) and self.robot.joints.get(was.name) is was
+            case _:
+                return False
+
     def _assemble(self) -> Change:
+        self._kept = None
         problems = [*self._element_problems()]
         written, repeats = self._written()
         structure = self._structure
@@ -99,7 +156,8 @@ class Assembly:
             return _unchanged(self.robot, tuple(problems))
         self._structure = structure
         before, self.robot = self.robot, structure.pruned(written)
-        return _compare(before, self.robot, tuple(problems))
+        self._kept = _compare(before, self.robot, tuple(problems))
+        return self._kept
 
     def _element_problems(self) -> Iterable[Problem]:
         for element in self._elements.values():
@@ -142,6 +200,9 @@ class Assembly:
         known = self._resolved.get(link.name)
         if known is not None and known[0] is link and known[1] == found:
             return known[2]
+        return self._dress(link, found)
+
+    def _dress(self, link: Link, found: tuple[Material | None, ...]) -> Link:
         visuals = tuple(
             dataclasses.replace(visual, material=material)
             for visual, material in zip(link.visuals, found, strict=True)
@@ -231,7 +292,9 @@ def _differing(before: Mapping[str, object], after: Mapping[str, object]) -> fro
 
 
 def _skeleton(robot: Robot) -> object:
-    return tuple(robot.links), [
-        (one.name, one.type, one.parent, one.child, one.mimic and one.mimic.joint)
-        for one in robot.joints.values()
-    ]
+    return tuple(robot.links), [_ties(joint) for joint in robot.joints.values()]
+
+
+def _ties(joint: Joint) -> object:
+    leader = joint.mimic and joint.mimic.joint
+    return joint.name, joint.type, joint.parent, joint.child, leader

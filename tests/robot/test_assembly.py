@@ -2,6 +2,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from hypothesis import given
+from hypothesis import strategies as st
+
+from studio.description.values import Part
 from studio.problems import Severity
 from studio.robot.values import Box, Material
 from tests.support.expanded import Assembled, assembled
@@ -166,3 +170,59 @@ def test_an_empty_first_file_is_an_empty_robot():
     change = assembled(robot())
     assert change.kept_last_good
     assert not change.robot.links
+
+
+def turning(name: str, leader: str, x: str) -> str:
+    follows = f'<mimic joint="{leader}" multiplier="{x}"/>' if leader else ""
+    inner = f'<origin xyz="{x} 0 0"/><limit lower="-1" upper="1"/>{follows}'
+    return fixed(name, "b", "c", inner, "revolute")
+
+
+MANY = robot(box("a"), box("b"), box("c"), RED, fixed("ab", "a", "b"), turning("bc", "", "1"))
+SIZES = st.sampled_from(["1 1 1", "2 1 1", "3 1 1", "1 2", "x"])
+
+
+def link_edit(name: str, size: str, material: str) -> tuple[str, str]:
+    return f"link:{name}", box(name, size, material)
+
+
+def hold_edit(parent: str, kind: str, x: str) -> tuple[str, str]:
+    return "joint:ab", fixed("ab", parent, "b", f'<origin xyz="{x} 0 0"/>', kind)
+
+
+def turn_edit(leader: str, x: str) -> tuple[str, str]:
+    return "joint:bc", turning("bc", leader, x)
+
+
+LINKS = st.builds(
+    link_edit,
+    st.sampled_from("abc"),
+    SIZES,
+    st.sampled_from(["", USES_RED, '<material name="blue"/>', RED.replace("1 0 0", "0 1 0")]),
+)
+JOINTS = st.one_of(
+    st.builds(
+        hold_edit,
+        st.sampled_from("abc"),
+        st.sampled_from(["fixed", "continuous", "revolute", "turny"]),
+        st.sampled_from(["0", "1", "2", "?"]),
+    ),
+    st.builds(
+        turn_edit,
+        st.sampled_from(["", "ab", "none", "bc"]),
+        st.sampled_from(["1", "2", "3"]),
+    ),
+)
+REDS = st.sampled_from([("material:red", RED), ("material:red", RED.replace("1 0 0", "0 0 1"))])
+
+
+@given(st.lists(st.one_of(LINKS, JOINTS, REDS), max_size=8))
+def test_values_put_in_place_come_to_what_a_look_at_everything_comes_to(
+    edits: list[tuple[str, str]],
+):
+    quick, slow = Assembled(MANY), Assembled(MANY)
+    everything = tuple(one.key for one in slow.parts)
+    for key, xml in edits:
+        place = next(one.place for one in slow.parts if one.key == key)
+        found = quick.change(key, xml)
+        assert found == slow.assembly.apply(everything, [Part(key, xml, place)])
