@@ -160,6 +160,8 @@ async function follow(id) {
 export function mend(fix) {
   if (fix.action === "undo") return undo();
   if (fix.action === "choose_package") dialog.value = { kind: "choose_package", name: fix.target };
+  if (fix.action === "resolve_collisions") dialog.value = { kind: "merge", file: fix.target };
+  if (fix.action === "give_arguments") dialog.value = { kind: "launch", path: "" };
   if (fix.action === "open_file") return openPath(fix.target, {});
   return undefined;
 }

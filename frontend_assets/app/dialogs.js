@@ -5,8 +5,11 @@ import { t } from "../lib/i18n.js";
 import { shortcutText } from "../lib/keys.js";
 import { Dialog } from "../lib/ui.js";
 import { commandLabel, commands, onMac } from "./commands.js";
+import { LaunchDialog } from "./launch-dialog.js";
+import { MergeDialog } from "./merge-dialog.js";
 import { OpenDialog, PackageDialog } from "./open-dialog.js";
 import { Palette } from "./palette.js";
+import { ShareDialog } from "./share.js";
 import { dialog } from "./state/view.js";
 
 /** @import { Shown } from "./state/view.js" */
@@ -22,6 +25,12 @@ export function Dialogs() {
       return html`<${OpenDialog} onClose=${close} />`;
     case "choose_package":
       return html`<${PackageDialog} name=${shown.name} onClose=${close} />`;
+    case "launch":
+      return html`<${LaunchDialog} path=${shown.path} onClose=${close} />`;
+    case "merge":
+      return html`<${MergeDialog} file=${shown.file} onClose=${close} />`;
+    case "share":
+      return html`<${ShareDialog} link=${shown.link} onClose=${close} />`;
     case "keys":
       return html`<${KeysDialog} />`;
     case "palette":

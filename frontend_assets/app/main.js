@@ -9,8 +9,11 @@ import { documentOf } from "../lib/paths.js";
 import { iconElement } from "../lib/ui.js";
 import { clearSelection, redo, save, toggleAnimation, undo, watch, zeroJoints } from "./actions.js";
 import { addCommands, onKey } from "./commands.js";
+import { followMissing } from "./launch-dialog.js";
 import { followSize } from "./layouts.js";
+import { followDisk } from "./merge-dialog.js";
 import { dockPanels, PANELS } from "./panels.js";
+import { copyLink, followLink } from "./share.js";
 import { Shell } from "./shell.js";
 import { mayEdit, role } from "./state/connection.js";
 import { documentId, history, movable, title, unsaved } from "./state/document.js";
@@ -78,6 +81,18 @@ function addPageCommands() {
       inText: true,
       enabled: () => role.value === "presenter",
       run: () => show({ kind: "open" }),
+    },
+    {
+      id: "arguments",
+      icon: "properties",
+      enabled: () => EDITING.enabled() && documentId.value !== "",
+      run: () => show({ kind: "launch", path: "" }),
+    },
+    {
+      id: "copy_link",
+      icon: "link",
+      enabled: () => EDITING.enabled() && documentId.value !== "",
+      run: copyLink,
     },
     {
       id: "save",
@@ -170,4 +185,9 @@ followState();
 listenToKeys();
 const root = document.getElementById("app");
 if (root) render(html`<${Shell} onDock=${startDock} />`, root);
-connect(watch);
+followMissing();
+followDisk();
+connect(async () => {
+  await watch();
+  followLink();
+});

@@ -9,6 +9,7 @@ import { baseName } from "../lib/paths.js";
 import { recall, remember } from "../lib/remembered.js";
 import { Dialog, EmptyState, Icon, IconButton, ProgressBar, SearchBox } from "../lib/ui.js";
 import { choosePackage, openPath } from "./actions.js";
+import { dialog } from "./state/view.js";
 import { RefusedError, send } from "./wire.js";
 
 /** @import { Signal } from "vendor/preact.js" */
@@ -176,7 +177,10 @@ function Entry({ entry, busy, onEnter, onOpen }) {
       html`<button type="button" class=${`button small ${entry.kind === "robot" || entry.kind === "package" ? "primary" : ""}`} disabled=${busy}
       aria-label=${t("open.entry", { name: baseName(entry.name) })} onClick=${() => onOpen?.(entry, false)}>${t("open.here")}</button>
       <button type="button" class="button small" disabled=${busy} aria-label=${t("open.entry_tab", { name: baseName(entry.name) })}
-        onClick=${() => onOpen?.(entry, true)}>${t("open.tab")}</button>`
+        onClick=${() => onOpen?.(entry, true)}>${t("open.tab")}</button>
+      <${IconButton} icon="properties" label=${t("open.entry_arguments", { name: baseName(entry.name) })} disabled=${busy} onClick=${() => {
+        dialog.value = { kind: "launch", path: entry.path };
+      }} />`
     }
   </li>`;
 }

@@ -6,6 +6,7 @@ import { Icon, IconButton } from "../lib/ui.js";
 import { goTo, openPath } from "./actions.js";
 import { commandById } from "./commands.js";
 import { Dialogs } from "./dialogs.js";
+import { DiskBars } from "./merge-dialog.js";
 import { PANELS, panelTitle } from "./panels.js";
 import { connection, role, turnedAway } from "./state/connection.js";
 import { documentState, gone } from "./state/document.js";
@@ -25,6 +26,7 @@ export function Shell({ onDock }) {
     <${TopBar} />
     <${LostBar} />
     <${GoneBar} />
+    <${DiskBars} />
     <main ref=${dock} class="dock" aria-label=${t("dock")}></main>
     ${size.value === "phone" ? html`<${PhoneTabs} />` : html`<${StatusBar} />`}
     <${Notices} />

@@ -62,6 +62,18 @@ function documentItems() {
       disabled: locked,
       run: () => commandById("open")?.run(),
     },
+    {
+      label: `${t("command.arguments")}…`,
+      icon: "properties",
+      disabled: none,
+      run: () => commandById("arguments")?.run(),
+    },
+    {
+      label: `${t("command.copy_link")}…`,
+      icon: "link",
+      disabled: none,
+      run: () => commandById("copy_link")?.run(),
+    },
     { label: t("reload"), icon: "reload", disabled: none, run: reload },
     { label: t("document.close"), icon: "close", disabled: none, run: closeDocument },
   ];

@@ -2,13 +2,13 @@
  * The control lane: one websocket for commands and events, opened again by itself whenever it is lost.
  */
 
-/** @import { Command, Done, Event, Folder, Opened, Refused, Text, Urdf } from "../types/wire.d.ts" */
+/** @import { Arguments, Collisions, Command, Done, Event, Folder, Link, LinkOpened, Opened, Refused, Text, Urdf } from "../types/wire.d.ts" */
 
 import { readJointFrame } from "../lib/frames.js";
 import { connection, turnedAway } from "./state/connection.js";
 import { documentId, receive, takeJointFrame } from "./state/document.js";
 
-/** @typedef {Done | Folder | Opened | Text | Urdf} Answer */
+/** @typedef {Arguments | Collisions | Done | Folder | Link | LinkOpened | Opened | Text | Urdf} Answer */
 /**
  * A command without what the lane adds to it.
  * @template T

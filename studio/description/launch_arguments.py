@@ -78,6 +78,8 @@ class LaunchArgument:
     """Its value names a file."""
     in_macro: bool
     """It is read in macros only, which need not be called."""
+    is_early: bool
+    """The root element reads it, above its declaration: a default there comes too late."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,7 +109,7 @@ def launch_arguments(
     """
     scan = _Scan(arguments, world)
     scan.follow([entry, *also])
-    names = dict.fromkeys([*scan.used_undeclared(), *scan.declared])
+    names = dict.fromkeys([*scan.used_undeclared(), *scan.early(entry), *scan.declared])
     return tuple(scan.argument(name) for name in names)
 
 
@@ -138,6 +140,12 @@ class _Scan:
         """Names that are read and that no file declares."""
         return [name for name in self._used if name not in self.declared]
 
+    def early(self, entry: str) -> list[str]:
+        """Names that the entry's root element reads."""
+        tree = self._trees.get(entry)
+        texts = tree.root.attributes.values() if tree else ()
+        return [name for text in texts for name in _ARG.findall(text)]
+
     def argument(self, name: str) -> LaunchArgument:
         """All about one of them."""
         declared = self.declared.get(name)
@@ -154,6 +162,7 @@ class _Scan:
             widget=self._widget(name, default or "", shown, annotation),
             is_file=bool(PurePath(shown).suffix) and "/" in shown,
             in_macro=used is not None and _in_macro(used.element),
+            is_early=used is not None and used.element.parent is None,
         )
 
     def _parsed(self, path: str) -> SourceTree | None:

@@ -93,7 +93,8 @@ async def form_at(location: Location, request: int) -> Arguments:
 
 
 def _missing(found: Iterable[LaunchArgument], passed: Mapping[str, str]) -> tuple[str, ...]:
-    return tuple(one.name for one in found if one.default is None and one.name not in passed)
+    needed = (one.name for one in found if one.default is None or one.is_early)
+    return tuple(name for name in needed if name not in passed)
 
 
 def _view(

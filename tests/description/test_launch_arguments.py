@@ -85,6 +85,15 @@ def test_args_that_are_made_of_each_other_end(tmp_path: Path):
     assert found(robot(tmp_path, body), tmp_path / "data")["a"].shown == ""
 
 
+def test_what_the_root_element_reads_is_needed_though_it_is_declared_below(tmp_path: Path):
+    entry = robot(tmp_path, '<xacro:arg name="size" default="1"/><link name="$(arg size)"/>')
+    text = entry.read_text().replace('name="r"', 'name="$(arg name)"', 1)
+    entry.write_text(text.replace("</robot>", '<xacro:arg name="name" default="ur"/></robot>'))
+    listed = found(entry, tmp_path / "data")
+    assert (listed["name"].is_early, listed["name"].default) == (True, "ur")
+    assert not listed["size"].is_early
+
+
 def test_urs_types_are_the_folders_of_its_configuration(tmp_path: Path):
     entry = corpus() / "UniversalRobots+Universal_Robots_ROS2_Description/urdf/ur.urdf.xacro"
     listed = found(entry, tmp_path, ur_type="ur10e")

@@ -41,6 +41,8 @@ export const displays = signal({});
 export const progress = signal(new Map());
 /** @type {Signal<{ok: boolean, duration_ms: number} | null>} */
 export const built = signal(null);
+/** The last file that another program wrote and that was merged. @type {Signal<import("../../types/wire.d.ts").DiskMerged | null>} */
+export const diskMerged = signal(null);
 export const animating = signal(false);
 /** The document was closed, here or in another tab; or the studio does not know it (any more). */
 export const gone = signal(false);
@@ -197,6 +199,9 @@ const TAKERS = {
     built.value = event;
   },
   texts_changed: takeTextNews,
+  disk_merged: (event) => {
+    diskMerged.value = event;
+  },
   gone: (event) => {
     if (event.document === documentId.value) gone.value = true;
   },

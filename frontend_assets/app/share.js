@@ -1,0 +1,82 @@
+/** A link that opens this robot with its arguments and unsaved edits, and what happens at following one. */
+
+/** @import { Link } from "../types/wire.d.ts" */
+
+import { html } from "vendor/preact.js";
+import { copyText } from "../lib/clipboard.js";
+import { t } from "../lib/i18n.js";
+import { allSettled } from "../lib/latest.js";
+import { baseName } from "../lib/paths.js";
+import { recall, remember } from "../lib/remembered.js";
+import { Dialog } from "../lib/ui.js";
+import { ask, goTo } from "./actions.js";
+import { role } from "./state/connection.js";
+import { dialog, notify } from "./state/view.js";
+
+const MARK = "#robot=";
+const LEFT_OUT = "link.left_out";
+/** Longer ones are cut by chat programs and mail. */
+const LONG = 2000;
+
+export async function copyLink() {
+  await allSettled();
+  const answer = await ask({ type: "get_link" });
+  if (answer?.type === "link") dialog.value = { kind: "share", link: answer };
+}
+
+/** @param {{link: Link, onClose: () => void}} props */
+export function ShareDialog({ link, onClose }) {
+  const address = `${location.origin}/${MARK}${link.text}`;
+  const copy = async () => {
+    if (await copyText(address)) notify(t("share.copied"));
+    onClose();
+  };
+  return html`<${Dialog} title=${t("share.title")} closeLabel=${t("close")} class="share" onClose=${onClose}>
+    <p class="dialog-text">${t("share.text")}</p>
+    <ul class="share-list">
+      <li>${t("share.arguments", { count: link.arguments })}</li>
+      <li>${t("share.edits", { count: link.edits })}${link.files.length > 0 ? `: ${link.files.map(baseName).join(", ")}` : ""}</li>
+    </ul>
+    <label class="field"><span>${t("share.address")}</span>
+      <input type="text" class="box wide" readonly value=${address} onFocus=${(/** @type {any} */ event) => event.currentTarget.select()} /></label>
+    ${address.length > LONG && html`<p class="note">${t("share.long", { count: address.length })}</p>`}
+    <footer><span class="push"></span>
+      <button type="button" class="button" onClick=${onClose}>${t("cancel")}</button>
+      <button type="button" class="button primary" data-first onClick=${copy}>${t("share.copy")}</button></footer>
+  <//>`;
+}
+
+/** Follow the link that this page was opened by; a viewer is told what to do. */
+export function followLink() {
+  sayLeftOut();
+  if (!location.hash.startsWith(MARK)) return;
+  const text = location.hash.slice(MARK.length);
+  window.history.replaceState(null, "", location.pathname);
+  if (role.value !== "presenter") {
+    notify(t("share.viewer"), { bad: true });
+    return;
+  }
+  dialog.value = {
+    kind: "confirm",
+    title: t("share.open"),
+    text: t("share.open.text"),
+    action: t("share.open.action"),
+    run: () => void openLink(text),
+  };
+}
+
+/** @param {string} text */
+async function openLink(text) {
+  const answer = await ask({ type: "open_link", link: text });
+  if (answer?.type !== "link_opened") return;
+  remember(LEFT_OUT, answer.left_out);
+  goTo(answer.document);
+}
+
+/** The page that the link led to says which edits it could not make. */
+function sayLeftOut() {
+  const sentences = recall(LEFT_OUT);
+  if (!Array.isArray(sentences) || sentences.length === 0) return;
+  remember(LEFT_OUT, []);
+  for (const one of sentences.slice(0, 3)) notify(String(one), { bad: true });
+}
