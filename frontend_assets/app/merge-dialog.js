@@ -17,7 +17,11 @@ import { dialog, notify } from "./state/view.js";
 export function followDisk() {
   effect(() => {
     const merged = diskMerged.value;
-    if (merged) notify(t("disk.merged", { file: baseName(merged.file), count: merged.kept }));
+    if (!merged) return;
+    // Outside of the effect, which must not come to follow the notices that it makes.
+    queueMicrotask(() =>
+      notify(t("disk.merged", { file: baseName(merged.file), count: merged.kept })),
+    );
   });
 }
 
