@@ -82,8 +82,12 @@ class Hand:
     def drag(self, duration_s: float) -> None:
         """Turn to and fro."""
         done = threading.Event()
-        reader = threading.Thread(target=self._read_until, args=(done,))
-        reader.start()
+        readers = [
+            threading.Thread(target=self._lane.read_until, args=(one, done))
+            for one in (self._lane.control, self._lane.scene)
+        ]
+        for reader in readers:
+            reader.start()
         next_s = end_s = time.perf_counter()
         end_s += duration_s
         while next_s < end_s:
@@ -91,17 +95,14 @@ class Hand:
             next_s += 1 / RATE_HZ
             time.sleep(max(0.0, next_s - time.perf_counter()))
         done.set()
-        reader.join()
+        for reader in readers:
+            reader.join()
 
     def _edit(self) -> None:
         self.count += 1
         part = abs(self.count % 200 - 100) / 100
         self.text = f"{self._site['number'] * (0.9 + 0.2 * part):.5f}"
         self._lane.send("edit_site", site=self._site["id"], text=self.text, gesture="drag")
-
-    def _read_until(self, done: threading.Event) -> None:
-        while not done.is_set():
-            self._lane.drain()
 
 
 def _memory_mb(studio: RunningStudio, session: CDPSession) -> dict[str, float]:

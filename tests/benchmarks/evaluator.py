@@ -43,16 +43,21 @@ def _measure(robot: MeasuredRobot, scratch: Path) -> None:
     command, stock = Timings("the xacro command"), Timings("stock xacro in-process, warm")
     peer, desk, whole = Stock(robot, scratch), EditDesk(robot), FullRun(robot)
     peer.in_process()
+    gc.collect()
+    gc.freeze()  # neither side's collections look at what the other one holds
     for _ in range(STOCK_RUNS):
         with command.measure():
             peer.by_command()
         with stock.measure():
             peer.in_process()
-        gc.collect()  # what stock leaves behind is not ours to clean up
+        gc.collect()
+        gc.disable()  # the worker collects between requests
         for _ in range(FULL_RUNS // STOCK_RUNS + 1):
             with full.measure():
                 whole.run()
         desk.edit_some(EDITS // STOCK_RUNS + 1, edits)
+        gc.enable()
+    gc.unfreeze()
     say_beside(f"{robot.name}: the whole file", full, stock, command)
     say_beside(f"{robot.name}: one of {len(desk.numeric)} sites", edits, stock, command)
     say(f"  sites that could not be edited: {desk.refused}")
