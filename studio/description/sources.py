@@ -10,12 +10,12 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from studio.description.changed_regions import ChangedRegions
 from studio.description.disk_news import DiskNews, FileChange
-from studio.description.merging import hunks_between, merge
+from studio.description.held_text import HeldText, edits_between
+from studio.description.merging import merge
 from studio.description.saving import FileToSave, save_files
 from studio.description.span_table import SpanTable
-from studio.description.splice import apply, decode, difference, edit_at, inverse
+from studio.description.splice import decode, difference, edit_at, inverse
 from studio.description.undo import ArgumentChange, Splice, Step, UndoStack
 from studio.description.values import Edit
 from studio.errors import EditError, PackageError
@@ -36,24 +36,6 @@ class Change:
     arguments: dict[str, str] | None = None
 
 
-@dataclass(slots=True)
-class _Text:
-    """One file: as read from the disk, as it is now, and where the two differ."""
-
-    disk: bytes
-    now: bytes
-    regions: ChangedRegions
-
-    @classmethod
-    def of(cls, disk: bytes) -> _Text:
-        return cls(disk, disk, ChangedRegions(disk))
-
-    def apply(self, edit: Edit) -> None:
-        """Apply an edit and note what differs then."""
-        self.now = apply(self.now, (edit,))
-        self.regions.note(edit, self.now)
-
-
 class Sources:
     """The files of one document; `spans` answers where its sites stand now.
 
@@ -72,7 +54,7 @@ class Sources:
         arguments: Mapping[str, str] | None = None,
     ) -> None:
         self._read, self._resolve, self._may_write = read, resolve, may_write
-        self._texts: dict[str, _Text] = {}
+        self._texts: dict[str, HeldText] = {}
         self._steps = UndoStack()
         self._arguments = dict(arguments or {})
         self._conflicts: dict[str, bytes] = {}
@@ -180,10 +162,9 @@ class Sources:
         """
         site, span = self.spans.site(site_id), self.spans.span(site_id)
         text = self._held(site.place.file)
-        base = text.regions.base_span(span)
-        if base is None:
+        saved = text.saved_at(span)
+        if saved is None:
             raise EditError(f"{site.name} has no saved value any more: edit it instead.")
-        saved = text.disk[base.start : base.end]
         if saved == text.now[span.start : span.end]:
             return None
         edit = Edit(site.place.file, span.start, span.end, saved)
@@ -282,7 +263,7 @@ class Sources:
         # A burst of writes is one step.
         step = Step(f"Changed on disk: {Path(file).name}", gesture=f"disk {file}", is_value=False)
         edits = self._become(file, merged.text(), step)
-        self._rebase(file, disk)
+        self._texts[file] = self._held(file).rebased(disk)
         if not edits:
             return DiskNews(FileChange.NONE)
         what = FileChange.MERGED if merged.kept else FileChange.RELOADED
@@ -313,7 +294,7 @@ class Sources:
         if wins == "mine":
             kept = Step(f"Keep the edits: {name}", is_value=False)
             edits += self._become(file, merged.text("mine"), kept)
-        self._rebase(file, self._conflicts.pop(file))
+        self._texts[file] = self._held(file).rebased(self._conflicts.pop(file))
         return edits
 
     def reload(self, file: str) -> Edit | None:
@@ -327,10 +308,10 @@ class Sources:
         """
         return self._take(file, self._disk(file))
 
-    def _held(self, file: str) -> _Text:
+    def _held(self, file: str) -> HeldText:
         text = self._texts.get(file)
         if text is None:
-            text = self._texts[file] = _Text.of(self._disk(file))
+            text = self._texts[file] = HeldText(file, self._disk(file))
         return text
 
     def _disk(self, file: str) -> bytes:
@@ -341,24 +322,17 @@ class Sources:
         edit = difference(file, self._held(file).now, disk)
         if edit is not None:
             self._push(edit, Step(f"Reload {Path(file).name}", is_value=False))
-        self._texts[file] = _Text.of(disk)
+        self._texts[file] = HeldText(file, disk)
         self._conflicts.pop(file, None)
         return edit
 
     def _become(self, file: str, wanted: bytes, step: Step) -> tuple[Edit, ...]:
         """Make a text another one, place by place; the edits that did it, the last place first."""
-        edits = _edits_between(file, self._held(file).now, wanted)
+        edits = edits_between(file, self._held(file).now, wanted)
         splices = tuple(self._splice(edit) for edit in edits)
         if splices:
             self._steps.push(replace(step, splices=splices))
         return edits
-
-    def _rebase(self, file: str, disk: bytes) -> None:
-        """Count what differs against another text of the disk from now on."""
-        text, wanted = _Text.of(disk), self._held(file).now
-        for edit in _edits_between(file, disk, wanted):
-            text.apply(edit)
-        self._texts[file] = text
 
     def _push(self, edit: Edit, step: Step) -> None:
         self._steps.push(replace(step, splices=(self._splice(edit),)))
@@ -388,11 +362,5 @@ class Sources:
         self._arguments = {name: value for name, value in now.items() if value is not None}
 
     def _saved(self, saved: FileToSave) -> None:
-        self._texts[saved.file] = _Text.of(saved.data)
+        self._texts[saved.file] = HeldText(saved.file, saved.data)
         self._conflicts.pop(saved.file, None)
-
-
-def _edits_between(file: str, old: bytes, new: bytes) -> tuple[Edit, ...]:
-    """The edits from one text to the other, the last place first: so each one's offsets hold."""
-    hunks = reversed(hunks_between(old, new))
-    return tuple(Edit(file, hunk.start, hunk.end, hunk.new) for hunk in hunks)

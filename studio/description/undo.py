@@ -119,10 +119,7 @@ class UndoStack:
 
     def push(self, step: Step) -> None:
         """Add a step; it grows the newest one when both are of the same gesture."""
-        grows = bool(step.gesture) and step.gesture == self._gesture and bool(self.done)
-        newest = (
-            self.done.pop().with_later(step) if grows and _can_grow(self.done[-1], step) else step
-        )
+        newest = self.done.pop().with_later(step) if self._grows_by(step) else step
         self.undone.clear()
         if newest.is_nothing:
             self._gesture = ""

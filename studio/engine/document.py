@@ -13,7 +13,7 @@ from studio.description.values import Expansion, Failure
 from studio.engine.board import Board
 from studio.engine.disk import DiskDesk
 from studio.engine.edit_loop import EditLoop, Outcome, Target
-from studio.engine.mesh_loading import MeshLoading
+from studio.engine.mesh_desk import MeshDesk
 from studio.engine.messages import Built, Saved
 from studio.engine.model import Model
 from studio.engine.motion import Motion
@@ -23,7 +23,6 @@ from studio.engine.sharing import SharedFile, place_edits
 from studio.engine.texts import TextDesk
 from studio.engine.watching import FileWatch
 from studio.errors import CommandError
-from studio.packages.uris import resolve_uri
 from studio.problems import Fix, Problem
 from studio.scene import DocumentScene
 from studio.settings import LOOPBACK_HOSTS
@@ -36,7 +35,6 @@ if TYPE_CHECKING:
     from studio.engine.messages import EditText
     from studio.engine.services import Services
     from studio.packages.workspace import Location
-    from studio.robot.loaded_mesh import LoadedMesh
 
 _VALIDATE_AFTER_S = 0.3
 """Quiet time after a structural change before yourdfpy is asked for its opinion."""
@@ -72,9 +70,7 @@ class Document:
         self.motion = Motion(self.model, self.board)
         self._services = services
         self._runs = EditLoop(services.description_worker(), self.sources, self._target, self._take)
-        self._meshes = MeshLoading(
-            services.meshes, self._resolve_mesh, self._mesh_arrived, self._mesh_count
-        )
+        self._meshes = MeshDesk(self, services.meshes, self._watch_files)
         self._files: tuple[str, ...] = (self.path,)
         self._watch = FileWatch(self._changed_on_disk)
         self._packages = PackagesUsed()
@@ -120,7 +116,7 @@ class Document:
 
     def packages_used(self) -> dict[str, str]:
         """Each package that a file of the last run or a mesh lies in, and which copy it is."""
-        files = (*self._files, *self._meshes.files.values())
+        files = (*self._files, *self._meshes.files)
         return self._packages.of(files, self.location)
 
     def start(self) -> None:
@@ -224,13 +220,13 @@ class Document:
         if self._services.settings.host not in LOOPBACK_HOSTS:
             chosen = self.location.served.resolve(chosen)
         self.location = await asyncio.to_thread(self.location.choose_package, name, chosen)
-        self._meshes.want(self._meshes.problems)
+        self._meshes.retry()
         await self._timed(self._runs.reopen(self._target))
 
     def set_display(self, display: str, name: str, *, value: bool | float | str) -> None:
         """Change one shared display setting."""
         self.scene.set_display(display, name, value)
-        self._want_meshes()
+        self._meshes.want()
         self.board.displays()
 
     def urdf(self) -> str:
@@ -277,7 +273,7 @@ class Document:
         self.board.find("inertia", self.model.inertia_problems())
         self._look_at_packages()
         if is_first or change.new_meshes:
-            self._want_meshes()
+            self._meshes.want()
         self.board.robot()
         if is_first or change.structural:
             self._spawn("validation", self._validate())
@@ -323,7 +319,7 @@ class Document:
         self.board.audience.tell(Built(ok=not self.failed, duration_ms=took_ms))
 
     async def _changed_on_disk(self, files: set[str]) -> None:
-        self._meshes.want([uri for uri, file in self._meshes.files.items() if file in files])
+        self._meshes.reload(files)
         ours = files & {*self._files, *self.sources.conflicts}
         edits = self.disk.look(sorted(ours))
         self.board.book.doubt_all()
@@ -333,17 +329,6 @@ class Document:
         elif self.failed and files - ours:
             await self._timed(self._runs.reload(()))
 
-    def _want_meshes(self) -> None:
-        self._meshes.forget(self.model.mesh_uris())
-        self._meshes.want(self.scene.missing_meshes())
-        self.board.find("mesh", self._mesh_problems())
-
-    def _mesh_arrived(self, uri: str, mesh: LoadedMesh | None) -> None:
-        self.scene.provide_mesh(uri, mesh)
-        self.scene.flush()
-        self._watch_files()
-        self.board.find("mesh", self._mesh_problems())
-
     def _look_at_packages(self) -> None:
         """Tell of the packages in use of which there is more than one copy."""
         used = self.packages_used()
@@ -351,23 +336,6 @@ class Document:
             self._packages_seen = used
             duplicates = self.location.index.duplicates(self.entry, used)
             self.board.find("packages", (*self.location.problems, *duplicates))
-
-    def _mesh_problems(self) -> list[Problem]:
-        """What is wrong with meshes, each at the first link that names it."""
-        users = self.model.mesh_users() if self._meshes.problems else {}
-        return [
-            replace(problem, place=part.place if (part := users.get(uri)) else None)
-            for uri, problem in self._meshes.problems.items()
-        ]
-
-    def _mesh_count(self, done: int, total: int) -> None:
-        self.board.progress("meshes", done, total)
-
-    def _resolve_mesh(self, uri: str) -> tuple[Path, tuple[Path, ...]]:
-        """Where a mesh lies, and the folders that it may draw on."""
-        location = self.location
-        path = resolve_uri(uri, self.entry, location.index, location.served)
-        return path, location.served.all
 
     async def _validate(self) -> None:
         await asyncio.sleep(_VALIDATE_AFTER_S)
@@ -381,7 +349,7 @@ class Document:
             self.on_unsaved()
 
     def _watch_files(self) -> None:
-        self._watch.watch((*self._files, *self._meshes.files.values()))
+        self._watch.watch((*self._files, *self._meshes.files))
 
     def _spawn(self, name: str, work: Awaitable[None]) -> None:
         """Run something beside; the one of the same name before it is given up."""

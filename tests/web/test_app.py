@@ -62,6 +62,11 @@ def test_every_websocket_opens_for_each_role_as_the_table_says(web: RunningWeb, 
 
 FIELDS: dict[str, object] = {
     **dict.fromkeys(("path", "site", "text", "name", "value", "folder"), "x"),
+    **dict.fromkeys(("file", "link"), "x"),
+    "values": {"x": "1"},
+    "keep": "mine",
+    "version": 0,
+    "changes": [{"start": 0, "end": 0, "text": "x"}],
     "positions": {},
     "running": True,
     "display": "grid",
