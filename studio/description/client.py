@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import asyncio
 from typing import TYPE_CHECKING
 
 from studio.description.codec import CODEC
+from studio.description.queries import REPLIES, NoReply
 from studio.description.values import (
     ArgumentsRequest,
     EditRequest,
@@ -19,6 +21,7 @@ from studio.settings import EXPANSION_TIMEOUT_S
 from studio.workers import Worker
 
 if TYPE_CHECKING:
+    from studio.description.queries import Query, Reply
     from studio.description.session import Answer, Request
 
 
@@ -36,6 +39,7 @@ class DescriptionWorker:
         self._entry = ""
         self._files: tuple[str, ...] = ()
         self.needs_reopen = True
+        self._questions: set[asyncio.Task[Reply]] = set()
 
     @property
     def pid(self) -> int | None:
@@ -64,10 +68,35 @@ class DescriptionWorker:
         """Run with texts that changed on disk."""
         return await self._ask(request)
 
+    async def query(self, query: Query) -> Reply:
+        """Ask about the last good run, behind whatever is under way.
+
+        Whoever asks may be cancelled: the process answers all the same, and keeps its robot.
+        """
+        question = asyncio.create_task(self._question(query))
+        self._questions.add(question)
+        question.add_done_callback(self._questions.discard)
+        return await asyncio.shield(question)
+
     async def close(self) -> None:
-        """End the process; safe to call twice."""
+        """End the process; safe to call twice. Whoever waits for a reply is cancelled."""
         self.needs_reopen = True
+        for question in self._questions:
+            question.cancel()  # else one that waits its turn would start a process anew
         await self._worker.close()
+
+    async def _question(self, query: Query) -> Reply:
+        if self.needs_reopen:
+            return NoReply("The robot is not open: open it again.")
+        try:
+            reply = await self._worker.ask(query, object, self._timeout_s)
+        except (WorkerTimeoutError, WorkerDiedError) as error:
+            self.needs_reopen = True
+            return NoReply(str(error))
+        if not isinstance(reply, REPLIES):
+            self.needs_reopen = True
+            return NoReply("The worker gave a reply of the wrong kind.")
+        return reply
 
     async def _ask(self, request: Request) -> Answer:
         if self.needs_reopen:

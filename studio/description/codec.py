@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from studio.description.queries import QUERIES, REPLIES
 from studio.description.values import (
     ArgumentsRequest,
     EditRequest,
@@ -12,4 +13,13 @@ from studio.description.values import (
 )
 from studio.workers import Codec
 
-CODEC = Codec(OpenRequest, EditRequest, ArgumentsRequest, ReloadRequest, Expansion, Failure)
+CODEC = Codec(
+    OpenRequest,
+    EditRequest,
+    ArgumentsRequest,
+    ReloadRequest,
+    Expansion,
+    Failure,
+    *QUERIES,
+    *REPLIES,
+)

@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from studio.description.evaluation import Evaluation
 from studio.description.faults import Fault, Refusal, Unsupported, problem_of
+from studio.description.good_run import GoodRun
 from studio.description.output_tree import OutputElement
 from studio.description.parts import keys_by_source, part_of, write_parts
+from studio.description.replies import reply_to
 from studio.description.run_record import RunRecord
 from studio.description.sites import SiteBuilder
 from studio.description.source_store import SourceStore
@@ -28,6 +30,7 @@ from studio.problems import Place, Problem, Severity
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from studio.description.queries import Query, Reply
     from studio.description.values import ReadPolicy, Site
 
 Answer: TypeAlias = Expansion | Failure
@@ -45,6 +48,7 @@ class Session:
         self._site_builder = SiteBuilder()
         self._parts: dict[str, str] = {}
         self._sites: dict[str, Site] = {}
+        self._good: GoodRun | None = None
 
     def answer(self, request: Request) -> Answer:
         """Carry out a request and run.
@@ -57,6 +61,10 @@ class Session:
             problem = Problem(Severity.ERROR, "edit-refused", str(error), Place(self._entry))
             return Failure(problem, tuple(self._store.asked))
         return self.run()
+
+    def query(self, query: Query) -> Reply:
+        """Answer a question from the last good run; nothing changes."""
+        return reply_to(query, self._good)
 
     def _take(self, request: Request) -> None:
         match request:
@@ -117,6 +125,7 @@ class Session:
         )
         self._parts = {part.key: part.xml for part in parts}
         self._sites = {site.id: site for site in sites}
+        self._good = GoodRun(root, record, expansion.evaluator)
         return expansion
 
     def _is_new(self, site: Site) -> bool:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from studio.description.codec import CODEC
+from studio.description.queries import QUERIES, NoReply, Query, Reply
+from studio.description.replies import NOT_OPEN
 from studio.description.session import Answer, Request, Session, open_session
 from studio.description.values import Failure, OpenRequest
 from studio.problems import Problem, Severity
@@ -16,14 +18,15 @@ class Desk:
     def __init__(self) -> None:
         self._session: Session | None = None
 
-    def handle(self, request: Request) -> Answer:
+    def handle(self, request: Request | Query) -> Answer | Reply:
         """Answer one request; a robot that cannot be expanded is an answer too."""
+        if isinstance(request, QUERIES):
+            return self._session.query(request) if self._session else NoReply(NOT_OPEN)
         if isinstance(request, OpenRequest):
             self._session, answer = open_session(request)
             return answer
         if self._session is None:
-            sentence = "No robot is open in this worker: open it again."
-            return Failure(Problem(Severity.ERROR, "no-session", sentence), ())
+            return Failure(Problem(Severity.ERROR, "no-session", NOT_OPEN), ())
         return self._session.answer(request)
 
 

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from studio.description.client import DescriptionWorker
+    from studio.description.queries import Query, Reply
     from studio.description.sources import Sources
 
 Outcome: TypeAlias = Expansion | Failure
@@ -82,6 +83,18 @@ class EditLoop:
         self.target = target or self.target
         self._open = True
         await self._next_run()
+
+    async def ask(self, query: Query) -> Reply:
+        """Ask about the last good run, behind the run under way.
+
+        A worker that has no robot, for it is opening or has ended, gets one first.
+        """
+        if self._worker.needs_reopen:
+            if self._turns is None or self._turns.done():
+                await self._next_run()
+            else:
+                await asyncio.wait({self._turns})
+        return await self._worker.query(query)
 
     async def close(self) -> None:
         """End the worker; those who wait are cancelled."""

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.description.client import DescriptionWorker
+from studio.description.queries import NoReply, PartOrigin, PartOriginQuery
 from studio.description.values import (
     ArgumentsRequest,
     Edit,
@@ -89,6 +90,62 @@ def test_a_process_that_dies_must_be_opened_again(tmp_path: Path):
             assert answer.problem.code in {"worker-died", "no-session"}
             assert worker.needs_reopen
             assert isinstance(await worker.open(request(file)), Expansion)
+        finally:
+            await worker.close()
+
+    asyncio.run(scenario())
+
+
+def test_a_question_is_answered_behind_the_run_under_way(tmp_path: Path):
+    file = write(tmp_path, {"a.xacro": GOOD})
+
+    async def scenario() -> None:
+        worker = DescriptionWorker()
+        try:
+            opening = asyncio.create_task(worker.open(request(file)))
+            await asyncio.sleep(0)  # the run is asked for first
+            reply = await worker.query(PartOriginQuery("link:a2"))
+            assert isinstance(reply, PartOrigin)
+            assert opening.done()
+        finally:
+            await worker.close()
+
+    asyncio.run(scenario())
+
+
+def test_whoever_asks_may_go_away_and_the_robot_stays_open(tmp_path: Path):
+    file = write(tmp_path, {"a.xacro": GOOD})
+
+    async def scenario() -> None:
+        worker = DescriptionWorker()
+        try:
+            await worker.open(request(file))
+            asker = asyncio.create_task(worker.query(PartOriginQuery("link:a2")))
+            await asyncio.sleep(0)
+            asker.cancel()
+            await asyncio.gather(asker, return_exceptions=True)
+            assert asker.cancelled()
+            assert isinstance(await worker.edit(EditRequest(())), Expansion)
+            assert not worker.needs_reopen
+        finally:
+            await worker.close()
+
+    asyncio.run(scenario())
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGKILL")
+def test_a_question_to_a_dead_process_gets_a_sentence(tmp_path: Path):
+    file = write(tmp_path, {"a.xacro": GOOD})
+
+    async def scenario() -> None:
+        worker = DescriptionWorker()
+        try:
+            await worker.open(request(file))
+            assert worker.pid is not None
+            os.kill(worker.pid, signal.SIGKILL)
+            assert isinstance(await worker.query(PartOriginQuery("link:a2")), NoReply)
+            assert isinstance(await worker.open(request(file)), Expansion)
+            assert isinstance(await worker.query(PartOriginQuery("link:a2")), PartOrigin)
         finally:
             await worker.close()
 

@@ -1,0 +1,35 @@
+"""From a question to the function that answers it from the last good run."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, assert_never
+
+from studio.description.faults import Fault
+from studio.description.provenance import part_origin
+from studio.description.queries import NoReply, PartOriginQuery
+
+if TYPE_CHECKING:
+    from studio.description.good_run import GoodRun
+    from studio.description.queries import Query, Reply
+
+NOT_OPEN = "No robot is open in this worker: open it again."
+
+
+def reply_to(query: Query, run: GoodRun | None) -> Reply:
+    """Answer a question; one that has no answer, or fails, is told so in a sentence."""
+    if run is None:
+        return NoReply("The description has not been expanded yet: mend its problems first.")
+    try:
+        return _reply(query, run)
+    except Fault as fault:
+        return NoReply(fault.sentence)
+    except Exception as error:  # noqa: BLE001 - a question may not cost the process its robot
+        return NoReply(f"The question could not be answered: {type(error).__name__}: {error}")
+
+
+def _reply(query: Query, run: GoodRun) -> Reply:
+    match query:
+        case PartOriginQuery(part=part):
+            return part_origin(run, part)
+        case _:
+            assert_never(query)
