@@ -18,6 +18,7 @@ StudioError
             ReadOnlyTextError
             SaveConflictError
             NotSavedError
+        VariantsFileError
     RobotError
         MeshError
     SceneError
@@ -171,6 +172,14 @@ class NotSavedError(EditError):
 
     def __init__(self, path: str, reason: str) -> None:
         super().__init__(f"{path} was not saved: {reason}.")
+        self.path, self.reason = path, reason
+
+
+class VariantsFileError(DescriptionError):
+    """The file of a robot's variants cannot be read, or not hold what is to be written."""
+
+    def __init__(self, path: str, reason: str) -> None:
+        super().__init__(f"The variants in {path} cannot be used: {reason}.")
         self.path, self.reason = path, reason
 
 

@@ -1,0 +1,201 @@
+"""The differences of two robots, number by number, by the names of their links and joints."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Final, TypeVar
+
+from studio.robot.difference_rows import (
+    TINY,
+    Row,
+    number_row,
+    pose_rows,
+    text_row,
+    vector_rows,
+)
+from studio.robot.values import Box, Cylinder, JointType, Mesh, Sphere, Visual
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Mapping, Sequence
+
+    from studio.robot.values import (
+        Collision,
+        Geometry,
+        Inertial,
+        Joint,
+        Limit,
+        Link,
+        Material,
+        Robot,
+        Vector3,
+    )
+
+_Part = TypeVar("_Part")
+_MOMENTS: Final = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+_NO_AXIS: Final = frozenset({JointType.FIXED, JointType.FLOATING})
+
+
+@dataclass(frozen=True, slots=True)
+class Difference:
+    """A row and the part that it is about: `link:<name>` or `joint:<name>`."""
+
+    part: str
+    row: Row
+
+
+def differences(one: Robot, other: Robot) -> tuple[Difference, ...]:
+    """What differs: links, then joints, in the order of `one`, then what only `other` has.
+
+    A robot's values are shared between its states: what is the same object is not looked at.
+    """
+    parents = _parents(one), _parents(other)
+
+    def link_rows(a: Link, b: Link) -> Iterator[Row]:
+        yield from _moved_row(parents[0].get(a.name), parents[1].get(b.name))
+        if a is not b and a != b:
+            yield from _link_rows(a, b)
+
+    links = _compared("link", one.links, other.links, link_rows, lambda _: "link")
+    joints = _compared("joint", one.joints, other.joints, _joint_rows, lambda one: one.type.value)
+    return (*links, *joints)
+
+
+def _compared(
+    kind: str,
+    one: Mapping[str, _Part],
+    other: Mapping[str, _Part],
+    rows: Callable[[_Part, _Part], Iterator[Row]],
+    word: Callable[[_Part], str],
+) -> Iterator[Difference]:
+    for name in dict.fromkeys((*one, *other)):
+        a, b = one.get(name), other.get(name)
+        if a is not None and b is not None:
+            for row in rows(a, b):
+                yield Difference(f"{kind}:{name}", row)
+        else:
+            whole = Row(kind, word(a) if a else None, word(b) if b else None)
+            yield Difference(f"{kind}:{name}", whole)
+
+
+def _parents(robot: Robot) -> dict[str, Joint]:
+    return {joint.child: joint for joint in robot.joints.values()}
+
+
+def _moved_row(one: Joint | None, other: Joint | None) -> Iterator[Row]:
+    """A link that hangs on another parent by a joint of another name; the same joint says it."""
+    if one is None or other is None or one.name != other.name:
+        parents = one.parent if one else None, other.parent if other else None
+        yield from text_row("parent", *parents)
+
+
+def _link_rows(one: Link, other: Link) -> Iterator[Row]:
+    yield from _inertial_rows(one.inertial, other.inertial)
+    yield from _shapes_rows("visual", one.visuals, other.visuals)
+    yield from _shapes_rows("collision", one.collisions, other.collisions)
+
+
+def _inertial_rows(one: Inertial | None, other: Inertial | None) -> Iterator[Row]:
+    masses = one.mass_kg if one else None, other.mass_kg if other else None
+    yield from number_row("mass", *masses, "kg")
+    if one is None or other is None:
+        return
+    yield from pose_rows("inertial", one.origin, other.origin)
+    for moment in _MOMENTS:
+        values = getattr(one, moment), getattr(other, moment)
+        yield from number_row(moment, *values, "kg m^2", TINY)
+
+
+def _shapes_rows(
+    what: str,
+    one: Sequence[Visual] | Sequence[Collision],
+    other: Sequence[Visual] | Sequence[Collision],
+) -> Iterator[Row]:
+    """Shape by shape as they are listed; one that only one robot has is named by its kind."""
+    for at in range(max(len(one), len(other))):
+        a = one[at] if at < len(one) else None
+        b = other[at] if at < len(other) else None
+        for row in _shape_rows(what, a, b):
+            yield replace(row, number=at + 1)
+
+
+def _shape_rows(
+    what: str, one: Visual | Collision | None, other: Visual | Collision | None
+) -> Iterator[Row]:
+    if one is None or other is None:
+        words = _word(one.geometry) if one else None, _word(other.geometry) if other else None
+        yield Row(what, *words)
+        return
+    yield from pose_rows(what, one.origin, other.origin)
+    yield from _geometry_rows(what, one.geometry, other.geometry)
+    if isinstance(one, Visual) and isinstance(other, Visual):
+        yield from text_row("color", _color(one.material), _color(other.material))
+        yield from text_row("texture", _texture(one.material), _texture(other.material))
+
+
+def _geometry_rows(what: str, one: Geometry, other: Geometry) -> Iterator[Row]:
+    match one, other:
+        case Box(), Box():
+            yield from vector_rows(f"{what}.size", one.size_m, other.size_m, "m")
+        case Cylinder(), Cylinder():
+            yield from number_row(f"{what}.radius", one.radius_m, other.radius_m, "m")
+            yield from number_row(f"{what}.length", one.length_m, other.length_m, "m")
+        case Sphere(), Sphere():
+            yield from number_row(f"{what}.radius", one.radius_m, other.radius_m, "m")
+        case Mesh(), Mesh():
+            yield from text_row(f"{what}.mesh", one.uri, other.uri)
+            yield from vector_rows(f"{what}.scale", one.scale, other.scale, "")
+        case _:
+            yield from text_row(f"{what}.shape", _word(one), _word(other))
+
+
+def _word(geometry: Geometry) -> str:
+    return type(geometry).__name__.lower()
+
+
+def _color(material: Material | None) -> str | None:
+    if material is None or material.rgba is None:
+        return None
+    return " ".join(f"{channel:.4g}" for channel in material.rgba)
+
+
+def _texture(material: Material | None) -> str | None:
+    return (material.texture_uri or None) if material else None
+
+
+def _joint_rows(one: Joint, other: Joint) -> Iterator[Row]:
+    if one is other or one == other:
+        return
+    yield from text_row("type", one.type.value, other.type.value)
+    yield from text_row("parent", one.parent, other.parent)
+    yield from text_row("child", one.child, other.child)
+    yield from pose_rows("origin", one.origin, other.origin)
+    if one.type not in _NO_AXIS and other.type not in _NO_AXIS:
+        yield from vector_rows("axis", _unit(one.axis), _unit(other.axis), "")
+    if one.type is other.type:
+        yield from _limit_rows(one.limit, other.limit, slides=one.type is JointType.PRISMATIC)
+    leaders = one.mimic.joint if one.mimic else None, other.mimic.joint if other.mimic else None
+    yield from text_row("mimic", *leaders)
+    if one.mimic and other.mimic:
+        yield from number_row("mimic.multiplier", one.mimic.multiplier, other.mimic.multiplier, "")
+        yield from number_row("mimic.offset", one.mimic.offset, other.mimic.offset, "")
+
+
+def _limit_rows(one: Limit | None, other: Limit | None, *, slides: bool) -> Iterator[Row]:
+    if one is other:
+        return
+    length, force, speed = ("m", "N", "m/s") if slides else ("rad", "N m", "rad/s")
+    for name, unit in (
+        ("lower", length),
+        ("upper", length),
+        ("effort", force),
+        ("velocity", speed),
+    ):
+        values = getattr(one, name, None), getattr(other, name, None)
+        yield from number_row(f"limit.{name}", *values, unit)
+
+
+def _unit(axis: Vector3) -> Vector3:
+    """The axis at length 1: only where it points matters."""
+    size = math.hypot(*axis)
+    return (axis[0] / size, axis[1] / size, axis[2] / size) if 0 < size < math.inf else axis
