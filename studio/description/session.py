@@ -125,7 +125,16 @@ class Session:
         )
         self._parts = {part.key: part.xml for part in parts}
         self._sites = {site.id: site for site in sites}
-        self._good = GoodRun(root, record, expansion.evaluator)
+        self._good = GoodRun(
+            root,
+            record,
+            expansion.evaluator,
+            self._entry,
+            self._arguments,
+            self._policy,
+            self._store.kept(self._good.store if self._good else None),
+            self._sites.keys(),
+        )
         return expansion
 
     def _is_new(self, site: Site) -> bool:

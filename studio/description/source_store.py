@@ -159,6 +159,17 @@ class SourceStore:
         for path, data in overlay.items():
             self._data[self.resolve(path)] = data
 
+    def kept(self, before: SourceStore | None) -> SourceStore:
+        """The texts as they are, in a store of its own, which edits of this one do not reach.
+
+        What `before`, an earlier one, has parsed of unchanged texts need not be parsed again.
+        """
+        kept = SourceStore(self._roots, {})
+        kept._data = dict(self._data)
+        if before is not None:
+            kept._trees, kept._yaml = before._trees, before._yaml
+        return kept
+
     def trees(self, paths: Iterable[str]) -> dict[str, SourceTree]:
         """Trees already parsed, of those paths that have one."""
         return {path: self._trees[path] for path in paths if path in self._trees}
