@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from studio.description.effects import Readers
 from studio.description.tracing import Trace, trace
 
 if TYPE_CHECKING:
@@ -45,3 +46,8 @@ class GoodRun:
             Fault: It cannot be repeated: only stock xacro could expand it, or the disk changed.
         """
         return trace(self.store, self.policy, self.entry, self.arguments)
+
+    @cached_property
+    def readers(self) -> Readers:
+        """Who reads what in it; raises as `trace`."""
+        return Readers(self.trace)

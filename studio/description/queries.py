@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Final, TypeAlias
 
-from studio.problems import MacroCall, Place  # noqa: TC001 - msgspec reads them
+from studio.description.origin_values import PartOrigin, SiteEffects
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,23 +20,21 @@ class PartOriginQuery:
 
 
 @dataclass(frozen=True, slots=True)
+class SiteEffectsQuery:
+    """What does this text shape? `site` is a `Site.id`."""
+
+    site: str
+
+
+@dataclass(frozen=True, slots=True)
 class NoReply:
     """The question cannot be answered; `sentence` says why and what to do."""
 
     sentence: str
 
 
-@dataclass(frozen=True, slots=True)
-class PartOrigin:
-    """Where a part was written and the macro calls that led there, the outermost first."""
+Query: TypeAlias = PartOriginQuery | SiteEffectsQuery
+Reply: TypeAlias = PartOrigin | SiteEffects | NoReply
 
-    part: str
-    place: Place
-    calls: tuple[MacroCall, ...]
-
-
-Query: TypeAlias = PartOriginQuery
-Reply: TypeAlias = PartOrigin | NoReply
-
-QUERIES: Final = (PartOriginQuery,)
-REPLIES: Final = (PartOrigin, NoReply)
+QUERIES: Final = (PartOriginQuery, SiteEffectsQuery)
+REPLIES: Final = (PartOrigin, SiteEffects, NoReply)

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, assert_never
 
+from studio.description.effects import site_effects
 from studio.description.faults import Fault
 from studio.description.provenance import part_origin
-from studio.description.queries import NoReply, PartOriginQuery
+from studio.description.queries import NoReply, PartOriginQuery, SiteEffectsQuery
 
 if TYPE_CHECKING:
     from studio.description.good_run import GoodRun
@@ -31,5 +32,7 @@ def _reply(query: Query, run: GoodRun) -> Reply:
     match query:
         case PartOriginQuery(part=part):
             return part_origin(run, part)
+        case SiteEffectsQuery(site=site):
+            return site_effects(run, site)
         case _:
             assert_never(query)

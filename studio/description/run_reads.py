@@ -117,8 +117,8 @@ def _of_yaml(file: FileDrafts, document: YamlReads) -> Iterator[tuple[Draft, See
     aliases = dict(file.aliases)
     inputs: dict[KeyPath, list[Input]] = {}
     for path, scalar in document.values.items():
-        inputs.setdefault(_written_at(path, written, aliases), []).append(scalar)
-    whole = {_written_at(path, written, aliases) for path in document.whole}
+        inputs.setdefault(written_at(path, written, aliases), []).append(scalar)
+    whole = {written_at(path, written, aliases) for path in document.whole}
     for draft in file.drafts:
         reads, consumers, compared = _shared(inputs.get(draft.path, ()))
         reads += sum(draft.path[:size] in whole for size in range(len(draft.path) + 1))
@@ -126,9 +126,7 @@ def _of_yaml(file: FileDrafts, document: YamlReads) -> Iterator[tuple[Draft, See
         yield draft, Seen(values, reads, consumers, compared)
 
 
-def _written_at(
-    path: KeyPath, written: set[KeyPath], aliases: Mapping[KeyPath, KeyPath]
-) -> KeyPath:
+def written_at(path: KeyPath, written: set[KeyPath], aliases: Mapping[KeyPath, KeyPath]) -> KeyPath:
     """Follow aliases and merge keys from a path as read to the path as written."""
     for _ in range(_ALIAS_STEPS):
         if path in written:

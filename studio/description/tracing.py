@@ -85,6 +85,13 @@ class Written(NamedTuple):
     inputs: Inputs
 
 
+class Called(NamedTuple):
+    """One call of a macro: where the macro is written, and what each parameter was bound to."""
+
+    macro: SourceElement
+    parameters: Mapping[str, Binding]
+
+
 class TracedAttributes(dict[str, str]):
     """Attributes that came out, and how those that have a `$` in their text were made."""
 
@@ -157,8 +164,7 @@ class TracedEvaluation(Evaluation):
         self.texts = self.traced
         self.texts.arguments = {n: Argument(text, Given(n, text)) for n, text in arguments.items()}
         self.made: list[TracedBinding] = []
-        self.parameters: dict[CallFrame, dict[str, Binding]] = {}
-        """What a macro call bound, by the name of the parameter."""
+        self.calls: dict[CallFrame, Called] = {}
         self.governors: dict[OutputElement, Governor] = {}
         """What an element owes its being there to, where it owes it to anything."""
         self.text_inputs: dict[SourceText, Inputs] = {}
@@ -187,11 +193,12 @@ class TracedEvaluation(Evaluation):
 
     def children(self, node: Node, out: OutputElement, macros: MacroTable, scope: Scope) -> None:
         """Evaluate all children; those of a macro's body owe it also to what defined the macro."""
-        if self.frame is None or self.frame in self.parameters:
+        if self.frame is None or self.frame in self.calls:
             super().children(node, out, macros, scope)
             return
         cells = scope.cells.items()
-        self.parameters[self.frame] = {name: one.binding for name, one in cells if one.binding}
+        bound = {name: one.binding for name, one in cells if one.binding}
+        self.calls[self.frame] = Called(node.origin, bound)
         governor = self._defined_under.get(node.origin)
         with self._governed(node.origin, (governor,) if governor else ()):
             super().children(node, out, macros, scope)
@@ -269,8 +276,7 @@ class Trace:
 
     root: OutputElement
     bindings: tuple[TracedBinding, ...]
-    parameters: Mapping[CallFrame, Mapping[str, Binding]]
-    """What each macro call bound, by the name of the parameter."""
+    calls: Mapping[CallFrame, Called]
     governors: Mapping[OutputElement, Governor]
     """What an element owes its being there to, where it owes it to anything."""
     text_inputs: Mapping[SourceText, Inputs]
@@ -292,7 +298,7 @@ def trace(
     return Trace(
         root,
         tuple(run.made),
-        run.parameters,
+        run.calls,
         run.governors,
         run.text_inputs,
         run.texts.yaml,
