@@ -9,6 +9,14 @@ export interface AnimateJoints {
   running: boolean;
 }
 
+/** Make the robot a variant, in one undo step; an empty name makes it as its files say. */
+export interface ApplyVariant {
+  request?: number;
+  document?: string;
+  type: "apply_variant";
+  name: string;
+}
+
 /** One argument of a robot, as a form shows it. */
 export interface ArgumentView {
   name: string;
@@ -69,6 +77,46 @@ export interface Collisions {
   file: string;
   places: CollisionView[];
   count: number;
+}
+
+/** Compare two states for everybody from now on, and follow them; None ends it. */
+export interface CompareVariants {
+  request?: number;
+  document?: string;
+  type: "compare_variants";
+  sides?: [Side, Side] | null;
+}
+
+/** How two states differ. `sides` None: none are compared. */
+export interface Comparison {
+  type: "comparison";
+  sides: [Side, Side] | null;
+  busy: boolean;
+  faults: string[];
+  inputs: InputDifference[];
+  rows: DifferenceView[];
+  count: number;
+  ghost: Side | null;
+}
+
+/** Forget a variant; the robot stays as it is. */
+export interface DeleteVariant {
+  request?: number;
+  document?: string;
+  type: "delete_variant";
+  name: string;
+}
+
+/** One thing that two robots do not have alike; None where one of them has none. */
+export interface DifferenceView {
+  part: string;
+  what: string;
+  number: number;
+  one: number | string | null;
+  other: number | string | null;
+  unit: string;
+  delta: number | null;
+  percent: number | null;
 }
 
 /** Another program wrote a file; its changes are taken, and so many edits are kept unsaved. */
@@ -239,6 +287,16 @@ export interface History {
   unsaved_count: number;
 }
 
+/** An argument or text that two states do not have alike; None: it is not passed. */
+export interface InputDifference {
+  kind: SiteKind;
+  name: string;
+  file: string;
+  line: number;
+  one: string | null;
+  other: string | null;
+}
+
 /** Positions of all movable joints by name, after a command; streams are binary frames. */
 export interface JointPositions {
   type: "joints";
@@ -397,6 +455,16 @@ export interface Reload {
   type: "reload";
 }
 
+/** Give a variant another name and note. */
+export interface RenameVariant {
+  request?: number;
+  document?: string;
+  type: "rename_variant";
+  name: string;
+  new_name: string;
+  note?: string;
+}
+
 /** Put a site back to what the file on disk says. */
 export interface ResetSite {
   request?: number;
@@ -431,6 +499,15 @@ export interface Save {
   type: "save";
 }
 
+/** Keep the present arguments and values as a new variant. */
+export interface SaveVariant {
+  request?: number;
+  document?: string;
+  type: "save_variant";
+  name: string;
+  note?: string;
+}
+
 /** These files were written. */
 export interface Saved {
   type: "saved";
@@ -459,7 +536,7 @@ export interface SetDisplay {
   request?: number;
   document?: string;
   type: "set_display";
-  display: "grid" | "robot";
+  display: "grid" | "robot" | "ghost";
   name: string;
   value: boolean | number | string;
 }
@@ -474,6 +551,12 @@ export interface SetJoints {
 
 /** How much a Problem hinders: an error keeps the last good model, a warning does not. */
 export type Severity = "error" | "warning" | "info";
+
+/** A state that can be compared: the robot as it is, as its files say, or a variant. */
+export interface Side {
+  kind: "present" | "saved" | "variant";
+  name: string;
+}
 
 /** What an editable text is in its file. */
 export type SiteKind = "arg" | "property" | "yaml" | "param_default" | "literal";
@@ -543,11 +626,59 @@ export interface Undo {
   type: "undo";
 }
 
+/** Keep the present arguments and values in a variant that there is. */
+export interface UpdateVariant {
+  request?: number;
+  document?: string;
+  type: "update_variant";
+  name: string;
+}
+
 /** Answer to `get_urdf`. */
 export interface Urdf {
   type: "urdf";
   request: number;
   text: string;
+}
+
+/** Answer to `apply_variant`; `left_out` says what found no place. */
+export interface VariantApplied {
+  type: "variant_applied";
+  request: number;
+  left_out: string[];
+}
+
+/** Answer to `save_variant` and `update_variant`: what of the robot no variant can hold. */
+export interface VariantSaved {
+  type: "variant_saved";
+  request: number;
+  left_out: string[];
+}
+
+/** One text that a variant sets; `name` is for people. */
+export interface VariantText {
+  file: string;
+  name: string;
+  text: string;
+}
+
+/** One variant as the list shows it. */
+export interface VariantView {
+  name: string;
+  note: string;
+  arguments: Record<string, string | null>;
+  texts: VariantText[];
+}
+
+/** All variants. `active` is empty for the robot as in its files. */
+export interface Variants {
+  type: "variants";
+  variants: VariantView[];
+  active: string;
+  modified: boolean;
+  path: string;
+  only_here: string;
+  trouble: string;
 }
 
 /** Show me this document: its whole state now, then every change. */
@@ -605,7 +736,13 @@ export type Command =
   | ChoosePackage
   | GetUrdf
   | GetText
-  | EditText;
+  | EditText
+  | SaveVariant
+  | ApplyVariant
+  | UpdateVariant
+  | RenameVariant
+  | DeleteVariant
+  | CompareVariants;
 
 export type Event =
   | Hello
@@ -632,4 +769,8 @@ export type Event =
   | Link
   | LinkOpened
   | Saved
+  | Variants
+  | VariantApplied
+  | VariantSaved
+  | Comparison
   | Gone;

@@ -83,6 +83,11 @@ class NamedTexts:
         found = self._names[self.disk].get(name)
         return found.text if found else None
 
+    def line_of(self, name: TextName) -> int:
+        """The line (from 1) where the disk has a text; 0 when it has none."""
+        found = self._names[self.disk].get(name)
+        return found.place.line if found else 0
+
     def differing(self, now: bytes) -> dict[TextName, str]:
         """The texts of an edited file that say something else than the disk does."""
         saved = self._names[self.disk]

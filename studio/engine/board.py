@@ -93,6 +93,7 @@ class Board:
         yield self._displays()
         yield self._history()
         yield self._problems()
+        yield from self._document.variants.events()
 
     def _state(self) -> m.DocumentState:
         document = self._document

@@ -7,6 +7,7 @@ from typing import Annotated, Literal, TypeAlias
 from pydantic import Field, TypeAdapter
 
 from studio.engine.message import Message
+from studio.engine.variant_events import Side
 
 
 class CommandMessage(Message, allow_inf_nan=False):
@@ -166,7 +167,7 @@ class SetDisplay(CommandMessage):
     """Change one setting of a shared display, e.g. `robot`, `collision`, True."""
 
     type: Literal["set_display"] = "set_display"
-    display: Literal["grid", "robot"]
+    display: Literal["grid", "robot", "ghost"]
     name: str
     value: bool | float | str
 
@@ -220,6 +221,51 @@ class EditText(CommandMessage):
     origin: str = Field(default="", max_length=100)
 
 
+class SaveVariant(CommandMessage):
+    """Keep the present arguments and values as a new variant."""
+
+    type: Literal["save_variant"] = "save_variant"
+    name: str = Field(max_length=100)
+    note: str = Field(default="", max_length=2000)
+
+
+class ApplyVariant(CommandMessage):
+    """Make the robot a variant, in one undo step; an empty name makes it as its files say."""
+
+    type: Literal["apply_variant"] = "apply_variant"
+    name: str = Field(max_length=100)
+
+
+class UpdateVariant(CommandMessage):
+    """Keep the present arguments and values in a variant that there is."""
+
+    type: Literal["update_variant"] = "update_variant"
+    name: str = Field(max_length=100)
+
+
+class RenameVariant(CommandMessage):
+    """Give a variant another name and note."""
+
+    type: Literal["rename_variant"] = "rename_variant"
+    name: str = Field(max_length=100)
+    new_name: str = Field(max_length=100)
+    note: str = Field(default="", max_length=2000)
+
+
+class DeleteVariant(CommandMessage):
+    """Forget a variant; the robot stays as it is."""
+
+    type: Literal["delete_variant"] = "delete_variant"
+    name: str = Field(max_length=100)
+
+
+class CompareVariants(CommandMessage):
+    """Compare two states for everybody from now on, and follow them; None ends it."""
+
+    type: Literal["compare_variants"] = "compare_variants"
+    sides: tuple[Side, Side] | None = None
+
+
 Command: TypeAlias = Annotated[
     Watch
     | OpenPath
@@ -246,7 +292,13 @@ Command: TypeAlias = Annotated[
     | ChoosePackage
     | GetUrdf
     | GetText
-    | EditText,
+    | EditText
+    | SaveVariant
+    | ApplyVariant
+    | UpdateVariant
+    | RenameVariant
+    | DeleteVariant
+    | CompareVariants,
     Field(discriminator="type"),
 ]
 COMMANDS: TypeAdapter[Command] = TypeAdapter(Command)

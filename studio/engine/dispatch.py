@@ -57,6 +57,16 @@ async def carry_out(document: Document, command: m.Command, listener: Listener) 
             tell(listener, document.texts.answer(command, listener.role))
         case m.EditText():
             await document.edit_text(command)
+        case m.SaveVariant() | m.UpdateVariant():
+            tell(listener, document.variants.save(command))
+        case m.ApplyVariant():
+            tell(listener, await document.variants.apply(command))
+        case m.RenameVariant():
+            document.variants.rename(command)
+        case m.DeleteVariant():
+            document.variants.delete(command.name)
+        case m.CompareVariants():
+            document.variants.compare(command.sides)
         case (
             m.GetArguments()
             | m.GetLink()

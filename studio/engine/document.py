@@ -21,6 +21,7 @@ from studio.engine.packages_used import PackagesUsed
 from studio.engine.policy import target_of
 from studio.engine.sharing import SharedFile, place_edits
 from studio.engine.texts import TextDesk
+from studio.engine.variants import VariantDesk
 from studio.engine.watching import FileWatch
 from studio.errors import CommandError
 from studio.problems import Fix, Problem
@@ -69,8 +70,9 @@ class Document:
         self.disk = DiskDesk(self.sources, served, self.board)
         self.motion = Motion(self.model, self.board)
         self._services = services
-        self._runs = EditLoop(services.description_worker(), self.sources, self._target, self._take)
+        self._runs = EditLoop(services.description_worker(), self.sources, self.target, self._take)
         self._meshes = MeshDesk(self, services.meshes, self._watch_files)
+        self.variants = VariantDesk(self, services, self._meshes.want)
         self._files: tuple[str, ...] = (self.path,)
         self._watch = FileWatch(self._changed_on_disk)
         self._packages = PackagesUsed()
@@ -101,7 +103,8 @@ class Document:
         return bool(self.sources.unsaved_files)
 
     @property
-    def _target(self) -> Target:
+    def target(self) -> Target:
+        """What its xacro worker runs, and what that may read."""
         return target_of(self.location, trusted=self._services.settings.trusted)
 
     @property
@@ -143,6 +146,7 @@ class Document:
             task.cancel()
         await asyncio.gather(*background, return_exceptions=True)
         await asyncio.gather(self._watch.close(), self._meshes.close(), self._runs.close())
+        await self.variants.close()
         self.scene.close()
 
     async def edit_site(self, site: str, text: str, gesture: str) -> None:
@@ -189,11 +193,11 @@ class Document:
 
     async def undo(self) -> None:
         """Take the last step back."""
-        await self._follow(self.sources.undo())
+        await self.follow(self.sources.undo())
 
     async def redo(self) -> None:
         """Do the step last taken back again."""
-        await self._follow(self.sources.redo())
+        await self.follow(self.sources.redo())
 
     async def save(self) -> None:
         """Write all changed files."""
@@ -221,13 +225,14 @@ class Document:
             chosen = self.location.served.resolve(chosen)
         self.location = await asyncio.to_thread(self.location.choose_package, name, chosen)
         self._meshes.retry()
-        await self._timed(self._runs.reopen(self._target))
+        await self._timed(self._runs.reopen(self.target))
 
     def set_display(self, display: str, name: str, *, value: bool | float | str) -> None:
         """Change one shared display setting."""
         self.scene.set_display(display, name, value)
         self._meshes.want()
         self.board.displays()
+        self.variants.doubt()
 
     def urdf(self) -> str:
         """The expanded URDF of the last good run.
@@ -286,8 +291,8 @@ class Document:
             return problem
         return replace(problem, fix=Fix("Undo edit", "undo"))
 
-    async def _follow(self, change: Change | None) -> None:
-        """Run what an undo or redo changed."""
+    async def follow(self, change: Change | None) -> None:
+        """Run what an undo or redo, say, changed in the sources."""
         if change is None:
             return
         if change.arguments is None:
@@ -344,6 +349,7 @@ class Document:
     def _texts_changed(self) -> None:
         self.board.texts()
         self.texts.follow()
+        self.variants.doubt()
         if self.has_unsaved != self._was_unsaved:
             self._was_unsaved = self.has_unsaved
             self.on_unsaved()

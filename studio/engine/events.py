@@ -9,6 +9,7 @@ from pydantic import Field, TypeAdapter
 from studio.description.values import SiteKind, Widget
 from studio.engine.commands import TextChange
 from studio.engine.message import Message
+from studio.engine.variant_events import Comparison, VariantApplied, Variants, VariantSaved
 from studio.problems import Problem
 
 
@@ -374,6 +375,10 @@ Event: TypeAlias = Annotated[
     | Link
     | LinkOpened
     | Saved
+    | Variants
+    | VariantApplied
+    | VariantSaved
+    | Comparison
     | Gone,
     Field(discriminator="type"),
 ]

@@ -14,7 +14,7 @@ from studio.robot.textured import mesh_uris
 from studio.robot.values import Robot
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Callable, Iterable, Iterator
 
     from studio.description.values import Expansion, Part
     from studio.problems import Problem
@@ -42,6 +42,8 @@ class Model:
         self.joints = JointPositions(self.kinematics)
         self.revision = 0
         """Counts structural changes."""
+        self.posed: Callable[[], None] = lambda: None
+        """Called whenever the links were moved, before that is sent."""
         self._inertia: dict[str, list[Problem]] = {}
         self._meshes: dict[str, tuple[str, ...]] = {}
 
@@ -100,6 +102,7 @@ class Model:
         """Send the links to where the joint positions put them."""
         links = self.kinematics.link_names
         self.scene.set_poses(links, self.kinematics.wxyz_xyz(self.joints.values))
+        self.posed()
         self.scene.flush()
 
     def mesh_uris(self) -> frozenset[str]:

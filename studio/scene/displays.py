@@ -26,12 +26,15 @@ DISPLAY_DEFAULTS: dict[str, dict[str, Value]] = {
         "shadow": True,
         "under_robot": True,
     },
+    "ghost": {"visible": False, "beside": False, "opacity": 0.35},
 }
 """By display, then setting. `axes` are the joint axes, `com` the centres of mass; a grid of extent
-0 has no end, and one that is not under the robot lies at the height of the root link."""
+0 has no end, and one that is not under the robot lies at the height of the root link. The ghost is
+the robot that this one is compared with; it may stand beside it."""
 
 _RANGES: dict[tuple[str, str], tuple[float, float]] = {
     ("robot", "opacity"): (0.0, 1.0),
+    ("ghost", "opacity"): (0.05, 1.0),
     ("grid", "cell_m"): (0.001, 1000.0),
     ("grid", "extent_m"): (0.0, 100_000.0),
 }

@@ -10,6 +10,7 @@ import numpy as np
 from studio.scene import node
 from studio.scene.connection import SUBPROTOCOL
 from studio.scene.displays import DISPLAY_DEFAULTS, checked
+from studio.scene.ghost import GhostDrawing
 from studio.scene.graph import Graph
 from studio.scene.host import make_server
 from studio.scene.naming import GRID
@@ -43,6 +44,8 @@ class DocumentScene:
         self._graph = Graph(self._server)
         self._poses = PoseWriter(self._graph)
         self._robot = RobotDrawing(self._graph, self._poses.forget)
+        self.ghost = GhostDrawing(self._graph, self._robot.mesh)
+        """Another robot to compare with; nothing is drawn of it until it is shown one."""
         self._settings = deepcopy(DISPLAY_DEFAULTS)
         self._height_m = 0.0
         self._shown_anew = False
@@ -65,11 +68,16 @@ class DocumentScene:
 
     def missing_meshes(self) -> set[str]:
         """URIs of meshes to load and `provide`; changes with `show` and `set_display`."""
-        return self._robot.missing_meshes()
+        return self._robot.missing_meshes() | self.ghost.missing_meshes()
+
+    def mesh(self, uri: str) -> LoadedMesh | None:
+        """A mesh that came for the robot or the ghost."""
+        return self._robot.mesh(uri) or self.ghost.mesh(uri)
 
     def provide_mesh(self, uri: str, mesh: LoadedMesh | None) -> None:
         """Draw a mesh that came; None marks one that cannot be loaded by a box of wire."""
         self._robot.provide_mesh(uri, mesh)
+        self.ghost.provide_mesh(uri, mesh)
         self._settle()
 
     def set_poses(self, link_names: Sequence[str], wxyz_xyz: NDArray[np.floating]) -> None:
@@ -96,6 +104,8 @@ class DocumentScene:
         self._settings[display][name] = value
         if display == "grid":
             self._put_grid()
+        elif display == "ghost":
+            self.ghost.fade(float(self._settings[display]["opacity"]))
         elif name == "opacity":
             self._robot.fade(float(value))
         else:

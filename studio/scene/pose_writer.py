@@ -9,7 +9,7 @@ import numpy as np
 from studio.scene.naming import link_node
 
 if TYPE_CHECKING:
-    from collections.abc import Container, Sequence
+    from collections.abc import Callable, Container, Sequence
 
     from numpy.typing import NDArray
 
@@ -22,8 +22,8 @@ STEP = 1e-6
 class PoseWriter:
     """Remembers what was sent last for each link; `forget` what was removed or made anew."""
 
-    def __init__(self, graph: Graph) -> None:
-        self._graph = graph
+    def __init__(self, graph: Graph, node_of: Callable[[str], str] = link_node) -> None:
+        self._graph, self._node_of = graph, node_of
         self._names: tuple[str, ...] = ()
         self._nodes: tuple[str, ...] = ()
         self._sent = np.full((0, 7), np.nan)
@@ -73,5 +73,5 @@ class PoseWriter:
         last = dict(zip(self._names, self._sent, strict=True))
         unknown = np.full(7, np.nan)
         self._names = names
-        self._nodes = tuple(link_node(name) for name in names)
+        self._nodes = tuple(self._node_of(name) for name in names)
         self._sent = np.array([last.get(name, unknown) for name in names]).reshape(-1, 7)

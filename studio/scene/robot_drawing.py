@@ -65,6 +65,10 @@ class RobotDrawing:
         """URIs that the layers made so far need and that have not come."""
         return {uri for uri in self._mesh_uris() if uri not in self._shelf}
 
+    def mesh(self, uri: str) -> LoadedMesh | None:
+        """A mesh that came; None when it has not, or failed."""
+        return self._shelf.get(uri)
+
     def provide_mesh(self, uri: str, mesh: LoadedMesh | None) -> None:
         """Draw a mesh wherever it is named, or a sign when it is None."""
         if uri not in self._mesh_uris() or not self._shelf.put(uri, mesh):

@@ -1,0 +1,112 @@
+"""What the page is told of variants: their list, and how two states of the robot differ."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from studio.description.values import SiteKind
+from studio.engine.message import Message
+
+
+class Side(Message):
+    """A state that can be compared: the robot as it is, as its files say, or a variant."""
+
+    kind: Literal["present", "saved", "variant"]
+    name: str = ""
+    """Of the variant."""
+
+
+class VariantText(Message):
+    """One text that a variant sets; `name` is for people."""
+
+    file: str
+    name: str
+    text: str
+
+
+class VariantView(Message):
+    """One variant as the list shows it."""
+
+    name: str
+    note: str
+    arguments: dict[str, str | None]
+    """None: the robot gets none, although it was opened with one."""
+    texts: tuple[VariantText, ...]
+
+
+class Variants(Message):
+    """All variants. `active` is empty for the robot as in its files."""
+
+    type: Literal["variants"] = "variants"
+    variants: tuple[VariantView, ...]
+    active: str
+    modified: bool
+    """The robot was changed since the active one was applied or saved."""
+    path: str
+    """The file that they are kept in."""
+    only_here: str
+    """Why they are kept for this session only; empty: they are in the file."""
+    trouble: str
+    """What is wrong with the file, in a sentence."""
+
+
+class VariantApplied(Message):
+    """Answer to `apply_variant`; `left_out` says what found no place."""
+
+    type: Literal["variant_applied"] = "variant_applied"
+    request: int
+    left_out: tuple[str, ...]
+
+
+class VariantSaved(Message):
+    """Answer to `save_variant` and `update_variant`: what of the robot no variant can hold."""
+
+    type: Literal["variant_saved"] = "variant_saved"
+    request: int
+    left_out: tuple[str, ...]
+
+
+class InputDifference(Message):
+    """An argument or text that two states do not have alike; None: it is not passed."""
+
+    kind: SiteKind
+    name: str
+    file: str
+    line: int
+    one: str | None
+    other: str | None
+
+
+class DifferenceView(Message):
+    """One thing that two robots do not have alike; None where one of them has none."""
+
+    part: str
+    """`link:<name>`, `joint:<name>`, or `robot` for the whole."""
+    what: str
+    """As `Row.what`."""
+    number: int
+    """Which visual or collision of a link, from 1; 0 where it is about none."""
+    one: float | str | None
+    other: float | str | None
+    unit: str
+    delta: float | None
+    """`other` minus `one`, of numbers."""
+    percent: float | None
+    """Of `one`; None where that is 0."""
+
+
+class Comparison(Message):
+    """How two states differ. `sides` None: none are compared."""
+
+    type: Literal["comparison"] = "comparison"
+    sides: tuple[Side, Side] | None
+    busy: bool
+    """One of them is being worked out; what is told is older."""
+    faults: tuple[str, ...]
+    """Why a side could not be worked out, a sentence each."""
+    inputs: tuple[InputDifference, ...]
+    rows: tuple[DifferenceView, ...]
+    count: int
+    """Of all differences; `rows` may hold the first ones only."""
+    ghost: Side | None
+    """What the ghost shows."""

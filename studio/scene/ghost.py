@@ -1,0 +1,148 @@
+"""The GhostDrawing: another robot, see-through and in one colour, over the one that is edited."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from studio.robot.textured import mesh_uris
+from studio.robot.values import Mesh, Robot
+from studio.scene import node
+from studio.scene.geometry_drawing import MeshShelf, draw
+from studio.scene.naming import GHOST, ghost_node
+from studio.scene.node import Look
+from studio.scene.pose_writer import PoseWriter
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from studio.robot.loaded_mesh import LoadedMesh
+    from studio.robot.values import Link, Vector3
+    from studio.scene.graph import Graph
+    from studio.scene.layers import Nodes
+    from studio.scene.node import Node, Rgb
+
+GHOST_RGB: Rgb = (178, 108, 255)
+
+
+class GhostDrawing:
+    """Draws the visuals of a robot below `/ghost`: nobody clicks them, they throw no shadow.
+
+    Args:
+        graph: Where the nodes go.
+        known: Gives a mesh that the robot beside it has already.
+    """
+
+    def __init__(self, graph: Graph, known: Callable[[str], LoadedMesh | None]) -> None:
+        self._graph, self._known = graph, known
+        self._robot = Robot("")
+        self._shelf = MeshShelf()
+        self._drawn: dict[str, Nodes] = {}
+        self._poses = PoseWriter(graph, ghost_node)
+        self._opacity = 0.35
+        self._offset_m: Vector3 = node.ORIGIN
+
+    def show(self, robot: Robot) -> None:
+        """Draw another state of the ghost; a robot without links takes it away."""
+        before, self._robot = self._robot, robot
+        uris = self._mesh_uris()
+        self._shelf.keep_only(uris)
+        for uri in uris:
+            if uri not in self._shelf and (mesh := self._known(uri)) is not None:
+                self._shelf.put(uri, mesh)
+        with self._graph.atomic():
+            for link in tuple(self._drawn):
+                if link not in robot.links:
+                    self._remove(link)
+            if not robot.links:
+                self._graph.drop(GHOST)
+                return
+            self._put_root()
+            for name, link in robot.links.items():
+                if before.links.get(name) is not link or name not in self._drawn:
+                    self._draw(link)
+
+    def set_poses(self, link_names: Sequence[str], wxyz_xyz: NDArray[np.floating]) -> None:
+        """Move the links, as `DocumentScene.set_poses`, in the frame of the ghost's root."""
+        self._poses.write(link_names, wxyz_xyz, self._drawn)
+
+    def shift(self, offset_m: Vector3) -> None:
+        """Stand that far from the robot, in its root frame."""
+        self._offset_m = offset_m
+        if self._drawn:
+            self._put_root()
+
+    def fade(self, opacity: float) -> None:
+        """Be more or less see-through."""
+        self._opacity = opacity
+        with self._graph.atomic():
+            for link in self._robot.links.values():
+                self._draw(link)
+
+    def mesh(self, uri: str) -> LoadedMesh | None:
+        """A mesh that came; None when it has not, or failed."""
+        return self._shelf.get(uri)
+
+    def missing_meshes(self) -> set[str]:
+        """URIs that it needs and that have not come."""
+        return {uri for uri in self._mesh_uris() if uri not in self._shelf}
+
+    def provide_mesh(self, uri: str, mesh: LoadedMesh | None) -> None:
+        """Draw a mesh wherever it is named."""
+        if uri not in self._mesh_uris() or not self._shelf.put(uri, mesh):
+            return
+        with self._graph.atomic():
+            for link in self._robot.links.values():
+                if uri in mesh_uris(link):
+                    self._draw(link)
+
+    def _put_root(self) -> None:
+        self._graph.put(GHOST, node.group(position=self._offset_m))
+
+    def _draw(self, link: Link) -> None:
+        root = ghost_node(link.name)
+        old, new = self._drawn.get(link.name), self._nodes(link)
+        for below in old or {}:
+            if below not in new:
+                self._graph.drop(f"{root}/{below}")
+        if old is None:
+            self._graph.put(root, node.group())
+            self._poses.forget(link.name)
+        for below, drawn in new.items():
+            self._graph.put(f"{root}/{below}", drawn)
+        self._drawn[link.name] = new
+
+    def _remove(self, link: str) -> None:
+        root = ghost_node(link)
+        for below in self._drawn.pop(link):
+            self._graph.drop(f"{root}/{below}")
+        self._graph.drop(root)
+        self._poses.forget(link)
+
+    def _nodes(self, link: Link) -> Nodes:
+        look = Look(GHOST_RGB, self._opacity, shadow=False)
+        nodes: Nodes = {}
+        for index, visual in enumerate(link.visuals):
+            geometry = visual.geometry
+            if isinstance(geometry, Mesh) and self._shelf.get(geometry.uri) is None:
+                continue  # the robot beside it has the sign for a missing one
+            drawn = draw(geometry, visual.origin, look, self._shelf, own_colors=False)
+            if drawn is not None:
+                nodes[str(index)] = _one_sided(drawn)
+        return nodes
+
+    def _mesh_uris(self) -> set[str]:
+        return {
+            visual.geometry.uri
+            for link in self._robot.links.values()
+            for visual in link.visuals
+            if isinstance(visual.geometry, Mesh)
+        }
+
+
+def _one_sided(drawn: Node) -> Node:
+    """Without the far side of a surface, which shows through and looks like a second one."""
+    return replace(drawn, props={**drawn.props, "side": "front"})
