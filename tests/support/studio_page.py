@@ -22,6 +22,13 @@ _HAS_VISUALS = """() => {
   return Object.keys(nodes ?? {}).some((name) => name.includes("/visual/"));
 }"""
 
+_FIXED_PIXELS = """() => {
+  if (location.pathname.includes("/viser") && !location.search.includes("fixedDpr"))
+    history.replaceState(null, "", `${location.pathname}?${location.search.slice(1)}&fixedDpr=1`);
+}"""
+"""Viser draws fewer pixels while it is slow: a picture of a busy machine would differ from one of
+an idle one."""
+
 
 class ConditionNotMetError(AssertionError):
     """Something awaited did not come in time."""
@@ -118,6 +125,7 @@ class StudioPage:
 def studio_page(browser: Browser, studio: RunningStudio) -> Generator[StudioPage]:
     """A tab that has opened the studio's printed address."""
     context = browser.new_context(viewport={"width": 1280, "height": 720}, reduced_motion="reduce")
+    context.add_init_script(f"({_FIXED_PIXELS})()")
     page = StudioPage(context.new_page())
     try:
         page.open(studio.url)
