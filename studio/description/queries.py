@@ -9,6 +9,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Final, TypeAlias
 
+from studio.description.language import (
+    LANGUAGE_QUERIES,
+    LANGUAGE_REPLIES,
+    LanguageQuery,
+    LanguageReply,
+)
 from studio.description.origin_values import PartOrigin, SiteEffects
 
 
@@ -33,8 +39,8 @@ class NoReply:
     sentence: str
 
 
-Query: TypeAlias = PartOriginQuery | SiteEffectsQuery
-Reply: TypeAlias = PartOrigin | SiteEffects | NoReply
+Query: TypeAlias = PartOriginQuery | SiteEffectsQuery | LanguageQuery
+Reply: TypeAlias = PartOrigin | SiteEffects | NoReply | LanguageReply
 
-QUERIES: Final = (PartOriginQuery, SiteEffectsQuery)
-REPLIES: Final = (PartOrigin, SiteEffects, NoReply)
+QUERIES: Final = (PartOriginQuery, SiteEffectsQuery, *LANGUAGE_QUERIES)
+REPLIES: Final = (PartOrigin, SiteEffects, NoReply, *LANGUAGE_REPLIES)

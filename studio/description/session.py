@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, TypeAlias
 from studio.description.evaluation import Evaluation
 from studio.description.faults import Fault, Refusal, Unsupported, problem_of
 from studio.description.good_run import GoodRun
+from studio.description.language import LANGUAGE_QUERIES
+from studio.description.language_desk import LanguageDesk
 from studio.description.output_tree import OutputElement
 from studio.description.parts import keys_by_source, part_of, write_parts
 from studio.description.replies import reply_to
@@ -49,6 +51,7 @@ class Session:
         self._parts: dict[str, str] = {}
         self._sites: dict[str, Site] = {}
         self._good: GoodRun | None = None
+        self._language = LanguageDesk(self._store, self._policy, self._entry)
 
     def answer(self, request: Request) -> Answer:
         """Carry out a request and run.
@@ -64,6 +67,8 @@ class Session:
 
     def query(self, query: Query) -> Reply:
         """Answer a question from the last good run; nothing changes."""
+        if isinstance(query, LANGUAGE_QUERIES):
+            return self._language.answer(query, self._arguments, self._good, self._sites)
         return reply_to(query, self._good)
 
     def _take(self, request: Request) -> None:

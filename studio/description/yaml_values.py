@@ -178,6 +178,13 @@ def wrap(value: Any, reader: Reader | None, path: KeyPath) -> Any:  # noqa: ANN4
     return value
 
 
+def origin_of(value: object) -> tuple[str, KeyPath] | None:
+    """The file and key path that a container was read from; None for any other value."""
+    if not isinstance(value, YamlMapping | YamlSequence) or value._reader is None:
+        return None
+    return value._reader.reads.path, value._path
+
+
 def read_yaml(path: str, data: bytes, evaluate: Callable[[str], Any]) -> Any:  # noqa: ANN401
     """The values of a YAML file as plain Python.
 

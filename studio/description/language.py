@@ -1,0 +1,178 @@
+"""What an editor asks about a text, and the answers: outline, meanings, references, completions.
+
+A text is asked about as it stands in the editor, broken or not; what it came to is told from the
+last run that worked. `offset`, `start` and `end` count UTF-16 code units of the editor's text (no
+byte order mark, every line break one LF), from 0; so do the columns of places, from 1.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Final, TypeAlias
+
+
+class SubjectKind(StrEnum):
+    """What a word in a text stands for."""
+
+    PROPERTY = "property"
+    ARG = "arg"
+    PARAMETER = "parameter"
+    BLOCK = "block"
+    MACRO = "macro"
+    NAMESPACE = "namespace"
+    """Of an include with `ns=`."""
+    PACKAGE = "package"
+    FILE = "file"
+    FOLDER = "folder"
+    YAML = "yaml"
+    """A key of a YAML file."""
+    FUNCTION = "function"
+    CONSTANT = "constant"
+    VARIABLE = "variable"
+    """The name of a loop inside an expression."""
+    ENVIRONMENT = "environment"
+    COMMAND = "command"
+    """Of a substitution: `find` of `$(find package)`."""
+    LINK = "link"
+    JOINT = "joint"
+    EXPRESSION = "expression"
+    """A `${...}` or `$(...)` as a whole."""
+    TAG = "tag"
+    """An element of xacro itself; `name` without its prefix."""
+    ELEMENT = "element"
+    ATTRIBUTE = "attribute"
+    VALUE = "value"
+    """A word that an attribute may have, such as `revolute`."""
+
+
+@dataclass(frozen=True, slots=True)
+class TextPlace:
+    """A stretch of one line of a text; `line` and `column` from 1, `length` in code units."""
+
+    file: str
+    line: int
+    column: int
+    length: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """A parameter of a macro."""
+
+    name: str
+    """Without its stars."""
+    kind: str
+    """`value`, `block` (one element of the call) or `blocks` (the content of one)."""
+    default: str | None
+    """As written; None: a call must give it, or it is forwarded."""
+    forwards: bool
+    """It takes the value of the same name where the macro is called (`:=^`)."""
+
+    @property
+    def is_required(self) -> bool:
+        """Whether a call must give it."""
+        return self.default is None and not self.forwards
+
+
+@dataclass(frozen=True, slots=True)
+class OutlineFile:
+    """A file of the run. `inside`: number of the file that brings it in, -1 for the entry."""
+
+    file: str
+    inside: int
+    place: TextPlace | None
+    """The element that brings it in."""
+    namespace: str
+    is_yaml: bool
+
+
+@dataclass(frozen=True, slots=True)
+class OutlineMacro:
+    """A macro of the files of the run; `name` with its namespace."""
+
+    name: str
+    parameters: tuple[Parameter, ...]
+    place: TextPlace
+    doc: str
+    calls: int
+    """In this run."""
+    called_at: tuple[TextPlace, ...]
+    """The first few places."""
+
+
+@dataclass(frozen=True, slots=True)
+class OutlineValue:
+    """A property or arg of the files of the run."""
+
+    kind: SubjectKind
+    name: str
+    place: TextPlace
+    text: str
+    values: tuple[str, ...]
+    """What it came to; none when this run did not come by."""
+    doc: str
+
+
+@dataclass(frozen=True, slots=True)
+class Outline:
+    """What the files of a run hold; `is_current`: the texts have not changed since."""
+
+    files: tuple[OutlineFile, ...]
+    macros: tuple[OutlineMacro, ...]
+    values: tuple[OutlineValue, ...]
+    is_current: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Meaning:
+    """What a word stands for; [start, end) is the word."""
+
+    kind: SubjectKind
+    name: str
+    start: int
+    end: int
+    text: str = ""
+    """As it is written where it is defined."""
+    values: tuple[str, ...] = ()
+    """What it came to in the run; several when it was evaluated for several calls."""
+    unit: str = ""
+    doc: str = ""
+    places: tuple[TextPlace, ...] = ()
+    """Where it is defined."""
+    target: str = ""
+    """The file or folder that it names."""
+    parameters: tuple[Parameter, ...] = ()
+    calls: int = 0
+    """How often a macro was called."""
+    expression: str = ""
+    """The `${...}` that the word stands in, and what that came to here."""
+    expression_values: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class LookedUp:
+    """Answer to a look-up; None: nothing that is known stands there."""
+
+    meaning: Meaning | None
+
+
+@dataclass(frozen=True, slots=True)
+class OutlineQuery:
+    """What do the files of the run hold?"""
+
+
+@dataclass(frozen=True, slots=True)
+class LookUpQuery:
+    """What stands at this place? `text` are the bytes of the file as they are in the editor."""
+
+    file: str
+    text: bytes
+    offset: int
+
+
+LanguageQuery: TypeAlias = OutlineQuery | LookUpQuery
+LanguageReply: TypeAlias = Outline | LookedUp
+
+LANGUAGE_QUERIES: Final = (OutlineQuery, LookUpQuery)
+LANGUAGE_REPLIES: Final = (Outline, LookedUp)
