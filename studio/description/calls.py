@@ -15,8 +15,7 @@ from studio.description.values import SiteKind
 
 if TYPE_CHECKING:
     from studio.description.evaluation import Evaluation
-    from studio.description.output_tree import Node
-    from studio.description.source_tree import SourceText
+    from studio.description.output_tree import Node, OutputChild
 
 
 def call_by_name(
@@ -29,7 +28,7 @@ def call_by_name(
     name = text_of(run.texts.consumed(text, scope, ("xacro:call", "macro")))
     renamed = OutputElement(f"xacro:{name}", node.origin, run.frame)
     renamed.attributes = {n: t for n, t in node.attributes.items() if n != "macro"}
-    renamed.children = cast("list[OutputElement | SourceText]", node.children)
+    renamed.children = cast("list[OutputChild]", node.children)
     call_macro(run, renamed, out, macros, scope)
 
 

@@ -36,13 +36,14 @@ def define_property(
         raise Fault("property-attributes", sentence)
     if removes and scope.has(name):
         scope.remove(name)
+        _warn_kept(run, name)
         return
-    if "default" in node.attributes and scope.has(name):
-        return
+    if "default" in node.attributes:
+        _warn_scope(run, node, name)
+        if scope.has(name):
+            return
     attribute = next((a for a in ("default", "value") if a in node.attributes), None)
     target, lazy = _target(run, node, name, scope)
-    if target is None:
-        return
     if attribute is None:
         target.cells[f"**{name}"] = Cell(node, None, node.origin)
         return
@@ -66,8 +67,23 @@ def _flag(run: Evaluation, node: Node, attribute: str, scope: Scope, otherwise: 
     return truth_of(value, text)
 
 
-def _target(run: Evaluation, node: Node, name: str, scope: Scope) -> tuple[Scope | None, bool]:
-    """The scope to bind in, and whether the text may wait for its first reader."""
+def _warn_kept(run: Evaluation, name: str) -> None:
+    if name in run.texts.symbols:
+        run.texts.warn("hides-builtin", f'"{name}" is a name of xacro itself: it stays defined.')
+
+
+def _warn_scope(run: Evaluation, node: Node, name: str) -> None:
+    if "scope" in node.attributes:
+        sentence = f'"{name}" has a default and a scope: xacro means defaults for the local scope.'
+        run.texts.warn("default-scope", sentence)
+
+
+def _target(run: Evaluation, node: Node, name: str, scope: Scope) -> tuple[Scope, bool]:
+    """The scope to bind in, and whether the text may wait for its first reader.
+
+    Raises:
+        Fault: It asks for the parent of the outermost scope, which ends xacro, too.
+    """
     lazy = _flag(run, node, "lazy_eval", scope, otherwise="true")
     where = node.attributes.get("scope")
     if where == "global":
@@ -76,8 +92,8 @@ def _target(run: Evaluation, node: Node, name: str, scope: Scope) -> tuple[Scope
         return scope, lazy
     target = scope.parent
     if target is None:
-        run.texts.warn("no-parent-scope", f'"{name}" has no parent scope here and is not set.')
-        return None, False
+        sentence = f'"{name}" has no parent scope here: leave out scope="parent".'
+        raise Fault("no-parent-scope", sentence)
     while target.is_namespace and not scope.is_namespace and target.parent is not None:
         target = target.parent
     return target, False

@@ -18,7 +18,7 @@ from studio.description.faults import Fault, Refusal, Unsupported
 from studio.description.guarded_operations import MUTATING, text_of
 from studio.description.includes import include
 from studio.description.macros import MacroTable
-from studio.description.node_attributes import required, warn_unknown
+from studio.description.node_attributes import attribute_text, required, warn_unknown, xml_name
 from studio.description.output_tree import CallFrame, OutputElement, macro_calls
 from studio.description.plans import EVALUATE_COMMENTS, plan_of
 from studio.description.run_record import Binding, Input
@@ -29,7 +29,7 @@ from studio.description.texts import Argument, Texts
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator, Mapping
 
-    from studio.description.output_tree import Node
+    from studio.description.output_tree import Node, OutputChild
     from studio.description.source_store import SourceStore
     from studio.description.values import ReadPolicy, SiteKind
     from studio.problems import Place
@@ -226,12 +226,10 @@ def _renamed_element(
 ) -> None:
     """`xacro:element`: evaluated again under the name that `xacro:name` comes to."""
     (text,) = required(node, "xacro:name")
-    name = text_of(run.texts.consumed(text, scope, (run.path, "xacro:name")))
-    if not name:
-        raise Fault("empty-name", "xacro:element came to an empty name.")
+    name = xml_name(node, run.texts.consumed(text, scope, (run.path, "xacro:name")))
     renamed = OutputElement(name, node.origin, run.frame)
     renamed.attributes = {n: t for n, t in node.attributes.items() if n != "xacro:name"}
-    renamed.children = cast("list[OutputElement | SourceText]", node.children)
+    renamed.children = cast("list[OutputChild]", node.children)
     run.element(renamed, out, macros, scope)
 
 
@@ -240,11 +238,11 @@ def _set_attribute(
 ) -> None:
     """`xacro:attribute`: set on what it stands in, which may be a thing that does not come out."""
     name_text, value_text = required(node, "name", "value")
-    name = text_of(run.texts.consumed(name_text, scope, (run.path, name_text)))
-    value = text_of(run.texts.consumed(value_text, scope, (run.path, name)))
-    if not name:
-        raise Fault("empty-name", "xacro:attribute came to an empty name.")
-    out.attributes = {**out.attributes, name: value}
+    named = run.texts.consumed(name_text, scope, (run.path, name_text))
+    value = run.texts.consumed(value_text, scope, (run.path, str(named)))
+    name = xml_name(node, named)
+    if out.comes_out:
+        out.attributes = {**out.attributes, name: attribute_text(name, value)}
 
 
 _HANDLERS: Final[dict[str, _Handler]] = {

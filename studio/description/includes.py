@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Final
 
+from studio.description.declarations import warn_hidden
 from studio.description.faults import Fault, Refusal
 from studio.description.guarded_operations import text_of
 from studio.description.macros import MacroTable
@@ -51,6 +52,7 @@ def _namespace(
     name = text_of(run.texts.consumed(text, scope, ("xacro:include", "ns")))
     macros_in, scope_in = MacroTable(), Scope(run.texts, scope, is_namespace=True)
     macros.put(name, macros_in)
+    warn_hidden(run, name)
     scope.cells[name] = Cell(ScopeView(scope_in), None, node.origin)
     return macros_in, scope_in
 
@@ -104,7 +106,7 @@ def _root_of(run: Evaluation, node: Node, path: str) -> SourceElement:
 def _evaluate(
     run: Evaluation, root: SourceElement, macros: MacroTable, scope: Scope
 ) -> OutputElement:
-    content = OutputElement(root.tag, root, run.frame)
+    content = OutputElement("xacro:include", root, run.frame)
     run.texts.at = root
     content.attributes = run.echo_attributes(root, scope)
     run.children(root, content, macros, scope)

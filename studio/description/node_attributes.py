@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import re
+from typing import TYPE_CHECKING, Any, Final
 
-from studio.description.faults import Fault
+from studio.description.faults import Fault, shorten
+from studio.description.guarded_operations import text_of
 
 if TYPE_CHECKING:
     from studio.description.output_tree import Node, OutputElement
     from studio.description.texts import Texts
+
+
+_XML_NAME: Final = re.compile(r"[^\W\d][\w.\-]*(?::[^\W\d][\w.\-]*)?")
 
 
 def required(node: Node, *names: str) -> tuple[str, ...]:
@@ -38,3 +43,33 @@ def import_namespaces(texts: Texts, into: OutputElement, attributes: dict[str, s
                 texts.warn("namespace-conflict", f"{name} is declared twice with different URIs.")
             else:
                 into.attributes = {**into.attributes, name: value}
+
+
+def xml_name(node: Node, value: Any) -> str:  # noqa: ANN401
+    """What the name of an element or attribute came to.
+
+    Raises:
+        Fault: It is no text (where xacro fails as well), or XML does not allow it as a name.
+    """
+    if value == "":
+        raise Fault("empty-name", f"{node.tag} came to an empty name.")
+    if not isinstance(value, str) or not _XML_NAME.fullmatch(value):
+        sentence = f'<{node.tag}> came to the name "{text_of(value)}", which is no XML name.'
+        raise Fault("bad-name", shorten(sentence, 300))
+    return value
+
+
+def attribute_text(name: str, value: Any) -> str:  # noqa: ANN401
+    """The value of an `xacro:attribute` that comes out.
+
+    Raises:
+        Fault: It is a number or list, which xacro fails to write.
+    """
+    if not isinstance(value, str):
+        shown = shorten(text_of(value), 40)
+        sentence = (
+            f'<xacro:attribute name="{name}"> came to {shown}, which xacro cannot write: '
+            "make it a text with ${str(...)}."
+        )
+        raise Fault("attribute-not-text", sentence)
+    return value

@@ -31,7 +31,13 @@ class OutputElement:
         self.tag, self.origin, self.calls = tag, origin, calls
         self.attributes: dict[str, str] = {}
         """Replaced, never changed: elements share it with each other and with their source."""
-        self.children: list[OutputElement | SourceText] = []
+        self.children: list[OutputChild] = []
+        """Comments only where they were asked for."""
+
+    @property
+    def comes_out(self) -> bool:
+        """Whether it is an element of the robot, not what xacro evaluates children in."""
+        return not self.tag.startswith("xacro:")
 
     def elements(self) -> Iterator[OutputElement]:
         """Its child elements, in order."""
@@ -46,6 +52,7 @@ class OutputElement:
 
 
 Node: TypeAlias = SourceElement | OutputElement
+OutputChild: TypeAlias = OutputElement | SourceText | SourceComment
 ChildNode: TypeAlias = SourceElement | OutputElement | SourceText | SourceComment
 
 _IN_TEXT: Final = re.compile(r"[&<>]")
@@ -90,6 +97,8 @@ def _write(element: OutputElement, out: list[str], attributes: dict[str, str]) -
     for child in element.children:
         if isinstance(child, OutputElement):
             _write(child, out, child.attributes)
+        elif isinstance(child, SourceComment):
+            out.append(f"<!--{child.text}-->")
         else:
             out.append(_IN_TEXT.sub(_escape, child.text))
     out.append(f"</{element.tag}>")

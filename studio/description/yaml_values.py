@@ -55,56 +55,73 @@ class Reader:
 
 
 class YamlMapping(dict[Any, Any]):
-    """A mapping of a YAML file: `m.key` and `m['key']` give a copy of what is below."""
+    """A mapping of a YAML file: `m.key` and `m['key']` give a copy of what is below.
 
-    __slots__ = ("_path", "_reader")
+    A plain one, and all below it, has no dots: what xacro's wrappers hand out by dict's own ways.
+    """
 
-    def __init__(self, items: dict[Any, Any], reader: Reader | None, path: KeyPath) -> None:
+    __slots__ = ("_is_plain", "_path", "_reader")
+
+    def __init__(
+        self, items: dict[Any, Any], reader: Reader | None, path: KeyPath, *, plain: bool = False
+    ) -> None:
         super().__init__(items)
-        self._reader, self._path = reader, path
+        self._reader, self._path, self._is_plain = reader, path, plain
 
     def __getattr__(self, key: Any) -> Any:  # noqa: ANN401
+        if self._is_plain:
+            sentence = (
+                f"has no \".{key}\" behind items(), values(), get() or pop(): write ['{key}']"
+            )
+            raise AttributeError(f"a YAML mapping {sentence}")
+        try:
+            return self[key]
+        except KeyError:
+            raise AttributeError(f'the YAML mapping has no key "{key}"') from None
+
+    def __getitem__(self, key: Any) -> Any:  # noqa: ANN401
+        if self._is_plain:
+            return self._wrapped(key, super().__getitem__(key))
         try:
             value = super().__getitem__(key)
         except KeyError:
             raise AttributeError(f'the YAML mapping has no key "{key}"') from None
         return self._wrapped(key, value)
 
-    __getitem__ = __getattr__
-
-    def _wrapped(self, key: Any, value: Any) -> Any:  # noqa: ANN401
+    def _wrapped(self, key: Any, value: Any, *, plain: bool = False) -> Any:  # noqa: ANN401
         path = (*self._path, key)
         if self._reader is not None:
             self._reader.touch(path)
-        return wrap(value, self._reader, path)
+        return wrap(value, self._reader, path, plain=plain or self._is_plain)
+
+    def _plain(self) -> dict[Any, Any]:
+        """As an ordinary dict, every value read."""
+        return {key: self._wrapped(key, value, plain=True) for key, value in super().items()}
 
     def get(self, key: Any, default: Any = None) -> Any:  # noqa: ANN401
         """The value of a key, or a default."""
-        return self[key] if key in self else default  # noqa: SIM401 - this is `get`
+        return self._wrapped(key, super().__getitem__(key), plain=True) if key in self else default
 
     def __iter__(self) -> Iterator[Any]:  # so that `dict(m)` asks for each item
         return super().__iter__()
 
-    def keys(self) -> Any:  # noqa: ANN401 - a list where dict has a view
-        """All keys."""
-        return list(self)
-
     def items(self) -> Any:  # noqa: ANN401
         """All (key, value) pairs."""
-        return [(key, self[key]) for key in self]
+        return self._plain().items()
 
     def values(self) -> Any:  # noqa: ANN401
         """All values."""
-        return [self[key] for key in self]
+        return self._plain().values()
 
     def copy(self) -> Any:  # noqa: ANN401
-        """Another copy."""
-        return YamlMapping(self, self._reader, self._path)
+        """An ordinary dict of it."""
+        return self._plain()
 
     def pop(self, key: Any, *default: Any) -> Any:  # noqa: ANN401
         """Take a key out of this copy."""
-        value = super().pop(key, *default)
-        return self._wrapped(key, value)
+        if key not in self and default:
+            return default[0]
+        return self._wrapped(key, super().pop(key), plain=True)
 
     def __repr__(self) -> str:
         if self._reader is not None:
@@ -113,13 +130,15 @@ class YamlMapping(dict[Any, Any]):
 
 
 class YamlSequence(list[Any]):
-    """A list of a YAML file; items are copies of what is below."""
+    """A list of a YAML file; items are copies of what is below, plain ones as in a mapping."""
 
-    __slots__ = ("_path", "_reader")
+    __slots__ = ("_is_plain", "_path", "_reader")
 
-    def __init__(self, items: Iterable[Any], reader: Reader | None, path: KeyPath) -> None:
+    def __init__(
+        self, items: Iterable[Any], reader: Reader | None, path: KeyPath, *, plain: bool = False
+    ) -> None:
         super().__init__(items)
-        self._reader, self._path = reader, path
+        self._reader, self._path, self._is_plain = reader, path, plain
 
     def __getitem__(self, index: Any) -> Any:  # noqa: ANN401
         value = super().__getitem__(index)
@@ -127,29 +146,34 @@ class YamlSequence(list[Any]):
             return self._wrapped(index % len(self), value)
         if self._reader is not None:
             self._reader.touch_all(self._path)
-        return wrap(value, None, ())
+        return wrap(value, None, (), plain=self._is_plain)
 
     def __iter__(self) -> Iterator[Any]:
         for index, value in enumerate(super().__iter__()):
             yield self._wrapped(index, value)
 
-    def _wrapped(self, index: int, value: Any) -> Any:  # noqa: ANN401
+    def _wrapped(self, index: int, value: Any, *, plain: bool = False) -> Any:  # noqa: ANN401
         path = (*self._path, index)
         if self._reader is not None:
             self._reader.touch(path)
-        return wrap(value, self._reader, path)
+        return wrap(value, self._reader, path, plain=plain or self._is_plain)
+
+    def _plain(self) -> list[Any]:
+        """As an ordinary list, every item read."""
+        items = enumerate(super().__iter__())
+        return [self._wrapped(index, value, plain=True) for index, value in items]
 
     def __add__(self, other: list[Any]) -> list[Any]:
-        return [*self, *other]
+        return [*self._plain(), *other]
 
     def __mul__(self, times: SupportsIndex) -> list[Any]:
-        return [*self] * times
+        return self._plain() * times
 
     __rmul__ = __mul__
 
     def copy(self) -> Any:  # noqa: ANN401
-        """The items, each a copy."""
-        return [*self]
+        """An ordinary list of it."""
+        return self._plain()
 
     def pop(self, index: Any = -1) -> Any:  # noqa: ANN401
         """Take an item out of this copy; paths of later reads are no longer known."""
@@ -157,7 +181,7 @@ class YamlSequence(list[Any]):
         if self._reader is not None:
             self._reader.touch_all(self._path)
             self._reader = None
-        return wrap(value, None, ())
+        return wrap(value, None, (), plain=True)
 
     def __repr__(self) -> str:
         if self._reader is not None:
@@ -169,12 +193,13 @@ METHODS[YamlMapping] = METHODS[dict]
 METHODS[YamlSequence] = METHODS[list]
 
 
-def wrap(value: Any, reader: Reader | None, path: KeyPath) -> Any:  # noqa: ANN401
-    """Give mappings and lists their dotted access; everything else is itself."""
+def wrap(value: Any, reader: Reader | None, path: KeyPath, *, plain: bool = False) -> Any:  # noqa: ANN401
+    """Have reads of mappings and lists noted, their dotted access unless `plain`."""
     if isinstance(value, dict):
-        return YamlMapping(cast("dict[Any, Any]", value), reader, path)
+        return YamlMapping(cast("dict[Any, Any]", value), reader, path, plain=plain)
     if isinstance(value, list):
-        return YamlSequence(list.__iter__(cast("list[Any]", value)), reader, path)
+        items = list.__iter__(cast("list[Any]", value))
+        return YamlSequence(items, reader, path, plain=plain)
     return value
 
 

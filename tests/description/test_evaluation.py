@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import tempfile
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
-from hypothesis import given, settings
 
 from studio.description.budget import Limits
-from studio.description.faults import Fault, Refusal
+from studio.description.faults import Refusal
 from tests.support.descriptions import (
     canonical,
     evaluation_of,
@@ -20,7 +18,9 @@ from tests.support.descriptions import (
     stock,
     write,
 )
-from tests.support.generated_xacro import DEFINED, bodies
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 SNIPPETS = {
     "a property is read by name": '<xacro:property name="a" value="0.10"/><x v="${a}"/>',
@@ -371,17 +371,3 @@ def test_warnings_name_the_place(tmp_path: Path):
     run.run(str(file))
     said = {(w.code, w.place.line) for w in run.texts.warnings if w.place}
     assert said == {("hides-builtin", 2), ("unknown-attribute", 3), ("xacro-warning", 4)}
-
-
-@settings(max_examples=200, deadline=None)
-@given(bodies)
-def test_whatever_is_written_expands_as_xacro_expands_it(body: str):
-    """Also where xacro fails: then we do, too."""
-    with tempfile.TemporaryDirectory() as folder:
-        file = write(Path(folder), {"a.xacro": robot(DEFINED + body)})
-        expected = stock(file)
-        try:
-            ours = canonical(expand(file))
-        except Fault:
-            ours = None
-    assert ours == expected

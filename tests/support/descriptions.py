@@ -17,6 +17,7 @@ from studio.description.evaluation import Evaluation
 from studio.description.faults import Fault
 from studio.description.output_tree import OutputElement
 from studio.description.source_store import SourceStore
+from studio.description.source_tree import SourceText
 from studio.description.values import ReadPolicy
 from studio.packages.roots import ServedRoots
 
@@ -98,7 +99,7 @@ def canonical(element: OutputElement) -> Canonical:
     for child in element.children:
         if isinstance(child, OutputElement):
             children.append(canonical(child))
-        else:
+        elif isinstance(child, SourceText):
             _add_text(children, child.text)
     return element.tag, tuple(sorted(element.attributes.items())), tuple(children)
 
@@ -138,6 +139,16 @@ def stock(
     environment: Mapping[str, str] | None = None,
 ) -> Canonical | None:
     """What bare stock xacro makes of a harmless file; None when it cannot expand it."""
+    text = stock_text(file, arguments, environment)
+    return None if text is None else canonical_xml(text)
+
+
+def stock_text(
+    file: Path,
+    arguments: Mapping[str, str] | None = None,
+    environment: Mapping[str, str] | None = None,
+) -> str | None:
+    """The XML that bare stock xacro writes; None when it fails or writes what is no XML."""
     packages = packages_below(file.parent)
 
     def find(name: str) -> str:
@@ -152,8 +163,10 @@ def stock(
             document = cast(
                 "minidom.Document", xacro.process_file(str(file), mappings=dict(arguments or {}))
             )
-            return canonical_xml(document.toxml())
+            text = document.toxml()
+            canonical_xml(text)
         except (xacro.XacroException, ExpatError, RuntimeError, OSError, AttributeError):
             return None
         except (LookupError, TypeError, ValueError):
             return None
+    return text

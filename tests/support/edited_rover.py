@@ -58,5 +58,3 @@ def radius(path: Path) -> str:
 
 def count(path: Path) -> str:
     return f"{path}#2@value"
-
-

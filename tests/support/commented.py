@@ -1,0 +1,57 @@
+"""Expansions with the comments that come out, ours and stock's, in one comparable form."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, TypeAlias
+from xml.dom import minidom
+
+from studio.description.comments import CommentedEvaluation
+from studio.description.output_tree import write_xml
+from studio.description.source_store import SourceStore
+from studio.packages.roots import ServedRoots
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from studio.description.values import ReadPolicy
+
+Commented: TypeAlias = "tuple[str, tuple[tuple[str, str], ...], tuple[Commented | str, ...]]"
+"""Tag, sorted attributes, children: blanks do not count, comments begin with `<!--`."""
+
+
+def commented_run(
+    file: str, policy: ReadPolicy, arguments: Mapping[str, str] | None = None
+) -> Commented:
+    """Our expansion with comments; a Fault when there is none."""
+    store = SourceStore(ServedRoots([Path(root) for root in policy.roots]), {})
+    root = CommentedEvaluation(store, policy, arguments or {}).run(file)
+    return commented_xml(write_xml(root))
+
+
+def commented_xml(text: str) -> Commented:
+    """XML text in comparable form."""
+    root = minidom.parseString(text).documentElement
+    assert root is not None
+    return _commented(root)
+
+
+def _commented(element: minidom.Element) -> Commented:
+    children: list[Commented | str] = []
+    for child in element.childNodes:
+        if isinstance(child, minidom.Element):
+            children.append(_commented(child))
+        elif isinstance(child, minidom.Comment):
+            children.append(f"<!--{child.data}-->")
+        elif isinstance(child, minidom.Text):
+            _add_text(children, child.data)
+    return element.tagName, tuple(sorted(element.attributes.items())), tuple(children)
+
+
+def _add_text(children: list[Commented | str], text: str) -> None:
+    solid = "".join(text.split())
+    last = children[-1] if children else None
+    if solid and isinstance(last, str) and not last.startswith("<!--"):
+        children[-1] = last + solid
+    elif solid:
+        children.append(solid)
