@@ -38,6 +38,9 @@ export interface Arguments {
   missing: string[];
 }
 
+/** What changes about a part. */
+export type Aspect = "size" | "shape" | "color" | "pose" | "collision" | "inertia" | "motion" | "name" | "other" | "presence";
+
 /** A run ended: how long it took from the edit to the scene. */
 export interface Built {
   type: "built";
@@ -196,6 +199,19 @@ export interface EditText {
   origin?: string;
 }
 
+/** Answer to `get_effects`, true of the last good run; without parts the text shapes nothing. */
+export interface Effects {
+  type: "effects";
+  request: number;
+  site: string;
+  parts: PartEffect[];
+  changed_links: string[];
+  moved_links: string[];
+  counts: Record<string, number>;
+  readers: Place[];
+  is_cut: boolean;
+}
+
 /**
  * One click that mends a Problem: `action` names it, `target` is what it works on.
  *
@@ -242,11 +258,27 @@ export interface GetCollisions {
   file: string;
 }
 
+/** What a site shapes in the robot of the last good run. */
+export interface GetEffects {
+  request?: number;
+  document?: string;
+  type: "get_effects";
+  site: string;
+}
+
 /** A link that opens this robot with its arguments and unsaved edits. */
 export interface GetLink {
   request?: number;
   document?: string;
   type: "get_link";
+}
+
+/** Where a part of the last good run comes from; `part` is `link:<name>`, `joint:<name>` ... */
+export interface GetOrigin {
+  request?: number;
+  document?: string;
+  type: "get_origin";
+  part: string;
 }
 
 /** The text of a file as it is edited; `texts_changed` tells from then on what happens to it. */
@@ -296,6 +328,9 @@ export interface InputDifference {
   one: string | null;
   other: string | null;
 }
+
+/** What a value that others are made of is in its file. */
+export type InputKind = "property" | "arg" | "parameter" | "param_default" | "yaml";
 
 /** Positions of all movable joints by name, after a command; streams are binary frames. */
 export interface JointPositions {
@@ -385,6 +420,71 @@ export interface Opened {
   type: "opened";
   request: number;
   document: string;
+}
+
+/** Answer to `get_origin`, true of the last good run: ask again when something was built. */
+export interface Origin {
+  type: "origin";
+  request: number;
+  origin: PartOrigin;
+}
+
+/** One attribute of a part, or a text in it, as it came out and as it is written. */
+export interface OriginAttribute {
+  element: string;
+  attribute: string;
+  value: string;
+  text: string;
+  unit: string;
+  place: Place;
+  site: string;
+  inputs: number[];
+}
+
+/** One macro call on the way to a part. */
+export interface OriginCall {
+  macro: string;
+  called_at: Place;
+  defined_at: Place;
+  arguments: number[];
+}
+
+/** A condition, a computed include or the like that a part owes its being there to. */
+export interface OriginCause {
+  tag: string;
+  text: string;
+  place: Place;
+  inputs: number[];
+}
+
+/** One value behind a number. `inputs` are what it was made of itself, as indices. */
+export interface OriginInput {
+  kind: InputKind;
+  name: string;
+  text: string;
+  value: string;
+  place: Place;
+  site: string;
+  given: boolean;
+  inputs: number[];
+}
+
+/** What a text shapes about one part. */
+export interface PartEffect {
+  part: string;
+  aspects: Aspect[];
+}
+
+/** Where a part comes from. All indices are into `inputs`; each is there once. */
+export interface PartOrigin {
+  part: string;
+  place: Place;
+  include_chain: Place[];
+  calls: OriginCall[];
+  causes: OriginCause[];
+  attributes: OriginAttribute[];
+  inputs: OriginInput[];
+  is_cut: boolean;
 }
 
 /** A place in a source file; `line` and `column` are 1-based, 0 when not known. */
@@ -736,6 +836,8 @@ export type Command =
   | ChoosePackage
   | GetUrdf
   | GetText
+  | GetOrigin
+  | GetEffects
   | EditText
   | SaveVariant
   | ApplyVariant
@@ -769,6 +871,8 @@ export type Event =
   | Link
   | LinkOpened
   | Saved
+  | Origin
+  | Effects
   | Variants
   | VariantApplied
   | VariantSaved

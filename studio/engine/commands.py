@@ -186,6 +186,20 @@ class GetUrdf(CommandMessage):
     type: Literal["get_urdf"] = "get_urdf"
 
 
+class GetOrigin(CommandMessage):
+    """Where a part of the last good run comes from; `part` is `link:<name>`, `joint:<name>` ..."""
+
+    type: Literal["get_origin"] = "get_origin"
+    part: str = Field(max_length=4096)
+
+
+class GetEffects(CommandMessage):
+    """What a site shapes in the robot of the last good run."""
+
+    type: Literal["get_effects"] = "get_effects"
+    site: str = Field(max_length=8192)
+
+
 class GetText(CommandMessage):
     """The text of a file as it is edited; `texts_changed` tells from then on what happens to it."""
 
@@ -292,6 +306,8 @@ Command: TypeAlias = Annotated[
     | ChoosePackage
     | GetUrdf
     | GetText
+    | GetOrigin
+    | GetEffects
     | EditText
     | SaveVariant
     | ApplyVariant

@@ -55,6 +55,10 @@ async def carry_out(document: Document, command: m.Command, listener: Listener) 
             tell(listener, m.Urdf(request=command.request, text=document.urdf()))
         case m.GetText():
             tell(listener, document.texts.answer(command, listener.role))
+        case m.GetOrigin():
+            tell(listener, await document.origins.origin(command))
+        case m.GetEffects():
+            tell(listener, await document.origins.effects(command))
         case m.EditText():
             await document.edit_text(command)
         case m.SaveVariant() | m.UpdateVariant():

@@ -6,8 +6,9 @@ import asyncio
 import time
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, TypeVar
 
+from studio.description.queries import NoReply
 from studio.description.sources import Change, Sources
 from studio.description.values import Expansion, Failure
 from studio.engine.board import Board
@@ -17,6 +18,7 @@ from studio.engine.mesh_desk import MeshDesk
 from studio.engine.messages import Built, Saved
 from studio.engine.model import Model
 from studio.engine.motion import Motion
+from studio.engine.origins import OriginDesk
 from studio.engine.packages_used import PackagesUsed
 from studio.engine.policy import target_of
 from studio.engine.sharing import SharedFile, place_edits
@@ -32,10 +34,13 @@ if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable, Mapping, Sequence
 
     from studio.description.merging import Side
+    from studio.description.queries import Query
     from studio.description.values import Edit
     from studio.engine.messages import EditText
     from studio.engine.services import Services
     from studio.packages.workspace import Location
+
+AnyReply = TypeVar("AnyReply")
 
 _VALIDATE_AFTER_S = 0.3
 """Quiet time after a structural change before yourdfpy is asked for its opinion."""
@@ -67,6 +72,7 @@ class Document:
         self.board = Board(self)
         self.board.find("packages", location.problems)
         self.texts = TextDesk(self)
+        self.origins = OriginDesk(self)
         self.disk = DiskDesk(self.sources, served, self.board)
         self.motion = Motion(self.model, self.board)
         self._services = services
@@ -243,6 +249,19 @@ class Document:
         if self.expansion is None:
             raise CommandError(f"{self.title} has not been expanded yet: mend its problems first.")
         return self.model.urdf(self.expansion.root_attributes)
+
+    async def ask(self, query: Query, reply: type[AnyReply]) -> AnyReply:
+        """Ask the worker about the last good run.
+
+        Raises:
+            CommandError: It has no answer; the sentence says why.
+        """
+        answer = await self._runs.ask(query)
+        if isinstance(answer, reply):
+            return answer
+        raise CommandError(
+            answer.sentence if isinstance(answer, NoReply) else f"{self.title} gave no answer."
+        )
 
     def _take(self, outcome: Outcome, version: int) -> None:
         """A run ended: show what it gave, or say why the last good one stays."""

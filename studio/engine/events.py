@@ -9,6 +9,7 @@ from pydantic import Field, TypeAdapter
 from studio.description.values import SiteKind, Widget
 from studio.engine.commands import TextChange
 from studio.engine.message import Message
+from studio.engine.origin_events import Effects, Origin
 from studio.engine.variant_events import Comparison, VariantApplied, Variants, VariantSaved
 from studio.problems import Problem
 
@@ -375,6 +376,8 @@ Event: TypeAlias = Annotated[
     | Link
     | LinkOpened
     | Saved
+    | Origin
+    | Effects
     | Variants
     | VariantApplied
     | VariantSaved

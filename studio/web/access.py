@@ -42,6 +42,8 @@ _LOOK: Final = frozenset(
         "watch",
         "get_urdf",
         "get_text",
+        "get_origin",
+        "get_effects",
         "viser:ViewerCameraMessage",
     }
 )

@@ -1,0 +1,45 @@
+"""Answers to `get_origin` and `get_effects`: where a part comes from, and what a text shapes."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from studio.description.origin_values import Aspect, PartOrigin
+from studio.engine.message import Message
+from studio.problems import Place
+
+
+class Origin(Message):
+    """Answer to `get_origin`, true of the last good run: ask again when something was built."""
+
+    type: Literal["origin"] = "origin"
+    request: int
+    origin: PartOrigin
+
+
+class PartEffect(Message):
+    """What a text shapes about one part."""
+
+    part: str
+    """`link:<name>`, `joint:<name>`, `material:<name>` or `other:<n>`."""
+    aspects: tuple[Aspect, ...]
+
+
+class Effects(Message):
+    """Answer to `get_effects`, true of the last good run; without parts the text shapes nothing."""
+
+    type: Literal["effects"] = "effects"
+    request: int
+    site: str
+    parts: tuple[PartEffect, ...]
+    """Parts that an attribute of changes, the first 1000."""
+    changed_links: tuple[str, ...]
+    """Links that look otherwise: size, mesh or colour."""
+    moved_links: tuple[str, ...]
+    """Links that only sit elsewhere, those below a moved joint too."""
+    counts: dict[Aspect, int]
+    """Parts by aspect; of `pose` and `color` links, wherever it is written."""
+    readers: tuple[Place, ...]
+    """Where the text is read directly."""
+    is_cut: bool
+    """There is more than is told."""

@@ -1,0 +1,124 @@
+"""What the page asks about where things come from, answered from the worker and the robot."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+from studio.description.origin_values import Aspect, PartOrigin, SiteEffects
+from studio.description.queries import PartOriginQuery, SiteEffectsQuery
+from studio.engine.origin_events import Effects, Origin, PartEffect
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from studio.engine.commands import GetEffects, GetOrigin
+    from studio.engine.document import Document
+    from studio.robot.values import Robot
+
+PARTS_KEPT: Final = 1_000
+_LOOKS: Final = frozenset({Aspect.SIZE, Aspect.SHAPE, Aspect.COLOR})
+
+
+class OriginDesk:
+    """Asks the worker of a document, and knows from the robot whom a change carries along."""
+
+    def __init__(self, document: Document) -> None:
+        self._document = document
+
+    async def origin(self, command: GetOrigin) -> Origin:
+        """Where a part comes from.
+
+        Raises:
+            CommandError: There is no such part, or nobody can tell.
+        """
+        origin = await self._document.ask(PartOriginQuery(command.part), PartOrigin)
+        return Origin(request=command.request, origin=origin)
+
+    async def effects(self, command: GetEffects) -> Effects:
+        """What a text shapes.
+
+        Raises:
+            CommandError: There is no such text, or nobody can tell.
+        """
+        found = await self._document.ask(SiteEffectsQuery(command.site), SiteEffects)
+        return effects_event(command.request, found, self._document.model.robot)
+
+
+def effects_event(request: int, found: SiteEffects, robot: Robot) -> Effects:
+    """Name the links that light up, and count what is shaped."""
+    by_part: dict[str, dict[Aspect, None]] = {}
+    for effect in found.effects:
+        by_part.setdefault(effect.part, {})[effect.aspect] = None
+    changed = dict.fromkeys(_changed_links(by_part, robot))
+    moved = dict.fromkeys(_moved_links(by_part, robot))
+    counts = _counts(by_part)
+    for aspect, links in (
+        (Aspect.COLOR, _recolored_links(by_part, robot)),
+        (Aspect.POSE, moved),
+    ):
+        if links := dict.fromkeys(links):
+            counts[aspect] = len(links)
+    parts = list(by_part.items())
+    return Effects(
+        request=request,
+        site=found.site,
+        parts=tuple(
+            PartEffect(part=part, aspects=tuple(aspects)) for part, aspects in parts[:PARTS_KEPT]
+        ),
+        changed_links=tuple(changed),
+        moved_links=tuple(name for name in moved if name not in changed),
+        counts=counts,
+        readers=found.readers,
+        is_cut=found.is_cut or len(parts) > PARTS_KEPT,
+    )
+
+
+def _counts(by_part: dict[str, dict[Aspect, None]]) -> dict[Aspect, int]:
+    counts: dict[Aspect, int] = {}
+    for aspects in by_part.values():
+        for aspect in aspects:
+            counts[aspect] = counts.get(aspect, 0) + 1
+    return counts
+
+
+def _changed_links(by_part: dict[str, dict[Aspect, None]], robot: Robot) -> Iterator[str]:
+    for part, aspects in by_part.items():
+        if part.startswith("link:") and _LOOKS & aspects.keys():
+            yield _name(part)
+    yield from _recolored_links(by_part, robot)
+
+
+def _recolored_links(by_part: dict[str, dict[Aspect, None]], robot: Robot) -> Iterator[str]:
+    """Links with a colour of their own that changes, and those that use a material that does."""
+    colored = [part for part, aspects in by_part.items() if Aspect.COLOR in aspects]
+    yield from (_name(part) for part in colored if part.startswith("link:"))
+    materials = {_name(part) for part in colored if part.startswith("material:")}
+    for link in robot.links.values():
+        used = {one.material.name for one in link.visuals if one.material}
+        if not used.isdisjoint(materials):
+            yield link.name
+
+
+def _moved_links(by_part: dict[str, dict[Aspect, None]], robot: Robot) -> Iterator[str]:
+    moving = [part for part, aspects in by_part.items() if Aspect.POSE in aspects]
+    yield from (_name(part) for part in moving if part.startswith("link:"))
+    joints = (robot.joints.get(_name(part)) for part in moving if part.startswith("joint:"))
+    yield from _with_all_below((joint.child for joint in joints if joint), robot)
+
+
+def _with_all_below(links: Iterable[str], robot: Robot) -> Iterator[str]:
+    children: dict[str, list[str]] = {}
+    for joint in robot.joints.values():
+        children.setdefault(joint.parent, []).append(joint.child)
+    front, seen = list(links), set[str]()
+    while front:
+        link = front.pop()
+        if link not in seen:
+            seen.add(link)
+            yield link
+            front += children.get(link, ())
+
+
+def _name(part: str) -> str:
+    """The name in a part's key; of a repeated one too."""
+    return part.partition(":")[2].partition("#")[0]
