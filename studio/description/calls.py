@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, cast
 
-from studio.description.declarations import bind_value, warn_hidden
+from studio.description.declarations import bound_cell, warn_hidden
 from studio.description.faults import Fault, hint
 from studio.description.guarded_operations import text_of
 from studio.description.macros import Default, Macro, MacroTable
 from studio.description.node_attributes import import_namespaces, required, warn_unknown
 from studio.description.output_tree import CallFrame, OutputElement
-from studio.description.scopes import Cell, Scope, ScopeView, literal_value
+from studio.description.scopes import Cell, Scope, ScopeView
 from studio.description.values import SiteKind
 
 if TYPE_CHECKING:
@@ -111,8 +111,7 @@ def _bind_arguments(
         left.remove(name)
         binding = run.binding(None, name, node.origin, name, text)
         warn_hidden(run, name)
-        value = literal_value(run.texts.bound(text, scope, binding))
-        inner.cells[name] = Cell(value, binding, None)
+        inner.cells[name] = bound_cell(run, Cell(name, inner, None, binding), text, scope)
     return left
 
 
@@ -135,7 +134,7 @@ def _bind_blocks(
         if not blocks:
             raise _missing(macro, [one for one in left if one.startswith("*")])
         left.remove(name)
-        inner.cells[name] = Cell(blocks.pop(0), None, None)
+        inner.cells[name] = Cell(name, inner, blocks.pop(0))
     if blocks:
         sentence = f'The macro "{macro.name}" takes no element <{blocks[0].tag}> here.'
         raise Fault("unused-block", sentence)
@@ -152,23 +151,22 @@ def _bind_defaults(
         )
         if not default.forward and default.text is None:
             continue
-        bind_value(run, inner, name, _default_value(run, name, default, scope, binding), binding)
+        cell = Cell(name, inner, None, binding)
+        inner.cells[name] = _with_default(run, cell, default, scope)
         left.remove(name)
 
 
-def _default_value(
-    run: Evaluation,
-    name: str,
-    default: Default,
-    scope: Scope,
-    binding: Any,  # noqa: ANN401
-) -> Any:  # noqa: ANN401
+def _with_default(run: Evaluation, cell: Cell, default: Default, scope: Scope) -> Cell:
+    name = cell.name
     if default.forward and scope.has(name):
-        return run.texts.forwarded(name, scope, binding)
-    if default.text is None:
+        run.texts.bind(cell, run.texts.forwarded(name, scope, cell))
+    elif default.text is None:
         sentence = f'"{name}" is forwarded by ":=^" but not defined here: define it or pass it.'
         raise Fault("undefined-property", sentence)
-    return run.texts.bound(default.text, scope, binding)
+    else:
+        bound_cell(run, cell, default.text, scope)
+    warn_hidden(run, name)
+    return cell
 
 
 def insert_block(

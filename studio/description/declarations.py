@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import keyword
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from studio.description.faults import Fault
 from studio.description.guarded_operations import text_of
 from studio.description.macros import Macro, read_parameters
 from studio.description.node_attributes import required, warn_unknown
-from studio.description.run_record import Binding
 from studio.description.scopes import Cell, literal_value, truth_of
 from studio.description.texts import Argument
 from studio.description.values import SiteKind
@@ -37,6 +36,7 @@ def define_property(
     if removes and scope.has(name):
         scope.remove(name)
         _warn_kept(run, name)
+        run.texts.is_pure = False  # texts evaluated before it cannot be evaluated again
         return
     if "default" in node.attributes:
         _warn_scope(run, node, name)
@@ -45,7 +45,7 @@ def define_property(
     attribute = next((a for a in ("default", "value") if a in node.attributes), None)
     target, lazy = _target(run, node, name, scope)
     if attribute is None:
-        target.cells[f"**{name}"] = Cell(node, None, node.origin)
+        target.cells[f"**{name}"] = Cell(f"**{name}", target, node)
         return
     _bind(run, node, attribute, name, target if lazy else (target, scope))
 
@@ -107,30 +107,26 @@ def _bind(
     binding = run.binding(SiteKind.PROPERTY, name, node.origin, attribute, text)
     if isinstance(target, tuple):
         where, evaluated_in = target
-        bind_value(run, where, name, run.texts.bound(text, evaluated_in, binding), binding)
+        cell = bound_cell(run, Cell(name, where, None, binding), text, evaluated_in)
+        warn_hidden(run, name)
+        where.cells[name] = cell
         return
     warn_hidden(run, name)
     value = literal_value(text)
-    cell = target.cells[name] = Cell(value, binding, node.origin)
+    cell = target.cells[name] = Cell(name, target, value, binding, node.origin)
     if isinstance(value, str) and "$" in value:
         cell.pending = value
     else:
         cell.value = literal_value(value)  # xacro types the text again when it is first read
-        binding.saw(cell.value)
 
 
-def bind_value(
-    run: Evaluation,
-    scope: Scope,
-    name: str,
-    value: Any,  # noqa: ANN401
-    binding: Binding,
-) -> None:
-    """Bind an evaluated value."""
-    warn_hidden(run, name)
-    value = literal_value(value)
-    scope.cells[name] = Cell(value, binding, None)
-    binding.saw(value)
+def bound_cell(run: Evaluation, cell: Cell, text: str, scope: Scope) -> Cell:
+    """Give a cell its value at once."""
+    if "$" in text:
+        run.texts.bind(cell, run.texts.evaluated(text, scope, cell))
+    else:
+        cell.value = literal_value(text)
+    return cell
 
 
 def warn_hidden(run: Evaluation, name: str) -> None:
@@ -146,26 +142,19 @@ def define_arg(
     name, text = required(node, "name", "default")
     warn_unknown(run.texts, node, "name", "default")
     binding = run.binding(SiteKind.ARG, name, node.origin, "default", text)
-    given = run.texts.arguments.get(name)
-    if given is None:
-        value = text_of(run.texts.bound(text, scope, binding))
-        run.texts.arguments[name] = Argument(value, binding)
-        binding.saw(value)
-    elif given.input is not binding:
+    argument = run.texts.arguments.get(name)
+    if argument is None:
+        argument = Argument(name, text, is_given=False)
+        argument.declared_by(binding)
+        if "$" in text:
+            argument.record = run.texts.evaluated(text, scope, argument)
+            argument.value = text_of(argument.record.value)
+        run.texts.arguments[name] = argument
+    elif argument.binding is not binding:
         binding.overridden = True
-        binding.saw(given.value)
-        _adopt(given, binding)
-
-
-def _adopt(given: Argument, binding: Binding) -> None:
-    """Let the first declaration of a given arg take over who has read it so far."""
-    if isinstance(given.input, Binding):
-        return
-    binding.reads += given.input.reads
-    binding.consumers.update(given.input.consumers)
-    binding.dependents.update(given.input.dependents)
-    binding.compared.update(given.input.compared)
-    given.input = binding
+    if argument not in binding.holders:
+        binding.holders.append(argument)
+    argument.declared_by(binding)
 
 
 def define_macro(

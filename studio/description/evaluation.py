@@ -15,13 +15,14 @@ from studio.description.budget import Budget, Limits
 from studio.description.calls import call_by_name, call_macro, insert_block
 from studio.description.declarations import define_arg, define_macro, define_property
 from studio.description.faults import Fault, Refusal, Unsupported
+from studio.description.graph import Role
 from studio.description.guarded_operations import MUTATING, text_of
 from studio.description.includes import include
 from studio.description.macros import MacroTable
 from studio.description.node_attributes import attribute_text, required, warn_unknown, xml_name
 from studio.description.output_tree import CallFrame, OutputElement, macro_calls
 from studio.description.plans import EVALUATE_COMMENTS, plan_of
-from studio.description.run_record import Binding, Input
+from studio.description.run_record import Binding
 from studio.description.scopes import Scope, truth_of
 from studio.description.source_tree import SourceComment, SourceElement, SourceText
 from studio.description.texts import Argument, Texts
@@ -52,7 +53,9 @@ class Evaluation:
         self.store = store
         self.budget = Budget(limits or Limits())
         self.texts = Texts(store, policy, self.budget)
-        self.texts.arguments = {n: Argument(text, Input()) for n, text in arguments.items()}
+        self.texts.arguments = {
+            name: Argument(name, text, is_given=True) for name, text in arguments.items()
+        }
         self.frame: CallFrame | None = None
         self.path = ""
         self.bindings: dict[tuple[SourceElement, str, str], Binding] = {}
@@ -108,7 +111,7 @@ class Evaluation:
         target = root.attributes.get("xacro:targetNamespace")
         if target:
             out.attributes = {"xmlns": text_of(self.texts.consumed(target, scope, ("", "xmlns")))}
-        out.attributes = out.attributes | self.attributes(root, scope)
+        self.attributes(root, out, scope)
         self.children(root, out, macros, scope)
         return out
 
@@ -124,18 +127,26 @@ class Evaluation:
             found = self.bindings[key] = Binding(kind, name, element, attribute, text)
         return found
 
-    def attributes(self, node: Node, scope: Scope) -> dict[str, str]:
-        """Evaluate a node's attributes; those of xacro itself are left out."""
+    def attributes(self, node: Node, made: OutputElement, scope: Scope) -> None:
+        """Evaluate a node's attributes into `made`; those of xacro itself are left out."""
         plan = plan_of(node)
-        if plan.fixed is not None:
-            return plan.fixed
-        consumed, path = self.texts.consumed, self.path
-        values = {
-            name: text if "$" not in text else text_of(consumed(text, scope, (path, name)))
-            for name, text in plan.attributes
-        }
-        values.pop("xmlns:xacro", None)
-        return values
+        if isinstance(node, OutputElement):
+            _share_records(node, made)
+        values = plan.fixed
+        if values is None:
+            values = {
+                name: text if "$" not in text else self._attribute(name, text, made, scope)
+                for name, text in plan.attributes
+            }
+            values.pop("xmlns:xacro", None)
+        made.attributes = {**made.attributes, **values} if made.attributes else values
+
+    def _attribute(self, name: str, text: str, made: OutputElement, scope: Scope) -> str:
+        record = self.texts.evaluated(text, scope, [made], (self.path, name))
+        if type(record.value) is not str:
+            record.value = text_of(record.value)
+        made.made(name, record)
+        return record.value
 
     def echo_attributes(self, node: Node, scope: Scope) -> dict[str, str]:
         """Evaluate attributes that xacro evaluates without using them: for errors and xmlns."""
@@ -178,7 +189,7 @@ class Evaluation:
         made = OutputElement(node.tag, node.origin, self.frame)
         outer = self.path
         self.path = f"{outer}/{node.tag}" if outer else node.tag
-        made.attributes = self.attributes(node, scope)
+        self.attributes(node, made, scope)
         if node.children:
             self.children(node, made, macros, scope)
         self.path = outer
@@ -189,9 +200,11 @@ class Evaluation:
         if node.literal or "$" not in node.text:
             out.children.append(node)
             return not node.literal
-        text = text_of(self.texts.consumed(node.text, scope, (self.path, "")))
-        out.children.append(SourceText(text))
-        return bool(text.strip())
+        made = SourceText("")
+        record = self.texts.evaluated(node.text, scope, made, (self.path, ""))
+        made.text = record.value = text_of(record.value)
+        out.children.append(made)
+        return bool(made.text.strip())
 
     def _comment(self, node: SourceComment, scope: Scope, *, on: bool) -> bool:
         """Comments do not come out, but those that are evaluated can fail; whether more are."""
@@ -200,6 +213,16 @@ class Evaluation:
         if on:
             self.texts.echoed(node.text, scope)
         return on
+
+
+def _share_records(block: OutputElement, made: OutputElement) -> None:
+    """What made an attribute of a block makes that of each copy, unless it is evaluated again."""
+    for name, record in block.makers.items():
+        if "$" in block.attributes.get(name, ""):
+            record.sink = Role.STRUCTURE
+        elif isinstance(record.sink, list):
+            record.sink.append(made)
+        made.made(name, record)
 
 
 _Handler: TypeAlias = "Callable[[Evaluation, Node, OutputElement, MacroTable, Scope], None]"
@@ -211,7 +234,7 @@ def _condition(
     """`xacro:if` and `xacro:unless`. What is set on the element itself is lost, as in xacro."""
     (text,) = required(node, "value")
     warn_unknown(run.texts, node, "value")
-    value = run.texts.consumed(text, scope, (node.tag, "value"))
+    value = run.texts.consumed(text, scope, (node.tag, "value"), Role.CONDITION)
     if truth_of(value, text) == (node.tag == "xacro:unless"):
         return
     if len(node.attributes) > 1 or _MUTATES.search(text):
@@ -239,10 +262,11 @@ def _set_attribute(
     """`xacro:attribute`: set on what it stands in, which may be a thing that does not come out."""
     name_text, value_text = required(node, "name", "value")
     named = run.texts.consumed(name_text, scope, (run.path, name_text))
-    value = run.texts.consumed(value_text, scope, (run.path, str(named)))
+    record = run.texts.evaluated(value_text, scope, Role.STRUCTURE, (run.path, str(named)))
     name = xml_name(node, named)
     if out.comes_out:
-        out.attributes = {**out.attributes, name: attribute_text(name, value)}
+        out.attributes = {**out.attributes, name: attribute_text(name, record.value)}
+        out.made(name, record)
 
 
 _HANDLERS: Final[dict[str, _Handler]] = {

@@ -65,6 +65,8 @@ class Expression:
     """The whole expression is this one name."""
     compared: tuple[tuple[str, str], ...]
     """(name, text) pairs that it compares, as in `x == 'a'` and `x in ['a', 'b']`."""
+    is_pure: bool
+    """It calls no method that changes a value: evaluated again it comes to the same."""
 
 
 @lru_cache(maxsize=20_000)
@@ -80,8 +82,9 @@ def compile_expression(text: str) -> Expression:
         _check(node)
     name = tree.body.id if isinstance(tree.body, ast.Name) else None
     compared = tuple(_comparisons(tree))
+    is_pure = not any(_mutates(node) for node in ast.walk(tree))
     guarded_tree = ast.fix_missing_locations(_Guarding().visit(tree))
-    return Expression(_compile(guarded_tree, text), name, compared)
+    return Expression(_compile(guarded_tree, text), name, compared, is_pure)
 
 
 def _parse(text: str) -> ast.Expression:
@@ -117,6 +120,10 @@ def _check(node: ast.AST) -> None:
             raise _refused("async may not be used in an expression.")
         case _:
             return
+
+
+def _mutates(node: ast.AST) -> bool:
+    return isinstance(node, ast.Attribute) and node.attr in guarded.MUTATING
 
 
 def _refused(sentence: str) -> Refusal:

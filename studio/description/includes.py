@@ -53,7 +53,7 @@ def _namespace(
     macros_in, scope_in = MacroTable(), Scope(run.texts, scope, is_namespace=True)
     macros.put(name, macros_in)
     warn_hidden(run, name)
-    scope.cells[name] = Cell(ScopeView(scope_in), None, node.origin)
+    scope.cells[name] = Cell(name, scope, ScopeView(scope_in))
     return macros_in, scope_in
 
 

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Final, TypeAlias
+from typing import TYPE_CHECKING, Final, TypeAlias, cast
 
 from studio.description.source_tree import SourceComment, SourceElement, SourceText
 from studio.problems import MacroCall
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
+
+    from studio.description.graph import Record
+
+_AS_WRITTEN: Final[Mapping[str, Record]] = {}
 
 
 class CallFrame:
@@ -25,7 +29,7 @@ class CallFrame:
 class OutputElement:
     """One element that came out; it can be evaluated again, as xacro does with blocks."""
 
-    __slots__ = ("attributes", "calls", "children", "origin", "tag")
+    __slots__ = ("attributes", "calls", "children", "makers", "origin", "tag")
 
     def __init__(self, tag: str, origin: SourceElement, calls: CallFrame | None) -> None:
         self.tag, self.origin, self.calls = tag, origin, calls
@@ -33,11 +37,19 @@ class OutputElement:
         """Replaced, never changed: elements share it with each other and with their source."""
         self.children: list[OutputChild] = []
         """Comments only where they were asked for."""
+        self.makers: Mapping[str, Record] = _AS_WRITTEN
+        """By attribute, the evaluation that made it; those that stand as written are missing."""
 
     @property
     def comes_out(self) -> bool:
         """Whether it is an element of the robot, not what xacro evaluates children in."""
         return not self.tag.startswith("xacro:")
+
+    def made(self, name: str, record: Record) -> None:
+        """Note which evaluation made an attribute."""
+        if self.makers is _AS_WRITTEN:
+            self.makers = {}
+        cast("dict[str, Record]", self.makers)[name] = record
 
     def elements(self) -> Iterator[OutputElement]:
         """Its child elements, in order."""

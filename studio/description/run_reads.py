@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-from studio.description.run_record import consumers_of
+from studio.description.reach import Reach
 from studio.description.values import SiteKind
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
     from studio.description.drafts import Draft, FileDrafts
+    from studio.description.graph import Consumer
     from studio.description.run_record import (
         Binding,
-        Consumer,
         Input,
         KeyPath,
         RunRecord,
@@ -41,36 +41,58 @@ NOT_READ = Seen()
 
 
 class RunReads:
-    """One run record, asked by drafts."""
+    """One run record, asked by drafts; `graph_changed` when a patch changed what it links."""
 
     def __init__(self, record: RunRecord) -> None:
         self._record = record
+        self._reach = Reach()
+        self._yaml: dict[str, _YamlInputs] = {}
         self._bindings: dict[_BindingKey, list[Binding]] = {}
         for binding in record.bindings:
             if binding.kind is not None:
                 self._bindings.setdefault(_key(binding), []).append(binding)
 
+    def graph_changed(self) -> None:
+        """Look everything up anew."""
+        self._reach = Reach()
+
+    def bindings(self, path: str, draft: Draft) -> list[Binding]:
+        """What the run bound the text of a draft to."""
+        name = draft.name if draft.kind is SiteKind.PARAM_DEFAULT else ""
+        return self._bindings.get((path, draft.ordinal, draft.attribute, name), [])
+
     def of_file(self, path: str, file: FileDrafts) -> Iterator[tuple[Draft, Seen]]:
         """Each draft of a file with what the run saw of it."""
-        document = self._record.yaml.get(path)
-        if document is not None and path not in self._record.trees:
-            yield from _of_yaml(file, document)
-            return
-        elements = self._record.trees[path].elements
-        for draft in file.drafts:
-            if draft.kind is SiteKind.LITERAL:
-                keys = self._record.part_keys.get(elements[draft.ordinal], ())
-                yield draft, _of_literal(draft.text, keys)
-            else:
-                yield draft, self._of_binding(path, draft)
+        return ((draft, self.seen(path, file, draft)) for draft in file.drafts)
 
-    def _of_binding(self, path: str, draft: Draft) -> Seen:
-        name = draft.name if draft.kind is SiteKind.PARAM_DEFAULT else ""
-        bindings = self._bindings.get((path, draft.ordinal, draft.attribute, name))
+    def seen(self, path: str, file: FileDrafts, draft: Draft) -> Seen:
+        """What the run saw of a draft of a file."""
+        if draft.kind is SiteKind.YAML:
+            return self._of_yaml(path, file, draft)
+        if draft.kind is SiteKind.LITERAL:
+            element = self._record.trees[path].elements[draft.ordinal]
+            return _of_literal(draft.text, self._record.part_keys.get(element, ()))
+        bindings = self.bindings(path, draft)
         if not bindings:
             return NOT_READ
         values = dict.fromkeys(value for one in bindings for value in one.values)
-        return Seen(tuple(values), *_shared(bindings))
+        return Seen(tuple(values), *self._shared(bindings))
+
+    def _of_yaml(self, path: str, file: FileDrafts, draft: Draft) -> Seen:
+        inputs = self._yaml.get(path)
+        if inputs is None:
+            inputs = self._yaml[path] = _YamlInputs(file, self._record.yaml[path])
+        reads, consumers, compared = self._shared(inputs.of(draft.path))
+        reads += inputs.reads_of_whole(draft.path)
+        return Seen((draft.text,) if reads else (), reads, consumers, compared)
+
+    def _shared(self, inputs: Iterable[Input]) -> tuple[int, tuple[Consumer, ...], tuple[str, ...]]:
+        """Reads, consumers and comparisons of one text that was met under several names."""
+        inputs, reach = tuple(inputs), self._reach
+        reads = sum(reach.links(one).reads for one in inputs)
+        consumers = dict.fromkeys(found for one in inputs for found in reach.consumers(one))
+        compared = dict.fromkeys(text for one in inputs for text in _compared_with(one, reach))
+        return reads, tuple(consumers), tuple(compared)
 
 
 def _key(binding: Binding) -> _BindingKey:
@@ -79,22 +101,11 @@ def _key(binding: Binding) -> _BindingKey:
     return (element.tree.path, element.ordinal, binding.attribute, name)
 
 
-def _shared(
-    inputs: Iterable[Input],
-) -> tuple[int, tuple[Consumer, ...], tuple[str, ...]]:
-    """Reads, consumers and comparisons of one text that was met under several names."""
-    inputs = tuple(inputs)
-    reads = sum(one.reads for one in inputs)
-    consumers = dict.fromkeys(consumer for one in inputs for consumer in consumers_of(one))
-    compared = dict.fromkeys(text for one in inputs for text in _compared_with(one))
-    return reads, tuple(consumers), tuple(compared)
-
-
-def _compared_with(start: Input) -> Iterator[str]:
+def _compared_with(start: Input, reach: Reach) -> Iterator[str]:
     """What conditions compare it with, itself or under the name that it was passed on as."""
     yield from start.compared
-    for dependent in start.dependents:
-        if _passes_on(dependent, start):
+    for dependent in reach.links(start).dependents:
+        if dependent.compared and _passes_on(dependent, start):
             yield from dependent.compared
 
 
@@ -111,19 +122,26 @@ def _of_literal(text: str, keys: tuple[str, ...]) -> Seen:
     return Seen((text,), len(keys), owner=owners[0] if len(owners) == len(keys) == 1 else "")
 
 
-def _of_yaml(file: FileDrafts, document: YamlReads) -> Iterator[tuple[Draft, Seen]]:
-    """Scalars by key path; what was read through an alias counts where it is written."""
-    written = {draft.path for draft in file.drafts}
-    aliases = dict(file.aliases)
-    inputs: dict[KeyPath, list[Input]] = {}
-    for path, scalar in document.values.items():
-        inputs.setdefault(written_at(path, written, aliases), []).append(scalar)
-    whole = {written_at(path, written, aliases) for path in document.whole}
-    for draft in file.drafts:
-        reads, consumers, compared = _shared(inputs.get(draft.path, ()))
-        reads += sum(draft.path[:size] in whole for size in range(len(draft.path) + 1))
-        values = (draft.text,) if reads else ()
-        yield draft, Seen(values, reads, consumers, compared)
+class _YamlInputs:
+    """What was read of one YAML file, by the paths where it is written."""
+
+    def __init__(self, file: FileDrafts, document: YamlReads) -> None:
+        written = {draft.path for draft in file.drafts}
+        aliases = dict(file.aliases)
+        self._inputs: dict[KeyPath, list[Input]] = {}
+        for path, scalar in document.values.items():
+            self._inputs.setdefault(written_at(path, written, aliases), []).append(scalar)
+        self._whole = {written_at(path, written, aliases) for path in document.whole}
+
+    def of(self, path: KeyPath) -> list[Input]:
+        """The values read there; what was read through an alias counts where it is written."""
+        return self._inputs.get(path, [])
+
+    def reads_of_whole(self, path: KeyPath) -> int:
+        """How many containers around a path were read at once."""
+        if not self._whole:
+            return 0
+        return sum(path[:size] in self._whole for size in range(len(path) + 1))
 
 
 def written_at(path: KeyPath, written: set[KeyPath], aliases: Mapping[KeyPath, KeyPath]) -> KeyPath:

@@ -2,82 +2,119 @@
 
 A `Binding` is one written text that got a name: an arg, a property, the default of a macro
 parameter, an argument of a macro call. Many calls may bind it, so it collects values and readers
-over the whole run. `dependents` link them to a graph from the source to what came out.
+over the whole run; `graph` says how these are linked.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
-if TYPE_CHECKING:
-    from collections.abc import Mapping
+from studio.description.graph import Readable
 
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from studio.description.graph import Record
+    from studio.description.scopes import Cell
     from studio.description.source_tree import SourceElement, SourceTree
+    from studio.description.texts import Argument
     from studio.description.values import SiteKind
     from studio.problems import Problem
 
 VALUES_KEPT = 16
-CONSUMERS_KEPT = 8
 
 KeyPath: TypeAlias = tuple[str | int, ...]
 """Where a YAML value stands: mapping keys as text and list indices, outermost first."""
-Consumer: TypeAlias = tuple[str, str]
-"""An attribute that came out: (`link/visual/geometry/cylinder`, `radius`). A condition of
-`xacro:if` is (`xacro:if`, `value`), the text of an element has the attribute ``."""
 
 
 class Input:
-    """Anything named that a text can read."""
+    """Anything named in a source that texts read: a binding, or a value of a YAML file."""
 
-    __slots__ = ("compared", "consumers", "dependents", "reads")
+    __slots__ = ()
 
-    def __init__(self) -> None:
-        self.reads = 0
-        """How many evaluated texts read it."""
-        self.dependents: dict[Input, None] = {}
-        """Named values that were made from it."""
-        self.compared: dict[str, None] = {}
-        """Texts that it is compared with directly, as in `${x == 'a'}`."""
-        self.consumers: dict[Consumer, None] = {}
-        """Attributes that read it directly, the first few; see `consumers_of`."""
+    compared: dict[str, None] = {}  # noqa: RUF012 - shared by those that nothing is noted at
+    """Texts that it is compared with directly, as in `${x == 'a'}`."""
+
+    @property
+    def readings(self) -> Sequence[Record]:
+        """The evaluations that read and use it, in order, once per read."""
+        return ()
 
 
 class Binding(Input):
-    """One named text at one place in a source file, with all that it came to in the run.
+    """One named text at one place in a source file, with all that it was bound to in the run.
 
     `kind` is None for an argument of a macro call, which is no site, only a link of the graph.
     `attribute` is `value` or `default`; for a macro's default `params`, with `name` the parameter.
     """
 
-    __slots__ = ("attribute", "element", "kind", "name", "overridden", "text", "values")
+    __slots__ = (
+        "attribute",
+        "compared",
+        "element",
+        "holders",
+        "kind",
+        "name",
+        "overridden",
+        "text",
+    )
 
     def __init__(
         self, kind: SiteKind | None, name: str, element: SourceElement, attribute: str, text: str
     ) -> None:
-        super().__init__()
         self.kind, self.name, self.element = kind, name, element
         self.attribute, self.text = attribute, text
-        self.values: dict[str, None] = {}
-        """Distinct values as xacro prints them, in order seen, the first few."""
+        self.holders: list[Cell | Argument] = []
+        """What it was bound to, in order: a cell per macro call, or the argument."""
+        self.compared: dict[str, None] = {}
         self.overridden = False
         """An arg whose value was given from outside, or by an earlier declaration."""
 
-    def saw(self, value: object) -> None:
-        """Note a value that it came to; a container only as such, it may be a whole file."""
-        if len(self.values) >= VALUES_KEPT:
-            return
-        if isinstance(value, dict):
-            value = "{...}"
-        elif isinstance(value, list | tuple | set):
-            value = "[...]"
-        self.values[value if isinstance(value, str) else str(value)] = None
+    @property
+    def readings(self) -> Sequence[Record]:
+        """As `Input.readings`; those of an arg are those of its first declaration."""
+        holders = self.holders
+        if len(holders) == 1 and holders[0].binding is self:
+            return [one for one in holders[0].readers if one.counts]
+        found = (one for it in holders if it.binding is self for one in it.readers if one.counts)
+        return sorted(found, key=_order)
+
+    @property
+    def values(self) -> tuple[str, ...]:
+        """Distinct values as xacro prints them, in order seen, the first few."""
+        holders = [one for one in self.holders if getattr(one, "pending", None) is None]
+        if len(holders) > 1:
+            holders.sort(key=_when_seen)
+        found: dict[str, None] = {}
+        for one in holders:
+            found[_shown(one.value)] = None
+            if len(found) == VALUES_KEPT:
+                break
+        return tuple(found)
 
     def __repr__(self) -> str:
         return f"{self.name}={self.text!r} at {self.element.place}"
 
 
-class YamlScalar(Input):
+def _order(record: Record) -> float:
+    return record.order
+
+
+def _when_seen(holder: Cell | Argument) -> float:
+    return holder.record.order if holder.record is not None else 0
+
+
+def _shown(value: object) -> str:
+    """A value as text; a container only as such, it may be a whole file."""
+    if isinstance(value, dict):
+        return "{...}"
+    if isinstance(value, list | tuple | set):
+        return "[...]"
+    return value if isinstance(value, str) else str(value)
+
+
+class YamlScalar(Readable, Input):
     """One value of a YAML document that the run read, by its key path; it may be a container."""
 
     __slots__ = ("document", "path")
@@ -86,19 +123,27 @@ class YamlScalar(Input):
         super().__init__()
         self.document, self.path = document, path
 
+    @property
+    def readings(self) -> Sequence[Record]:
+        """As `Input.readings`."""
+        return [one for one in self.readers if one.counts]
 
-@dataclass(slots=True)
-class YamlReads:
+
+class YamlReads(Readable):
     """A YAML file that was read and what of it: containers count too when they are passed through.
 
-    `whole`: key paths below which everything was read at once (printed, iterated in bulk).
+    `whole`: key paths below which everything was read at once (printed, iterated in bulk). Its
+    `readers` are those who opened the file.
     """
 
-    path: str
-    data: bytes
-    values: dict[KeyPath, YamlScalar] = field(default_factory=dict[KeyPath, YamlScalar])
-    whole: set[KeyPath] = field(default_factory=set[KeyPath])
-    loaded_by: list[SourceElement] = field(default_factory=list["SourceElement"])
+    __slots__ = ("data", "loaded_by", "path", "values", "whole")
+
+    def __init__(self, path: str, data: bytes) -> None:
+        super().__init__()
+        self.path, self.data = path, data
+        self.values: dict[KeyPath, YamlScalar] = {}
+        self.whole: set[KeyPath] = set()
+        self.loaded_by: list[SourceElement] = []
 
 
 @dataclass(slots=True)
@@ -119,16 +164,3 @@ class RunRecord:
     arguments: Mapping[str, str]
     """Values of all args as strings: given ones and defaults."""
     warnings: tuple[Problem, ...]
-
-
-def consumers_of(start: Input, limit: int = CONSUMERS_KEPT) -> tuple[Consumer, ...]:
-    """The attributes that an input shapes, through any number of properties, the nearest first."""
-    found: dict[Consumer, None] = {}
-    seen, front = {start}, [start]
-    while front and len(found) < limit:
-        for one in front:
-            found.update(one.consumers)
-        reached = {dependent: None for one in front for dependent in one.dependents}
-        front = [one for one in reached if one not in seen]
-        seen.update(front)
-    return tuple(found)[:limit]

@@ -5,23 +5,51 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Protocol
 
 from studio.description.faults import Fault
+from studio.description.graph import Readable
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from studio.description.graph import Record
     from studio.description.run_record import Binding
     from studio.description.source_tree import SourceElement
 
 
-class Cell:
+class Cell(Readable):
     """One binding of one name in one scope; `pending` is a text that nobody has read yet."""
 
-    __slots__ = ("at", "binding", "pending", "resolving", "value")
+    __slots__ = ("at", "binding", "name", "pending", "record", "resolving", "scope", "value")
 
-    def __init__(self, value: Any, binding: Binding | None, at: SourceElement | None) -> None:  # noqa: ANN401
+    def __init__(
+        self,
+        name: str,
+        scope: Scope,
+        value: Any,  # noqa: ANN401
+        binding: Binding | None = None,
+        at: SourceElement | None = None,
+    ) -> None:
+        self.readers = []
+        self.name, self.scope = name, scope
         self.value, self.binding, self.at = value, binding, at
         self.pending: str | None = None
+        self.record: Record | None = None
+        """The evaluation that its value comes from; None when it stands as it is written."""
         self.resolving = False
+        if binding is not None:
+            binding.holders.append(self)
+
+    @property
+    def is_lazy(self) -> bool:
+        """Whether its text waits for the first reader."""
+        return self.at is not None
+
+
+class Replay(Protocol):
+    """Answers for the scopes while a text is evaluated once more."""
+
+    def value_of(self, name: str, scope: Scope) -> Any:  # noqa: ANN401
+        """The value now of what the name meant in the run."""
+        ...
 
 
 class Resolver(Protocol):
@@ -29,6 +57,8 @@ class Resolver(Protocol):
 
     symbols: dict[str, Any]
     helpers: dict[str, Any]
+    replay: Replay | None
+    """Set while a text is evaluated once more: names mean what they meant the first time."""
 
     def read(self, name: str, cell: Cell, scope: Scope) -> Any:  # noqa: ANN401
         """The value of a cell, evaluated now if nobody did; noted as read."""
@@ -79,6 +109,8 @@ class Scope:
         Raises:
             Fault: It is not defined, or its text cannot be evaluated.
         """
+        if self.run.replay is not None:
+            return self.run.replay.value_of(name, self)
         scope: Scope | None = self
         while scope is not None:
             cell = scope.cells.get(name)

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import os
 import re
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, cast
 
 from studio.description.expressions import HELPERS, Expression, compile_expression
 from studio.description.faults import Fault, Refusal, hint, shorten
+from studio.description.graph import Readable, Record, Role
 from studio.description.guarded_operations import SIZE_LIMIT, text_of
 from studio.description.packages_found import find_package
-from studio.description.run_record import CONSUMERS_KEPT, Binding, Input, YamlReads
+from studio.description.run_record import YamlReads
 from studio.description.scopes import Cell, Scope, literal_value
 from studio.description.substitution import substitute
 from studio.description.symbols import PURE_SYMBOLS, make_symbols
@@ -22,12 +23,16 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
     from studio.description.budget import Budget
-    from studio.description.run_record import Consumer
+    from studio.description.graph import Consumer, Sink
+    from studio.description.run_record import Binding, Input, YamlScalar
+    from studio.description.scopes import Replay
     from studio.description.source_store import SourceStore
     from studio.description.source_tree import SourceElement
     from studio.description.values import ReadPolicy
 
 _ARG_COMPARED: Final = re.compile(r"""['"]?\$\(arg\s+(\w+)\)['"]?\s*[=!]=\s*['"]([^'"]*)['"]""")
+_STRUCTURE: Final = Role.STRUCTURE
+_LASTING: Final = frozenset({int, float, str, bool, list, dict, tuple, type(None)})
 _SEVERITIES: Final = {
     "message": Severity.INFO,
     "deprecated": Severity.INFO,
@@ -36,13 +41,25 @@ _SEVERITIES: Final = {
 }
 
 
-class Argument:
-    """One arg: its value, and the binding that its readers are noted at."""
+class Argument(Readable):
+    """One arg: its value, and the first declaration, once the run has come by it."""
 
-    __slots__ = ("input", "value")
+    __slots__ = ("binding", "compared", "is_given", "name", "record", "value")
 
-    def __init__(self, value: str, noted_at: Input) -> None:
-        self.value, self.input = value, noted_at
+    def __init__(self, name: str, value: str, *, is_given: bool) -> None:
+        super().__init__()
+        self.name, self.value, self.is_given = name, value, is_given
+        self.binding: Binding | None = None
+        self.record: Record | None = None
+        """The evaluation of its default; None when it is given or stands as it is written."""
+        self.compared: dict[str, None] = {}
+        """As `Binding.compared`, from before its declaration."""
+
+    def declared_by(self, binding: Binding) -> None:
+        """Let the first declaration take over what was noted so far."""
+        if self.binding is None:
+            binding.compared.update(self.compared)
+            self.binding = binding
 
 
 class Texts:
@@ -59,7 +76,12 @@ class Texts:
         self.at: SourceElement | None = None
         self.symbols = make_symbols(self)
         self.helpers = {**HELPERS, "__steps": budget.steps}
-        self._reads: list[Input] = []
+        self.replay: Replay | None = None
+        self.evaluations = 0
+        """How many have ended; numbers the records."""
+        self.is_pure = True
+        """No expression changes a value or uses one up, and no half of a run was given up."""
+        self._now = Record("", cast("Scope", None), "", Role.NOTHING, None)
         self._resolving: list[str] = []
 
     # What the elements ask for
@@ -85,64 +107,77 @@ class Texts:
             raise Refusal("value-too-large", "A text grows too large.")
         return joined
 
-    def consumed(self, text: str, scope: Scope, consumer: Consumer) -> Any:  # noqa: ANN401
-        """A text's value, its reads noted for an attribute that comes out."""
-        if "$" not in text:
-            return text
-        outer, self._reads = self._reads, []
-        value = self.value(text, scope)
-        for one in self._reads:
-            one.reads += 1
-            if len(one.consumers) < CONSUMERS_KEPT:
-                one.consumers[consumer] = None
+    def evaluated(
+        self, text: str, scope: Scope, sink: Sink, consumer: Consumer | None = None
+    ) -> Record:
+        """A text with its value and what it read."""
+        record = Record(text, scope, self.files[-1], sink, consumer)
+        outer, self._now = self._now, record
+        record.value = self.value(text, scope)
+        self._now = outer
+        self.ended(record)
         if "$(arg" in text:
             self._note_comparisons(text)
-        self._reads = outer
-        return value
+        return record
+
+    def consumed(self, text: str, scope: Scope, consumer: Consumer, role: Role = _STRUCTURE) -> Any:  # noqa: ANN401
+        """A text's value where it is neither output nor bound to a name."""
+        return text if "$" not in text else self.evaluated(text, scope, role, consumer).value
 
     def echoed(self, text: str, scope: Scope) -> Any:  # noqa: ANN401
         """A text's value where nobody uses it: xacro evaluates more texts than it needs."""
         if "$" not in text:
             return text
-        outer, self._reads = self._reads, []
-        value = self.value(text, scope)
-        self._reads = outer
-        return value
+        record = Record(text, scope, self.files[-1], Role.NOTHING, None)
+        outer, self._now = self._now, record
+        record.value = self.value(text, scope)
+        self._now = outer
+        self.ended(record)
+        return record.value
 
-    def bound(self, text: str, scope: Scope, binding: Binding) -> Any:  # noqa: ANN401
-        """A text's value, its reads noted for a binding that is made of it."""
-        if "$" not in text:
-            return text
-        outer, self._reads = self._reads, []
-        value = self.value(text, scope)
-        self._note_inputs(binding)
-        self._note_comparisons(text)
-        self._reads = outer
-        return value
+    def forwarded(self, name: str, scope: Scope, cell: Cell) -> Record:
+        """The value of a name, on its way to the parameter that it is forwarded to."""
+        record = Record(name, scope, self.files[-1], cell, None)
+        record.forwards = True
+        outer, self._now = self._now, record
+        record.value = scope.value_of(name)
+        self._now = outer
+        self.ended(record)
+        return record
 
-    def forwarded(self, name: str, scope: Scope, binding: Binding) -> Any:  # noqa: ANN401
-        """The value of a name, its read noted for the parameter that it is forwarded to."""
-        outer, self._reads = self._reads, []
-        value = scope.value_of(name)
-        self._note_inputs(binding)
-        self._reads = outer
-        return value
+    def bind(self, cell: Cell, record: Record, *, at_once: bool = True) -> None:
+        """Give a cell the value of its evaluated text."""
+        cell.record = record
+        cell.value = literal_value(record.value)
+        if type(cell.value) not in _LASTING and hasattr(cell.value, "__next__"):
+            self.is_pure = False  # whoever reads it uses it up
+        if not at_once:
+            cell.pending = None
 
-    def mark(self) -> tuple[list[Input], SourceElement | None, int]:
+    def ended(self, record: Record) -> None:
+        """An evaluation came to its end: it gets its number, and those it read know it."""
+        self.evaluations += 1
+        record.order = self.evaluations
+        for one in record.reads:
+            one.readers.append(record)
+
+    def mark(self) -> tuple[Record, SourceElement | None, int]:
         """The state to go `back_to` when an optional include fails half-way."""
-        return self._reads, self.at, len(self._resolving)
+        return self._now, self.at, len(self._resolving)
 
-    def back_to(self, marked: tuple[list[Input], SourceElement | None, int]) -> None:
+    def back_to(self, marked: tuple[Record, SourceElement | None, int]) -> None:
         """Undo what a fault left behind; files stay, as xacro leaves them."""
-        self._reads, self.at = marked[:2]
+        self.is_pure = False
+        self._now, self.at = marked[:2]
         del self._resolving[marked[2] :]
 
     def note(self, one: Input) -> None:
-        """Something was read by the text under way."""
-        self._reads.append(one)
+        """A value of a YAML file was read by the text under way."""
+        self._now.reads.append(cast("YamlScalar", one))
 
     def warn(self, code: str, sentence: str, severity: Severity = Severity.WARNING) -> None:
         """Note a warning at the element being worked on, once."""
+        self._now.is_noisy = True
         place = self.at.place if self.at else None
         self.warnings[Problem(severity, code, sentence, place)] = None
 
@@ -152,8 +187,7 @@ class Texts:
         """The value of a cell, evaluated in its own scope at the first read."""
         if cell.pending is not None:
             self._resolve(name, cell, scope)
-        if cell.binding is not None:
-            self._reads.append(cell.binding)
+        self._now.reads.append(cell)
         return cell.value
 
     def undefined(self, name: str, scope: Scope) -> Fault:
@@ -171,20 +205,16 @@ class Texts:
         cell.resolving = True
         self._resolving.append(name)
         outer_at, self.at = self.at, cell.at or self.at
-        outer_reads, self._reads = self._reads, []
-        text = cell.pending or ""
+        trigger = self._now
         try:
-            cell.value = literal_value(self.value(text, scope))
+            record = self.evaluated(cell.pending or "", scope, cell)
         except Fault as fault:
             self.locate(fault)
             fault.unreadable = False  # an optional include does not excuse what it reads lazily
             raise
-        cell.pending, cell.resolving = None, False
-        if cell.binding is not None:
-            self._note_inputs(cell.binding)
-            self._note_comparisons(text)
-            cell.binding.saw(cell.value)
-        self._reads, self.at = outer_reads, outer_at
+        record.trigger = trigger
+        self.bind(cell, record, at_once=False)
+        cell.resolving, self.at = False, outer_at
         self._resolving.pop()
 
     def locate(self, fault: Fault) -> None:
@@ -205,7 +235,7 @@ class Texts:
             otherwise = f"declare it with <xacro:arg> or pass {name}:=value."
             known = hint(name, self.arguments, otherwise)
             raise Fault("undefined-argument", f'The arg "{name}" is not given: {known}')
-        self._reads.append(found.input)
+        self._now.reads.append(found)
         return found.value
 
     def find_package(self, name: str) -> str:
@@ -222,6 +252,7 @@ class Texts:
         """The values of a YAML file, every read of them noted."""
         real, data, values = self.store.yaml(self.absolute(path), _pure_value)
         reads = self.yaml.setdefault(real, YamlReads(real, data))
+        self._now.reads.append(reads)
         if self.at is not None and self.at not in reads.loaded_by:
             reads.loaded_by.append(self.at)
         return wrap(values, Reader(reads, self.note), ())
@@ -249,6 +280,7 @@ class Texts:
         expression = compile_expression(text)
         if expression.name is not None:
             return scope.value_of(expression.name)
+        self.is_pure &= expression.is_pure
         try:
             value = eval(expression.code, scope.names)
         except Fault:
@@ -276,17 +308,13 @@ class Texts:
 
     # Notes
 
-    def _note_inputs(self, binding: Binding) -> None:
-        for one in self._reads:
-            one.reads += 1
-            one.dependents[binding] = None
-
     def _note_comparisons(self, text: str) -> None:
-        if "$(arg" not in text or "=" not in text:
+        if "=" not in text:
             return
         for name, compared in _ARG_COMPARED.findall(text):
             if name in self.arguments:
-                self.arguments[name].input.compared[compared] = None
+                argument = self.arguments[name]
+                (argument.binding or argument).compared[compared] = None
 
     def _note_compared(self, expression: Expression, scope: Scope) -> None:
         for name, text in expression.compared:

@@ -14,19 +14,20 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeAlias
 
 from studio.description.evaluation import Evaluation
 from studio.description.output_tree import OutputElement
-from studio.description.run_record import Binding, Input
-from studio.description.scopes import literal_value
+from studio.description.run_record import Binding, Input, YamlScalar
+from studio.description.scopes import Cell
 from studio.description.source_tree import SourceText
 from studio.description.texts import Argument, Texts
 from studio.description.yaml_values import Reader, wrap
 
 if TYPE_CHECKING:
-    from collections.abc import Generator, Mapping
+    from collections.abc import Generator, Iterator, Mapping
 
     from studio.description.budget import Budget
+    from studio.description.graph import Record
     from studio.description.macros import MacroTable
     from studio.description.output_tree import CallFrame, Node
-    from studio.description.run_record import Consumer, KeyPath, YamlReads
+    from studio.description.run_record import KeyPath, YamlReads
     from studio.description.scopes import Scope
     from studio.description.source_store import SourceStore
     from studio.description.source_tree import SourceElement
@@ -118,39 +119,39 @@ class _TracedTexts(Texts):
     def __init__(self, store: SourceStore, policy: ReadPolicy, budget: Budget) -> None:
         super().__init__(store, policy, budget)
         self.governor: Governor | None = None
+        self.given: dict[Argument, Given] = {}
         self.was_read: dict[str, Inputs] = {}
         """What the attributes evaluated last read, by name."""
 
-    def consumed(self, text: str, scope: Scope, consumer: Consumer) -> Any:  # noqa: ANN401
-        """As a run does it; what was read is kept for whoever made the attribute."""
-        if "$" not in text:
-            return text
-        outer, self._reads = self._reads, []
-        value = self.value(text, scope)
-        inputs = tuple(dict.fromkeys(self._reads))
-        self._reads = outer
-        path, name = consumer
+    def ended(self, record: Record) -> None:
+        """As a run does it; what was read is kept for whoever is made of it."""
+        super().ended(record)
+        inputs = tuple(dict.fromkeys(self._inputs(record)))
+        made = record.made
+        if made is not None and isinstance(made.binding, TracedBinding):
+            made.binding.inputs += inputs
+        if record.consumer is None:
+            return
+        path, name = record.consumer
         if self.governor is not None and self.governor.is_told_by(path, name):
             self.governor.inputs += inputs
         self.was_read[name] = inputs
-        return value
 
-    def bound(self, text: str, scope: Scope, binding: Binding) -> Any:  # noqa: ANN401
-        """As a run does it; an argument of a macro call, which is no site, gets its value too."""
-        value = super().bound(text, scope, binding)
-        if binding.kind is None:
-            binding.saw(literal_value(value))
-        return value
+    def _inputs(self, record: Record) -> Iterator[Input]:
+        """What a text read, as inputs; a file that it opened is none."""
+        for one in record.reads:
+            if isinstance(one, YamlScalar):
+                yield one
+            elif isinstance(one, Argument) and one.binding is None:
+                yield self.given.setdefault(one, Given(one.name, one.value))
+            elif isinstance(one, Cell | Argument) and one.binding is not None:
+                yield one.binding
 
     def load_yaml(self, path: str) -> Any:  # noqa: ANN401
         """As a run does it, but what is read whole is noted as read."""
         super().load_yaml(path)
         real, _, values = self.store.yaml(self.absolute(path), str)  # is known by now
         return wrap(values, _Reader(self.yaml[real], self.note), ())
-
-    def _note_inputs(self, binding: Binding) -> None:
-        if isinstance(binding, TracedBinding):
-            binding.inputs += tuple(dict.fromkeys(self._reads))
 
 
 class TracedEvaluation(Evaluation):
@@ -162,7 +163,9 @@ class TracedEvaluation(Evaluation):
         super().__init__(store, policy, arguments)
         self.traced = _TracedTexts(store, policy, self.budget)
         self.texts = self.traced
-        self.texts.arguments = {n: Argument(text, Given(n, text)) for n, text in arguments.items()}
+        self.texts.arguments = {
+            name: Argument(name, text, is_given=True) for name, text in arguments.items()
+        }
         self.made: list[TracedBinding] = []
         self.calls: dict[CallFrame, Called] = {}
         self.governors: dict[OutputElement, Governor] = {}
@@ -180,16 +183,16 @@ class TracedEvaluation(Evaluation):
         self.made.append(made)
         return made
 
-    def attributes(self, node: Node, scope: Scope) -> dict[str, str]:
+    def attributes(self, node: Node, made: OutputElement, scope: Scope) -> None:
         """Evaluate a node's attributes and note what each read."""
         self.traced.was_read = {}
-        values = super().attributes(node, scope)
+        super().attributes(node, made, scope)
         before = node.attributes.written if isinstance(node.attributes, TracedAttributes) else {}
         if not (self.traced.was_read or before):
-            return values
+            return
         read = self.traced.was_read.items()
         written = {name: Written(node.origin, name, inputs) for name, inputs in read}
-        return TracedAttributes(values, {**before, **written})
+        made.attributes = TracedAttributes(made.attributes, {**before, **written})
 
     def children(self, node: Node, out: OutputElement, macros: MacroTable, scope: Scope) -> None:
         """Evaluate all children; those of a macro's body owe it also to what defined the macro."""
