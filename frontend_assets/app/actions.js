@@ -41,7 +41,7 @@ export const setArgument = (name, value) => ask({ type: "set_argument", name, va
 export const zeroJoints = () => ask({ type: "zero_joints" });
 export const randomizeJoints = () => ask({ type: "randomize_joints" });
 export const toggleAnimation = () => ask({ type: "animate_joints", running: !animating.value });
-/** @param {"grid" | "robot"} display @param {string} name @param {boolean | number | string} value */
+/** @param {"grid" | "robot" | "ghost"} display @param {string} name @param {boolean | number | string} value */
 export const setDisplay = (display, name, value) =>
   ask({ type: "set_display", display, name, value });
 /** @param {string} name @param {string} folder */

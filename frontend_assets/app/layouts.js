@@ -8,7 +8,7 @@ import { size } from "./state/view.js";
 
 const PHONE_BELOW_PX = 700;
 const WIDE_FROM_PX = 1000;
-const VERSION = 2;
+const VERSION = 3;
 
 /** @param {number} width px @returns {"wide" | "medium" | "phone"} */
 export function sizeOf(width) {
@@ -26,7 +26,16 @@ export function modelLayout(kind, width, height) {
   if (kind === "phone")
     return [
       {
-        tabs: ["scene", "properties", "joints", "displays", "source", "problems", "urdf"],
+        tabs: [
+          "scene",
+          "properties",
+          "joints",
+          "variants",
+          "displays",
+          "source",
+          "problems",
+          "urdf",
+        ],
         size: width,
       },
     ];
@@ -39,7 +48,7 @@ export function modelLayout(kind, width, height) {
     ];
     return [
       { split: left, size: width - right },
-      { tabs: ["properties", "joints"], size: right },
+      { tabs: ["properties", "joints", "variants"], size: right },
     ];
   }
   const low = Math.round(Math.min(340, height * 0.36));
@@ -50,7 +59,7 @@ export function modelLayout(kind, width, height) {
   return [
     { tabs: ["displays"], size: left },
     { split: [scene, below], size: width - left - right },
-    { tabs: ["properties", "joints"], size: right },
+    { tabs: ["properties", "joints", "variants"], size: right },
   ];
 }
 

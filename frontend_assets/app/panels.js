@@ -29,6 +29,10 @@ export const PANELS = {
     load: async () => (await import("../panels/properties.js")).PropertiesPanel,
   },
   joints: { icon: "joints", load: async () => (await import("../panels/joints.js")).JointsPanel },
+  variants: {
+    icon: "variants",
+    load: async () => (await import("../panels/variants.js")).VariantsPanel,
+  },
   source: { icon: "source", load: async () => (await import("../panels/source.js")).SourcePanel },
   problems: {
     icon: "problems",

@@ -129,8 +129,8 @@ def _shape_rows(
     yield from pose_rows(what, one.origin, other.origin)
     yield from _geometry_rows(what, one.geometry, other.geometry)
     if isinstance(one, Visual) and isinstance(other, Visual):
-        yield from text_row("color", _color(one.material), _color(other.material))
-        yield from text_row("texture", _texture(one.material), _texture(other.material))
+        yield from text_row(f"{what}.color", _color(one.material), _color(other.material))
+        yield from text_row(f"{what}.texture", _texture(one.material), _texture(other.material))
 
 
 def _geometry_rows(what: str, one: Geometry, other: Geometry) -> Iterator[Row]:

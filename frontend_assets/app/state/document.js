@@ -15,6 +15,7 @@ import { isChanged } from "../../lib/sites.js";
 import { linkTree } from "../../lib/tree.js";
 import { role, session, version } from "./connection.js";
 import { takeTextNews } from "./source.js";
+import { takeComparison, takeVariants } from "./variants.js";
 
 /** Id of the document that this page shows; empty: none. */
 export const documentId = signal("");
@@ -199,6 +200,8 @@ const TAKERS = {
     built.value = event;
   },
   texts_changed: takeTextNews,
+  variants: takeVariants,
+  comparison: takeComparison,
   disk_merged: (event) => {
     diskMerged.value = event;
   },

@@ -1,0 +1,125 @@
+/** Two states side by side: what is chosen, the ghost in 3D, and the table of differences. */
+
+/** @import { Side } from "../types/wire.d.ts" */
+
+import { html } from "vendor/preact.js";
+import { ask, setDisplay } from "../app/actions.js";
+import { mayEdit } from "../app/state/connection.js";
+import { displays } from "../app/state/document.js";
+import {
+  canCompare,
+  comparison,
+  sideKey,
+  sideName,
+  sideOf,
+  variants,
+} from "../app/state/variants.js";
+import { t } from "../lib/i18n.js";
+import { allSettled } from "../lib/latest.js";
+import { Slider } from "../lib/slider.js";
+import { Icon, IconButton, ProgressBar } from "../lib/ui.js";
+import { DifferenceTable, InputTable } from "./variants-table.js";
+
+/** @param {Side} one @param {Side} other */
+export const compareSides = (one, other) => ask({ type: "compare_variants", sides: [one, other] });
+
+export function VariantsComparison() {
+  const { sides, busy, faults } = comparison.value;
+  if (!sides) return canCompare.value ? html`<${Begin} />` : null;
+  return html`<section class="comparison" aria-label=${t("compare.title")}>
+    <header class="comparison-head"><h3>${t("compare.title")}</h3>
+      <${IconButton} icon="close" label=${t("compare.end")} disabled=${!mayEdit.value} onClick=${end} /></header>
+    <${Sides} sides=${sides} />
+    <${GhostControls} />
+    ${busy && html`<${ProgressBar} label=${t("compare.busy")} done=${0} total=${0} />`}
+    ${faults.map((one) => html`<p key=${one} class="variants-note bad" role="status"><${Icon} name="alert" />${one}</p>`)}
+    <${InputTable} />
+    <${DifferenceTable} />
+  </section>`;
+}
+
+function end() {
+  if (displays.value.ghost?.visible) setDisplay("ghost", "visible", false);
+  ask({ type: "compare_variants", sides: null });
+}
+
+function Begin() {
+  const { active, modified, variants: list } = variants.value;
+  const begin = async () => {
+    await allSettled();
+    const other = list.find(({ name }) => name !== active);
+    /** @type {Side} */
+    const saved = { kind: "saved", name: "" };
+    const same = !modified && active === "" && other;
+    compareSides(
+      { kind: "present", name: "" },
+      same ? { kind: "variant", name: other.name } : saved,
+    );
+  };
+  return html`<div class="comparison-begin">
+    <button type="button" class="button small" disabled=${!mayEdit.value} onClick=${begin}>
+      <${Icon} name="compare" size=${14} />${t("compare.begin")}</button></div>`;
+}
+
+/** @param {{sides: [Side, Side]}} props */
+function Sides({ sides: [one, other] }) {
+  const swap = () => compareSides(other, one);
+  return html`<div class="comparison-sides">
+    <${SideChoice} label=${t("compare.one")} side=${one} beside=${other} choose=${(/** @type {Side} */ side) => compareSides(side, other)} />
+    <${IconButton} icon="compare" label=${t("compare.swap")} disabled=${!mayEdit.value} onClick=${swap} />
+    <${SideChoice} label=${t("compare.other")} side=${other} beside=${one} choose=${(/** @type {Side} */ side) => compareSides(one, side)} />
+  </div>`;
+}
+
+/** @param {{label: string, side: Side, beside: Side, choose: (side: Side) => void}} props */
+function SideChoice({ label, side, beside, choose }) {
+  /** @type {Side[]} */
+  const all = [
+    { kind: "present", name: "" },
+    { kind: "saved", name: "" },
+    ...variants.value.variants.map(({ name }) => ({
+      kind: /** @type {const} */ ("variant"),
+      name,
+    })),
+  ];
+  return html`<select class="box" aria-label=${label} value=${sideKey(side)} disabled=${!mayEdit.value} title=${sideName(side)}
+    onChange=${(/** @type {any} */ event) => choose(sideOf(event.currentTarget.value))}>
+    ${all.map((one) => html`<option key=${sideKey(one)} value=${sideKey(one)} disabled=${sideKey(one) === sideKey(beside)}>${sideName(one)}</option>`)}
+  </select>`;
+}
+
+const PLACES = /** @type {const} */ (["off", "over", "beside"]);
+
+/** For everybody who looks: whether the other robot is drawn, where, and how clearly. */
+function GhostControls() {
+  const settings = displays.value.ghost;
+  if (!settings) return null;
+  const place = !settings.visible ? "off" : settings.beside ? "beside" : "over";
+  const off = !mayEdit.value;
+  const opacity = Number(settings.opacity);
+  const ghost = comparison.value.ghost;
+  return html`<div class="ghost-controls" role="group" aria-label=${t("ghost")}>
+    <span class="ghost-label"><${Icon} name="ghost" size=${14} />${t("ghost")}</span>
+    <span class="segments" role="radiogroup" aria-label=${t("ghost")}>
+      ${PLACES.map(
+        (
+          one,
+        ) => html`<button key=${one} type="button" role="radio" aria-checked=${one === place} disabled=${off}
+        title=${t(`ghost.${one}.hint`)} onClick=${() => putGhost(one)}>${t(`ghost.${one}`)}</button>`,
+      )}
+    </span>
+    ${
+      place !== "off" &&
+      html`<${Slider} label=${t("ghost.opacity")} min=${0.05} max=${1} step=${0.05} value=${opacity}
+      text=${`${Math.round(opacity * 100)} %`} disabled=${off} onMove=${(/** @type {number} */ value) => setDisplay("ghost", "opacity", value)}
+      onEnd=${async () => {}} />`
+    }
+    ${ghost && html`<p class="ghost-legend"><i></i>${sideName(ghost)}</p>`}
+  </div>`;
+}
+
+/** @param {typeof PLACES[number]} place */
+async function putGhost(place) {
+  if (place !== "off") await setDisplay("ghost", "beside", place === "beside");
+  setDisplay("ghost", "visible", place !== "off");
+}

@@ -1,0 +1,196 @@
+/** Named states of the robot: kept, switched in one click, and compared below. */
+
+/** @import { VariantView } from "../types/wire.d.ts" */
+/** @import { MenuItem } from "../lib/ui.js" */
+
+import { html, useSignal } from "vendor/preact.js";
+import { ask } from "../app/actions.js";
+import { mayEdit } from "../app/state/connection.js";
+import { documentState, robot } from "../app/state/document.js";
+import { variants } from "../app/state/variants.js";
+import { dialog, notify } from "../app/state/view.js";
+import { t } from "../lib/i18n.js";
+import { allSettled } from "../lib/latest.js";
+import { shortPath } from "../lib/paths.js";
+import { EmptyState, Icon, MenuButton } from "../lib/ui.js";
+import { compareSides, VariantsComparison } from "./variants-comparison.js";
+import { VariantForm } from "./variants-form.js";
+
+const CHIPS = 4;
+
+export function VariantsPanel() {
+  const adding = useSignal(false);
+  const editing = useSignal("");
+  const list = variants.value.variants;
+  const begin = () => {
+    adding.value = true;
+    editing.value = "";
+  };
+  if (!documentState.value || !robot.value)
+    return html`<section class="panel-body" aria-label=${t("panel.variants")}><${EmptyState} icon="variants" title=${t("urdf.none")} /></section>`;
+  return html`<section class="panel-body variants" aria-label=${t("panel.variants")}>
+    <div class="panel-bar row">
+      <button type="button" class="button small" disabled=${!mayEdit.value || adding.value} onClick=${begin}>
+        <${Icon} name="plus" size=${14} />${t("variants.save")}</button>
+    </div>
+    <div class="scroll">
+      ${adding.value && html`<${SaveForm} onDone=${() => (adding.value = false)} />`}
+      <${Trouble} />
+      ${list.length === 0 && !adding.value && html`<${Purpose} />`}
+      <ul class="variant-list">
+        ${(list.length > 0 || variants.value.modified) && html`<${AsSaved} />`}
+        ${list.map((one) =>
+          editing.value === one.name
+            ? html`<${RenameForm} key=${one.name} variant=${one} onDone=${() => (editing.value = "")} />`
+            : html`<${VariantRow} key=${one.name} variant=${one} onRename=${() => (editing.value = one.name)} />`,
+        )}
+      </ul>
+      <${VariantsComparison} />
+    </div>
+  </section>`;
+}
+
+/** What variants are for, while there are none. */
+function Purpose() {
+  return html`<div class="variants-purpose">
+    <${Icon} name="variants" size=${28} />
+    <p>${t("variants.none")}</p>
+    <p class="muted">${t("variants.purpose")}</p>
+  </div>`;
+}
+
+/** The file cannot be read, or not be written. */
+function Trouble() {
+  const { trouble, only_here: onlyHere, variants: list } = variants.value;
+  if (trouble)
+    return html`<p class="variants-note bad" role="alert"><${Icon} name="alert" />${trouble}</p>`;
+  if (!onlyHere || list.length === 0) return null;
+  return html`<p class="variants-note"><${Icon} name="info" />${t("variants.only_here", { reason: onlyHere })}</p>`;
+}
+
+/** @param {{onDone: () => void}} props */
+function SaveForm({ onDone }) {
+  /** @param {string} name @param {string} note */
+  const save = async (name, note) => {
+    await allSettled();
+    const answer = await ask({ type: "save_variant", name, note });
+    if (answer?.type !== "variant_saved") return false;
+    sayLeftOut(answer.left_out);
+    return true;
+  };
+  return html`<${VariantForm} title=${t("variants.new")} action=${t("save")} name="" note="" run=${save} onDone=${onDone} />`;
+}
+
+/** @param {{variant: VariantView, onDone: () => void}} props */
+function RenameForm({ variant, onDone }) {
+  /** @param {string} name @param {string} note */
+  const rename = async (name, note) => {
+    const command = { name: variant.name, new_name: name, note };
+    return (await ask({ type: "rename_variant", ...command })) !== null;
+  };
+  return html`<li><${VariantForm} title=${t("variants.rename")} action=${t("variants.rename.do")} name=${variant.name}
+    note=${variant.note} run=${rename} onDone=${onDone} /></li>`;
+}
+
+/** @param {readonly string[]} sentences what found no place, or is not held */
+function sayLeftOut(sentences) {
+  for (const one of sentences.slice(0, 3)) notify(one, { bad: true });
+}
+
+/** @param {string} name empty: as in the files */
+async function apply(name) {
+  await allSettled();
+  const answer = await ask({ type: "apply_variant", name });
+  if (answer?.type === "variant_applied") sayLeftOut(answer.left_out);
+}
+
+/** The robot as its files say: always there to go back to. */
+function AsSaved() {
+  const active = variants.value.active === "";
+  return html`<li class=${`variant ${active ? "active" : ""}`}>
+    <${Choice} name="" label=${t("variants.saved")} active=${active}>
+      <small class="muted">${t("variants.saved.note")}</small>
+    <//>
+  </li>`;
+}
+
+/** @param {{variant: VariantView, onRename: () => void}} props */
+function VariantRow({ variant, onRename }) {
+  const active = variants.value.active === variant.name;
+  return html`<li class=${`variant ${active ? "active" : ""}`}>
+    <${Choice} name=${variant.name} label=${variant.name} active=${active}>
+      ${variant.note && html`<small>${variant.note}</small>`}
+      <${Chips} variant=${variant} />
+    <//>
+    ${active && variants.value.modified && mayEdit.value && html`<button type="button" class="button small" onClick=${() => update(variant.name)}>${t("variants.update")}</button>`}
+    <${MenuButton} class="icon-button row-menu" label=${t("variants.menu", { name: variant.name })} items=${() => menuItems(variant, onRename)}>
+      <${Icon} name="dots" size=${14} /><//>
+  </li>`;
+}
+
+/** @param {{name: string, label: string, active: boolean, children: unknown}} props switches to it */
+function Choice({ name, label, active, children }) {
+  const changed = active && variants.value.modified;
+  return html`<button type="button" class="variant-choice" aria-pressed=${active} disabled=${!mayEdit.value}
+    title=${mayEdit.value ? t("variants.apply", { name: label }) : t("variants.viewer")} onClick=${() => apply(name)}>
+    <span class="variant-mark">${active && html`<${Icon} name="check" size=${14} />`}</span>
+    <span class="variant-words">
+      <span class="variant-name">${label}${changed && html`<em class="variant-modified">${t("variants.modified")}</em>`}</span>
+      ${children}
+    </span>
+  </button>`;
+}
+
+/** @param {{variant: VariantView}} props what it sets, as far as there is room */
+function Chips({ variant }) {
+  const set = [
+    ...Object.entries(variant.arguments).map(([name, value]) => [
+      name,
+      value ?? t("variants.not_passed"),
+    ]),
+    ...variant.texts.map(({ name, text }) => [name, text]),
+  ];
+  if (set.length === 0) return html`<small class="muted">${t("variants.same")}</small>`;
+  const more = set.length - CHIPS;
+  return html`<span class="variant-values">
+    ${set.slice(0, CHIPS).map(([name, text]) => html`<code key=${name} title=${`${name} = ${text}`}>${name} <b>${text}</b></code>`)}
+    ${more > 0 && html`<small class="muted">${t("variants.more", { count: more })}</small>`}
+  </span>`;
+}
+
+/** @param {string} name */
+async function update(name) {
+  await allSettled();
+  const answer = await ask({ type: "update_variant", name });
+  if (answer?.type === "variant_saved") sayLeftOut(answer.left_out);
+}
+
+/** @param {VariantView} variant @param {() => void} onRename @returns {MenuItem[]} */
+function menuItems(variant, onRename) {
+  const { name } = variant;
+  const locked = !mayEdit.value;
+  const remove = () => {
+    dialog.value = {
+      kind: "confirm",
+      title: t("variants.delete"),
+      text: t("variants.delete.text", {
+        name,
+        file: shortPath(variants.value.path, documentState.value?.root ?? ""),
+      }),
+      action: t("variants.delete"),
+      run: () => void ask({ type: "delete_variant", name }),
+    };
+  };
+  const compare = () => compareSides({ kind: "present", name: "" }, { kind: "variant", name });
+  return [
+    { label: t("variants.compare.with"), icon: "compare", disabled: locked, run: compare },
+    {
+      label: t("variants.update.long"),
+      icon: "reload",
+      disabled: locked,
+      run: () => void update(name),
+    },
+    { label: t("variants.rename"), icon: "pencil", disabled: locked, run: onRename },
+    { label: t("variants.delete"), icon: "trash", disabled: locked, run: remove },
+  ];
+}
