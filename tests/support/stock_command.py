@@ -21,15 +21,15 @@ def get_package_share_directory(name):
 _BATCH = """
 import contextlib, io, json, sys
 import xacro
-texts = {}
-for path in json.load(sys.stdin):
+texts = []
+for path, mappings in json.load(sys.stdin):
     out = io.StringIO()
     with contextlib.redirect_stdout(out), contextlib.redirect_stderr(io.StringIO()):
         try:
-            xacro._process(path, dict(output=None, just_deps=False, verbosity=1, mappings={}))
-            texts[path] = out.getvalue()
+            xacro._process(path, dict(output=None, just_deps=False, verbosity=1, mappings=mappings))
+            texts.append(out.getvalue())
         except (SystemExit, Exception):
-            texts[path] = None
+            texts.append(None)
 json.dump(texts, sys.stdout)
 """
 
@@ -61,11 +61,18 @@ class StockCommand:
 
         Files that print sets, whose order changes from process to process, are left out.
         """
-        command, told = [sys.executable, str(self._batch)], json.dumps(list(files))
-        once, again = (
-            json.loads(self._run(command, told, {"PYTHONHASHSEED": seed})) for seed in "12"
-        )
-        return {file: text for file, text in once.items() if again[file] == text}
+        told = json.dumps([(file, {}) for file in files])
+        once, again = (self._batch_in(told, seed) for seed in "12")
+        both = zip(files, once, again, strict=True)
+        return {file: text for file, text, other in both if text == other}
+
+    def batch_with(self, launches: Sequence[tuple[str, Mapping[str, str]]]) -> list[str | None]:
+        """What it prints for each file with its arguments, None where it fails."""
+        return self._batch_in(json.dumps(launches), "1")
+
+    def _batch_in(self, told: str, seed: str) -> list[str | None]:
+        command = [sys.executable, str(self._batch)]
+        return json.loads(self._run(command, told, {"PYTHONHASHSEED": seed}))
 
     def _run(
         self, command: list[str], told: str | None, also: Mapping[str, str] | None = None
