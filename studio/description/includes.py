@@ -36,6 +36,7 @@ def include(
     included: list[OutputElement] = []
     for path in _files(run, pattern, scope):
         content = _include_one(run, node, path, (macros_in, scope_in), optional=optional)
+        run.texts.at = node.origin
         if content is not None:
             included.append(content)
             import_namespaces(run.texts, out, content.attributes)
