@@ -129,7 +129,16 @@ def test_every_requirement_is_pinned():
 
 # Folders of tests that go through several rooms, and tests of a room as a whole.
 ACROSS_ROOMS = {"bad_input", "benchmarks", "browser", "contract", "corpus", "course", "models"}
-OF_A_WHOLE_ROOM = {"test_browser_view.py", "test_corpus.py", "test_hostile_input.py"}
+OF_A_WHOLE_ROOM = {
+    "test_browser_view.py",
+    "test_corpus.py",
+    "test_expanded_as_stock.py",
+    "test_hostile_bombs.py",
+    "test_hostile_code.py",
+    "test_hostile_input.py",
+    "test_hostile_texts.py",
+    "test_warnings.py",
+}
 
 
 @pytest.mark.parametrize("path", [p for p in SOURCES if p.match("tests/*/test_*.py")], ids=name_of)
