@@ -3,7 +3,7 @@
 /** @import { Arguments, ArgumentView } from "../types/wire.d.ts" */
 /** @import { Signal } from "vendor/preact.js" */
 
-import { effect, html, useEffect, useSignal } from "vendor/preact.js";
+import { effect, html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
 import { baseName } from "../lib/paths.js";
 import { Dialog, EmptyState, Icon, IconButton, ProgressBar, Switch } from "../lib/ui.js";
@@ -57,10 +57,14 @@ export function LaunchDialog({ path, onClose }) {
     else if (!path) await load();
   };
   const name = baseName(path || (documentState.value?.path ?? ""));
+  const rows = useRef(/** @type {HTMLElement | null} */ (null));
+  useEffect(() => {
+    if (form.value) firstToFill(rows.current)?.focus();
+  }, [form.value !== null]);
   return html`<${Dialog} title=${t("launch.title", { name })} closeLabel=${t("close")} class="launch" onClose=${onClose}>
     <${Needed} form=${form.value} values=${values.value} />
     ${error.value && html`<p class="note bad" role="alert">${error.value}</p>`}
-    <form class="launch-rows" onSubmit=${(/** @type {Event} */ event) => {
+    <form ref=${rows} class="launch-rows" onSubmit=${(/** @type {Event} */ event) => {
       event.preventDefault();
       run();
     }}>
@@ -77,6 +81,11 @@ export function LaunchDialog({ path, onClose }) {
         ${path ? t("open.here") : t("launch.apply")}</button>
     </footer>
   <//>`;
+}
+
+/** @param {HTMLElement | null} rows @returns {HTMLElement | null | undefined} what lacks a value, else the first */
+function firstToFill(rows) {
+  return rows?.querySelector("[aria-invalid=true]") ?? rows?.querySelector("input, select, button");
 }
 
 /**

@@ -3,6 +3,7 @@
 /** @import { SiteGroup } from "../lib/sites.js" */
 
 import { html, useEffect, useRef, useSignal, useState } from "vendor/preact.js";
+import { commandById, commandLabel } from "../app/commands.js";
 import {
   allSites,
   documentState,
@@ -16,7 +17,7 @@ import { t } from "../lib/i18n.js";
 import { baseName, shortPath } from "../lib/paths.js";
 import { remembered } from "../lib/remembered.js";
 import { countKinds, groupSites, inPieces, KINDS } from "../lib/sites.js";
-import { EmptyState, Icon, SearchBox } from "../lib/ui.js";
+import { EmptyState, Icon, IconButton, SearchBox } from "../lib/ui.js";
 import { PropertyRow } from "./property-row.js";
 
 /** @type {import("vendor/preact.js").Signal<string[]>} */
@@ -44,6 +45,7 @@ export function PropertiesPanel() {
       ) => {
         propertyFilter.value = text;
       }} />
+      <${LaunchButton} counts=${counts} />
       <${KindChips} counts=${counts} />
       <${SelectionChip} />
     </div>
@@ -102,6 +104,14 @@ function KindChips({ counts }) {
       ${t(`kind.${kind}`)} <span class="numbers">${counts.get(kind)}</span></button>`,
     )}
   </div>`;
+}
+
+/** @param {{counts: ReadonlyMap<string, number>}} props all arguments at once, for a robot that has any */
+function LaunchButton({ counts }) {
+  const command = commandById("arguments");
+  if (!counts.get("arg") || !command?.enabled?.()) return null;
+  const label = `${commandLabel(command)}…`;
+  return html`<${IconButton} icon="sliders" label=${label} onClick=${command.run} />`;
 }
 
 function SelectionChip() {

@@ -8,7 +8,7 @@ import pytest
 
 from tests.support.packages import write_package
 from tests.support.server import running_studio
-from tests.support.studio_page import StudioPage, studio_page, wait_until
+from tests.support.studio_page import StudioPage, studio_context, studio_page, wait_until
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
 pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(240)]
 
+_HAS_FOCUS = "one => one === document.activeElement"
 MAST = """<robot name="mast" xmlns:xacro="http://www.ros.org/wiki/xacro">
   <xacro:property name="reach" value="0.4"/>
   <xacro:property name="width" value="0.1"/>
@@ -38,7 +39,9 @@ def answer_form(tab: StudioPage) -> None:
     """Give the robot what it asks for."""
     form = tab.page.get_by_role("dialog", name="Arguments of mast.urdf.xacro")
     form.get_by_text("This robot needs: side").wait_for()
-    form.get_by_role("combobox", name="side").select_option("left")
+    missing = form.get_by_role("combobox", name="side")
+    wait_until("what lacks a value to have the focus", lambda: missing.evaluate(_HAS_FOCUS))
+    missing.select_option("left")
     form.get_by_role("button", name="Apply").click()
     wait_until("the robot to be drawn", tab.has_drawn_robot)
     wait_until("the form to be gone", lambda: form.count() == 0)
@@ -58,7 +61,7 @@ def test_a_robot_asks_for_what_it_needs_and_a_link_opens_it_with_its_edits(
     browser: Browser, tmp_path: Path
 ):
     package = write_package(tmp_path / "mast_description", files={"mast.urdf.xacro": MAST})
-    context = browser.new_context(viewport={"width": 1280, "height": 720}, reduced_motion="reduce")
+    context = studio_context(browser)
     with running_studio(["open", str(package / "mast.urdf.xacro")], tmp_path / "data") as studio:
         tab, other = StudioPage(context.new_page()), StudioPage(context.new_page())
         tab.page.goto(studio.url)

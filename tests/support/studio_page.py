@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Generator
     from pathlib import Path
 
-    from playwright.sync_api import Browser, ConsoleMessage, Locator, Page
+    from playwright.sync_api import Browser, BrowserContext, ConsoleMessage, Locator, Page
 
     from tests.support.server import RunningStudio
 
@@ -121,11 +121,17 @@ class StudioPage:
         return last
 
 
+def studio_context(browser: Browser) -> BrowserContext:
+    """A browser's session, in which pictures of the 3D view can be compared."""
+    context = browser.new_context(viewport={"width": 1280, "height": 720}, reduced_motion="reduce")
+    context.add_init_script(f"({_FIXED_PIXELS})()")
+    return context
+
+
 @contextmanager
 def studio_page(browser: Browser, studio: RunningStudio) -> Generator[StudioPage]:
     """A tab that has opened the studio's printed address."""
-    context = browser.new_context(viewport={"width": 1280, "height": 720}, reduced_motion="reduce")
-    context.add_init_script(f"({_FIXED_PIXELS})()")
+    context = studio_context(browser)
     page = StudioPage(context.new_page())
     try:
         page.open(studio.url)
