@@ -102,6 +102,40 @@ export interface Comparison {
   ghost: Side | null;
 }
 
+/** What may be typed there. */
+export interface Complete {
+  request?: number;
+  document?: string;
+  file: string;
+  offset: number;
+  type: "complete";
+}
+
+/** Something that may be typed; `stops` are stretches of `insert` that the cursor visits. */
+export interface Completion {
+  label: string;
+  kind: SubjectKind;
+  insert: string;
+  stops: [number, number][];
+  detail: string;
+  doc: string;
+}
+
+/** What may stand in the place of [start, end), the likeliest first. */
+export interface Completions {
+  start: number;
+  end: number;
+  items: Completion[];
+  is_whole: boolean;
+}
+
+/** Answer to `complete`. */
+export interface CompletionsAnswer {
+  type: "completions";
+  request: number;
+  completions: Completions;
+}
+
 /** Forget a variant; the robot stays as it is. */
 export interface DeleteVariant {
   request?: number;
@@ -281,6 +315,22 @@ export interface GetOrigin {
   part: string;
 }
 
+/** What the files of the robot hold: includes, macros, properties, args. */
+export interface GetOutline {
+  request?: number;
+  document?: string;
+  type: "get_outline";
+}
+
+/** All places that name what stands there. */
+export interface GetReferences {
+  request?: number;
+  document?: string;
+  file: string;
+  offset: number;
+  type: "get_references";
+}
+
 /** The text of a file as it is edited; `texts_changed` tells from then on what happens to it. */
 export interface GetText {
   request?: number;
@@ -392,10 +442,44 @@ export interface ListFolder {
   path?: string;
 }
 
+/** What stands there, what it came to in the run, and where it is defined. */
+export interface LookUp {
+  request?: number;
+  document?: string;
+  file: string;
+  offset: number;
+  type: "look_up";
+}
+
 /** One macro on the way to a place: its name and where it was called. */
 export interface MacroCall {
   macro: string;
   called_at: Place;
+}
+
+/** What a word stands for; [start, end) is the word. */
+export interface Meaning {
+  kind: SubjectKind;
+  name: string;
+  start: number;
+  end: number;
+  text: string;
+  values: string[];
+  unit: string;
+  doc: string;
+  places: TextPlace[];
+  target: string;
+  parameters: Parameter[];
+  calls: number;
+  expression: string;
+  expression_values: string[];
+}
+
+/** Answer to `look_up`; None: nothing that is known stands there. */
+export interface MeaningAnswer {
+  type: "meaning";
+  request: number;
+  meaning: Meaning | null;
 }
 
 /** Open what a link holds as a document of its own; its edits are unsaved there. */
@@ -469,6 +553,58 @@ export interface OriginInput {
   inputs: number[];
 }
 
+/** What the files of a run hold; `is_current`: the texts have not changed since. */
+export interface Outline {
+  files: OutlineFile[];
+  macros: OutlineMacro[];
+  values: OutlineValue[];
+  is_current: boolean;
+}
+
+/** Answer to `get_outline`. */
+export interface OutlineAnswer {
+  type: "outline";
+  request: number;
+  outline: Outline;
+}
+
+/** A file of the run. `inside`: number of the file that brings it in, -1 for the entry. */
+export interface OutlineFile {
+  file: string;
+  inside: number;
+  place: TextPlace | null;
+  namespace: string;
+  is_yaml: boolean;
+}
+
+/** A macro of the files of the run; `name` with its namespace. */
+export interface OutlineMacro {
+  name: string;
+  parameters: Parameter[];
+  place: TextPlace;
+  doc: string;
+  calls: number;
+  called_at: TextPlace[];
+}
+
+/** A property or arg of the files of the run. */
+export interface OutlineValue {
+  kind: SubjectKind;
+  name: string;
+  place: TextPlace;
+  text: string;
+  values: string[];
+  doc: string;
+}
+
+/** A parameter of a macro. */
+export interface Parameter {
+  name: string;
+  kind: string;
+  default: string | null;
+  forwards: boolean;
+}
+
 /** What a text shapes about one part. */
 export interface PartEffect {
   part: string;
@@ -538,6 +674,29 @@ export interface Redo {
   request?: number;
   document?: string;
   type: "redo";
+}
+
+/** A place that names a thing; `line` is its line of text. */
+export interface Reference {
+  place: TextPlace;
+  line: string;
+  is_definition: boolean;
+  in_run: boolean;
+}
+
+/** All places that name a thing, file by file, top to bottom; the first of `count`. */
+export interface References {
+  kind: SubjectKind | null;
+  name: string;
+  references: Reference[];
+  count: number;
+}
+
+/** Answer to `get_references`. */
+export interface ReferencesAnswer {
+  type: "references";
+  request: number;
+  references: References;
 }
 
 /** The command was not carried out, and why; `kind` is the error's class name. */
@@ -687,6 +846,9 @@ export interface Sites {
   changed: SiteView[];
 }
 
+/** What a word in a text stands for. */
+export type SubjectKind = "property" | "arg" | "parameter" | "block" | "macro" | "namespace" | "package" | "file" | "folder" | "yaml" | "function" | "constant" | "variable" | "environment" | "command" | "link" | "joint" | "expression" | "tag" | "element" | "attribute" | "value";
+
 /** Answer to `get_text`: the text at a version, as `TextChange` describes texts. */
 export interface Text {
   type: "text";
@@ -708,6 +870,14 @@ export interface TextChange {
   start: number;
   end: number;
   text: string;
+}
+
+/** A stretch of one line of a text; `line` and `column` from 1, `length` in code units. */
+export interface TextPlace {
+  file: string;
+  line: number;
+  column: number;
+  length: number;
 }
 
 /** A text that somebody asked for changed, by whatever way; it now has this version. */
@@ -839,6 +1009,10 @@ export type Command =
   | GetOrigin
   | GetEffects
   | EditText
+  | GetOutline
+  | LookUp
+  | GetReferences
+  | Complete
   | SaveVariant
   | ApplyVariant
   | UpdateVariant
@@ -865,6 +1039,10 @@ export type Event =
   | Urdf
   | Text
   | TextsChanged
+  | OutlineAnswer
+  | MeaningAnswer
+  | ReferencesAnswer
+  | CompletionsAnswer
   | DiskMerged
   | Collisions
   | Arguments

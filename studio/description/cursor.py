@@ -42,6 +42,11 @@ class Cursor:
         return self.editor.text
 
     @property
+    def is_yaml(self) -> bool:
+        """Whether the file is YAML, not XML."""
+        return self.file.lower().endswith((".yaml", ".yml"))
+
+    @property
     def trace(self) -> Trace | None:
         """The watched run."""
         return self.reading.trace
@@ -125,6 +130,15 @@ class Cursor:
         includes = [one.scope for one in self.trace.seen.includes if one.file == self.file]
         return includes or [self.trace.scope]
 
+    @cached_property
+    def declarations(self) -> tuple[Tag, ...]:
+        """The properties, args and macros that this text declares, whether a run saw it or not."""
+        return tuple(declarations_in(self.text))
+
+    def open_before(self, index: int) -> tuple[Tag, ...]:
+        """The tags that are open before a character, the outermost first."""
+        return open_tags(self.text, index)
+
     def defining(self, tag: str, name: str) -> tuple[SourceElement, ...]:
         """The properties or args of a name in the files of the run, those of this file first."""
         definitions = self.reading.definitions
@@ -134,7 +148,7 @@ class Cursor:
     def declared(self, kind: SubjectKind, name: str) -> tuple[TextPlace, ...]:
         """Where this text itself declares a name; for texts that no run has seen."""
         tag = f"xacro:{kind.value}"
-        found = (one for one in declarations_in(self.text) if one.name == tag)
+        found = (one for one in self.declarations if one.name == tag)
         values = (
             (one, next((a for a in one.attributes if a.name == "name"), None)) for one in found
         )

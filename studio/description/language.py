@@ -158,6 +158,50 @@ class LookedUp:
 
 
 @dataclass(frozen=True, slots=True)
+class Reference:
+    """A place that names a thing; `line` is its line of text."""
+
+    place: TextPlace
+    line: str
+    is_definition: bool
+    in_run: bool
+    """The run came by; else it is told from the text alone and may mean another of that name."""
+
+
+@dataclass(frozen=True, slots=True)
+class References:
+    """All places that name a thing, file by file, top to bottom; the first of `count`."""
+
+    kind: SubjectKind | None
+    name: str
+    references: tuple[Reference, ...]
+    count: int
+
+
+@dataclass(frozen=True, slots=True)
+class Completion:
+    """Something that may be typed; `stops` are stretches of `insert` that the cursor visits."""
+
+    label: str
+    kind: SubjectKind
+    insert: str
+    stops: tuple[tuple[int, int], ...] = ()
+    detail: str = ""
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Completions:
+    """What may stand in the place of [start, end), the likeliest first."""
+
+    start: int
+    end: int
+    items: tuple[Completion, ...] = ()
+    is_whole: bool = True
+    """Nothing was left out: what is typed on only narrows it."""
+
+
+@dataclass(frozen=True, slots=True)
 class OutlineQuery:
     """What do the files of the run hold?"""
 
@@ -171,8 +215,26 @@ class LookUpQuery:
     offset: int
 
 
-LanguageQuery: TypeAlias = OutlineQuery | LookUpQuery
-LanguageReply: TypeAlias = Outline | LookedUp
+@dataclass(frozen=True, slots=True)
+class ReferencesQuery:
+    """Which places name what stands at this place?"""
 
-LANGUAGE_QUERIES: Final = (OutlineQuery, LookUpQuery)
-LANGUAGE_REPLIES: Final = (Outline, LookedUp)
+    file: str
+    text: bytes
+    offset: int
+
+
+@dataclass(frozen=True, slots=True)
+class CompletionQuery:
+    """What may be typed at this place?"""
+
+    file: str
+    text: bytes
+    offset: int
+
+
+LanguageQuery: TypeAlias = OutlineQuery | LookUpQuery | ReferencesQuery | CompletionQuery
+LanguageReply: TypeAlias = Outline | LookedUp | References | Completions
+
+LANGUAGE_QUERIES: Final = (OutlineQuery, LookUpQuery, ReferencesQuery, CompletionQuery)
+LANGUAGE_REPLIES: Final = (Outline, LookedUp, References, Completions)

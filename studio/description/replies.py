@@ -6,7 +6,12 @@ from typing import TYPE_CHECKING, assert_never
 
 from studio.description.effects import site_effects
 from studio.description.faults import Fault
-from studio.description.language import LookUpQuery, OutlineQuery
+from studio.description.language import (
+    CompletionQuery,
+    LookUpQuery,
+    OutlineQuery,
+    ReferencesQuery,
+)
 from studio.description.provenance import part_origin
 from studio.description.queries import NoReply, PartOriginQuery, SiteEffectsQuery
 
@@ -35,7 +40,7 @@ def _reply(query: Query, run: GoodRun) -> Reply:
             return part_origin(run, part)
         case SiteEffectsQuery(site=site):
             return site_effects(run, site)
-        case OutlineQuery() | LookUpQuery():
+        case OutlineQuery() | LookUpQuery() | ReferencesQuery() | CompletionQuery():
             raise TypeError("the language desk answers what is asked about texts")
         case _:
             assert_never(query)

@@ -20,7 +20,8 @@ if TYPE_CHECKING:
     from studio.description.scopes import Cell, Scope
     from studio.description.source_tree import SourceElement
 
-_MISSING: Final = object()
+MISSING: Final = object()
+"""The value of what has none yet."""
 _VALUE_LENGTH: Final = 120
 _KINDS: Final = {
     SiteKind.PROPERTY: SubjectKind.PROPERTY,
@@ -47,6 +48,13 @@ class Subject:
     target: str = ""
     """The file or folder that it is."""
 
+    @property
+    def key(self) -> Key:
+        """The last name or key by which expressions read it."""
+        if self.yaml and self.yaml[1]:
+            return self.yaml[1][-1]
+        return self.name
+
 
 def printed(value: Any) -> str:  # noqa: ANN401
     """A value as xacro prints it, for one line."""
@@ -69,7 +77,7 @@ class Found:
 
     kind: SubjectKind
     name: str
-    value: Any = _MISSING
+    value: Any = MISSING
     elements: tuple[SourceElement, ...] = ()
     yaml: tuple[str, KeyPath] | None = None
 
@@ -77,7 +85,7 @@ class Found:
 def found_in(scope: Scope, chain: Chain) -> Found | None:
     """Follow a chain of names from a scope; None when it leads nowhere."""
     pair = scope.find(chain.base)
-    found = _cell(chain.base, pair[0]) if pair else _symbol(chain.base, scope)
+    found = found_of(chain.base, pair[0]) if pair else _symbol(chain.base, scope)
     for key in chain.keys:
         if found is None:
             return None
@@ -85,8 +93,9 @@ def found_in(scope: Scope, chain: Chain) -> Found | None:
     return found
 
 
-def _cell(name: str, cell: Cell) -> Found:
-    value = cell.value if cell.pending is None else _MISSING
+def found_of(name: str, cell: Cell) -> Found:
+    """What a cell is."""
+    value = cell.value if cell.pending is None else MISSING
     if isinstance(value, ScopeView):
         return Found(SubjectKind.NAMESPACE, name, value, (cell.at,) if cell.at else ())
     binding = cell.binding
@@ -112,12 +121,12 @@ def _below(found: Found, key: Key) -> Found | None:
     value = found.value
     if isinstance(value, ScopeView):
         pair = value.scope.find(str(key))
-        return _cell(str(key), pair[0]) if pair else None
+        return found_of(str(key), pair[0]) if pair else None
     if isinstance(value, Namespace):
         name = str(key)
         return _exposed(name, value[name]) if name in value else None
     inside = _item(value, key)
-    if inside is _MISSING:
+    if inside is MISSING:
         return None
     if found.yaml is None:
         return Found(SubjectKind.VALUE, str(key), inside)
@@ -128,11 +137,11 @@ def _below(found: Found, key: Key) -> Found | None:
 def _item(value: Any, key: Key) -> Any:  # noqa: ANN401
     """An item of a container, looked at and not read: a read would be noted."""
     if isinstance(value, dict):
-        return _raw_items(cast("dict[Any, Any]", value)).get(key, _MISSING)
+        return _raw_items(cast("dict[Any, Any]", value)).get(key, MISSING)
     if isinstance(value, list) and isinstance(key, int):
         items: list[Any] = list(cast("Any", list).__iter__(value))
-        return items[key] if -len(items) <= key < len(items) else _MISSING
-    return _MISSING
+        return items[key] if -len(items) <= key < len(items) else MISSING
+    return MISSING
 
 
 def _raw_items(value: dict[Any, Any]) -> dict[Any, Any]:
@@ -146,7 +155,7 @@ def subject_of(founds: Iterable[Found | None]) -> Subject | None:
         return None
     first = there[0]
     alike = [found for found in there if found.kind == first.kind]
-    shown = [found.value for found in alike if found.value is not _MISSING]
+    shown = [found.value for found in alike if found.value is not MISSING]
     if first.kind in {SubjectKind.NAMESPACE, SubjectKind.FUNCTION}:
         shown = []
     elements = dict.fromkeys(element for found in alike for element in found.elements)

@@ -48,17 +48,18 @@ def subject_at(cursor: Cursor) -> Subject | None:
     return None
 
 
-def yaml_subject_at(file: str, data: bytes, byte: int) -> Subject | None:
-    """The key or value of a YAML file that a byte is on the line of; the nearest one there."""
-    line = data.count(b"\n", 0, byte) + 1
-    scalars = [one for one in read_yaml_document(data).scalars if one.line == line]
+def yaml_subject_at(cursor: Cursor) -> Subject | None:
+    """The key or value of a YAML file that is on the line of a cursor; the nearest one there."""
+    editor = cursor.editor
+    line = cursor.text.count("\n", 0, cursor.index) + 1
+    scalars = [one for one in read_yaml_document(editor.data).scalars if one.line == line]
     if not scalars:
         return None
+    byte = editor.byte_at(editor.offset_of(cursor.index))
     near = min(scalars, key=lambda one: max(byte - one.span.end, 0))
-    return Subject(
-        Kind.YAML, str(near.path[-1]) if near.path else "", yaml=(file, near.path),
-        values=(near.text,),
-    )  # fmt: skip
+    start, end = (editor.index_of(editor.offset_at(b)) for b in (near.span.start, near.span.end))
+    name = str(near.path[-1]) if near.path else ""
+    return Subject(Kind.YAML, name, start, end, yaml=(cursor.file, near.path), values=(near.text,))
 
 
 def _tag(cursor: Cursor) -> Subject | None:

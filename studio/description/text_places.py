@@ -31,12 +31,12 @@ class TextPlaces:
         length = self._units(self.data[start : max(start, end)]) if end is not None else 0
         return TextPlace(self.file, line + 1, column, length)
 
-    def line_text(self, byte: int) -> str:
-        """The line of text that holds a byte, without the blanks around it."""
-        line = bisect_right(self._line_starts, byte) - 1
+    def line(self, number: int) -> str:
+        """The line of text of a number from 1, without the blanks around it."""
         starts = self._line_starts
-        end = starts[line + 1] if line + 1 < len(starts) else len(self.data)
-        return self.data[starts[line] : end].decode(self._encoding, "replace").strip()
+        first = starts[min(number, len(starts)) - 1]
+        end = starts[number] if number < len(starts) else len(self.data)
+        return self.data[first:end].decode(self._encoding, "replace").strip()
 
     @cached_property
     def _line_starts(self) -> list[int]:

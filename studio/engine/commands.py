@@ -207,6 +207,40 @@ class GetText(CommandMessage):
     file: str = Field(max_length=4096)
 
 
+class GetOutline(CommandMessage):
+    """What the files of the robot hold: includes, macros, properties, args."""
+
+    type: Literal["get_outline"] = "get_outline"
+
+
+class PlaceCommand(CommandMessage):
+    """A question about a place of a file's text, as `get_text` and `texts_changed` tell it.
+
+    `offset` counts UTF-16 code units from 0: no byte order mark, every line break one LF.
+    """
+
+    file: str = Field(max_length=4096)
+    offset: int = Field(ge=0)
+
+
+class LookUp(PlaceCommand):
+    """What stands there, what it came to in the run, and where it is defined."""
+
+    type: Literal["look_up"] = "look_up"
+
+
+class GetReferences(PlaceCommand):
+    """All places that name what stands there."""
+
+    type: Literal["get_references"] = "get_references"
+
+
+class Complete(PlaceCommand):
+    """What may be typed there."""
+
+    type: Literal["complete"] = "complete"
+
+
 class TextChange(Message):
     """In the text before, [start, end) gives way to `text`.
 
@@ -309,6 +343,10 @@ Command: TypeAlias = Annotated[
     | GetOrigin
     | GetEffects
     | EditText
+    | GetOutline
+    | LookUp
+    | GetReferences
+    | Complete
     | SaveVariant
     | ApplyVariant
     | UpdateVariant

@@ -59,6 +59,14 @@ async def carry_out(document: Document, command: m.Command, listener: Listener) 
             tell(listener, await document.origins.origin(command))
         case m.GetEffects():
             tell(listener, await document.origins.effects(command))
+        case m.GetOutline():
+            tell(listener, await document.language.outline(command))
+        case m.LookUp():
+            tell(listener, await document.language.look_up(command, listener.role))
+        case m.GetReferences():
+            tell(listener, await document.language.references(command, listener.role))
+        case m.Complete():
+            tell(listener, await document.language.complete(command))
         case m.EditText():
             await document.edit_text(command)
         case m.SaveVariant() | m.UpdateVariant():

@@ -8,6 +8,12 @@ from pydantic import Field, TypeAdapter
 
 from studio.description.values import SiteKind, Widget
 from studio.engine.commands import TextChange
+from studio.engine.language_events import (
+    CompletionsAnswer,
+    MeaningAnswer,
+    OutlineAnswer,
+    ReferencesAnswer,
+)
 from studio.engine.message import Message
 from studio.engine.origin_events import Effects, Origin
 from studio.engine.variant_events import Comparison, VariantApplied, Variants, VariantSaved
@@ -370,6 +376,10 @@ Event: TypeAlias = Annotated[
     | Urdf
     | Text
     | TextsChanged
+    | OutlineAnswer
+    | MeaningAnswer
+    | ReferencesAnswer
+    | CompletionsAnswer
     | DiskMerged
     | Collisions
     | Arguments

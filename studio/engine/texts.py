@@ -66,6 +66,20 @@ class TextDesk:
             read_only="" if self._may_write(file) else f"{file} cannot be edited: {_READ_ONLY}",
         )
 
+    def bytes_of(self, file: str, role: Role) -> tuple[str, bytes]:
+        """The name under which a file is known, and its bytes as they are edited.
+
+        Raises:
+            CommandError: It is too large, or no file of this document to a viewer.
+            PackageError: It lies outside the opened folders, or cannot be read.
+        """
+        name = self._name(file, role)
+        sources, served = self._document.sources, self._document.location.served
+        data = sources.text(name) if name in sources.files else served.read(name)
+        if len(data) > TEXT_LIMIT_BYTES:
+            raise CommandError(f"{file} is larger than {_LIMIT_MB} MB: open it in another editor.")
+        return name, data
+
     def edit(self, command: m.EditText) -> tuple[Edit, ...]:
         """Type into a text; what was done to the sources, in order. `follow` tells it.
 

@@ -43,6 +43,9 @@ _LOOK: Final = frozenset(
         "get_urdf",
         "get_text",
         "get_origin",
+        "get_outline",
+        "look_up",
+        "get_references",
         "get_effects",
         "viser:ViewerCameraMessage",
     }
@@ -72,6 +75,7 @@ _CONTROL: Final = frozenset(
         "set_display",
         "choose_package",
         "edit_text",
+        "complete",
         "save_variant",
         "apply_variant",
         "update_variant",

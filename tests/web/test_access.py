@@ -15,7 +15,10 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 COMMANDS = sorted(kind.model_fields["type"].default for kind in get_args(get_args(Command)[0]))
-VIEWER_COMMANDS = {"watch", "get_urdf", "get_text", "get_origin", "get_effects"}
+VIEWER_COMMANDS = {
+    *("watch", "get_urdf", "get_text", "get_origin", "get_effects"),
+    *("get_outline", "look_up", "get_references"),
+}
 CLIENT_MESSAGES = {
     "ViewerCameraMessage",
     "SceneNodeClickMessage",

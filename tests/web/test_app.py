@@ -66,6 +66,7 @@ FIELDS: dict[str, object] = {
     "values": {"x": "1"},
     "keep": "mine",
     "version": 0,
+    "offset": 0,
     "changes": [{"start": 0, "end": 0, "text": "x"}],
     "positions": {},
     "running": True,

@@ -1,0 +1,63 @@
+"""What an editor in the page asks about a text, answered by the document's xacro worker."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from studio.description.language import (
+    CompletionQuery,
+    Completions,
+    LookedUp,
+    LookUpQuery,
+    Outline,
+    OutlineQuery,
+    References,
+    ReferencesQuery,
+)
+from studio.engine.language_events import (
+    CompletionsAnswer,
+    MeaningAnswer,
+    OutlineAnswer,
+    ReferencesAnswer,
+)
+from studio.engine.roles import Role
+
+if TYPE_CHECKING:
+    from studio.engine.commands import Complete, GetOutline, GetReferences, LookUp
+    from studio.engine.document import Document
+
+
+class LanguageDesk:
+    """Asks with the text as it is edited at that moment, whatever the worker has read so far.
+
+    Every question raises a CommandError when nobody can answer it, or a PackageError for a file
+    that may not be read.
+    """
+
+    def __init__(self, document: Document) -> None:
+        self._document = document
+
+    async def outline(self, command: GetOutline) -> OutlineAnswer:
+        """What the files of the document hold."""
+        outline = await self._document.ask(OutlineQuery(), Outline)
+        return OutlineAnswer(request=command.request, outline=outline)
+
+    async def look_up(self, command: LookUp, role: Role) -> MeaningAnswer:
+        """What stands at a place."""
+        file, text = self._document.texts.bytes_of(command.file, role)
+        found = await self._document.ask(LookUpQuery(file, text, command.offset), LookedUp)
+        return MeaningAnswer(request=command.request, meaning=found.meaning)
+
+    async def references(self, command: GetReferences, role: Role) -> ReferencesAnswer:
+        """All places that name what stands at a place."""
+        file, text = self._document.texts.bytes_of(command.file, role)
+        query = ReferencesQuery(file, text, command.offset)
+        references = await self._document.ask(query, References)
+        return ReferencesAnswer(request=command.request, references=references)
+
+    async def complete(self, command: Complete) -> CompletionsAnswer:
+        """What may be typed at a place."""
+        file, text = self._document.texts.bytes_of(command.file, Role.PRESENTER)
+        query = CompletionQuery(file, text, command.offset)
+        completions = await self._document.ask(query, Completions)
+        return CompletionsAnswer(request=command.request, completions=completions)
