@@ -12,6 +12,7 @@ import re
 from typing import TYPE_CHECKING
 from xml.parsers import expat
 
+from studio.description.xml_faults import sentence_of
 from studio.problems import Place
 from studio.settings import SOURCE_SIZE_LIMIT_BYTES
 
@@ -214,7 +215,9 @@ class _Builder:
             self._parser.Parse(self._tree.data, True)  # noqa: FBT003 - expat's own way
         except expat.ExpatError as error:
             place = Place(self._tree.path, error.lineno, error.offset + 1)
-            raise SourceError("xml-malformed", _sentence_of(error), place) from None
+            at = self._parser.ErrorByteIndex
+            sentence = sentence_of(error, self._tree.data, at, self._open)
+            raise SourceError("xml-malformed", sentence, place) from None
         except ValueError:  # expat's word for encodings of more than one byte per character
             sentence = f"The encoding {self._tree.encoding} is not read: save the file as UTF-8."
             place = Place(self._tree.path, 1, 1)
@@ -286,14 +289,3 @@ def _unbound(prefix: str) -> str:
         declaration = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
         return f"xacro: is used but not declared: add {declaration} to the root element."
     return f'The prefix "{prefix}:" is not declared: add xmlns:{prefix}="..." to the root element.'
-
-
-def _sentence_of(error: expat.ExpatError) -> str:
-    reason = expat.ErrorString(error.code)
-    if reason == expat.errors.XML_ERROR_TAG_MISMATCH:
-        return "A closing tag does not match the tag that is open here."
-    if reason == expat.errors.XML_ERROR_MISPLACED_XML_PI:
-        return "<?xml ...?> must be the very first thing of the file: move it up or remove it."
-    if reason == expat.errors.XML_ERROR_NO_ELEMENTS:
-        return "The file ends before its root element does: close every tag."
-    return f"The XML is not well-formed here: {reason}."
