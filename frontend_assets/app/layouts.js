@@ -29,6 +29,7 @@ export function modelLayout(kind, width, height) {
         tabs: [
           "scene",
           "properties",
+          "origin",
           "joints",
           "variants",
           "displays",
@@ -48,18 +49,18 @@ export function modelLayout(kind, width, height) {
     ];
     return [
       { split: left, size: width - right },
-      { tabs: ["properties", "joints", "variants"], size: right },
+      { tabs: ["properties", "origin", "joints", "variants"], size: right },
     ];
   }
   const low = Math.round(Math.min(340, height * 0.36));
   const scene = { tabs: ["scene"], size: height - low };
   const below = { tabs: ["source", "problems", "urdf"], size: low };
   const left = Math.round(Math.min(280, width * 0.22));
-  const right = Math.round(Math.min(340, width * 0.28));
+  const right = Math.round(Math.min(390, width * 0.28));
   return [
     { tabs: ["displays"], size: left },
     { split: [scene, below], size: width - left - right },
-    { tabs: ["properties", "joints", "variants"], size: right },
+    { tabs: ["properties", "origin", "joints", "variants"], size: right },
   ];
 }
 

@@ -39,6 +39,10 @@ export const PANELS = {
     badge: problemsBadge,
     load: async () => (await import("../panels/problems.js")).ProblemsPanel,
   },
+  origin: {
+    icon: "origin",
+    load: async () => (await import("../panels/origin.js")).OriginPanel,
+  },
   urdf: { icon: "urdf", load: async () => (await import("../panels/urdf.js")).UrdfPanel },
 };
 

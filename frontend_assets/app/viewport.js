@@ -11,6 +11,7 @@ import { moveJoint } from "./actions.js";
 import { isStroke, onKey } from "./commands.js";
 import { mayEdit } from "./state/connection.js";
 import { movable, position, robot } from "./state/document.js";
+import { effects } from "./state/origin.js";
 import {
   degrees,
   hiddenLinks,
@@ -36,6 +37,7 @@ import {
  * @property {(link: string, opacity: number) => void} setLinkOpacity
  * @property {(link: string | null) => void} setHover
  * @property {(link: string | null) => void} setSelection
+ * @property {(changed: readonly string[], moved: readonly string[]) => void} setLit what a property shapes
  * @property {(can: boolean) => void} setCanDrag
  * @property {(unit: "deg" | "rad") => void} setAngleUnit of the value at the cursor
  * @property {boolean} connected
@@ -116,6 +118,10 @@ function tell(view) {
     effect(() => view.setMouse(mouseMode.value)),
     effect(() => view.setHover(hovered.value)),
     effect(() => view.setSelection(selected.value)),
+    effect(() => {
+      const { changed_links: changed = [], moved_links: moved = [] } = effects.value ?? {};
+      view.setLit(changed, moved);
+    }),
     effect(() => view.setCanDrag(mayEdit.value)),
     effect(() => view.setAngleUnit(degrees.value ? "deg" : "rad")),
     tellLinks(view),

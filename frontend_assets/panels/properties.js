@@ -18,6 +18,7 @@ import { baseName, shortPath } from "../lib/paths.js";
 import { remembered } from "../lib/remembered.js";
 import { countKinds, groupSites, inPieces, KINDS } from "../lib/sites.js";
 import { EmptyState, Icon, IconButton, SearchBox } from "../lib/ui.js";
+import { EffectLine } from "./effect-line.js";
 import { PropertyRow } from "./property-row.js";
 
 /** @type {import("vendor/preact.js").Signal<string[]>} */
@@ -58,6 +59,7 @@ export function PropertiesPanel() {
       )}
       ${groups.length === 0 && html`<${Nothing} counts=${counts} />`}
     </div>
+    <${EffectLine} />
   </section>`;
 }
 

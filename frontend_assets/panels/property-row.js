@@ -8,7 +8,8 @@ import { editSite, resetSite, setArgument } from "../app/actions.js";
 import { mayEdit } from "../app/state/connection.js";
 import { cursorSites } from "../app/state/cursor-sites.js";
 import { documentState, problems, showingLastGood } from "../app/state/document.js";
-import { litPlaces, showSource } from "../app/state/source.js";
+import { hoverSite } from "../app/state/origin.js";
+import { showSource } from "../app/state/source.js";
 import { degrees, hovered } from "../app/state/view.js";
 import { isExpression } from "../lib/expressions.js";
 import { createGesture } from "../lib/gesture.js";
@@ -50,11 +51,11 @@ export function PropertyRow({ site: followed }) {
   return html`<div class=${`property ${states}`} role="group" aria-label=${site.name} data-site=${site.id}
     onPointerEnter=${() => {
       if (link) hovered.value = link;
-      litPlaces.value = [{ file: site.file, line: site.line }];
+      hoverSite(site.id);
     }} onPointerLeave=${() => {
       if (link) hovered.value = null;
-      litPlaces.value = [];
-    }}>
+      hoverSite(null);
+    }} onFocusIn=${() => hoverSite(site.id)} onFocusOut=${() => hoverSite(null)}>
     <div class="property-head">
       <${Name} site=${site} changed=${changed} />
       <${Editor} part="head" site=${site} text=${text} writer=${writer} invalid=${failure !== null} />
@@ -172,6 +173,11 @@ function menuItems(site, writer) {
     label: t("property.show_source"),
     icon: "source",
     run: () => showSource(site.file, site.line),
+  });
+  items.push({
+    label: t("property.show_effects"),
+    icon: "origin",
+    run: () => hoverSite(site.id),
   });
   if (isExpression(site.text) && site.number !== null && site.argument === null) {
     const number = formatNumber(site.number);

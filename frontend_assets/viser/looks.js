@@ -5,10 +5,12 @@ import { RobotView } from "./robot.js";
 
 const HOVER = { tint: 0.3, glow: 0.2 };
 const SELECTION = { tint: 0.6, glow: 0.45 };
+const CHANGED = { tint: 0.5, glow: 0.35 };
+const MOVED = { tint: 0.22, glow: 0.14 };
 const NONE = { tint: 0, glow: 0 };
 
 /**
- * What this browser alone sees differently: links hidden, see-through, hovered or selected.
+ * What this browser alone sees differently: links hidden, see-through, hovered, selected or lit.
  * Materials are exchanged for the time of one picture, so that nothing that viser or the server
  * does in between can be in the way, and no reload can lose it.
  */
@@ -19,6 +21,8 @@ export class Looks {
   selected = null;
   /** @type {Map<string, number>} */
   #opacity = new Map();
+  /** Links that a property shapes, and how much they light up. @type {Map<string, typeof NONE>} */
+  #lit = new Map();
   /** @type {Set<string>} */
   #hidden = new Set();
   /** @type {WeakMap<Material, Material>} */
@@ -69,6 +73,14 @@ export class Looks {
     this.#door.redraw();
   }
 
+  /** @param {readonly string[]} changed @param {readonly string[]} moved */
+  setLit(changed, moved) {
+    if (this.#lit.size + changed.length + moved.length === 0) return;
+    this.#lit = new Map(moved.map((link) => [link, MOVED]));
+    for (const link of changed) this.#lit.set(link, CHANGED);
+    this.#door.redraw();
+  }
+
   /** A link that was made anew comes visible. @param {import("./viser.d.ts").Message} message */
   #hideAnew(message) {
     if (message.type !== "FrameMessage" || this.#hidden.size === 0) return;
@@ -82,14 +94,14 @@ export class Looks {
   #dress() {
     const links = this.#robot.opacity < 1 ? this.#robot.drawn : new Set([...this.#opacity.keys()]);
     for (const link of links) this.#dressLink(link);
-    for (const link of new Set([this.hovered, this.selected]))
+    for (const link of new Set([this.hovered, this.selected, ...this.#lit.keys()]))
       if (link && !links.has(link)) this.#dressLink(link);
   }
 
   /** @param {string} link */
   #dressLink(link) {
     const opacity = this.#robot.opacity * (this.#opacity.get(link) ?? 1);
-    const shine = link === this.selected ? SELECTION : link === this.hovered ? HOVER : NONE;
+    const shine = this.#shineOf(link);
     this.#robot.eachMesh(link, (mesh) => {
       if (!mesh.material) return;
       this.#exchanged.push([mesh, mesh.material]);
@@ -97,6 +109,13 @@ export class Looks {
         ? mesh.material.map((material) => this.#twin(material, opacity, shine))
         : this.#twin(mesh.material, opacity, shine);
     });
+  }
+
+  /** @param {string} link */
+  #shineOf(link) {
+    const lit = this.#lit.get(link) ?? NONE;
+    if (link === this.selected) return SELECTION;
+    return link === this.hovered && lit.tint < HOVER.tint ? HOVER : lit;
   }
 
   #undress() {

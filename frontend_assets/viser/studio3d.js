@@ -117,6 +117,12 @@ class Studio3d {
     this.#looks.setSelected(link);
   }
 
+  /** What a property shapes: links that look otherwise for it, and links that only sit elsewhere.
+   * @param {readonly string[]} changed @param {readonly string[]} moved */
+  setLit(changed, moved) {
+    this.#looks.setLit(changed, moved);
+  }
+
   /** The link at a place of this window, or null. @param {number} x @param {number} y */
   linkAt(x, y) {
     return pick(this.#door, this.#robot, x, y)?.link ?? null;

@@ -1,0 +1,154 @@
+/**
+ * Where the selected part comes from, and what a property shapes. Both are asked of the studio when
+ * somebody looks, true of the last good run, and asked anew when there is another one.
+ */
+
+/** @import { Effects, PartOrigin } from "../../types/wire.d.ts" */
+/** @import { Signal } from "vendor/preact.js" */
+
+import { batch, computed, effect, signal, untracked } from "vendor/preact.js";
+import { RefusedError, send } from "../wire.js";
+import { connection } from "./connection.js";
+import { built, robot, site } from "./document.js";
+import { litPlaces } from "./source.js";
+import { selected } from "./view.js";
+
+/** The pointer rests so long before anything is asked. */
+const REST_MS = 70;
+/** So long nothing was built before an answer is asked for again: not at every step of a drag. */
+const SETTLE_MS = 250;
+/** Answers of one run that are kept. */
+const KEPT = 500;
+
+/**
+ * @typedef {object} WantedPart
+ * @property {string} part `link:<name>`, `joint:<name>`, `material:<name>` or `other:<n>`
+ * @property {string} element path of the element that is looked for; empty: none
+ * @property {string} attribute
+ */
+
+/** What was chosen last, a part or one attribute of it. @type {Signal<WantedPart | null>} */
+export const wantedPart = signal(null);
+
+/** The part that is explained: the chosen one, while its link is the selected one. */
+export const part = computed(() => {
+  const wanted = wantedPart.value;
+  const link = selected.value;
+  if (wanted && (linkOf(wanted.part) ?? link) === link) return wanted.part;
+  return link ? `link:${link}` : null;
+});
+
+/** @param {string} key @returns {string | null} the link that is selected with a part, if it has one */
+function linkOf(key) {
+  const [kind = "", name = ""] = splitKey(key);
+  if (kind === "link") return name;
+  if (kind !== "joint") return null;
+  return robot.value?.joints.find((joint) => joint.name === name)?.child ?? null;
+}
+
+/** @param {string} key @returns {[string, string]} kind and name of a part */
+export function splitKey(key) {
+  const at = key.indexOf(":");
+  return [key.slice(0, at), key.slice(at + 1).replace(/#\d+$/, "")];
+}
+
+/**
+ * Explain a part, and select the link that belongs to it.
+ *
+ * @param {string} key
+ * @param {string} [element] path of an element in it
+ * @param {string} [attribute]
+ */
+export function selectPart(key, element = "", attribute = "") {
+  batch(() => {
+    wantedPart.value = { part: key, element, attribute };
+    selected.value = linkOf(key) ?? selected.value;
+  });
+}
+
+/** What the studio told of a part; `refused` says why it told nothing. @typedef {{part: string, origin: PartOrigin | null, refused: string}} KnownOrigin */
+/** @type {Signal<KnownOrigin | null>} */
+export const origin = signal(null);
+
+/** Keep `origin` true while somebody looks. @returns {() => void} the end of looking */
+export function followOrigin() {
+  /** @type {ReturnType<typeof setTimeout> | undefined} */
+  let later;
+  const end = effect(() => {
+    const key = part.value;
+    built.value;
+    const there = connection.value === "connected" && robot.value !== null;
+    clearTimeout(later);
+    const known = untracked(() => origin.value?.part === key);
+    if (there && key) later = setTimeout(() => askOrigin(key), known ? SETTLE_MS : 0);
+  });
+  return () => {
+    clearTimeout(later);
+    end();
+  };
+}
+
+/** @param {string} key */
+async function askOrigin(key) {
+  try {
+    const answer = await send({ type: "get_origin", part: key });
+    if (answer.type === "origin" && part.peek() === key)
+      origin.value = { part: key, origin: answer.origin, refused: "" };
+  } catch (error) {
+    // When the lane was lost, it is asked again with the next one.
+    if (part.peek() === key && error instanceof RefusedError)
+      origin.value = { part: key, origin: null, refused: error.message };
+  }
+}
+
+/** What the pointed-at property shapes, as soon as it is known. @type {Signal<Effects | null>} */
+export const effects = signal(null);
+
+/** @type {Signal<string | null>} */
+const pointedSite = signal(null);
+/** Answers that are true of the run `knownOf`. @type {Map<string, Effects>} */
+const known = new Map();
+let knownOf = built.peek();
+/** @type {ReturnType<typeof setTimeout> | undefined} */
+let asking;
+
+/**
+ * Tell what a property shapes: its parts light up in 3D, and who reads it in the source.
+ *
+ * @param {string | null} id of the property under the pointer or with the focus; null: none any more
+ */
+export function hoverSite(id) {
+  pointedSite.value = id;
+}
+
+effect(() => {
+  const id = pointedSite.value;
+  const again = knownOf !== built.value;
+  if (again) known.clear();
+  knownOf = built.value;
+  clearTimeout(asking);
+  const shown = untracked(() => effects.value);
+  const answer = id === null ? null : known.get(id);
+  if (id === null || answer || shown?.site !== id) effects.value = answer ?? null;
+  if (id !== null && !answer)
+    asking = setTimeout(() => askEffects(id), again ? SETTLE_MS : REST_MS);
+});
+
+/** @param {string} id */
+async function askEffects(id) {
+  const run = built.peek();
+  const answer = await send({ type: "get_effects", site: id }).catch(() => null);
+  if (answer?.type !== "effects") return;
+  if (run === built.peek()) {
+    if (known.size >= KEPT) known.clear();
+    known.set(id, answer);
+  }
+  if (pointedSite.peek() === id) effects.value = answer;
+}
+
+effect(() => {
+  const id = pointedSite.value;
+  const place = id === null ? null : site(id)?.peek();
+  const readers = effects.value?.site === id ? effects.value.readers : [];
+  litPlaces.value = place ? [{ file: place.file, line: place.line }, ...readers] : [];
+});

@@ -1,0 +1,98 @@
+/** What a number is made of: each input as a button that opens its row and what is behind it in turn. */
+
+/** @import { OriginInput } from "../types/wire.d.ts" */
+
+import { html, useSignal } from "vendor/preact.js";
+import { PlaceLink } from "../app/place-link.js";
+import { site, sitesRevision } from "../app/state/document.js";
+import { hoverSite } from "../app/state/origin.js";
+import { degrees } from "../app/state/view.js";
+import { t } from "../lib/i18n.js";
+import { isComputed, valueText } from "../lib/origin.js";
+import { Icon } from "../lib/ui.js";
+import { PropertyRow } from "./property-row.js";
+
+/** No robot needs more; a circle is not possible, but nothing here depends on that. */
+const DEEPEST = 60;
+
+/**
+ * @param {object} props
+ * @param {readonly number[]} props.of
+ * @param {readonly OriginInput[]} props.inputs all of the part
+ * @param {string} [props.site] of the text itself, when that can be edited
+ * @param {number} [props.depth]
+ */
+export function Inputs({ of, inputs, site: own = "", depth = 0 }) {
+  const open = useSignal(/** @type {number | null} */ (null));
+  if (of.length === 0 && !own) return null;
+  const chosen = open.value;
+  const shown = chosen !== null && chosen >= 0 ? inputs[chosen] : undefined;
+  /** @param {number} at -1: the text itself */
+  const toggle = (at) => {
+    open.value = open.value === at ? null : at;
+  };
+  return html`<div class="inputs">
+    <div class="chips">
+      ${own && html`<${OwnChip} id=${own} open=${chosen === -1} onClick=${() => toggle(-1)} />`}
+      ${of.map((at) => {
+        const input = inputs[at];
+        return (
+          input &&
+          html`<${InputChip} key=${at} input=${input} open=${chosen === at} onClick=${() => toggle(at)} />`
+        );
+      })}
+    </div>
+    ${chosen === -1 && html`<${SiteRow} id=${own} />`}
+    ${shown && depth < DEEPEST && html`<${Opened} input=${shown} inputs=${inputs} depth=${depth} />`}
+  </div>`;
+}
+
+/** @param {{id: string, open: boolean, onClick: () => void}} props a number that stands there as it is */
+function OwnChip({ id, open, onClick }) {
+  return html`<button type="button" class="chip input-chip" aria-expanded=${open} onClick=${onClick}
+    onPointerEnter=${() => hoverSite(id)} onPointerLeave=${() => hoverSite(null)}>
+    <${Icon} name="pencil" size=${12} />${t("origin.edit")}</button>`;
+}
+
+/** @param {{input: OriginInput, open: boolean, onClick: () => void}} props */
+function InputChip({ input, open, onClick }) {
+  const value = shownValue(input);
+  const title = `${t(`origin.kind.${input.kind}`)} ${input.name} = ${input.value}`;
+  const point = (/** @type {boolean} */ on) => input.site && hoverSite(on ? input.site : null);
+  return html`<button type="button" class=${`chip input-chip`} aria-expanded=${open} title=${title}
+    onClick=${onClick} onPointerEnter=${() => point(true)} onPointerLeave=${() => point(false)}>
+    <span class="input-name">${shortest(input.name)}</span>
+    ${value && html`<span class="numbers">${value}</span>`}
+    ${input.site && html`<${Icon} name="pencil" size=${11} />`}</button>`;
+}
+
+/** @param {OriginInput} input @returns {string} of a long text nothing */
+function shownValue({ value, site: id }) {
+  const text = valueText(value, (id && site(id)?.value.widget.unit) || "", degrees.value);
+  return text.length <= 24 ? text : "";
+}
+
+/** @param {string} name of a key path its end */
+const shortest = (name) => (name.length > 28 ? `…${name.slice(-27)}` : name);
+
+/** @param {{input: OriginInput, inputs: readonly OriginInput[], depth: number}} props */
+function Opened({ input, inputs, depth }) {
+  return html`<div class="opened">
+    ${
+      input.site
+        ? html`<${SiteRow} id=${input.site} />`
+        : html`<p class="origin-line"><span class="muted">${t(`origin.kind.${input.kind}`)}</span>
+        <strong class="property-name">${input.name}</strong><span class="origin-value numbers" title=${input.value}>${input.value}</span></p>
+        ${isComputed(input.text) && html`<code class="origin-text">${input.text}</code>`}`
+    }
+    ${input.place.file ? html`<p class="opened-place"><${PlaceLink} place=${input.place} /></p>` : html`<p class="note">${t("origin.given")}</p>`}
+    ${input.inputs.length > 0 && html`<${Inputs} of=${input.inputs} inputs=${inputs} depth=${depth + 1} />`}
+  </div>`;
+}
+
+/** @param {{id: string}} props the property as the panel of properties has it */
+function SiteRow({ id }) {
+  sitesRevision.value;
+  const one = site(id);
+  return one ? html`<${PropertyRow} key=${id} site=${one} />` : null;
+}
