@@ -23,7 +23,8 @@ export function partOf(part) {
 export function rowLabel({ what, number }, word) {
   const [first = "", ...rest] = what.split(".");
   const count = number > 0 ? [String(number)] : [];
-  return [word(first), ...count, ...rest.map(word)].join(" ");
+  const text = [word(first), ...count, ...rest.map(word)].join(" ");
+  return text.charAt(0).toUpperCase() + text.slice(1);
 }
 
 /** @param {string} unit @param {boolean} degrees @returns {{unit: string, factor: number}} */
@@ -40,7 +41,7 @@ export function valueText(value, factor) {
 
 /** @param {number} value @returns {string} with its sign */
 function signed(value) {
-  const text = formatNumber(value, 4);
+  const text = formatNumber(value, 3);
   return value > 0 ? `+${text}` : text.replace("-", "−");
 }
 
@@ -48,7 +49,7 @@ function signed(value) {
 export function changeText({ delta, percent }, factor) {
   return {
     delta: delta === null ? "" : signed(delta * factor),
-    percent: percent === null ? "" : `${signed(Number(percent.toPrecision(3)))} %`,
+    percent: percent === null ? "" : `${signed(Number(percent.toPrecision(3)))}\u00a0%`,
   };
 }
 

@@ -2,7 +2,7 @@
 
 /** @import { Side } from "../types/wire.d.ts" */
 
-import { html } from "vendor/preact.js";
+import { effect, html } from "vendor/preact.js";
 import { ask, setDisplay } from "../app/actions.js";
 import { mayEdit } from "../app/state/connection.js";
 import { displays } from "../app/state/document.js";
@@ -14,6 +14,7 @@ import {
   sideOf,
   variants,
 } from "../app/state/variants.js";
+import { viewport } from "../app/viewport.js";
 import { t } from "../lib/i18n.js";
 import { allSettled } from "../lib/latest.js";
 import { Slider } from "../lib/slider.js";
@@ -88,38 +89,46 @@ function SideChoice({ label, side, beside, choose }) {
   </select>`;
 }
 
+/** The scene comes to this page on a lane of its own. */
+const DRAWN_AFTER_MS = 400;
 const PLACES = /** @type {const} */ (["off", "over", "beside"]);
 
 /** For everybody who looks: whether the other robot is drawn, where, and how clearly. */
 function GhostControls() {
   const settings = displays.value.ghost;
   if (!settings) return null;
-  const place = !settings.visible ? "off" : settings.beside ? "beside" : "over";
+  const place = settings.visible ? (settings.beside ? "beside" : "over") : "off";
   const off = !mayEdit.value;
-  const opacity = Number(settings.opacity);
-  const ghost = comparison.value.ghost;
   return html`<div class="ghost-controls" role="group" aria-label=${t("ghost")}>
     <span class="ghost-label"><${Icon} name="ghost" size=${14} />${t("ghost")}</span>
     <span class="segments" role="radiogroup" aria-label=${t("ghost")}>
-      ${PLACES.map(
-        (
-          one,
-        ) => html`<button key=${one} type="button" role="radio" aria-checked=${one === place} disabled=${off}
-        title=${t(`ghost.${one}.hint`)} onClick=${() => putGhost(one)}>${t(`ghost.${one}`)}</button>`,
-      )}
+      ${PLACES.map((one) => html`<button key=${one} type="button" role="radio" aria-checked=${one === place} disabled=${off} title=${t(`ghost.${one}.hint`)} onClick=${() => putGhost(one)}>${t(`ghost.${one}`)}</button>`)}
     </span>
-    ${
-      place !== "off" &&
-      html`<${Slider} label=${t("ghost.opacity")} min=${0.05} max=${1} step=${0.05} value=${opacity}
-      text=${`${Math.round(opacity * 100)} %`} disabled=${off} onMove=${(/** @type {number} */ value) => setDisplay("ghost", "opacity", value)}
-      onEnd=${async () => {}} />`
-    }
-    ${ghost && html`<p class="ghost-legend"><i></i>${sideName(ghost)}</p>`}
+    ${place !== "off" && html`<${GhostLook} opacity=${Number(settings.opacity)} off=${off} />`}
   </div>`;
+}
+
+/** @param {{opacity: number, off: boolean}} props which robot it is, and how clearly it is drawn */
+function GhostLook({ opacity, off }) {
+  const ghost = comparison.value.ghost;
+  const move = (/** @type {number} */ value) => setDisplay("ghost", "opacity", value);
+  return html`<p class="ghost-legend">${ghost && html`<i></i>${sideName(ghost)}`}</p>
+    <${Slider} label=${t("ghost.opacity")} min=${0.05} max=${1} step=${0.05} value=${opacity}
+      text=${`${Math.round(opacity * 100)} %`} disabled=${off} onMove=${move} onEnd=${async () => {}} />`;
 }
 
 /** @param {typeof PLACES[number]} place */
 async function putGhost(place) {
   if (place !== "off") await setDisplay("ghost", "beside", place === "beside");
-  setDisplay("ghost", "visible", place !== "off");
+  await setDisplay("ghost", "visible", place !== "off");
+  if (place === "beside") whenDrawn(() => viewport.value?.fit());
+}
+
+/** Once the ghost stands in the scene, and viser has drawn it. @param {() => void} run */
+function whenDrawn(run) {
+  const stop = effect(() => {
+    if (!comparison.value.ghost) return;
+    setTimeout(run, DRAWN_AFTER_MS);
+    queueMicrotask(() => stop());
+  });
 }

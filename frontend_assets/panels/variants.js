@@ -78,7 +78,7 @@ function SaveForm({ onDone }) {
     sayLeftOut(answer.left_out);
     return true;
   };
-  return html`<${VariantForm} title=${t("variants.new")} action=${t("save")} name="" note="" run=${save} onDone=${onDone} />`;
+  return html`<${VariantForm} title=${t("variants.new")} action=${t("variants.save.do")} name="" note="" run=${save} onDone=${onDone} />`;
 }
 
 /** @param {{variant: VariantView, onDone: () => void}} props */
@@ -123,7 +123,7 @@ function VariantRow({ variant, onRename }) {
       <${Chips} variant=${variant} />
     <//>
     ${active && variants.value.modified && mayEdit.value && html`<button type="button" class="button small" onClick=${() => update(variant.name)}>${t("variants.update")}</button>`}
-    <${MenuButton} class="icon-button row-menu" label=${t("variants.menu", { name: variant.name })} items=${() => menuItems(variant, onRename)}>
+    <${MenuButton} class="icon-button" label=${t("variants.menu", { name: variant.name })} items=${() => menuItems(variant, onRename)}>
       <${Icon} name="dots" size=${14} /><//>
   </li>`;
 }

@@ -2,6 +2,7 @@
 /** @import { Box3, JointView, Object3D, RobotState, Vector3 } from "./viser.d.ts" */
 
 const ROOT = "/robot";
+const GHOST = "/ghost";
 
 /** The robot as the page told it, and where its links stand in the scene. */
 export class RobotView {
@@ -61,19 +62,27 @@ export class RobotView {
   }
 
   /** Corners of the boxes of all meshes of links, in the axes of three.js.
-   * @param {Iterable<string>} [links] @returns {Vector3[]} */
-  corners(links = this.drawn) {
+   * @param {Iterable<string>} [links] without: of all there is to see, the ghost included
+   * @returns {Vector3[]} */
+  corners(links) {
     /** @type {Vector3[]} */
     const found = [];
-    for (const link of links) {
+    const add = (/** @type {Object3D} */ mesh) => found.push(...boxCorners(mesh));
+    for (const link of links ?? this.drawn) {
       this.node(link)?.updateWorldMatrix(true, true);
-      this.eachMesh(link, (mesh) => {
-        const box = localBox(mesh);
-        if (box)
-          for (const corner of cornersOf(box)) found.push(corner.applyMatrix4(mesh.matrixWorld));
-      });
+      this.eachMesh(link, add);
     }
+    if (!links) this.#eachGhostMesh(add);
     return found.filter(({ x, y, z }) => Number.isFinite(x + y + z));
+  }
+
+  /** Meshes of the robot that this one is compared with. @param {(mesh: Object3D) => void} visit */
+  #eachGhostMesh(visit) {
+    const ghost = this.#door.node(GHOST);
+    ghost?.updateWorldMatrix(true, true);
+    ghost?.traverseVisible((object) => {
+      if (object.isMesh && object.geometry) visit(object);
+    });
   }
 
   /** How many meshes stand in the scene: grows while they arrive. */
@@ -140,6 +149,12 @@ function localBox({ geometry }) {
   if (!geometry.boundingBox) geometry.computeBoundingBox();
   const box = geometry.boundingBox;
   return box && !box.isEmpty() ? box : null;
+}
+
+/** @param {Object3D} mesh whose place in the scene is up to date @returns {Vector3[]} */
+function boxCorners(mesh) {
+  const box = localBox(mesh);
+  return box ? cornersOf(box).map((corner) => corner.applyMatrix4(mesh.matrixWorld)) : [];
 }
 
 /** @param {Box3} box @returns {Vector3[]} */
