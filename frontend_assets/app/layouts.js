@@ -33,6 +33,7 @@ export function modelLayout(kind, width, height) {
           "joints",
           "variants",
           "displays",
+          "outline",
           "source",
           "problems",
           "urdf",
@@ -45,7 +46,7 @@ export function modelLayout(kind, width, height) {
     const low = Math.round(height * 0.38);
     const left = [
       { tabs: ["scene"], size: height - low },
-      { tabs: ["source", "displays", "problems", "urdf"], size: low },
+      { tabs: ["source", "outline", "displays", "problems", "urdf"], size: low },
     ];
     return [
       { split: left, size: width - right },
@@ -58,7 +59,7 @@ export function modelLayout(kind, width, height) {
   const left = Math.round(Math.min(280, width * 0.22));
   const right = Math.round(Math.min(390, width * 0.28));
   return [
-    { tabs: ["displays"], size: left },
+    { tabs: ["displays", "outline"], size: left },
     { split: [scene, below], size: width - left - right },
     { tabs: ["properties", "origin", "joints", "variants"], size: right },
   ];

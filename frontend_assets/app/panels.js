@@ -34,6 +34,10 @@ export const PANELS = {
     load: async () => (await import("../panels/variants.js")).VariantsPanel,
   },
   source: { icon: "source", load: async () => (await import("../panels/source.js")).SourcePanel },
+  outline: {
+    icon: "includes",
+    load: async () => (await import("../panels/outline.js")).OutlinePanel,
+  },
   problems: {
     icon: "problems",
     badge: problemsBadge,

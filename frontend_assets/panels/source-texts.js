@@ -16,6 +16,7 @@ import { linkText } from "../app/texts.js";
 import { RefusedError } from "../app/wire.js";
 import { t } from "../lib/i18n.js";
 import { commonExtensions, fromElsewhere, stateOf, tellCursor } from "./source-editor.js";
+import { languageOf } from "./source-language.js";
 
 /**
  * @typedef {object} Shown what the panel draws
@@ -114,7 +115,11 @@ export class SourceTexts {
       const link = await linkText(file, (changes) => this.#apply(file, changes));
       if (this.#open.get(file) !== one) link.close();
       one.link = link;
-      const options = { dark: theme.value === "dark", mayEdit: mayEdit.value, more: [] };
+      const options = {
+        dark: theme.value === "dark",
+        mayEdit: mayEdit.value,
+        more: languageOf(link),
+      };
       one.state = stateOf(link, this.#common, options);
       return "";
     } catch (error) {

@@ -29,6 +29,15 @@ export const cursorPlace = signal(null);
 /** Lines that light up in the source, for instance those of the property under the pointer. @type {Signal<readonly {file: string, line: number}[]>} */
 export const litPlaces = signal([]);
 
+/** A text that another panel wants written at the cursor of the source. @type {Signal<{text: string, stops: readonly (readonly number[])[]} | null>} */
+export const wantedSnippet = signal(null);
+
+/** @param {string} text written at the cursor of the source @param {readonly (readonly number[])[]} stops that the cursor then visits */
+export function writeSnippet(text, stops) {
+  wantedSnippet.value = { text, stops };
+  commandById("panel.source")?.run();
+}
+
 /**
  * Bring the source panel to the front with this line in view and the cursor on it.
  *

@@ -1,0 +1,79 @@
+/** Completion in the source: the studio says what may stand at the cursor. */
+
+/**
+ * @import { Completion, CompletionContext, CompletionResult, Extension } from "vendor/codemirror.js"
+ * @import { Completion as Offer, Completions } from "../types/wire.d.ts"
+ * @import { TextLink } from "../app/texts.js"
+ */
+
+import { acceptCompletion, autocompletion, keymap, snippet } from "vendor/codemirror.js";
+import { complete } from "../app/language.js";
+import { mayEdit } from "../app/state/connection.js";
+import { t } from "../lib/i18n.js";
+import { kindIcon } from "../lib/kinds.js";
+import { snippetTemplate } from "../lib/snippets.js";
+import { iconElement } from "../lib/ui.js";
+
+/** Typing one of these asks; a blank only inside a tag. */
+const ASKING = /[\w:.\-/<${(["'=]$/;
+const IN_TAG = /<[^<>]*\s$/;
+const LOOK_BACK = 500;
+const STILL_FITS = /^[\w:.-]*$/;
+const BOOST_MOST = 99;
+
+/** @param {TextLink} link @returns {Extension} */
+export function completion(link) {
+  return [
+    autocompletion({
+      override: [(context) => source(link, context)],
+      icons: false,
+      addToOptions: [{ render: (option) => kindMark(option), position: 20 }],
+      maxRenderedOptions: 200,
+    }),
+    keymap.of([{ key: "Tab", run: acceptCompletion }]),
+  ];
+}
+
+/** @param {TextLink} link @param {CompletionContext} context @returns {Promise<CompletionResult | null>} */
+async function source(link, context) {
+  if (!mayEdit.value || link.readOnly !== "" || !asks(context)) return null;
+  const found = await complete(link, context.pos);
+  if (!found || context.aborted || found.items.length === 0) return null;
+  return resultOf(found);
+}
+
+/** @param {CompletionContext} context */
+function asks({ explicit, pos, state }) {
+  if (explicit) return true;
+  const before = state.sliceDoc(Math.max(0, pos - LOOK_BACK), pos);
+  return ASKING.test(before) || IN_TAG.test(before);
+}
+
+/** @param {Completions} found @returns {CompletionResult} */
+function resultOf({ start, end, items, is_whole: isWhole }) {
+  const options = items.map((one, at) => optionOf(one, at, items.length));
+  const result = { from: start, to: end, options };
+  return isWhole ? { ...result, validFor: STILL_FITS } : { ...result, filter: false };
+}
+
+/** @param {Offer} offer @param {number} at @param {number} count @returns {Completion} */
+function optionOf({ label, kind, insert, stops, detail, doc }, at, count) {
+  return {
+    label,
+    type: kind,
+    ...(detail === "" ? {} : { detail }),
+    ...(doc === "" ? {} : { info: doc }),
+    apply: stops.length === 0 ? insert : snippet(snippetTemplate(insert, stops)),
+    boost: BOOST_MOST - Math.round((2 * BOOST_MOST * at) / Math.max(count, 1)),
+  };
+}
+
+/** @param {Completion} option @returns {HTMLElement} what kind of thing it is */
+function kindMark({ type }) {
+  const kind = /** @type {import("../types/wire.d.ts").SubjectKind} */ (type);
+  const mark = document.createElement("span");
+  mark.className = `completion-kind ${kind}`;
+  mark.title = t(`language.kind.${kind}`);
+  mark.append(iconElement(kindIcon(kind)));
+  return mark;
+}
