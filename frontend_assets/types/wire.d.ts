@@ -242,6 +242,7 @@ export interface Effects {
   changed_links: string[];
   moved_links: string[];
   counts: Record<string, number>;
+  decisions: number;
   readers: Place[];
   is_cut: boolean;
 }

@@ -102,10 +102,16 @@ class Readers:
         for one in reached:
             if isinstance(one, Governor):
                 effects.update(dict.fromkeys(self._governed.get(one, ())))
+        decisions = {
+            one.element
+            for one in reached
+            if isinstance(one, Governor) and not reached.keys().isdisjoint(one.own_inputs)
+        }
         places = dict.fromkeys(attribute_place(*text) for text in self._direct_readers(starts))
         return SiteEffects(
             site=site,
             effects=tuple(effects)[:EFFECTS_KEPT],
+            decisions=len(decisions),
             readers=tuple(places)[:READERS_KEPT],
             is_cut=len(effects) > EFFECTS_KEPT or len(places) > READERS_KEPT,
         )
@@ -166,6 +172,7 @@ def _all_governors(trace: Trace) -> list[Governor]:
     found: dict[Governor, None] = {}
     front = [one for binding in trace.bindings for one in binding.inputs]
     front += trace.governors.values()
+    front += trace.decisions
     while front:
         one = front.pop()
         if isinstance(one, Governor) and one not in found:

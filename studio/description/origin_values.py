@@ -134,6 +134,8 @@ class SiteEffects:
 
     site: str
     effects: tuple[Effect, ...]
+    decisions: int
+    """Conditions and the like that it decides, also those of which nothing comes now."""
     readers: tuple[Place, ...]
     """Where it is read directly, each place once, in the order of the run."""
     is_cut: bool

@@ -238,8 +238,7 @@ def _governors(innermost: Governor | None) -> list[Governor]:
         found.pop(governor, None)
         found[governor] = None
         front += [one for one in inputs_of(governor) if isinstance(one, Governor)]
-    own = [one for one in found if any(not isinstance(i, Governor) for i in one.inputs)]
-    return own[::-1]
+    return [one for one in reversed(found) if one.own_inputs]
 
 
 def _cut(text: str) -> str:

@@ -77,6 +77,11 @@ class Governor(Input):
         """Whether a text that was consumed is its own: `path` and `name` as of a `Consumer`."""
         return path == self.element.tag or name == "xacro:name"
 
+    @property
+    def own_inputs(self) -> Inputs:
+        """What it read itself, without what it is inside of."""
+        return tuple(one for one in self.inputs if not isinstance(one, Governor))
+
 
 class Written(NamedTuple):
     """The text that an output attribute is made of: where it stands and what it read."""
@@ -171,6 +176,7 @@ class TracedEvaluation(Evaluation):
         self.governors: dict[OutputElement, Governor] = {}
         """What an element owes its being there to, where it owes it to anything."""
         self.text_inputs: dict[SourceText, Inputs] = {}
+        self.decisions: list[Governor] = []
         self._defined_under: dict[SourceElement, Governor] = {}
 
     def binding(
@@ -270,6 +276,8 @@ class TracedEvaluation(Evaluation):
         try:
             yield
         finally:
+            if self.traced.governor.inputs:
+                self.decisions.append(self.traced.governor)
             self.traced.governor = before
 
 
@@ -282,6 +290,8 @@ class Trace:
     calls: Mapping[CallFrame, Called]
     governors: Mapping[OutputElement, Governor]
     """What an element owes its being there to, where it owes it to anything."""
+    decisions: tuple[Governor, ...]
+    """All governors that read anything, those too under which nothing came to be."""
     text_inputs: Mapping[SourceText, Inputs]
     yaml: Mapping[str, YamlReads]
     included_at: Mapping[str, Place]
@@ -303,6 +313,7 @@ def trace(
         tuple(run.made),
         run.calls,
         run.governors,
+        tuple(run.decisions),
         run.text_inputs,
         run.texts.yaml,
         run.included_at,

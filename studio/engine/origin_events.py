@@ -39,6 +39,8 @@ class Effects(Message):
     """Links that only sit elsewhere, those below a moved joint too."""
     counts: dict[Aspect, int]
     """Parts by aspect; of `pose` and `color` links, wherever it is written."""
+    decisions: int
+    """Conditions and the like that the text decides, also where nothing comes of it now."""
     readers: tuple[Place, ...]
     """Where the text is read directly."""
     is_cut: bool

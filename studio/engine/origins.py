@@ -68,6 +68,7 @@ def effects_event(request: int, found: SiteEffects, robot: Robot) -> Effects:
         changed_links=tuple(changed),
         moved_links=tuple(name for name in moved if name not in changed),
         counts=counts,
+        decisions=found.decisions,
         readers=found.readers,
         is_cut=found.is_cut or len(parts) > PARTS_KEPT,
     )
