@@ -72,7 +72,8 @@ function optionOf({ label, kind, insert, stops, detail, doc }, at, count) {
 function kindMark({ type }) {
   const kind = /** @type {import("../types/wire.d.ts").SubjectKind} */ (type);
   const mark = document.createElement("span");
-  mark.className = `completion-kind ${kind}`;
+  mark.className = "completion-kind";
+  mark.dataset.kind = kind;
   mark.title = t(`language.kind.${kind}`);
   mark.append(iconElement(kindIcon(kind)));
   return mark;

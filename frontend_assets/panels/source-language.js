@@ -27,7 +27,10 @@ const trail = [];
 /** @param {TextLink} link @returns {Extension} what the editor of one text knows */
 export function languageOf(link) {
   return [
-    hoverTooltip((_, pos) => hovered(link, pos), { hoverTime: HOVER_MS }),
+    hoverTooltip((_, pos) => hovered(link, pos), {
+      hoverTime: HOVER_MS,
+      hideOn: ({ docChanged, selection }) => docChanged || selection !== undefined,
+    }),
     PEEK,
     completion(link),
     keymap.of([

@@ -2,7 +2,13 @@
 
 /** @import { EditorView, Extension, Tooltip } from "vendor/codemirror.js" */
 
-import { keymap, StateEffect, StateField, showTooltip } from "vendor/codemirror.js";
+import {
+  closeHoverTooltips,
+  keymap,
+  StateEffect,
+  StateField,
+  showTooltip,
+} from "vendor/codemirror.js";
 
 /** @type {import("vendor/codemirror.js").StateEffectType<{pos: number, card: HTMLElement} | null>} */
 const setPeek = StateEffect.define();
@@ -33,7 +39,7 @@ export function peek(view, pos, card) {
   card.addEventListener("click", ({ target }) => {
     if (target instanceof Element && target.closest("button")) closePeek(view);
   });
-  view.dispatch({ effects: setPeek.of({ pos, card }) });
+  view.dispatch({ effects: [closeHoverTooltips, setPeek.of({ pos, card })] });
   requestAnimationFrame(() => card.querySelector("button")?.focus({ preventScroll: true }));
 }
 
