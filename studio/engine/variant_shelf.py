@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Final
 
 from studio.description.variants_file import SIZE_LIMIT_BYTES, read_variants, write_variants
 from studio.errors import NotSavedError, PackageError, VariantsFileError
-from studio.packages.presence import is_there, is_writable
+from studio.packages.presence import is_there
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -31,26 +31,32 @@ class VariantShelf:
         self._here: tuple[Variant, ...] | None = None
         """The variants of this session, once they could not be written."""
         self.variants: tuple[Variant, ...] = ()
-        self.trouble = ""
-        """What is wrong with the file, a sentence; the last good variants stay."""
+        self._fault: VariantsFileError | PackageError | None = None
+        """What is wrong with the file; the last good variants stay."""
 
     @property
     def only_here(self) -> str:
         """Why variants are kept for this session only; empty: they are saved."""
-        if not self._served.may_write(self.path):
-            return f"{self.path.parent} was opened for reading only."
-        target = self.path if is_there(self.path) else self.path.parent
-        return "" if is_writable(target) else f"{target} cannot be written."
+        if self._served.may_write(self.path):
+            return ""
+        return f"the folder {self.path.parent} may only be read here."
+
+    @property
+    def trouble(self) -> str:
+        """What is wrong with the file, in a sentence."""
+        return str(self._fault or "")
 
     def look(self) -> bool:
         """Read the file; whether anything changed."""
         before = self.variants, self.trouble
         if self._here is None:
             try:
-                self._data = self._read()
-                self.variants, self.trouble = read_variants(str(self.path), self._data), ""
+                data = self._read()
+                if data != self._data or self._fault is not None:
+                    self._data = data
+                    self.variants, self._fault = read_variants(str(self.path), data), None
             except (VariantsFileError, PackageError) as error:
-                self.trouble = str(error)
+                self._fault = error
         return before != (self.variants, self.trouble)
 
     def put(self, variants: Sequence[Variant]) -> None:
@@ -58,14 +64,18 @@ class VariantShelf:
 
         Raises:
             VariantsFileError: The file as it is cannot be read: it is not overwritten.
+            PackageError: It leads out of the opened folders, or is no file.
             NotSavedError: The disk refused it.
         """
+        self.look()
+        if self._fault is not None:
+            raise self._fault
         if self._here is not None or self.only_here:
             self._here = self.variants = tuple(variants)
             return
-        data = write_variants(str(self.path), self._entry.name, self._read(), variants)
+        data = write_variants(str(self.path), self._entry.name, self._data, variants)
         self._write(data)
-        self._data, self.variants, self.trouble = data, tuple(variants), ""
+        self._data, self.variants = data, tuple(variants)
 
     def _read(self) -> bytes:
         if not is_there(self.path):

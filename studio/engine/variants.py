@@ -53,6 +53,7 @@ class VariantDesk:
         self._steps = 0
         self._told: m.Variants | None = None
         self._watch = FileWatch(self._changed_on_disk)
+        self._watch.watch({str(self._shelf.path)})
         self._doubted = False
         self._looking: asyncio.Task[None] | None = None
 
@@ -84,16 +85,15 @@ class VariantDesk:
         """
         present = self._book.present()
         if isinstance(command, m.SaveVariant):
-            variants = self._shelf.variants
             name = self._free(command.name)
-            if len(variants) >= VARIANT_LIMIT:
+            if len(self._shelf.variants) >= VARIANT_LIMIT:
                 raise CommandError(f"There are {VARIANT_LIMIT} variants: delete one first.")
             made = self._book.as_variant(name, command.note.strip(), present)
-            self._put((*variants, made))
+            self._put((*self._shelf.variants, made))
         else:
             known = self._variant(command.name)
             made = self._book.as_variant(known.name, known.note, present)
-            self._replace(known, made)
+            self._replace(known.name, made)
         self._active = made.name
         self._tell()
         left_out = tuple(
@@ -130,7 +130,7 @@ class VariantDesk:
         name = known.name
         if command.new_name.strip() != name:
             name = self._free(command.new_name)
-        self._replace(known, replace(known, name=name, note=command.note.strip()))
+        self._replace(known.name, replace(known, name=name, note=command.note.strip()))
         if self._active == known.name:
             self._active = name
         self._comparison.rename(known.name, name)
@@ -139,7 +139,7 @@ class VariantDesk:
     def delete(self, name: str) -> None:
         """Forget a variant; errors as for `save`."""
         known = self._variant(name)
-        self._put([one for one in self._shelf.variants if one is not known])
+        self._put([one for one in self._shelf.variants if one.name != known.name])
         if self._active == name:
             self._active = ""
         self._tell()
@@ -176,8 +176,8 @@ class VariantDesk:
         self._shelf.put(variants)
         self.doubt()
 
-    def _replace(self, old: Variant, new: Variant) -> None:
-        self._put([new if one is old else one for one in self._shelf.variants])
+    def _replace(self, name: str, new: Variant) -> None:
+        self._put([new if one.name == name else one for one in self._shelf.variants])
 
     def _variant(self, name: str) -> Variant:
         self._shelf.look()

@@ -14,7 +14,7 @@ from studio.scene.node import Look
 from studio.scene.pose_writer import PoseWriter
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Sequence, Set
 
     import numpy as np
     from numpy.typing import NDArray
@@ -44,6 +44,11 @@ class GhostDrawing:
         self._poses = PoseWriter(graph, ghost_node)
         self._opacity = 0.35
         self._offset_m: Vector3 = node.ORIGIN
+
+    @property
+    def links(self) -> Set[str]:
+        """Links that stand in the scene."""
+        return self._drawn.keys()
 
     def show(self, robot: Robot) -> None:
         """Draw another state of the ghost; a robot without links takes it away."""
