@@ -10,6 +10,7 @@ from studio.description.guarded_operations import text_of
 from studio.description.language import SubjectKind, TextPlace
 from studio.description.scopes import Namespace, ScopeView
 from studio.description.values import SiteKind
+from studio.description.watched_run import WatchedTexts
 from studio.description.yaml_values import origin_of
 
 if TYPE_CHECKING:
@@ -97,12 +98,19 @@ def found_of(name: str, cell: Cell) -> Found:
     """What a cell is."""
     value = cell.value if cell.pending is None else MISSING
     if isinstance(value, ScopeView):
-        return Found(SubjectKind.NAMESPACE, name, value, (cell.at,) if cell.at else ())
+        return Found(SubjectKind.NAMESPACE, name, value, _bringing(value))
     binding = cell.binding
     if binding is None:
         return Found(SubjectKind.PROPERTY, name, value, (cell.at,) if cell.at else ())
     kind = SubjectKind.PARAMETER if binding.kind is None else _KINDS[binding.kind]
     return Found(kind, name, value, (binding.element,), origin_of(value))
+
+
+def _bringing(view: ScopeView) -> tuple[SourceElement, ...]:
+    """The include that a namespace comes from."""
+    run = view.scope.run
+    element = run.brought_by.get(view.scope) if isinstance(run, WatchedTexts) else None
+    return (element,) if element is not None else ()
 
 
 def _symbol(name: str, scope: Scope) -> Found | None:

@@ -25,6 +25,7 @@ _TAG: Final = re.compile(
     r"<(/?)([^\s<>/=\"'!?][^\s<>/=\"']*)((?:[^<>\"']|\"[^\"<]*\"|'[^'<]*')*?)(/?)>"
 )
 _SILENT: Final = (("<!--", "-->"), ("<![CDATA[", "]]>"), ("<?", "?>"))
+_STRAY: Final = re.compile(r"(?:[\s\"'=]|/(?!>))*")
 _DECLARATION: Final = re.compile(r"<xacro:(?:property|arg|macro)(?=[\s/>])")
 _OPENING: Final = re.compile(r"\$\$+[{(]|\$([{(])")
 
@@ -164,7 +165,7 @@ def read_tag(text: str, start: int) -> Tag:
     while position < stop and (found := _ATTRIBUTE.match(text, position, stop)):
         attribute, position = _read_value(text, found, stop)
         attributes.append(attribute)
-        position = _past_stray_quotes(text, position, stop)
+        position = _past_stray_signs(text, position, stop)
     closing = text.find(">", position, stop)
     return Tag(name, start, stop if closing < 0 else closing + 1, tuple(attributes))
 
@@ -183,11 +184,10 @@ def _read_value(text: str, found: re.Match[str], stop: int) -> tuple[Attribute, 
     return Attribute(name, at, start, end), end + 1
 
 
-def _past_stray_quotes(text: str, position: int, stop: int) -> int:
+def _past_stray_signs(text: str, position: int, stop: int) -> int:
     """Skip what is no attribute, but not the end of the tag."""
-    while position < stop and text[position] in "\"'=":
-        position += 1
-    return position
+    found = _STRAY.match(text, position, stop)
+    return found.end() if found else position
 
 
 def _next(text: str, wanted: str, position: int) -> int:

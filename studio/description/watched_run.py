@@ -90,12 +90,14 @@ class Trace:
     seen: Seen
 
 
-class _WatchedTexts(Texts):
+class WatchedTexts(Texts):
     """Texts that note the value of every segment."""
 
     def __init__(self, store: SourceStore, policy: ReadPolicy, budget: Budget, seen: Seen) -> None:
         super().__init__(store, policy, budget)
         self._seen = seen.evaluated
+        self.brought_by: dict[Scope, SourceElement] = {}
+        """The includes that made the scopes of namespaces."""
 
     def _segment(self, cut: Cut, text: str, scope: Scope) -> Any:  # noqa: ANN401
         value = super()._segment(cut, text, scope)
@@ -115,8 +117,9 @@ class WatchedRun(Evaluation):
         super().__init__(store, policy, arguments)
         self._seen = Seen()
         given = self.texts.arguments
-        self.texts = _WatchedTexts(store, policy, self.budget, self._seen)
-        self.texts.arguments = given
+        self._watched = WatchedTexts(store, policy, self.budget, self._seen)
+        self._watched.arguments = given
+        self.texts = self._watched
         self._around: list[SourceElement] = []
         """Include elements under way."""
         self._include_numbers: list[int] = [-1]
@@ -178,6 +181,8 @@ class WatchedRun(Evaluation):
     def _note_include(self, root: SourceElement, scope: Scope) -> None:
         # One element may bring several files, one after the other.
         del self._include_numbers[len(self._around) :]
+        if scope.is_namespace:
+            self._watched.brought_by.setdefault(scope, self._around[-1])
         includes = self._seen.includes
         if len(includes) < INCLUDES_KEPT:
             includes.append(

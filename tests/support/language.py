@@ -1,0 +1,115 @@
+"""Questions about texts as an editor asks them: at the bar `|` of some words."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from studio.description.editor_text import EditorText
+from studio.description.language import (
+    CompletionQuery,
+    Completions,
+    LookedUp,
+    LookUpQuery,
+    Outline,
+    OutlineQuery,
+    References,
+    ReferencesQuery,
+)
+from studio.description.language_desk import LanguageDesk
+from studio.description.source_store import SourceStore
+from studio.packages.roots import ServedRoots
+from tests.support.descriptions import policy_for
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from pathlib import Path
+
+    from studio.description.language import Completion, LanguageQuery, Meaning, TextPlace
+
+
+class Editor:
+    """An editor of the files below a folder; `entry` is the robot."""
+
+    def __init__(self, root: Path, entry: Path, arguments: Mapping[str, str] | None = None) -> None:
+        self.root, self.entry = root, entry
+        self.texts: dict[Path, bytes] = {}
+        """Texts that differ from the disk."""
+        policy = policy_for(root, {"USER": "somebody"})
+        self.store = SourceStore(ServedRoots([root]), {})
+        self.desk = LanguageDesk(self.store, policy, str(entry))
+        self._arguments = dict(arguments or {})
+
+    def ask(self, query: LanguageQuery):
+        """Any question."""
+        return self.desk.answer(query, self._arguments, None, {})
+
+    def text(self, file: Path) -> bytes:
+        """A file's bytes as they are edited."""
+        return self.texts.get(file, file.read_bytes())
+
+    def offset(self, file: Path, words: str) -> int:
+        """The editor's offset of the bar in words that stand in the file."""
+        before, bar, behind = words.partition("|")
+        assert bar, "the words have no bar"
+        editor = EditorText(self.text(file))
+        return editor.offset_of(editor.text.index(before + behind) + len(before))
+
+    def meaning(self, file: Path, words: str) -> Meaning:
+        """What stands at the bar."""
+        found = self.maybe(file, words)
+        assert found is not None, f"nothing is known at {words}"
+        return found
+
+    def maybe(self, file: Path, words: str) -> Meaning | None:
+        """What stands at the bar, if anything."""
+        query = LookUpQuery(str(file), self.text(file), self.offset(file, words))
+        reply = self.ask(query)
+        assert isinstance(reply, LookedUp), reply
+        return reply.meaning
+
+    def references(self, file: Path, words: str) -> References:
+        """Who names what stands at the bar."""
+        query = ReferencesQuery(str(file), self.text(file), self.offset(file, words))
+        reply = self.ask(query)
+        assert isinstance(reply, References), reply
+        return reply
+
+    def completions(self, file: Path, before: str, typed: str) -> Completions:
+        """What may be typed after `typed`, when that is written before some words of the file."""
+        editor = EditorText(self.text(file))
+        at = editor.text.index(before)
+        text = editor.text[:at] + typed + editor.text[at:]
+        offset = EditorText(text.encode()).offset_of(at + len(typed))
+        reply = self.ask(CompletionQuery(str(file), text.encode(), offset))
+        assert isinstance(reply, Completions), reply
+        return reply
+
+    def outline(self) -> Outline:
+        """What the files hold."""
+        reply = self.ask(OutlineQuery())
+        assert isinstance(reply, Outline), reply
+        return reply
+
+
+def labels(completions: Completions) -> list[str]:
+    return [one.label for one in completions.items]
+
+
+def offered(completions: Completions, label: str) -> Completion:
+    """The completion of a label."""
+    return next(one for one in completions.items if one.label == label)
+
+
+def at(place: TextPlace) -> str:
+    """A place as `name:line`."""
+    return f"{place.file.rpartition('/')[2]}:{place.line}"
+
+
+def text_at(place: TextPlace) -> str:
+    """The words that stand at a place of a file on disk, as an editor shows them."""
+    from pathlib import Path
+
+    line = EditorText(Path(place.file).read_bytes()).text.split("\n")[place.line - 1]
+    units = line.encode("utf-16-le")
+    start = 2 * (place.column - 1)
+    return units[start : start + 2 * place.length].decode("utf-16-le")
