@@ -1,0 +1,98 @@
+"""Variants as a person uses them: kept, switched, compared, and seen as a ghost."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+import yaml
+
+from tests.support.server import running_studio
+from tests.support.studio_page import StudioPage, studio_page, wait_until
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from playwright.sync_api import Browser, Locator
+
+pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(300)]
+
+
+def show(tab: StudioPage, name: str) -> None:
+    tab.page.get_by_role("tab", name=name).click()
+
+
+def panel(tab: StudioPage) -> Locator:
+    return tab.page.get_by_role("region", name="Variants")
+
+
+def radius(tab: StudioPage) -> str:
+    show(tab, "Properties")
+    tab.seek("wheel_radius")
+    text = tab.box("wheel_radius").input_value()
+    show(tab, "Variants")
+    return text
+
+
+def save(tab: StudioPage, name: str) -> None:
+    show(tab, "Variants")
+    panel(tab).get_by_role("button", name="Save as variant").click()
+    form = panel(tab).get_by_role("form", name="New variant")
+    form.get_by_label("Name").fill(name)
+    form.get_by_label("Note").fill("For tall grass")
+    form.get_by_role("button", name="Save").click()
+    panel(tab).get_by_role("button", name=name, pressed=True).wait_for()
+
+
+def switch(tab: StudioPage, name: str) -> None:
+    panel(tab).get_by_title(f"Switch to: {name}").click()
+    panel(tab).get_by_role("button", name=name, pressed=True).wait_for()
+
+
+def test_a_variant_is_saved_switched_compared_and_seen(browser: Browser, tmp_path: Path):
+    data = tmp_path / "data"
+    with running_studio(["demo"], data) as studio, studio_page(browser, studio) as tab:
+        show(tab, "Variants")
+        panel(tab).get_by_text("No variants yet").wait_for()
+        was = radius(tab)
+        show(tab, "Properties")
+        now = tab.drag_slider("wheel_radius", 0.8)
+        save(tab, "Big wheels")
+        (file,) = data.rglob("rover.variants.yaml")
+        (kept,) = yaml.safe_load(file.read_text())["variants"]
+        assert (kept["name"], kept["values"][0]["text"]) == ("Big wheels", now)
+
+        switch(tab, "As in the file")
+        assert radius(tab) == was
+        plain = tab.settle()
+
+        panel(tab).get_by_role("button", name="More for Big wheels").click()
+        tab.page.get_by_role("menuitem", name="Compare with the present robot").click()
+        given = panel(tab).get_by_role("row", name="wheel_radius property")
+        given.wait_for()
+        assert given.get_by_role("cell").all_inner_texts() == [was, now]
+        panel(tab).get_by_role("searchbox", name="Filter differences").fill(
+            "front_left_wheel radius"
+        )
+        wheel = panel(tab).get_by_role("row", name="Collision 1 radius")
+        wait_until("the row of the radius", lambda: wheel.count() == 1)
+        cells = wheel.get_by_role("cell").all_inner_texts()
+        assert cells[:2] == [was, now]
+        assert cells[2].startswith("+")
+        panel(tab).get_by_role("button", name="front_left_wheel", exact=True).click()
+        tab.page.get_by_role("complementary", name="front_left_wheel").wait_for()
+        tab.page.keyboard.press("Escape")
+        tab.page.mouse.move(5, 5)  # what the pointer is on shines in 3D
+        wait_until("the plain picture", lambda: tab.settle() == plain)
+
+        panel(tab).get_by_role("radio", name="Over").click()
+        wait_until("the ghost to be seen", lambda: tab.settle() != plain)
+        panel(tab).get_by_role("radio", name="Off").click()
+        wait_until("the ghost to be gone", lambda: tab.settle() == plain)
+
+        switch(tab, "Big wheels")
+        panel(tab).get_by_text("The robots are the same.").wait_for()
+        assert radius(tab) == now
+        tab.page.get_by_role("button", name="Undo", exact=True).click()
+        panel(tab).get_by_role("button", name="As in the file", pressed=True).wait_for()
+        assert tab.errors == []
