@@ -125,7 +125,7 @@ def _names(cursor: Cursor, folder: str, endings: tuple[str, ...]) -> Iterator[Of
     for name, is_folder in names_in(cursor.reading, path) if path else ():
         if is_folder:
             yield plain(1, Kind.FOLDER, f"{name}/")
-        elif PurePath(name).suffix.lower() in endings:
+        elif PurePath(name).suffix.lower() in endings and name != "package.xml":
             yield plain(0, Kind.FILE, name)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from studio.description.editor_text import EditorText
@@ -15,16 +16,15 @@ from studio.description.language import (
     References,
     ReferencesQuery,
 )
-from studio.description.language_desk import LanguageDesk
-from studio.description.source_store import SourceStore
-from studio.packages.roots import ServedRoots
+from studio.description.session import open_session
+from studio.description.values import Edit, EditRequest, OpenRequest
 from tests.support.descriptions import policy_for
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
-    from pathlib import Path
 
     from studio.description.language import Completion, LanguageQuery, Meaning, TextPlace
+    from studio.description.queries import Reply
 
 
 class Editor:
@@ -35,13 +35,19 @@ class Editor:
         self.texts: dict[Path, bytes] = {}
         """Texts that differ from the disk."""
         policy = policy_for(root, {"USER": "somebody"})
-        self.store = SourceStore(ServedRoots([root]), {})
-        self.desk = LanguageDesk(self.store, policy, str(entry))
-        self._arguments = dict(arguments or {})
+        request = OpenRequest(str(entry), dict(arguments or {}), policy, {})
+        session, self.answer = open_session(request)
+        assert session is not None
+        self.session = session
 
-    def ask(self, query: LanguageQuery):
+    def ask(self, query: LanguageQuery) -> Reply:
         """Any question."""
-        return self.desk.answer(query, self._arguments, None, {})
+        return self.session.query(query)
+
+    def type(self, file: Path, start: int, end: int, new: bytes) -> None:
+        """Write something in the place of the bytes [start, end) of a file."""
+        self.texts[file] = self.text(file)[:start] + new + self.text(file)[end:]
+        self.answer = self.session.answer(EditRequest((Edit(str(file), start, end, new),)))
 
     def text(self, file: Path) -> bytes:
         """A file's bytes as they are edited."""
@@ -107,8 +113,6 @@ def at(place: TextPlace) -> str:
 
 def text_at(place: TextPlace) -> str:
     """The words that stand at a place of a file on disk, as an editor shows them."""
-    from pathlib import Path
-
     line = EditorText(Path(place.file).read_bytes()).text.split("\n")[place.line - 1]
     units = line.encode("utf-16-le")
     start = 2 * (place.column - 1)
