@@ -46,22 +46,25 @@ export function modelLayout(kind, width, height) {
     const low = Math.round(height * 0.38);
     const left = [
       { tabs: ["scene"], size: height - low },
-      { tabs: ["source", "outline", "displays", "problems", "urdf"], size: low },
+      {
+        tabs: ["source", "outline", "displays", "variants", "problems", "urdf"],
+        size: low,
+      },
     ];
     return [
       { split: left, size: width - right },
-      { tabs: ["properties", "origin", "joints", "variants"], size: right },
+      { tabs: ["properties", "origin", "joints"], size: right },
     ];
   }
   const low = Math.round(Math.min(340, height * 0.36));
   const scene = { tabs: ["scene"], size: height - low };
-  const below = { tabs: ["source", "problems", "urdf"], size: low };
+  const below = { tabs: ["source", "variants", "problems", "urdf"], size: low };
   const left = Math.round(Math.min(280, width * 0.22));
   const right = Math.round(Math.min(390, width * 0.28));
   return [
     { tabs: ["displays", "outline"], size: left },
     { split: [scene, below], size: width - left - right },
-    { tabs: ["properties", "origin", "joints", "variants"], size: right },
+    { tabs: ["properties", "origin", "joints"], size: right },
   ];
 }
 
