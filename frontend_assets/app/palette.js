@@ -7,9 +7,12 @@ import { shortcutText } from "../lib/keys.js";
 import { shortPath } from "../lib/paths.js";
 import { Dialog, Icon } from "../lib/ui.js";
 import { commandById, commandLabel, commands, onMac } from "./commands.js";
+import { mayEdit } from "./state/connection.js";
 import { allSites, documentState, robot, siteOrder } from "./state/document.js";
 import { showFile } from "./state/source.js";
+import { variants } from "./state/variants.js";
 import { propertyFilter, soughtSite } from "./state/view.js";
+import { applyVariant } from "./variants.js";
 import { focusLink } from "./viewport.js";
 
 /** @typedef {{key: string, icon: string, label: string, hint: string, run: () => void}} Choice */
@@ -69,7 +72,9 @@ function found(text) {
   const words = text.trim().toLowerCase().split(/\s+/).filter(Boolean);
   const all = [
     ...commandChoices(),
-    ...(words.length > 0 ? [...propertyChoices(), ...linkChoices(), ...fileChoices()] : []),
+    ...(words.length > 0
+      ? [...propertyChoices(), ...linkChoices(), ...fileChoices(), ...variantChoices()]
+      : []),
   ];
   const fits = all.filter(({ label }) => words.every((word) => label.toLowerCase().includes(word)));
   const first = words[0] ?? "";
@@ -125,6 +130,18 @@ function linkChoices() {
     label: t("palette.link", { name }),
     hint: "",
     run: () => focusLink(name),
+  }));
+}
+
+/** @returns {Choice[]} */
+function variantChoices() {
+  if (!mayEdit.value) return [];
+  return variants.value.variants.map(({ name, note }) => ({
+    key: `variant ${name}`,
+    icon: "variants",
+    label: t("palette.variant", { name }),
+    hint: shownText(note),
+    run: () => void applyVariant(name),
   }));
 }
 

@@ -14,15 +14,13 @@ import {
   sideOf,
   variants,
 } from "../app/state/variants.js";
+import { compareSides } from "../app/variants.js";
 import { viewport } from "../app/viewport.js";
 import { t } from "../lib/i18n.js";
 import { allSettled } from "../lib/latest.js";
 import { Slider } from "../lib/slider.js";
 import { Icon, IconButton, ProgressBar } from "../lib/ui.js";
 import { DifferenceTable, InputTable } from "./variants-table.js";
-
-/** @param {Side} one @param {Side} other */
-export const compareSides = (one, other) => ask({ type: "compare_variants", sides: [one, other] });
 
 export function VariantsComparison() {
   const { sides, busy, faults } = comparison.value;
@@ -101,8 +99,8 @@ function GhostControls() {
   const off = !mayEdit.value;
   return html`<div class="ghost-controls" role="group" aria-label=${t("ghost")}>
     <span class="ghost-label"><${Icon} name="ghost" size=${14} />${t("ghost")}</span>
-    <span class="segments" role="radiogroup" aria-label=${t("ghost")}>
-      ${PLACES.map((one) => html`<button key=${one} type="button" role="radio" aria-checked=${one === place} disabled=${off} title=${t(`ghost.${one}.hint`)} onClick=${() => putGhost(one)}>${t(`ghost.${one}`)}</button>`)}
+    <span class="segments">
+      ${PLACES.map((one) => html`<button key=${one} type="button" aria-pressed=${one === place} disabled=${off} title=${t(`ghost.${one}.hint`)} onClick=${() => putGhost(one)}>${t(`ghost.${one}`)}</button>`)}
     </span>
     ${place !== "off" && html`<${GhostLook} opacity=${Number(settings.opacity)} off=${off} />`}
   </div>`;

@@ -8,12 +8,12 @@ import { ask } from "../app/actions.js";
 import { mayEdit } from "../app/state/connection.js";
 import { documentState, robot } from "../app/state/document.js";
 import { variants } from "../app/state/variants.js";
-import { dialog, notify } from "../app/state/view.js";
+import { dialog } from "../app/state/view.js";
+import { applyVariant, compareSides, saveVariant, updateVariant } from "../app/variants.js";
 import { t } from "../lib/i18n.js";
-import { allSettled } from "../lib/latest.js";
 import { shortPath } from "../lib/paths.js";
 import { EmptyState, Icon, MenuButton } from "../lib/ui.js";
-import { compareSides, VariantsComparison } from "./variants-comparison.js";
+import { VariantsComparison } from "./variants-comparison.js";
 import { VariantForm } from "./variants-form.js";
 
 const CHIPS = 4;
@@ -70,15 +70,7 @@ function Trouble() {
 
 /** @param {{onDone: () => void}} props */
 function SaveForm({ onDone }) {
-  /** @param {string} name @param {string} note */
-  const save = async (name, note) => {
-    await allSettled();
-    const answer = await ask({ type: "save_variant", name, note });
-    if (answer?.type !== "variant_saved") return false;
-    sayLeftOut(answer.left_out);
-    return true;
-  };
-  return html`<${VariantForm} title=${t("variants.new")} action=${t("variants.save.do")} name="" note="" run=${save} onDone=${onDone} />`;
+  return html`<${VariantForm} title=${t("variants.new")} action=${t("variants.save.do")} name="" note="" run=${saveVariant} onDone=${onDone} />`;
 }
 
 /** @param {{variant: VariantView, onDone: () => void}} props */
@@ -90,18 +82,6 @@ function RenameForm({ variant, onDone }) {
   };
   return html`<li><${VariantForm} title=${t("variants.rename")} action=${t("variants.rename.do")} name=${variant.name}
     note=${variant.note} run=${rename} onDone=${onDone} /></li>`;
-}
-
-/** @param {readonly string[]} sentences what found no place, or is not held */
-function sayLeftOut(sentences) {
-  for (const one of sentences.slice(0, 3)) notify(one, { bad: true });
-}
-
-/** @param {string} name empty: as in the files */
-async function apply(name) {
-  await allSettled();
-  const answer = await ask({ type: "apply_variant", name });
-  if (answer?.type === "variant_applied") sayLeftOut(answer.left_out);
 }
 
 /** The robot as its files say: always there to go back to. */
@@ -122,7 +102,7 @@ function VariantRow({ variant, onRename }) {
       ${variant.note && html`<small>${variant.note}</small>`}
       <${Chips} variant=${variant} />
     <//>
-    ${active && variants.value.modified && mayEdit.value && html`<button type="button" class="button small" onClick=${() => update(variant.name)}>${t("variants.update")}</button>`}
+    ${active && variants.value.modified && mayEdit.value && html`<button type="button" class="button small" onClick=${() => updateVariant(variant.name)}>${t("variants.update")}</button>`}
     <${MenuButton} class="icon-button" label=${t("variants.menu", { name: variant.name })} items=${() => menuItems(variant, onRename)}>
       <${Icon} name="dots" size=${14} /><//>
   </li>`;
@@ -132,7 +112,7 @@ function VariantRow({ variant, onRename }) {
 function Choice({ name, label, active, children }) {
   const changed = active && variants.value.modified;
   return html`<button type="button" class="variant-choice" aria-pressed=${active} disabled=${!mayEdit.value}
-    title=${mayEdit.value ? t("variants.apply", { name: label }) : t("variants.viewer")} onClick=${() => apply(name)}>
+    title=${mayEdit.value ? t("variants.apply", { name: label }) : t("variants.viewer")} onClick=${() => applyVariant(name)}>
     <span class="variant-mark">${active && html`<${Icon} name="check" size=${14} />`}</span>
     <span class="variant-words">
       <span class="variant-name">${label}${changed && html`<em class="variant-modified">${t("variants.modified")}</em>`}</span>
@@ -158,13 +138,6 @@ function Chips({ variant }) {
   </span>`;
 }
 
-/** @param {string} name */
-async function update(name) {
-  await allSettled();
-  const answer = await ask({ type: "update_variant", name });
-  if (answer?.type === "variant_saved") sayLeftOut(answer.left_out);
-}
-
 /** @param {VariantView} variant @param {() => void} onRename @returns {MenuItem[]} */
 function menuItems(variant, onRename) {
   const { name } = variant;
@@ -188,7 +161,7 @@ function menuItems(variant, onRename) {
       label: t("variants.update.long"),
       icon: "reload",
       disabled: locked,
-      run: () => void update(name),
+      run: () => void updateVariant(name),
     },
     { label: t("variants.rename"), icon: "pencil", disabled: locked, run: onRename },
     { label: t("variants.delete"), icon: "trash", disabled: locked, run: remove },

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Final
 
 from studio.description.values import SiteKind
 from studio.description.variants import differing_names
-from studio.engine.variant_events import DifferenceView, InputDifference
+from studio.engine.variant_events import DifferenceView, InputDifference, shown
 from studio.robot.comparison import differences
 from studio.robot.measures import measure, whole_rows
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from studio.engine.recipes import RecipeBook
     from studio.engine.second_robot import SecondRobot
@@ -52,10 +52,7 @@ def _argument_rows(one: SecondRobot, other: SecondRobot) -> list[InputDifference
             side.recipe.arguments.get(name, side.arguments.get(name)) for side in (one, other)
         ]
         if values[0] != values[1]:
-            row = InputDifference(
-                kind=SiteKind.ARG, name=name, file="", line=0, one=values[0], other=values[1]
-            )
-            found.append(row)
+            found.append(_input(SiteKind.ARG, name, ("", 0), values))
     return found
 
 
@@ -63,14 +60,18 @@ def _text_rows(book: RecipeBook, one: SecondRobot, other: SecondRobot) -> list[I
     texts = one.recipe.texts, other.recipe.texts
     found: list[InputDifference] = []
     for name in differing_names(*texts):
-        file, line = book.place_of(name)
         saved = book.saved_text(name)
         values = [side.get(name, saved) for side in texts]
-        row = InputDifference(
-            kind=name.kind, name=str(name), file=file, line=line, one=values[0], other=values[1]
-        )
-        found.append(row)
+        found.append(_input(name.kind, str(name), book.place_of(name), values))
     return found
+
+
+def _input(
+    kind: SiteKind, name: str, place: tuple[str, int], values: Sequence[str | None]
+) -> InputDifference:
+    one, other = (None if value is None else shown(value) for value in values)
+    file, line = place
+    return InputDifference(kind=kind, name=shown(name), file=file, line=line, one=one, other=other)
 
 
 def _measured(side: SecondRobot, mesh_bounds: Callable[[str], Bounds | None]) -> Measures:

@@ -109,6 +109,8 @@ class ComparisonDesk:
         await self._second.close()
 
     async def _end(self) -> None:
+        if self.told == _NOTHING:
+            return
         self._made.clear()
         self._ghost.show(None, beside=False)
         await self._second.close()

@@ -377,6 +377,7 @@ class Document:
 
     def _watch_files(self) -> None:
         self._watch.watch((*self._files, *self._meshes.files))
+        self.variants.doubt()  # with a mesh come sizes
 
     def _spawn(self, name: str, work: Awaitable[None]) -> None:
         """Run something beside; the one of the same name before it is given up."""

@@ -2,10 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Final, Literal
 
 from studio.description.values import SiteKind
 from studio.engine.message import Message
+
+TEXT_SHOWN: Final = 200
+"""Letters of a text that lists show."""
+
+
+def shown(text: str) -> str:
+    """A text as lists show it."""
+    return text if len(text) <= TEXT_SHOWN else f"{text[:TEXT_SHOWN]}…"
 
 
 class Side(Message):

@@ -12,6 +12,7 @@ from studio.engine import messages as m
 from studio.engine.comparison_desk import ComparisonDesk
 from studio.engine.listeners import encode
 from studio.engine.recipes import Recipe, RecipeBook
+from studio.engine.variant_events import shown
 from studio.engine.variant_shelf import VariantShelf
 from studio.engine.watching import FileWatch
 from studio.errors import CommandError
@@ -261,8 +262,12 @@ def _view(variant: Variant) -> m.VariantView:
     return m.VariantView(
         name=variant.name,
         note=variant.note,
-        arguments=variant.arguments,
+        arguments={
+            name: None if value is None else shown(value)
+            for name, value in variant.arguments.items()
+        },
         texts=tuple(
-            m.VariantText(file=name.file, name=str(name), text=text) for name, text in texts
+            m.VariantText(file=name.file, name=shown(str(name)), text=shown(text))
+            for name, text in texts
         ),
     )

@@ -85,9 +85,9 @@ def test_a_variant_is_saved_switched_compared_and_seen(browser: Browser, tmp_pat
         tab.page.mouse.move(5, 5)  # what the pointer is on shines in 3D
         wait_until("the plain picture", lambda: tab.settle() == plain)
 
-        panel(tab).get_by_role("radio", name="Over").click()
+        panel(tab).get_by_role("button", exact=True, name="Over").click()
         wait_until("the ghost to be seen", lambda: tab.settle() != plain)
-        panel(tab).get_by_role("radio", name="Off").click()
+        panel(tab).get_by_role("button", exact=True, name="Off").click()
         wait_until("the ghost to be gone", lambda: tab.settle() == plain)
 
         switch(tab, "Big wheels")
