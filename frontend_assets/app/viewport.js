@@ -11,7 +11,7 @@ import { moveJoint } from "./actions.js";
 import { isStroke, onKey } from "./commands.js";
 import { mayEdit } from "./state/connection.js";
 import { movable, position, robot } from "./state/document.js";
-import { effects } from "./state/origin.js";
+import { lights } from "./state/origin.js";
 import {
   degrees,
   hiddenLinks,
@@ -119,7 +119,7 @@ function tell(view) {
     effect(() => view.setHover(hovered.value)),
     effect(() => view.setSelection(selected.value)),
     effect(() => {
-      const { changed_links: changed = [], moved_links: moved = [] } = effects.value ?? {};
+      const { changed_links: changed = [], moved_links: moved = [] } = lights.value ?? {};
       view.setLit(changed, moved);
     }),
     effect(() => view.setCanDrag(mayEdit.value)),

@@ -3,6 +3,7 @@
 import { html } from "vendor/preact.js";
 import { commandById } from "../app/commands.js";
 import { documentState, robot } from "../app/state/document.js";
+import { selectPart } from "../app/state/origin.js";
 import { fadeLink, linkOpacity, onlySelected, selected } from "../app/state/view.js";
 import { focusLink } from "../app/viewport.js";
 import { t } from "../lib/i18n.js";
@@ -20,11 +21,12 @@ export function LinkDetails() {
   return html`<aside class="details" aria-label=${t("link.details", { name: link.name })}>
     <header><strong title=${link.name}>${link.name}</strong>
       <${IconButton} icon="fit" label=${t("link.focus")} onClick=${() => focusLink(link.name)} />
+      <${IconButton} icon="origin" label=${t("origin.show")} onClick=${() => explain(`link:${link.name}`)} />
       <${IconButton} icon="properties" label=${t("link.values")} onClick=${showValues} />
       <${IconButton} icon="close" label=${t("link.deselect")} onClick=${close} />
     </header>
     <dl>
-      ${joint && html`<dt>${t("link.joint")}</dt><dd>${joint.name} <span class="muted">${t(`joint.${joint.type}`)}</span></dd>`}
+      ${joint && html`<dt>${t("link.joint")}</dt><dd><button type="button" class="text-button" title=${t("origin.show")} onClick=${() => explain(`joint:${joint.name}`)}>${joint.name}</button> <span class="muted">${t(`joint.${joint.type}`)}</span></dd>`}
       ${joint?.mimic && html`<dt>${t("joint.mimic")}</dt><dd>${joint.mimic}</dd>`}
       <dt>${t("link.mass")}</dt><dd>${link.mass_kg === null ? t("link.no_inertia") : `${formatNumber(link.mass_kg, 5)} kg`}</dd>
       <dt>${t("link.shapes")}</dt><dd>${t("link.shapes.text", { visuals: link.visuals, collisions: link.collisions })}</dd>
@@ -39,6 +41,12 @@ export function LinkDetails() {
 function showValues() {
   onlySelected.value = true;
   commandById("panel.properties")?.run();
+}
+
+/** @param {string} part say where it comes from */
+function explain(part) {
+  selectPart(part);
+  commandById("panel.origin")?.run();
 }
 
 /** @param {{link: string}} props */

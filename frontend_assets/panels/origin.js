@@ -118,7 +118,7 @@ function Call({ call, inputs }) {
 /** @param {{origin: PartOrigin, path: string, attributes: OriginAttribute[]}} props */
 function Element({ origin: { inputs, part: key }, path, attributes }) {
   const name = path === "" ? `<${splitKey(key)[0]}>` : path.replaceAll("/", " › ");
-  return html`<section class="origin-element" aria-label=${name}>
+  return html`<section class="origin-element" aria-label=${path || name}>
     <h3>${name}</h3>
     ${attributes.map((one) => html`<${Attribute} key=${one.attribute} of=${one} inputs=${inputs} part=${key} />`)}
   </section>`;

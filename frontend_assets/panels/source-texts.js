@@ -16,6 +16,7 @@ import { linkText } from "../app/texts.js";
 import { RefusedError } from "../app/wire.js";
 import { t } from "../lib/i18n.js";
 import { commonExtensions, fromElsewhere, stateOf, tellCursor } from "./source-editor.js";
+import { pointing } from "./source-effects.js";
 import { languageOf } from "./source-language.js";
 
 /**
@@ -118,7 +119,7 @@ export class SourceTexts {
       const options = {
         dark: theme.value === "dark",
         mayEdit: mayEdit.value,
-        more: languageOf(link),
+        more: [languageOf(link), pointing(link)],
       };
       one.state = stateOf(link, this.#common, options);
       return "";

@@ -1,13 +1,16 @@
 /** The URDF that the xacro came to, as text to read, copy and keep. It is fetched when it is looked at. */
 
-import { html, useEffect, useSignal } from "vendor/preact.js";
+import { html, useEffect, useMemo, useSignal } from "vendor/preact.js";
+import { commandById } from "../app/commands.js";
 import { connection } from "../app/state/connection.js";
 import { built, robot, title } from "../app/state/document.js";
+import { part, selectPart, wantedPart } from "../app/state/origin.js";
 import { notify } from "../app/state/view.js";
 import { send } from "../app/wire.js";
 import { copyText } from "../lib/clipboard.js";
 import { t } from "../lib/i18n.js";
 import { EmptyState, Icon } from "../lib/ui.js";
+import { elementsByLine } from "../lib/urdf-elements.js";
 
 const SETTLE_MS = 250;
 
@@ -29,8 +32,37 @@ export function UrdfPanel() {
       <button type="button" class="button small" onClick=${copy}><${Icon} name="copy" size=${14} />${t("copy")}</button>
       <button type="button" class="button small" onClick=${() => download(text.value)}><${Icon} name="download" size=${14} />${t("download")}</button>
     </div>
-    <pre class="code scroll" tabindex="0" aria-label=${t("panel.urdf")}>${lines.map((line, at) => html`<code key=${at} data-line=${at + 1}>${coloured(line)}</code>`)}</pre>
+    <${Lines} lines=${lines} text=${text.value} />
   </section>`;
+}
+
+/** @param {{lines: string[], text: string}} props each element leads to where it comes from */
+function Lines({ lines, text }) {
+  const drawn = useMemo(() => lines.map(coloured), [text]);
+  const elements = useMemo(() => elementsByLine(lines), [text]);
+  const wanted = wantedPart.value;
+  /** @param {MouseEvent} event */
+  const choose = (event) => {
+    const target = event.target instanceof Element ? event.target : null;
+    const line = Number(target?.closest("code")?.dataset.line) - 1;
+    const found = elements.get(line);
+    if (!found || getSelection()?.isCollapsed === false) return;
+    selectPart(found.part, found.element, attributeAt(target));
+    commandById("panel.origin")?.run();
+  };
+  return html`<pre class="code scroll" tabindex="0" aria-label=${t("panel.urdf")} title=${t("urdf.where")} onClick=${choose}>
+    ${drawn.map((words, at) => {
+      const one = elements.get(at);
+      const chosen = one?.part === part.value && one?.element === (wanted?.element ?? "");
+      return html`<code key=${at} data-line=${at + 1} class=${chosen ? "chosen" : ""}>${words}</code>`;
+    })}</pre>`;
+}
+
+/** @param {Element | null} word the name of an attribute, or its value @returns {string} the attribute's name */
+function attributeAt(word) {
+  if (word?.matches("i.name")) return word.textContent ?? "";
+  const name = word?.matches("i.value") ? word.previousElementSibling : null;
+  return name?.matches("i.name") ? (name.textContent ?? "") : "";
 }
 
 /** Asks again after every good run, but not at every step of a drag. @param {{value: string}} text */

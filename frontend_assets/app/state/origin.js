@@ -106,6 +106,8 @@ export const effects = signal(null);
 
 /** @type {Signal<string | null>} */
 const pointedSite = signal(null);
+/** The run before which it was pointed at. @type {Signal<unknown>} */
+const pointedRun = signal(null);
 /** Answers that are true of the run `knownOf`. @type {Map<string, Effects>} */
 const known = new Map();
 let knownOf = built.peek();
@@ -118,8 +120,14 @@ let asking;
  * @param {string | null} id of the property under the pointer or with the focus; null: none any more
  */
 export function hoverSite(id) {
-  pointedSite.value = id;
+  batch(() => {
+    pointedSite.value = id;
+    pointedRun.value = built.peek();
+  });
 }
+
+/** What lights up in 3D: nothing any more once an edit shows by itself what it does. */
+export const lights = computed(() => (built.value === pointedRun.value ? effects.value : null));
 
 effect(() => {
   const id = pointedSite.value;

@@ -1,0 +1,121 @@
+"""Where a part comes from, asked, followed and edited in the page; what a text shapes lights up."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+
+from tests.support.server import running_studio
+from tests.support.studio_page import StudioPage, studio_context, studio_page, wait_until
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+    from playwright.sync_api import Browser, Locator
+
+    from tests.support.server import RunningStudio
+
+pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(240)]
+
+_WHEEL_AT = """() => {
+  const { studio3d, innerWidth, innerHeight } = document.querySelector("iframe").contentWindow;
+  for (let y = innerHeight - 20; y > 20; y -= 6)
+    for (let x = 20; x < innerWidth - 20; x += 6)
+      if (studio3d.linkAt(x, y)?.endsWith("_wheel")) return [x, y];
+  return null;
+}"""
+
+
+@pytest.fixture
+def studio(tmp_path: Path) -> Iterator[RunningStudio]:
+    with running_studio(["demo", "--viewer-link"], tmp_path / "data") as running:
+        yield running
+
+
+@pytest.fixture
+def tab(browser: Browser, studio: RunningStudio) -> Iterator[StudioPage]:
+    with studio_page(browser, studio) as page:
+        yield page
+
+
+def panel(tab: StudioPage) -> Locator:
+    return tab.page.locator("section[aria-label='Where from']")
+
+
+def show(tab: StudioPage) -> None:
+    tab.page.get_by_role("tab", name="Where from").click()
+    wait_until("the panel", panel(tab).is_visible)
+
+
+def mesh_scale(tab: StudioPage) -> Locator:
+    element = panel(tab).get_by_role("region", name="visual[1]/geometry/mesh")
+    return element.get_by_role("group", name="scale")
+
+
+def test_a_clicked_wheel_tells_its_radius_which_is_edited_there(tab: StudioPage):
+    show(tab)
+    place = tab.page.evaluate(_WHEEL_AT)
+    assert place is not None
+    tab.page.locator("iframe").click(position={"x": place[0], "y": place[1]})
+    wait_until("the wheel's numbers", lambda: mesh_scale(tab).count() == 1)
+    scale = mesh_scale(tab)
+    assert "${wheel_radius} ${wheel_radius} ${wheel_width}" in scale.inner_text()
+    before = tab.settle()
+    scale.get_by_role("button", name="wheel_radius").click()
+    box = tab.row("wheel_radius").get_by_role("textbox").first
+    box.fill("0.2")
+    box.press("Enter")
+    wait_until("the number", lambda: "0.2  0.2  0.11429" in scale.inner_text())
+    assert tab.settle() != before
+    panel(tab).get_by_role("button", name="wheel.xacro:", exact=False).first.click()
+    line = tab.page.locator(".cm-activeLine")
+    wait_until("its line", lambda: line.count() > 0 and "wheel" in line.inner_text())
+    assert tab.errors == []
+
+
+def test_a_pointed_at_property_lights_up_what_it_shapes_and_says_so(tab: StudioPage):
+    tab.seek("wheel_width")
+    tab.page.mouse.move(5, 5)
+    dark = tab.settle()
+    tab.row("wheel_width").hover()
+    words = tab.page.get_by_role("status").filter(has_text="wheel_width")
+    wait_until("the words", lambda: words.count() == 1)
+    assert "resizes 5 links, moves 4 links" in words.inner_text()
+    assert tab.settle() != dark
+    tab.page.mouse.move(5, 5)
+    wait_until("the words to go", lambda: words.count() == 0)
+    assert tab.settle() == dark
+    tab.box("wheel_width").focus()
+    wait_until("the words by keyboard", lambda: words.count() == 1)
+    assert tab.errors == []
+
+
+def test_an_element_of_the_urdf_leads_to_its_number(tab: StudioPage):
+    tab.page.get_by_role("tab", name="URDF", exact=True).click()
+    limit = tab.page.locator("code[data-line]", has_text="upper=").first
+    wait_until("the URDF", lambda: limit.count() == 1)
+    limit.locator("i.name", has_text="upper").click()
+    chosen = panel(tab).locator(".origin-attribute.chosen")
+    wait_until("the number", lambda: chosen.count() == 1)
+    assert chosen.get_attribute("aria-label") == "upper"
+    assert panel(tab).get_by_role("button", pressed=True).first.inner_text().endswith("_joint")
+
+
+def test_whoever_only_watches_sees_origins_and_cannot_edit_there(
+    browser: Browser, studio: RunningStudio
+):
+    assert studio.process.stdout is not None
+    address = studio.process.stdout.readline().removeprefix("Viewer: ").strip()
+    context = studio_context(browser)
+    viewer = StudioPage(context.new_page())
+    viewer.open(address)
+    show(viewer)
+    viewer.page.get_by_role("treeitem", name="front_left_wheel").click()
+    wait_until("the wheel's numbers", lambda: mesh_scale(viewer).count() == 1)
+    mesh_scale(viewer).get_by_role("button", name="wheel_radius").click()
+    wait_until("its row", lambda: viewer.row("wheel_radius").count() == 1)
+    assert viewer.box("wheel_radius").is_disabled()
+    assert viewer.errors == []
+    context.close()
