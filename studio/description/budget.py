@@ -35,6 +35,11 @@ class Budget:
         self._elements = self._evaluations = 0
         self._ends_at = perf_counter() + limits.seconds
 
+    def restart(self) -> None:
+        """Count anew, for an edit of what came out."""
+        self._elements = self._evaluations = 0
+        self._ends_at = perf_counter() + self.limits.seconds
+
     def element(self) -> None:
         """One element came out.
 

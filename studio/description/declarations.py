@@ -152,8 +152,6 @@ def define_arg(
         run.texts.arguments[name] = argument
     elif argument.binding is not binding:
         binding.overridden = True
-    if argument not in binding.holders:
-        binding.holders.append(argument)
     argument.declared_by(binding)
 
 

@@ -73,6 +73,18 @@ class Draft:
     """The key path of a YAML scalar."""
     element_path: str = ""
     """Of a literal: tags from the link or joint down to its element."""
+    remarks: tuple[str, ...] = ()
+    """The comments that speak of it."""
+    tag: str = ""
+    """Of a YAML scalar, as written: `!degrees`."""
+
+    def rewritten(self, text: str) -> Draft:
+        """The draft when another text stands there, on the same line."""
+        if self.kind is SiteKind.YAML:
+            annotation = _yaml_annotation(self.remarks, text, self.tag)
+        else:
+            annotation = read_annotation(self.remarks, text)
+        return replace(self, text=text, annotation=annotation)
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,9 +102,6 @@ def draft_yaml(path: str, data: bytes) -> FileDrafts:
     drafts: list[Draft] = []
     for scalar, remark in zip(document.scalars, _yaml_remarks(document), strict=True):
         name = key_path_text(scalar.path)
-        annotation = read_annotation(remark.comments, scalar.text)
-        if not annotation.unit and scalar.tag in _TAG_UNITS:
-            annotation = replace(annotation, unit=_TAG_UNITS[scalar.tag])
         draft = Draft(
             id=f"{path}#{name}",
             kind=SiteKind.YAML,
@@ -101,11 +110,20 @@ def draft_yaml(path: str, data: bytes) -> FileDrafts:
             span=scalar.span,
             text=scalar.text,
             group=remark.group or key_path_text(scalar.path[:-1]),
-            annotation=annotation,
+            annotation=_yaml_annotation(remark.comments, scalar.text, scalar.tag),
             path=scalar.path,
+            remarks=remark.comments,
+            tag=scalar.tag,
         )
         drafts.append(draft)
     return FileDrafts(data, tuple(drafts), document.aliases)
+
+
+def _yaml_annotation(comments: tuple[str, ...], text: str, tag: str) -> Annotation:
+    annotation = read_annotation(comments, text)
+    if not annotation.unit and tag in _TAG_UNITS:
+        return replace(annotation, unit=_TAG_UNITS[tag])
+    return annotation
 
 
 def _yaml_remarks(document: YamlDocument) -> list[Remark]:
@@ -156,6 +174,7 @@ def _named_texts(element: SourceElement, remark: Remark) -> Iterator[Draft]:
             text=text,
             group=remark.group,
             annotation=read_annotation(remark.comments, text),
+            remarks=remark.comments,
             ordinal=element.ordinal,
             attribute=attribute,
         )

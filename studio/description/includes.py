@@ -99,6 +99,7 @@ def _root_of(run: Evaluation, node: Node, path: str) -> SourceElement:
         sentence = f"Files include each other more than {DEPTH_LIMIT} deep: one includes itself."
         raise Refusal("include-recursion", sentence)
     root = run.store.tree(path).root
+    run.texts.asked_for(root.tree.path)
     run.includes[node.origin.tree.path, root.tree.path] = None
     run.included_at.setdefault(root.tree.path, node.origin.place)
     return root

@@ -10,8 +10,6 @@ from studio.description.values import Part
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from studio.description.source_tree import SourceElement
-
 _NAMED: Final = frozenset({"link", "joint", "material"})
 
 
@@ -41,14 +39,23 @@ class WrittenPart(NamedTuple):
 
 def write_parts(root: OutputElement) -> list[WrittenPart]:
     """Write each top-level element as XML that stands alone, prefixes declared."""
-    prefixes = {
+    prefixes = _prefixes(root)
+    return [
+        WrittenPart(key, _write(element, prefixes), element) for key, element in part_keys(root)
+    ]
+
+
+def write_part(root: OutputElement, key: str, element: OutputElement) -> WrittenPart:
+    """Write one of them."""
+    return WrittenPart(key, _write(element, _prefixes(root)), element)
+
+
+def _prefixes(root: OutputElement) -> dict[str, tuple[str, str]]:
+    return {
         name[6:]: (name, value)
         for name, value in root.attributes.items()
         if name.startswith("xmlns:")
     }
-    return [
-        WrittenPart(key, _write(element, prefixes), element) for key, element in part_keys(root)
-    ]
 
 
 def part_of(written: WrittenPart) -> Part:
@@ -65,12 +72,3 @@ def _write(element: OutputElement, prefixes: Mapping[str, tuple[str, str]]) -> s
         if f"{prefix}:" in xml and name not in element.attributes
     }
     return write_xml(element, declared) if declared else xml
-
-
-def keys_by_source(root: OutputElement) -> dict[SourceElement, tuple[str, ...]]:
-    """Which parts each source element came out in."""
-    found: dict[SourceElement, dict[str, None]] = {}
-    for key, top in part_keys(root):
-        for element in top.walk():
-            found.setdefault(element.origin, {})[key] = None
-    return {element: tuple(keys) for element, keys in found.items()}

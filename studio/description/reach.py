@@ -25,6 +25,12 @@ class Reach:
 
     def __init__(self) -> None:
         self._links: dict[Input, Links] = {}
+        self._consumers: dict[Input, tuple[Consumer, ...]] = {}
+
+    def forget(self, one: Input) -> None:
+        """Look at an input anew: it, or what is made of it, got or lost readers."""
+        self._links.pop(one, None)
+        self._consumers.pop(one, None)
 
     def links(self, one: Input) -> Links:
         """What reads an input."""
@@ -33,23 +39,35 @@ class Reach:
             links = self._links[one] = _links_of(one)
         return links
 
-    def consumers(self, start: Input, limit: int = CONSUMERS_KEPT) -> tuple[Consumer, ...]:
-        """The attributes that an input shapes, through any number of properties, nearest first."""
-        links = self.links(start)
-        if len(links.consumers) >= limit or not links.dependents:
-            return links.consumers[:limit]
+    def consumers(self, start: Input) -> tuple[Consumer, ...]:
+        """The attributes that an input shapes, through any number of properties, nearest first.
+
+        Only the first few.
+        """
+        found = self._consumers.get(start)
+        if found is None:
+            found = self._consumers[start] = tuple(self._nearest(start))[:CONSUMERS_KEPT]
+        return found
+
+    def _nearest(self, start: Input) -> dict[Consumer, None]:
+        """Consumers from the nearest on, until there are enough."""
         found: dict[Consumer, None] = {}
         seen: set[Input] = {start}
         front: list[Input] = [start]
-        while front and len(found) < limit:
-            reached: dict[Binding, None] = {}
+        while front:
+            reached: list[Input] = []
             for one in front:
                 links = self.links(one)
-                found.update(dict.fromkeys(links.consumers))
-                reached.update(dict.fromkeys(links.dependents))
-            front = [one for one in reached if one not in seen]
-            seen.update(front)
-        return tuple(found)[:limit]
+                for consumer in links.consumers:
+                    found[consumer] = None
+                if len(found) >= CONSUMERS_KEPT:
+                    return found
+                for dependent in links.dependents:
+                    if dependent not in seen:
+                        seen.add(dependent)
+                        reached.append(dependent)
+            front = reached
+        return found
 
 
 def _links_of(one: Input) -> Links:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from studio.description.reach import Reach
+from studio.description.run_record import YamlScalar
 from studio.description.values import SiteKind
 
 if TYPE_CHECKING:
@@ -41,7 +42,7 @@ NOT_READ = Seen()
 
 
 class RunReads:
-    """One run record, asked by drafts; `graph_changed` when a patch changed what it links."""
+    """One run record, asked by drafts."""
 
     def __init__(self, record: RunRecord) -> None:
         self._record = record
@@ -52,14 +53,24 @@ class RunReads:
             if binding.kind is not None:
                 self._bindings.setdefault(_key(binding), []).append(binding)
 
-    def graph_changed(self) -> None:
-        """Look everything up anew."""
-        self._reach = Reach()
+    def readers_changed(self, one: Input) -> None:
+        """Look at an input anew."""
+        self._reach.forget(one)
 
     def bindings(self, path: str, draft: Draft) -> list[Binding]:
         """What the run bound the text of a draft to."""
         name = draft.name if draft.kind is SiteKind.PARAM_DEFAULT else ""
         return self._bindings.get((path, draft.ordinal, draft.attribute, name), [])
+
+    def site_of(
+        self, one: Binding | YamlScalar, files: Mapping[str, FileDrafts]
+    ) -> tuple[str, str | None]:
+        """The file and site id of what was read; None when it is no site."""
+        if isinstance(one, YamlScalar):
+            path = one.document
+            return path, self._inputs_of(path, files[path]).site_of(one.path)
+        path, ordinal, attribute, name = _key(one)
+        return path, f"{path}#{ordinal}@{attribute}" + (f":{name}" if name else "")
 
     def of_file(self, path: str, file: FileDrafts) -> Iterator[tuple[Draft, Seen]]:
         """Each draft of a file with what the run saw of it."""
@@ -79,12 +90,16 @@ class RunReads:
         return Seen(tuple(values), *self._shared(bindings))
 
     def _of_yaml(self, path: str, file: FileDrafts, draft: Draft) -> Seen:
-        inputs = self._yaml.get(path)
-        if inputs is None:
-            inputs = self._yaml[path] = _YamlInputs(file, self._record.yaml[path])
+        inputs = self._inputs_of(path, file)
         reads, consumers, compared = self._shared(inputs.of(draft.path))
         reads += inputs.reads_of_whole(draft.path)
         return Seen((draft.text,) if reads else (), reads, consumers, compared)
+
+    def _inputs_of(self, path: str, file: FileDrafts) -> _YamlInputs:
+        inputs = self._yaml.get(path)
+        if inputs is None:
+            inputs = self._yaml[path] = _YamlInputs(file, self._record.yaml[path])
+        return inputs
 
     def _shared(self, inputs: Iterable[Input]) -> tuple[int, tuple[Consumer, ...], tuple[str, ...]]:
         """Reads, consumers and comparisons of one text that was met under several names."""
@@ -126,16 +141,21 @@ class _YamlInputs:
     """What was read of one YAML file, by the paths where it is written."""
 
     def __init__(self, file: FileDrafts, document: YamlReads) -> None:
-        written = {draft.path for draft in file.drafts}
-        aliases = dict(file.aliases)
+        self._ids = {draft.path: draft.id for draft in file.drafts}
+        written, aliases = set(self._ids), dict(file.aliases)
+        self._written = {one: written_at(one, written, aliases) for one in document.values}
         self._inputs: dict[KeyPath, list[Input]] = {}
         for path, scalar in document.values.items():
-            self._inputs.setdefault(written_at(path, written, aliases), []).append(scalar)
+            self._inputs.setdefault(self._written[path], []).append(scalar)
         self._whole = {written_at(path, written, aliases) for path in document.whole}
 
     def of(self, path: KeyPath) -> list[Input]:
         """The values read there; what was read through an alias counts where it is written."""
         return self._inputs.get(path, [])
+
+    def site_of(self, path: KeyPath) -> str | None:
+        """The site that a value was read from; a container is none."""
+        return self._ids.get(self._written.get(path, path))
 
     def reads_of_whole(self, path: KeyPath) -> int:
         """How many containers around a path were read at once."""

@@ -106,12 +106,14 @@ def _when_seen(holder: Cell | Argument) -> float:
 
 
 def _shown(value: object) -> str:
-    """A value as text; a container only as such, it may be a whole file."""
+    """A value as text; a container only as such, it may be a whole file, others by their kind."""
     if isinstance(value, dict):
         return "{...}"
     if isinstance(value, list | tuple | set):
         return "[...]"
-    return value if isinstance(value, str) else str(value)
+    if value is None or isinstance(value, str | int | float | complex):
+        return str(value)
+    return f"<{type(value).__name__}>"
 
 
 class YamlScalar(Readable, Input):

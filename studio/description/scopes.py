@@ -51,12 +51,17 @@ class Replay(Protocol):
         """The value now of what the name meant in the run."""
         ...
 
+    def refuse(self, reason: str) -> None:
+        """Give up: only a full run can tell."""
+        ...
+
 
 class Resolver(Protocol):
     """Who evaluates: the run that a scope belongs to."""
 
     symbols: dict[str, Any]
     helpers: dict[str, Any]
+    is_pure: bool
     replay: Replay | None
     """Set while a text is evaluated once more: names mean what they meant the first time."""
 
@@ -129,6 +134,15 @@ class Scope:
             scope.cells.pop(name, None)
             scope = scope.parent
 
+    def is_inside(self, other: Scope) -> bool:
+        """Whether it is that scope, or has it above."""
+        scope: Scope | None = self
+        while scope is not None:
+            if scope is other:
+                return True
+            scope = scope.parent
+        return False
+
     def top(self) -> Scope:
         """The outermost scope: that of the opened file."""
         scope = self
@@ -174,6 +188,7 @@ class ScopeView(dict[str, Any]):
         return self.scope.value_of(name)
 
     def __contains__(self, name: object) -> bool:
+        self.scope.run.is_pure = False  # it depends on the moment
         return isinstance(name, str) and self.scope.has(name)
 
 

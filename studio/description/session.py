@@ -10,8 +10,10 @@ from studio.description.faults import Fault, Refusal, Unsupported, problem_of
 from studio.description.good_run import GoodRun
 from studio.description.language import LANGUAGE_QUERIES
 from studio.description.language_desk import LanguageDesk
+from studio.description.live_run import LiveRun
+from studio.description.output_index import OutputIndex
 from studio.description.output_tree import OutputElement
-from studio.description.parts import keys_by_source, part_of, write_parts
+from studio.description.parts import part_of, write_part, write_parts
 from studio.description.replies import reply_to
 from studio.description.run_record import RunRecord
 from studio.description.sites import SiteBuilder
@@ -32,6 +34,7 @@ from studio.problems import Place, Problem, Severity
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from studio.description.live_run import Patch
     from studio.description.queries import Query, Reply
     from studio.description.values import ReadPolicy, Site
 
@@ -51,6 +54,8 @@ class Session:
         self._parts: dict[str, str] = {}
         self._sites: dict[str, Site] = {}
         self._good: GoodRun | None = None
+        self._live: LiveRun | None = None
+        """The last run, when it was a good one that can be patched."""
         self._language = LanguageDesk(self._store, self._policy, self._entry)
 
     def answer(self, request: Request) -> Answer:
@@ -58,6 +63,14 @@ class Session:
 
         A text that was edited stays edited when the run fails: it is the user's.
         """
+        live, self._live = self._live, None
+        if live is not None and live.can_patch:
+            patch = self._patch(live, request)
+            if patch is not None:
+                self._live = live
+                return self._patched(live, patch)
+            if live.has_edited:
+                return self.run()
         try:
             self._take(request)
         except (EditError, Fault) as error:
@@ -65,9 +78,48 @@ class Session:
             return Failure(problem, tuple(self._store.asked))
         return self.run()
 
+    def forget_run(self) -> None:
+        """Make a full run for the next request."""
+        self._live = None
+
+    def _patch(self, live: LiveRun, request: Request) -> Patch | None:
+        match request:
+            case EditRequest(edits=edits):
+                return live.edit(edits)
+            case ArgumentsRequest(arguments=arguments):
+                before, self._arguments = self._arguments, dict(arguments)
+                return live.set_arguments(before, arguments)
+            case _:
+                return None
+
+    def _patched(self, live: LiveRun, patch: Patch) -> Expansion:
+        """Answer what a patch changed."""
+        root, record = live.index.root, live.record
+        written = [write_part(root, live.index.keys[one], one) for one in patch.parts]
+        changed = [part for part in written if self._parts[part.key] != part.xml]
+        sites = self._site_builder.patch(patch.sites, live.texts)
+        self._parts.update((part.key, part.xml) for part in changed)
+        self._sites.update((site.id, site) for site in sites)
+        self._good = self._good_run(root, record, "studio")
+        return Expansion(
+            robot_name=root.attributes.get("name", ""),
+            root_attributes=tuple(root.attributes.items()),
+            part_order=None,
+            changed_parts=tuple(part_of(part) for part in changed),
+            site_order=None,
+            changed_sites=sites,
+            files=record.files,
+            include_tree=record.includes,
+            warnings=record.warnings,
+            evaluator="studio",
+            is_patch=True,
+        )
+
     def query(self, query: Query) -> Reply:
         """Answer a question from the last good run; nothing changes."""
         if isinstance(query, LANGUAGE_QUERIES):
+            if self._live is not None:
+                self._sites.update(self._live.texts.moved(self._sites))
             return self._language.answer(query, self._arguments, self._good, self._sites)
         return reply_to(query, self._good)
 
@@ -112,7 +164,8 @@ class Session:
 
     def _expansion(self, evaluation: Evaluation, root: OutputElement, reason: str) -> Expansion:
         parts = write_parts(root)
-        record = self._record(evaluation, root)
+        index = OutputIndex(root)
+        record = self._record(evaluation, index)
         sites = self._site_builder.build(record)
         part_order, site_order = tuple(p.key for p in parts), tuple(s.id for s in sites)
         expansion = Expansion(
@@ -130,23 +183,29 @@ class Session:
         )
         self._parts = {part.key: part.xml for part in parts}
         self._sites = {site.id: site for site in sites}
-        self._good = GoodRun(
+        self._good = self._good_run(root, record, expansion.evaluator)
+        if not reason:
+            builder = self._site_builder
+            self._live = LiveRun(evaluation, record, index, builder.reads, builder.files)
+        return expansion
+
+    def _good_run(self, root: OutputElement, record: RunRecord, evaluator: str) -> GoodRun:
+        return GoodRun(
             root,
             record,
-            expansion.evaluator,
+            evaluator,
             self._entry,
             self._arguments,
             self._policy,
             self._store.kept(self._good.store if self._good else None),
             self._sites.keys(),
         )
-        return expansion
 
     def _is_new(self, site: Site) -> bool:
         before = self._sites.get(site.id)
         return before is not site and before != site
 
-    def _record(self, evaluation: Evaluation, root: OutputElement) -> RunRecord:
+    def _record(self, evaluation: Evaluation, index: OutputIndex) -> RunRecord:
         files = tuple(self._store.asked)
         return RunRecord(
             entry=self._store.resolve(self._entry),
@@ -155,7 +214,7 @@ class Session:
             includes=tuple(evaluation.includes),
             bindings=tuple(evaluation.bindings.values()),
             yaml=evaluation.texts.yaml,
-            part_keys=keys_by_source(root),
+            part_keys=index.keys_by_source(),
             arguments=_values(evaluation),
             warnings=tuple(evaluation.texts.warnings),
         )

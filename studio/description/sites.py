@@ -16,9 +16,10 @@ from studio.description.values import Site, SiteKind
 from studio.description.widgets import infer_widget, keep_range
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
     from studio.description.run_record import RunRecord
+    from studio.description.text_edits import TextEdits
     from studio.description.values import Widget
 
 
@@ -39,6 +40,13 @@ class SiteBuilder:
     def __init__(self) -> None:
         self._files: dict[str, FileDrafts] = {}
         self._built: dict[str, _Built] = {}
+        self.reads: RunReads
+        """What the last run says of the texts."""
+
+    @property
+    def files(self) -> Mapping[str, FileDrafts]:
+        """The drafts of each file as of the last run."""
+        return self._files
 
     def build(self, record: RunRecord) -> list[Site]:
         """All sites, file by file in the order in which the run read them, then top to bottom.
@@ -46,7 +54,7 @@ class SiteBuilder:
         Every arg and property of the files is one, also where the run did not come by, and every
         scalar of the YAML files that were read.
         """
-        reads = RunReads(record)
+        self.reads = reads = RunReads(record)
         self._files = dict(self._drafted(record))
         self._built = {
             draft.id: self._build(draft, seen)
@@ -54,6 +62,21 @@ class SiteBuilder:
             for draft, seen in reads.of_file(path, file)
         }
         return [one.site for one in self._built.values()]
+
+    def patch(self, sites: Mapping[str, str], texts: TextEdits) -> tuple[Site, ...]:
+        """Those of some sites that are other ones now, given by id with their file.
+
+        One that has only moved with an edit before it is none.
+        """
+        changed: list[Site] = []
+        for name, path in sites.items():
+            before, draft = self._built[name], texts.written(path, name)
+            seen = self.reads.seen(path, self._files[path], draft)
+            is_same_text = (draft.text, draft.place) == (before.draft.text, before.draft.place)
+            if not is_same_text or seen != before.seen:
+                self._built[name] = built = self._build(texts.now(path, name), seen)
+                changed.append(built.site)
+        return tuple(changed)
 
     def _drafted(self, record: RunRecord) -> Iterator[tuple[str, FileDrafts]]:
         """The drafts of each file that was read, those of unchanged bytes as they were."""

@@ -149,6 +149,30 @@ class SourceStore:
             changed[real] = data[: one.start] + one.new + data[one.end :]
         self._data.update(changed)
 
+    def held(self, path: str) -> tuple[SourceTree | None, Any | None]:
+        """The tree or the YAML values of a file as the last run had them, while they are true."""
+        data, tree = self._data.get(path), self._trees.get(path)
+        known = self._yaml.get(path)
+        return (
+            tree if tree is not None and tree.data is data else None,
+            known[1] if known is not None and known[0] is data else None,
+        )
+
+    def keep(self, path: str, data: bytes) -> None:
+        """Take new bytes of a file, to which its tree or its values were changed already."""
+        tree, known = self.held(path)
+        self._data[path] = data
+        if tree is not None:
+            tree.data = data
+        if known is not None:
+            self._yaml[path] = (data, known)
+
+    def restore(self, path: str, data: bytes) -> None:
+        """Take other bytes of a file, and forget what was parsed of it."""
+        self._data[path] = data
+        self._trees.pop(path, None)
+        self._yaml.pop(path, None)
+
     def reload(self, files: Iterable[str], overlay: Mapping[str, bytes]) -> None:
         """Take these files from the overlay, else from disk at their next read."""
         for path in files:

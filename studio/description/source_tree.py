@@ -115,19 +115,16 @@ if TYPE_CHECKING:
 class SourceTree:
     """One parsed file: `elements[n].ordinal == n`. Made by `parse_source`, not changed after."""
 
-    __slots__ = ("data", "elements", "encoding", "path", "root", "uses_xacro")
+    __slots__ = ("comments", "data", "elements", "encoding", "path", "root", "uses_xacro")
 
     def __init__(self, path: str, data: bytes, encoding: str) -> None:
         self.path, self.data, self.encoding = path, data, encoding
         self.elements: list[SourceElement] = []
+        self.comments: list[SourceComment] = []
+        """All comments inside the root, in order."""
         self.uses_xacro = False
         """It declares xacro's namespace, in either spelling, whatever its suffix."""
         self.root: SourceElement
-
-    @property
-    def comments(self) -> Iterator[SourceComment]:
-        """All comments inside the root, in no promised order."""
-        return (c for e in self.elements for c in e.children if isinstance(c, SourceComment))
 
 
 def parse_source(path: str, data: bytes) -> SourceTree:
@@ -270,6 +267,7 @@ class _Builder:
             at = self._parser
             node = SourceComment(text, at.CurrentLineNumber, at.CurrentByteIndex)
             self._open[-1].children.append(node)
+            self._tree.comments.append(node)
 
     def _start_cdata(self) -> None:
         self._in_cdata = True

@@ -5,12 +5,13 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from studio.description.values import Span
 from studio.errors import StaleEditError
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from studio.description.values import Edit, Site, Span
+    from studio.description.values import Edit, Site
 
 
 class SpanTable:
@@ -23,15 +24,37 @@ class SpanTable:
     def __init__(self) -> None:
         self.version = 0
         self._sites: dict[str, Site] = {}
+        self._spans: dict[str, dict[str, Span]] = {}
+        """By file, where its sites were at the last good run."""
         self._since: list[tuple[int, Edit]] = []
 
     def adopt(self, changed: Iterable[Site], order: Iterable[str] | None, version: int) -> None:
-        """Take over a run's sites: `changed` and `order` as in `Expansion`, true at `version`."""
-        self._sites.update((site.id, site) for site in changed)
+        """Take over a run's sites: `changed` and `order` as in `Expansion`, true at `version`.
+
+        Those that are not among `changed` moved with the edits until then.
+        """
+        for at, edit in self._since:
+            if at <= version:
+                self._move(edit)
+        for site in changed:
+            self._sites[site.id] = site
+            self._spans.setdefault(site.place.file, {})[site.id] = site.span
         if order is not None:
-            wanted = set(order)
-            self._sites = {one: site for one, site in self._sites.items() if one in wanted}
+            self._keep_only(set(order))
         self._since = [(at, edit) for at, edit in self._since if at > version]
+
+    def _move(self, edit: Edit) -> None:
+        """Have the sites of a file stand where an edit left them."""
+        spans = self._spans.get(edit.file)
+        if spans and len(edit.new) != edit.end - edit.start:
+            for name, span in spans.items():
+                if span.end >= edit.start:
+                    spans[name] = moved(span, edit) or span
+
+    def _keep_only(self, wanted: set[str]) -> None:
+        self._sites = {one: site for one, site in self._sites.items() if one in wanted}
+        for file, spans in self._spans.items():
+            self._spans[file] = {one: span for one, span in spans.items() if one in wanted}
 
     def note(self, edits: Iterable[Edit]) -> int:
         """Note edits that were applied, in order; the version that they lead to."""
@@ -49,6 +72,9 @@ class SpanTable:
         site = self._sites.get(site_id)
         if site is None:
             raise StaleEditError(site_id)
+        span = self._spans[site.place.file][site_id]
+        if span is not site.span:
+            site = self._sites[site_id] = replace(site, span=span)
         return site
 
     def span(self, site_id: str) -> Span:
@@ -74,7 +100,7 @@ def moved(span: Span, edit: Edit) -> Span | None:
     """
     growth = len(edit.new) - (edit.end - edit.start)
     if span.start <= edit.start and edit.end <= span.end:
-        return replace(span, end=span.end + growth)
+        return Span(span.start, span.end + growth, span.syntax)
     if edit.end <= span.start:
-        return replace(span, start=span.start + growth, end=span.end + growth)
+        return Span(span.start + growth, span.end + growth, span.syntax)
     return span if edit.start >= span.end else None

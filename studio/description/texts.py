@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, Final, cast
 
 from studio.description.expressions import HELPERS, Expression, compile_expression
@@ -20,7 +21,7 @@ from studio.description.yaml_values import Reader, wrap
 from studio.problems import Problem, Severity
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Generator, Iterable, Iterator
 
     from studio.description.budget import Budget
     from studio.description.graph import Consumer, Sink
@@ -44,7 +45,7 @@ _SEVERITIES: Final = {
 class Argument(Readable):
     """One arg: its value, and the first declaration, once the run has come by it."""
 
-    __slots__ = ("binding", "compared", "is_given", "name", "record", "value")
+    __slots__ = ("binding", "compared", "declarations", "is_given", "name", "record", "value")
 
     def __init__(self, name: str, value: str, *, is_given: bool) -> None:
         super().__init__()
@@ -54,9 +55,14 @@ class Argument(Readable):
         """The evaluation of its default; None when it is given or stands as it is written."""
         self.compared: dict[str, None] = {}
         """As `Binding.compared`, from before its declaration."""
+        self.declarations: list[Binding] = []
+        """All of them, those without effect too."""
 
     def declared_by(self, binding: Binding) -> None:
-        """Let the first declaration take over what was noted so far."""
+        """Note a declaration; the first one takes over what was noted so far."""
+        if binding not in self.declarations:
+            self.declarations.append(binding)
+            binding.holders.append(self)
         if self.binding is None:
             binding.compared.update(self.compared)
             self.binding = binding
@@ -79,6 +85,8 @@ class Texts:
         self.replay: Replay | None = None
         self.evaluations = 0
         """How many have ended; numbers the records."""
+        self.asked_at: dict[str, float] = {}
+        """By file, how many evaluations had ended when it was read first."""
         self.is_pure = True
         """No expression changes a value or uses one up, and no half of a run was given up."""
         self._now = Record("", cast("Scope", None), "", Role.NOTHING, None)
@@ -175,8 +183,21 @@ class Texts:
         """A value of a YAML file was read by the text under way."""
         self._now.reads.append(cast("YamlScalar", one))
 
+    @contextmanager
+    def replayed(self, replay: Replay, noted_at: Record, file: str) -> Generator[None]:
+        """Evaluate texts once more, as from a file; what they read is noted at a record."""
+        before = self._now, self.files, self.at
+        self._now, self.files, self.at, self.replay = noted_at, [file], None, replay
+        try:
+            yield
+        finally:
+            self._now, self.files, self.at = before
+            self.replay = None
+
     def warn(self, code: str, sentence: str, severity: Severity = Severity.WARNING) -> None:
         """Note a warning at the element being worked on, once."""
+        if self.replay is not None:
+            self.replay.refuse(sentence)
         self._now.is_noisy = True
         place = self.at.place if self.at else None
         self.warnings[Problem(severity, code, sentence, place)] = None
@@ -250,12 +271,20 @@ class Texts:
 
     def load_yaml(self, path: str) -> Any:  # noqa: ANN401
         """The values of a YAML file, every read of them noted."""
-        real, data, values = self.store.yaml(self.absolute(path), _pure_value)
+        real, data, values = self.store.yaml(self.absolute(path), pure_value)
+        if real not in self.yaml:
+            self.asked_for(real)
         reads = self.yaml.setdefault(real, YamlReads(real, data))
         self._now.reads.append(reads)
         if self.at is not None and self.at not in reads.loaded_by:
             reads.loaded_by.append(self.at)
         return wrap(values, Reader(reads, self.note), ())
+
+    def asked_for(self, file: str) -> None:
+        """A file was read; note when that was for the first time."""
+        if self.replay is not None:
+            self.replay.refuse(f"{file} was not read before")
+        self.asked_at.setdefault(file, self.evaluations)
 
     def say(self, severity: str, text: str) -> None:
         """A message of the description, or about a name that it uses."""
@@ -289,7 +318,7 @@ class Texts:
             raise _out_of_bounds(error) from None
         except Exception as error:  # noqa: BLE001 - whatever the expression does
             raise _failed(text, error) from None
-        if expression.compared:
+        if expression.compared and self.replay is None:
             self._note_compared(expression, scope)
         return value
 
@@ -323,7 +352,7 @@ class Texts:
                 found[0].binding.compared[text] = None
 
 
-def _pure_value(text: str) -> Any:  # noqa: ANN401
+def pure_value(text: str) -> Any:  # noqa: ANN401
     """An expression of a YAML file: no names but mathematics and builtins."""
     code = compile_expression(text).code
     try:

@@ -132,6 +132,9 @@ class Expansion:
     evaluator: str
     """`studio`, or `xacro` when a construct needed the stock library."""
     fallback_reason: str = ""
+    is_patch: bool = False
+    """Only what depends on the edits was looked at. Sites that merely moved with an edit before
+    them in their file are not among `changed_sites`."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -60,13 +60,13 @@ class YamlMapping(dict[Any, Any]):
     A plain one, and all below it, has no dots: what xacro's wrappers hand out by dict's own ways.
     """
 
-    __slots__ = ("_is_plain", "_path", "_reader")
+    __slots__ = ("_is_plain", "path", "reader")
 
     def __init__(
         self, items: dict[Any, Any], reader: Reader | None, path: KeyPath, *, plain: bool = False
     ) -> None:
         super().__init__(items)
-        self._reader, self._path, self._is_plain = reader, path, plain
+        self.reader, self.path, self._is_plain = reader, path, plain
 
     def __getattr__(self, key: Any) -> Any:  # noqa: ANN401
         if self._is_plain:
@@ -89,10 +89,10 @@ class YamlMapping(dict[Any, Any]):
         return self._wrapped(key, value)
 
     def _wrapped(self, key: Any, value: Any, *, plain: bool = False) -> Any:  # noqa: ANN401
-        path = (*self._path, key)
-        if self._reader is not None:
-            self._reader.touch(path)
-        return wrap(value, self._reader, path, plain=plain or self._is_plain)
+        path = (*self.path, key)
+        if self.reader is not None:
+            self.reader.touch(path)
+        return wrap(value, self.reader, path, plain=plain or self._is_plain)
 
     def _plain(self) -> dict[Any, Any]:
         """As an ordinary dict, every value read."""
@@ -124,28 +124,46 @@ class YamlMapping(dict[Any, Any]):
         return self._wrapped(key, super().pop(key), plain=True)
 
     def __repr__(self) -> str:
-        if self._reader is not None:
-            self._reader.touch_all(self._path)
+        self._read_whole()
         return dict.__repr__(self)
+
+    def __eq__(self, other: object) -> bool:
+        self._read_whole()
+        return dict.__eq__(self, other)
+
+    def __ne__(self, other: object) -> bool:
+        return not self == other
+
+    __hash__ = None  # pyright: ignore[reportAssignmentType] - as that of a dict
+
+    def __or__(self, other: dict[Any, Any]) -> Any:  # noqa: ANN401
+        return self._plain() | other
+
+    def __ror__(self, other: dict[Any, Any]) -> Any:  # noqa: ANN401
+        return other | self._plain()
+
+    def _read_whole(self) -> None:
+        """Note that everything below is read at once."""
+        if self.reader is not None:
+            self.reader.touch_all(self.path)
 
 
 class YamlSequence(list[Any]):
     """A list of a YAML file; items are copies of what is below, plain ones as in a mapping."""
 
-    __slots__ = ("_is_plain", "_path", "_reader")
+    __slots__ = ("_is_plain", "path", "reader")
 
     def __init__(
         self, items: Iterable[Any], reader: Reader | None, path: KeyPath, *, plain: bool = False
     ) -> None:
         super().__init__(items)
-        self._reader, self._path, self._is_plain = reader, path, plain
+        self.reader, self.path, self._is_plain = reader, path, plain
 
     def __getitem__(self, index: Any) -> Any:  # noqa: ANN401
         value = super().__getitem__(index)
         if isinstance(index, int):
             return self._wrapped(index % len(self), value)
-        if self._reader is not None:
-            self._reader.touch_all(self._path)
+        self._read_whole()
         return wrap(value, None, (), plain=self._is_plain)
 
     def __iter__(self) -> Iterator[Any]:
@@ -153,10 +171,10 @@ class YamlSequence(list[Any]):
             yield self._wrapped(index, value)
 
     def _wrapped(self, index: int, value: Any, *, plain: bool = False) -> Any:  # noqa: ANN401
-        path = (*self._path, index)
-        if self._reader is not None:
-            self._reader.touch(path)
-        return wrap(value, self._reader, path, plain=plain or self._is_plain)
+        path = (*self.path, index)
+        if self.reader is not None:
+            self.reader.touch(path)
+        return wrap(value, self.reader, path, plain=plain or self._is_plain)
 
     def _plain(self) -> list[Any]:
         """As an ordinary list, every item read."""
@@ -178,15 +196,57 @@ class YamlSequence(list[Any]):
     def pop(self, index: Any = -1) -> Any:  # noqa: ANN401
         """Take an item out of this copy; paths of later reads are no longer known."""
         value = super().pop(index)
-        if self._reader is not None:
-            self._reader.touch_all(self._path)
-            self._reader = None
+        self._read_whole()
+        self.reader = None
         return wrap(value, None, (), plain=True)
 
     def __repr__(self) -> str:
-        if self._reader is not None:
-            self._reader.touch_all(self._path)
+        self._read_whole()
         return list.__repr__(self)
+
+    def __radd__(self, other: list[Any]) -> list[Any]:
+        return other + self._plain()
+
+    def __contains__(self, item: object) -> bool:
+        self._read_whole()
+        return list.__contains__(self, item)
+
+    def __eq__(self, other: object) -> bool:
+        self._read_whole()
+        return list.__eq__(self, other)
+
+    def __ne__(self, other: object) -> bool:
+        return not self == other
+
+    __hash__ = None  # pyright: ignore[reportAssignmentType] - as that of a list
+
+    def __lt__(self, other: list[Any]) -> bool:
+        return self._plain() < other
+
+    def __le__(self, other: list[Any]) -> bool:
+        return self._plain() <= other
+
+    def __gt__(self, other: list[Any]) -> bool:
+        return self._plain() > other
+
+    def __ge__(self, other: list[Any]) -> bool:
+        return self._plain() >= other
+
+    def __reversed__(self) -> Iterator[Any]:
+        return reversed(self._plain())
+
+    def index(self, *wanted: Any) -> int:  # noqa: ANN401
+        """Where an item stands."""
+        return self._plain().index(*wanted)
+
+    def count(self, item: Any) -> int:  # noqa: ANN401
+        """How often an item occurs."""
+        return self._plain().count(item)
+
+    def _read_whole(self) -> None:
+        """Note that everything below is read at once."""
+        if self.reader is not None:
+            self.reader.touch_all(self.path)
 
 
 METHODS[YamlMapping] = METHODS[dict]
@@ -203,11 +263,43 @@ def wrap(value: Any, reader: Reader | None, path: KeyPath, *, plain: bool = Fals
     return value
 
 
+def rewrite(wrapped: Any, reads: YamlReads, path: KeyPath, value: Any) -> None:  # noqa: ANN401
+    """Have a value that a run read hold another scalar of its file, wherever it holds that one."""
+    if isinstance(wrapped, YamlMapping | YamlSequence):
+        reader = wrapped.reader
+        if reader is not None and reader.reads is reads and wrapped.path == path[:-1]:
+            replace_item(wrapped, path[-1], value)
+    elif isinstance(wrapped, dict):
+        for one in cast("dict[Any, Any]", wrapped).values():
+            rewrite(one, reads, path, value)
+    elif isinstance(wrapped, list | tuple):
+        for one in cast("list[Any]", wrapped):
+            rewrite(one, reads, path, value)
+
+
+def replace_item(container: Any, key: str | int, value: Any) -> None:  # noqa: ANN401
+    """Put a value into a mapping or list, unnoticed."""
+    kind = dict if isinstance(container, dict) else list
+    cast("Any", kind).__setitem__(container, key, value)
+
+
+def scalar_of(text: str, tag: str, evaluate: Callable[[str], Any]) -> Any:  # noqa: ANN401
+    """The value of one plain scalar, a word without blanks, as in a file.
+
+    Raises:
+        Fault: Its tag asks for a number, and it is none.
+        LookupError: The tag is none of xacro's.
+    """
+    if tag:
+        return float(evaluate(text)) * UNITS[tag]
+    return yaml.load(text, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+
+
 def origin_of(value: object) -> tuple[str, KeyPath] | None:
     """The file and key path that a container was read from; None for any other value."""
-    if not isinstance(value, YamlMapping | YamlSequence) or value._reader is None:
+    if not isinstance(value, YamlMapping | YamlSequence) or value.reader is None:
         return None
-    return value._reader.reads.path, value._path
+    return value.reader.reads.path, value.path
 
 
 def read_yaml(path: str, data: bytes, evaluate: Callable[[str], Any]) -> Any:  # noqa: ANN401

@@ -1,0 +1,122 @@
+"""Two sessions side by side: one that patches, one that always runs in full."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from studio.description.session import Session, open_session
+from studio.description.sources import Sources
+from studio.description.values import EditRequest, Expansion, Failure, OpenRequest
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from studio.description.session import Answer, Request
+    from studio.description.values import Edit, Part, ReadPolicy, Site
+
+
+@dataclass
+class Told:
+    """What somebody knows who has heard all answers of a session."""
+
+    sources: Sources
+    parts: dict[str, Part] = field(default_factory=dict[str, "Part"])
+    order: tuple[str, ...] = ()
+    sites: tuple[str, ...] = ()
+    last: Expansion | None = None
+    failure: Failure | None = None
+
+    def take(self, answer: Answer) -> None:
+        """Hear one."""
+        if isinstance(answer, Failure):
+            self.failure = answer
+            return
+        self.failure = None
+        self.parts.update((part.key, part) for part in answer.changed_parts)
+        self.order = self.order if answer.part_order is None else answer.part_order
+        self.sites = self.sites if answer.site_order is None else answer.site_order
+        self.sources.adopt(answer, self.sources.spans.version)
+        self.last = replace(
+            answer,
+            part_order=None,
+            changed_parts=(),
+            site_order=None,
+            changed_sites=(),
+            is_patch=False,
+        )
+
+    def site(self, name: str) -> Site:
+        """A site as it is now."""
+        return self.sources.spans.site(name)
+
+    def everything(self) -> dict[str, object]:
+        """All of it, to be compared."""
+        parts = {key: (self.parts[key].xml, self.parts[key].calls) for key in self.order}
+        sites = {name: self.site(name) for name in self.sites}
+        return {"run": self.last, "failure": self.failure, **parts, **sites}
+
+
+class SideBySide:
+    """The same requests to both; `differences` says where they disagree."""
+
+    def __init__(
+        self, file: Path, policy: ReadPolicy, arguments: Mapping[str, str] | None = None
+    ) -> None:
+        self.request = OpenRequest(str(file), dict(arguments or {}), policy, {})
+        self.patching, self.told = _opened(self.request)
+        self.full, self.full_told = _opened(self.request)
+        self.patched = self.ran = 0
+        self.last: Answer | None = None
+        """What the patching one answered last."""
+
+    def edit(self, site: str, text: str) -> bool:
+        """Write a text at a site; whether it was patched."""
+        edit = self.told.sources.edit_site(site, text)
+        self.full_told.sources.edit(edit, "edit")
+        return self.send(EditRequest((edit,)))
+
+    def splice(self, *edits: Edit) -> bool:
+        """Edit bytes; whether that was patched."""
+        for edit in edits:
+            self.told.sources.edit(edit, "edit")
+            self.full_told.sources.edit(edit, "edit")
+        return self.send(EditRequest(edits))
+
+    def send(self, request: Request) -> bool:
+        """Ask both the same; whether the one patched."""
+        answer = self.last = self.patching.answer(request)
+        self.told.take(answer)
+        self.full.forget_run()
+        self.full_told.take(self.full.answer(request))
+        is_patch = isinstance(answer, Expansion) and answer.is_patch
+        self.patched += is_patch
+        self.ran += not is_patch
+        return is_patch
+
+    def patched_answer(self) -> Expansion:
+        """What the patching one answered last."""
+        assert isinstance(self.last, Expansion)
+        return self.last
+
+    def differences(self) -> list[str]:
+        """What the two do not agree about."""
+        ours, theirs = self.told.everything(), self.full_told.everything()
+        if ours == theirs:
+            return []
+        keys = dict.fromkeys((*ours, *theirs))
+        return [
+            f"{key}:\n  patched {ours.get(key)}\n  full    {theirs.get(key)}"
+            for key in keys
+            if ours.get(key) != theirs.get(key)
+        ]
+
+
+def _opened(request: OpenRequest) -> tuple[Session, Told]:
+    session, answer = open_session(request)
+    assert session is not None
+    assert isinstance(answer, Expansion), answer
+    told = Told(Sources(Path.read_bytes, Path.resolve))
+    told.take(answer)
+    return session, told
