@@ -14,6 +14,7 @@ from studio.description.values import (
     Failure,
     OpenRequest,
     ReloadRequest,
+    VerifyRequest,
 )
 from studio.errors import WorkerDiedError, WorkerTimeoutError
 from studio.problems import Place, Problem, Severity
@@ -67,6 +68,10 @@ class DescriptionWorker:
     async def reload(self, request: ReloadRequest) -> Answer:
         """Run with texts that changed on disk."""
         return await self._ask(request)
+
+    async def verify(self) -> Answer:
+        """Run in full and correct what patches made otherwise, if anything."""
+        return await self._ask(VerifyRequest())
 
     async def query(self, query: Query) -> Reply:
         """Ask about the last good run, behind whatever is under way.

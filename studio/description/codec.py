@@ -10,6 +10,7 @@ from studio.description.values import (
     Failure,
     OpenRequest,
     ReloadRequest,
+    VerifyRequest,
 )
 from studio.workers import Codec
 
@@ -18,6 +19,7 @@ CODEC = Codec(
     EditRequest,
     ArgumentsRequest,
     ReloadRequest,
+    VerifyRequest,
     Expansion,
     Failure,
     *QUERIES,

@@ -26,7 +26,9 @@ from studio.description.values import (
     Failure,
     OpenRequest,
     ReloadRequest,
+    VerifyRequest,
 )
+from studio.description.verification import verified
 from studio.errors import DescriptionError, EditError, ExpansionError
 from studio.packages.roots import ServedRoots
 from studio.problems import Place, Problem, Severity
@@ -39,7 +41,7 @@ if TYPE_CHECKING:
     from studio.description.values import ReadPolicy, Site
 
 Answer: TypeAlias = Expansion | Failure
-Request: TypeAlias = OpenRequest | EditRequest | ArgumentsRequest | ReloadRequest
+Request: TypeAlias = OpenRequest | EditRequest | ArgumentsRequest | ReloadRequest | VerifyRequest
 
 
 class Session:
@@ -54,6 +56,8 @@ class Session:
         self._parts: dict[str, str] = {}
         self._sites: dict[str, Site] = {}
         self._good: GoodRun | None = None
+        self._told: Expansion | None = None
+        """The last good answer."""
         self._live: LiveRun | None = None
         """The last run, when it was a good one that can be patched."""
         self._language = LanguageDesk(self._store, self._policy, self._entry)
@@ -64,12 +68,14 @@ class Session:
         A text that was edited stays edited when the run fails: it is the user's.
         """
         live, self._live = self._live, None
+        if isinstance(request, VerifyRequest):
+            return self._verify(live)
         if live is not None and live.can_patch:
             patch = self._patch(live, request)
             if patch is not None:
                 self._live = live
                 return self._patched(live, patch)
-            if live.has_edited:
+            if isinstance(request, EditRequest) and live.has_edited:
                 return self.run()
         try:
             self._take(request)
@@ -92,6 +98,14 @@ class Session:
             case _:
                 return None
 
+    def _verify(self, live: LiveRun | None) -> Answer:
+        """Run in full; what it has otherwise than the patches before is a correction."""
+        if live is None:
+            return self.run()
+        self._sites.update(live.texts.moved(self._sites))
+        told = self._told
+        return verified(self.run(), told, self._entry)
+
     def _patched(self, live: LiveRun, patch: Patch) -> Expansion:
         """Answer what a patch changed."""
         root, record = live.index.root, live.record
@@ -101,7 +115,7 @@ class Session:
         self._parts.update((part.key, part.xml) for part in changed)
         self._sites.update((site.id, site) for site in sites)
         self._good = self._good_run(root, record, "studio")
-        return Expansion(
+        self._told = Expansion(
             robot_name=root.attributes.get("name", ""),
             root_attributes=tuple(root.attributes.items()),
             part_order=None,
@@ -114,6 +128,7 @@ class Session:
             evaluator="studio",
             is_patch=True,
         )
+        return self._told
 
     def query(self, query: Query) -> Reply:
         """Answer a question from the last good run; nothing changes."""
@@ -131,7 +146,7 @@ class Session:
                 self._arguments = dict(arguments)
             case ReloadRequest(files=files, overlay=overlay):
                 self._store.reload(files, overlay)
-            case OpenRequest():
+            case OpenRequest() | VerifyRequest():
                 pass
 
     def run(self) -> Answer:
@@ -183,6 +198,7 @@ class Session:
         )
         self._parts = {part.key: part.xml for part in parts}
         self._sites = {site.id: site for site in sites}
+        self._told = expansion
         self._good = self._good_run(root, record, expansion.evaluator)
         if not reason:
             builder = self._site_builder

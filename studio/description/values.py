@@ -7,8 +7,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import Final
 
 from studio.problems import MacroCall, Place, Problem  # noqa: TC001 - msgspec reads them
+
+PATCH_DIFFERED: Final = "patch-differed"
 
 
 class SiteKind(StrEnum):
@@ -190,3 +193,11 @@ class ReloadRequest:
 
     files: tuple[str, ...]
     overlay: dict[str, bytes]
+
+
+@dataclass(frozen=True, slots=True)
+class VerifyRequest:
+    """Run in full, and correct what patches have made otherwise.
+
+    The answer then has a warning with the code PATCH_DIFFERED; else it `is_patch` without news.
+    """

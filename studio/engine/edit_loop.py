@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import asyncio
+import logging
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Final, TypeAlias
 
 from studio.description.values import (
     ArgumentsRequest,
@@ -23,6 +24,11 @@ if TYPE_CHECKING:
     from studio.description.client import DescriptionWorker
     from studio.description.queries import Query, Reply
     from studio.description.sources import Sources
+
+CHECK_AFTER_S: Final = 0.15
+"""Quiet time after the last of some patches."""
+
+_log = logging.getLogger(__name__)
 
 Outcome: TypeAlias = Expansion | Failure
 
@@ -57,6 +63,8 @@ class EditLoop:
         self._arguments_changed = False
         self._waiters: list[asyncio.Future[None]] = []
         self._turns: asyncio.Task[None] | None = None
+        self._check: asyncio.TimerHandle | None = None
+        """Counts the quiet time after a patch."""
 
     @property
     def worker_pid(self) -> int | None:
@@ -98,6 +106,7 @@ class EditLoop:
 
     async def close(self) -> None:
         """End the worker; those who wait are cancelled."""
+        self._keep_quiet()
         for waiter in self._waiters:
             waiter.cancel()
         if self._turns:
@@ -108,6 +117,7 @@ class EditLoop:
     async def _next_run(self) -> None:
         waiter: asyncio.Future[None] = asyncio.get_running_loop().create_future()
         self._waiters.append(waiter)
+        self._keep_quiet()
         if self._turns is None or self._turns.done():
             self._turns = asyncio.create_task(self._take_turns())
         await waiter
@@ -117,7 +127,9 @@ class EditLoop:
             waiters, self._waiters = self._waiters, []
             try:
                 version = self._sources.spans.version
-                self._take(await self._run(), version)
+                outcome = await self._run()
+                self._take(outcome, version)
+                self._check_later(outcome)
             except asyncio.CancelledError:
                 for waiter in waiters:
                     waiter.cancel()
@@ -126,6 +138,39 @@ class EditLoop:
                 _settle(waiters, error)
             else:
                 _settle(waiters, None)
+
+    def _keep_quiet(self) -> None:
+        if self._check is not None:
+            self._check.cancel()
+            self._check = None
+
+    def _check_later(self, outcome: Outcome) -> None:
+        """When it is quiet for a while, have a full run look at what edits have patched."""
+        self._keep_quiet()
+        if isinstance(outcome, Expansion) and outcome.is_patch:
+            loop = asyncio.get_running_loop()
+            self._check = loop.call_later(CHECK_AFTER_S, self._begin_check)
+
+    def _begin_check(self) -> None:
+        if self._turns is None or self._turns.done():
+            self._turns = asyncio.create_task(self._check_patches())
+
+    async def _check_patches(self) -> None:
+        """Compare with a full run; whoever comes meanwhile has the next turn."""
+        try:
+            await self._check_once()
+        except Exception:  # noqa: BLE001 - those who wait for a turn must get it
+            _log.exception("A look at what was patched failed.")
+        await self._take_turns()
+
+    async def _check_once(self) -> None:
+        version = self._sources.spans.version
+        outcome = await self._worker.verify()
+        if self._worker.needs_reopen:
+            version = self._sources.spans.version
+            outcome = await self._run()
+        if isinstance(outcome, Failure) or not outcome.is_patch:
+            self._take(outcome, version)
 
     async def _run(self) -> Outcome:
         """Send what changed since the last run; more than one kind of change opens anew."""

@@ -13,7 +13,7 @@ import pytest
 from studio.description.client import DescriptionWorker
 from studio.description.queries import PartOrigin, PartOriginQuery
 from studio.description.sources import Sources
-from studio.description.values import Expansion
+from studio.description.values import Edit, Expansion
 from studio.engine.edit_loop import EditLoop, Target
 from studio.packages.roots import ServedRoots
 from tests.support.descriptions import policy_for, robot, write
@@ -26,11 +26,27 @@ if TYPE_CHECKING:
 pytestmark = pytest.mark.timeout(60)
 
 
-def loop_over(file: Path, outcomes: list[Outcome]) -> EditLoop:
+def loop_over(
+    file: Path, outcomes: list[Outcome], worker: DescriptionWorker | None = None
+) -> EditLoop:
     roots = ServedRoots([file.parent])
     sources = Sources(roots.read, roots.resolve, lambda _: True, {})
     target = Target(str(file), policy_for(file.parent))
-    return EditLoop(DescriptionWorker(), sources, target, lambda one, _: outcomes.append(one))
+    worker = worker or DescriptionWorker()
+    return EditLoop(worker, sources, target, lambda one, _: outcomes.append(one))
+
+
+class CheckedWorker(DescriptionWorker):
+    """A worker that tells when it has looked at what edits patched."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.answers: asyncio.Queue[Outcome] = asyncio.Queue()
+
+    async def verify(self) -> Outcome:
+        answer = await super().verify()
+        self.answers.put_nowait(answer)
+        return answer
 
 
 def test_a_question_asked_while_the_robot_opens_costs_no_second_run(tmp_path: Path):
@@ -64,6 +80,34 @@ def test_a_question_after_a_fall_opens_the_robot_again(tmp_path: Path):
             os.kill(loop.worker_pid, signal.SIGKILL)
             await loop.ask(PartOriginQuery("link:a"))
             assert isinstance(await loop.ask(PartOriginQuery("link:a")), PartOrigin)
+        finally:
+            await loop.close()
+
+    asyncio.run(run())
+
+
+def test_after_a_quiet_moment_patches_are_looked_at_once_and_nothing_is_told(tmp_path: Path):
+    source = robot('<xacro:property name="m" value="1"/><link name="a"/><m v="${m * 2}"/>')
+    file = write(tmp_path, {"a.xacro": source})
+    start = source.index('"1"') + 1
+
+    async def run() -> None:
+        outcomes: list[Outcome] = []
+        worker = CheckedWorker()
+        loop = loop_over(file, outcomes, worker)
+        try:
+            await loop.reopen()
+            for digit in b"234":
+                await loop.edit((Edit(str(file), start, start + 1, bytes([digit])),))
+            assert worker.answers.empty()
+            checked = await worker.answers.get()
+            assert isinstance(checked, Expansion)
+            assert checked.is_patch
+            await loop.edit((Edit(str(file), start, start + 1, b"5"),))
+            assert worker.answers.empty()
+            assert len(outcomes) == 5
+            patches = [one for one in outcomes if isinstance(one, Expansion) and one.is_patch]
+            assert len(patches) == 4
         finally:
             await loop.close()
 
