@@ -39,6 +39,18 @@ export function valueText(value, factor) {
   return typeof value === "number" ? formatNumber(value * factor, DIGITS) : value;
 }
 
+/**
+ * @param {string} path of a file
+ * @param {number | string | null} beside the path that it is compared with
+ * @returns {string} from the first folder on that differs
+ */
+export function endOf(path, beside) {
+  const parts = path.split("/");
+  const others = typeof beside === "string" ? beside.split("/") : [];
+  const at = parts.findIndex((part, n) => part !== others[n]);
+  return parts.slice(at < 0 ? -1 : at).join("/");
+}
+
 /** @param {number} value @returns {string} with its sign */
 function signed(value) {
   const text = formatNumber(value, 3);

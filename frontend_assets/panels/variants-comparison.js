@@ -26,10 +26,12 @@ export function VariantsComparison() {
   const { sides, busy, faults } = comparison.value;
   if (!sides) return canCompare.value ? html`<${Begin} />` : null;
   return html`<section class="comparison" aria-label=${t("compare.title")}>
-    <header class="comparison-head"><h3>${t("compare.title")}</h3>
-      <${IconButton} icon="close" label=${t("compare.end")} disabled=${!mayEdit.value} onClick=${end} /></header>
-    <${Sides} sides=${sides} />
-    <${GhostControls} />
+    <div class="comparison-bar">
+      <header class="comparison-head"><h3>${t("compare.title")}</h3>
+        <${IconButton} icon="close" label=${t("compare.end")} disabled=${!mayEdit.value} onClick=${end} /></header>
+      <${Sides} sides=${sides} />
+      <${GhostControls} />
+    </div>
     ${busy && html`<${ProgressBar} label=${t("compare.busy")} done=${0} total=${0} />`}
     ${faults.map((one) => html`<p key=${one} class="variants-note bad" role="status"><${Icon} name="alert" />${one}</p>`)}
     <${InputTable} />
@@ -99,7 +101,7 @@ function GhostControls() {
   const off = !mayEdit.value;
   return html`<div class="ghost-controls" role="group" aria-label=${t("ghost")}>
     <span class="ghost-label"><${Icon} name="ghost" size=${14} />${t("ghost")}</span>
-    <span class="segments">
+    <span class="ghost-places">
       ${PLACES.map((one) => html`<button key=${one} type="button" aria-pressed=${one === place} disabled=${off} title=${t(`ghost.${one}.hint`)} onClick=${() => putGhost(one)}>${t(`ghost.${one}`)}</button>`)}
     </span>
     ${place !== "off" && html`<${GhostLook} opacity=${Number(settings.opacity)} off=${off} />`}

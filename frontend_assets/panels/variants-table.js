@@ -10,6 +10,7 @@ import { comparison, sideName } from "../app/state/variants.js";
 import { degrees, hovered, selected } from "../app/state/view.js";
 import {
   changeText,
+  endOf,
   grouped,
   matching,
   partOf,
@@ -178,6 +179,8 @@ function Row({ row, named = false }) {
 /** @param {{row: DifferenceView, value: number | string | null, factor: number}} props */
 function Cell({ row, value, factor }) {
   const text = valueText(value, factor);
+  if (/\.(mesh|texture)$/.test(row.what) && typeof value === "string")
+    return html`<span class="value path" title=${value}>${endOf(value, value === row.one ? row.other : row.one)}</span>`;
   if (row.what.endsWith(".color") && typeof value === "string")
     return html`<span class="swatch" style=${`background:${colorOf(value)}`} title=${value}></span>`;
   const words =

@@ -34,6 +34,7 @@ export function VariantsPanel() {
         <${Icon} name="plus" size=${14} />${t("variants.save")}</button>
     </div>
     <div class="scroll">
+      <div class="variants-side">
       ${adding.value && html`<${SaveForm} onDone=${() => (adding.value = false)} />`}
       <${Trouble} />
       ${list.length === 0 && !adding.value && html`<${Purpose} />`}
@@ -45,6 +46,7 @@ export function VariantsPanel() {
             : html`<${VariantRow} key=${one.name} variant=${one} onRename=${() => (editing.value = one.name)} />`,
         )}
       </ul>
+      </div>
       <${VariantsComparison} />
     </div>
   </section>`;

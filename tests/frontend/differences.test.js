@@ -2,6 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import {
   changeText,
+  endOf,
   grouped,
   matching,
   partOf,
@@ -47,6 +48,12 @@ test("a value that one robot lacks is empty, a text is itself", () => {
   assert.equal(valueText(null, 1), "");
   assert.equal(valueText("box", 57), "box");
   assert.equal(valueText(0.1 + 0.2, 1), "0.3");
+});
+
+test("of two paths the ends that differ are told", () => {
+  assert.equal(endOf("package://a/ur5e/base.dae", "package://a/ur10e/base.dae"), "ur5e/base.dae");
+  assert.equal(endOf("package://a/one.stl", null), "package://a/one.stl");
+  assert.equal(endOf("a/b", "a/b/c"), "b");
 });
 
 test("a change has a sign, and per cent where there is something to compare with", () => {
