@@ -50,7 +50,7 @@ export function Inputs({ of, inputs, site: own = "", depth = 0 }) {
 /** @param {{id: string, open: boolean, onClick: () => void}} props a number that stands there as it is */
 function OwnChip({ id, open, onClick }) {
   return html`<button type="button" class="chip input-chip" aria-expanded=${open} onClick=${onClick}
-    onPointerEnter=${() => hoverSite(id)} onPointerLeave=${() => hoverSite(null)}>
+    ...${pointing(id)}>
     <${Icon} name="pencil" size=${12} />${t("origin.edit")}</button>`;
 }
 
@@ -58,12 +58,18 @@ function OwnChip({ id, open, onClick }) {
 function InputChip({ input, open, onClick }) {
   const value = shownValue(input);
   const title = `${t(`origin.kind.${input.kind}`)} ${input.name} = ${input.value}`;
-  const point = (/** @type {boolean} */ on) => input.site && hoverSite(on ? input.site : null);
   return html`<button type="button" class=${`chip input-chip`} aria-expanded=${open} title=${title}
-    onClick=${onClick} onPointerEnter=${() => point(true)} onPointerLeave=${() => point(false)}>
+    onClick=${onClick} ...${pointing(input.site)}>
     <span class="input-name">${shortest(input.name)}</span>
     ${value && html`<span class="numbers">${value}</span>`}
     ${input.site && html`<${Icon} name="pencil" size=${11} />`}</button>`;
+}
+
+/** @param {string} id of a site; empty: none @returns {Record<string, () => void>} tells while it is pointed at */
+function pointing(id) {
+  const begin = () => hoverSite(id || null);
+  const end = () => hoverSite(null);
+  return { onPointerEnter: begin, onPointerLeave: end, onFocusIn: begin, onFocusOut: end };
 }
 
 /** @param {OriginInput} input @returns {string} of a long text nothing */

@@ -12,6 +12,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeAlias
 
+from studio.description.budget import Limits
 from studio.description.evaluation import Evaluation
 from studio.description.output_tree import OutputElement
 from studio.description.run_record import Binding, Input, YamlScalar
@@ -39,6 +40,8 @@ _GOVERNING: Final = frozenset(
     {"xacro:if", "xacro:unless", "xacro:include", "xacro:call", "xacro:element", "xacro:property"}
 )
 """What is inside these is there, or is what it is, because of what they read."""
+_LIMITS: Final = Limits(seconds=6.0)
+"""Noting takes time, too: what ran within its time must not end here for that."""
 
 
 class TracedBinding(Binding):
@@ -165,7 +168,7 @@ class TracedEvaluation(Evaluation):
     def __init__(
         self, store: SourceStore, policy: ReadPolicy, arguments: Mapping[str, str]
     ) -> None:
-        super().__init__(store, policy, arguments)
+        super().__init__(store, policy, arguments, _LIMITS)
         self.traced = _TracedTexts(store, policy, self.budget)
         self.texts = self.traced
         self.texts.arguments = {
