@@ -29,7 +29,7 @@ export function rowLabel({ what, number }, word) {
 
 /** @param {string} unit @param {boolean} degrees @returns {{unit: string, factor: number}} */
 export function shownUnit(unit, degrees) {
-  if (!degrees || !/^rad\b/.test(unit)) return { unit, factor: 1 };
+  if (!degrees || !/^rad\b/.test(unit)) return { unit: unit.replace("^2", "²"), factor: 1 };
   return { unit: unit.replace("rad", "°"), factor: DEGREES };
 }
 

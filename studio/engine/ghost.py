@@ -10,6 +10,7 @@ from studio.robot.values import Robot
 if TYPE_CHECKING:
     from studio.engine.model import Model
     from studio.engine.second_robot import SecondRobot
+    from studio.robot.kinematics import Floats, Kinematics
     from studio.robot.values import Vector3
 
 _GAP: Final = 0.25
@@ -49,24 +50,33 @@ class Ghost:
         second = self._shown
         if second is None or not second.robot.links:
             return
-        kinematics, positions = second.kinematics, self._model.joints.by_name()
+        kinematics = second.kinematics
+        poses = kinematics.wxyz_xyz(self._positions(kinematics))
+        self._model.scene.ghost.set_poses(kinematics.link_names, poses)
+
+    def _offset_m(self, second: SecondRobot) -> Vector3:
+        """To the right of the robot, as it faces x; a motion later does not move it."""
+        model = self._model
+        low_m, high_m = self._width_m(model.robot, model.kinematics)
+        right_m, left_m = self._width_m(second.robot, second.kinematics)
+        gap_m = _GAP * max(high_m - low_m, left_m - right_m)
+        return (0.0, low_m - left_m - gap_m, 0.0)
+
+    def _width_m(self, robot: Robot, kinematics: Kinematics) -> tuple[float, float]:
+        """Least and greatest y of a robot, at zero and as the joints stand."""
+        poses = kinematics.zero_positions(), self._positions(kinematics)
+        boxes = [box_around(robot, kinematics, pose, self.mesh_bounds) for pose in poses]
+        known = [box for box in boxes if box]
+        if not known:
+            return (-0.5, 0.5)
+        return min(low[1] for low, _ in known), max(high[1] for _, high in known)
+
+    def _positions(self, kinematics: Kinematics) -> Floats:
+        """Where the joints of the robot stand, for another one that has some of them."""
+        positions = self._model.joints.by_name()
         kept = {
             name: kinematics.clamp(name, positions[name])
             for name in kinematics.free
             if name in positions
         }
-        poses = kinematics.wxyz_xyz(kinematics.positions_with_mimic(kept))
-        self._model.scene.ghost.set_poses(kinematics.link_names, poses)
-
-    def _offset_m(self, second: SecondRobot) -> Vector3:
-        """To the right of the robot, as it faces x: at zero, so that no motion moves it."""
-        model = self._model
-        here = box_around(
-            model.robot, model.kinematics, model.kinematics.zero_positions(), self.mesh_bounds
-        )
-        there = box_around(
-            second.robot, second.kinematics, second.kinematics.zero_positions(), self.mesh_bounds
-        )
-        right_m, here_m = (here[0][1], here[1][1] - here[0][1]) if here else (-0.5, 1.0)
-        left_m, there_m = (there[1][1], there[1][1] - there[0][1]) if there else (0.5, 1.0)
-        return (0.0, right_m - left_m - _GAP * max(here_m, there_m), 0.0)
+        return kinematics.positions_with_mimic(kept)

@@ -82,14 +82,9 @@ class RecipeBook:
         return Recipe(passed, texts)
 
     def as_variant(self, name: str, note: str, recipe: Recipe) -> Variant:
-        """A variant that comes to a recipe."""
+        """A variant that comes to a recipe, whatever the robot is opened with next time."""
         taken_back = dict.fromkeys(self._opened_with.keys() - recipe.arguments.keys())
-        passed = {
-            one: value
-            for one, value in recipe.arguments.items()
-            if self._opened_with.get(one) != value
-        }
-        arguments = dict(sorted({**passed, **taken_back}.items()))
+        arguments = dict(sorted({**recipe.arguments, **taken_back}.items()))
         return Variant(name, note, arguments, dict(sorted(recipe.texts.items())))
 
     def saved_text(self, name: TextName) -> str | None:

@@ -85,10 +85,22 @@ def test_a_variant_reaches_into_a_file_that_the_last_run_did_not_read(mast: Path
         async with desk(mast, tmp_path / "data") as at:
             assert "gripper" not in at.document.model.robot.links
             await at.apply("Wide")
-            assert "gripper" not in at.document.model.robot.links  # as it was opened with, then
-            await at.ask(m.SetArgument(name="gripper", value="true"))
             (visual,) = at.document.model.robot.links["gripper"].visuals
             assert visual.geometry.radius_m == 0.08  # pyright: ignore
+
+    asyncio.run(run())
+
+
+def test_a_variant_holds_what_the_robot_was_opened_with(mast: Path, tmp_path: Path):
+    async def run() -> None:
+        async with desk(mast, tmp_path / "data", side="right") as at:
+            await at.ask(m.SaveVariant(name="Right"))
+        async with desk(mast, tmp_path / "data") as at:
+            await at.apply("Right")
+            assert at.document.sources.arguments == {"side": "right"}
+            await at.is_told("Right")
+            await at.apply("")
+            assert at.document.sources.arguments == {}
 
     asyncio.run(run())
 

@@ -41,7 +41,7 @@ test("a label says which shape and which of its measures", () => {
 test("angles are told in the unit of the person", () => {
   assert.deepEqual(shownUnit("rad", false), { unit: "rad", factor: 1 });
   assert.deepEqual(shownUnit("rad/s", true), { unit: "°/s", factor: 180 / Math.PI });
-  assert.deepEqual(shownUnit("kg m^2", true), { unit: "kg m^2", factor: 1 });
+  assert.deepEqual(shownUnit("kg m^2", true), { unit: "kg m²", factor: 1 });
 });
 
 test("a value that one robot lacks is empty, a text is itself", () => {
