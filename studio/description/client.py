@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from studio.description.codec import CODEC
 from studio.description.queries import REPLIES, NoReply
@@ -26,6 +26,10 @@ if TYPE_CHECKING:
     from studio.description.session import Answer, Request
 
 
+START_TIMEOUT_S: Final = 20.0
+"""Of a process, on a busy machine."""
+
+
 class DescriptionWorker:
     """One document's worker process, started at the first `open`.
 
@@ -40,6 +44,8 @@ class DescriptionWorker:
         self._entry = ""
         self._files: tuple[str, ...] = ()
         self.needs_reopen = True
+        self._started = 0
+        """The generation of the process that is known to be up."""
         self._questions: set[asyncio.Task[Reply]] = set()
 
     @property
@@ -55,7 +61,8 @@ class DescriptionWorker:
         """Start on a file; everything is in the answer."""
         self._entry, self._files = request.entry, (request.entry,)
         self.needs_reopen = False
-        return await self._ask(request)
+        failure = await self._start()
+        return failure or await self._ask(request)
 
     async def edit(self, request: EditRequest) -> Answer:
         """Change texts and run; what changed is in the answer."""
@@ -90,6 +97,16 @@ class DescriptionWorker:
             question.cancel()  # else one that waits its turn would start a process anew
         await self._worker.close()
 
+    async def _start(self) -> Failure | None:
+        """Wait until a new process is up: that is no part of an expansion's time."""
+        await self._worker.warm()
+        if self._started != self._worker.generation:
+            self._started = self._worker.generation
+            answer = await self._ask(EditRequest(()), START_TIMEOUT_S)
+            if self.needs_reopen and isinstance(answer, Failure):
+                return answer
+        return None
+
     async def _question(self, query: Query) -> Reply:
         if self.needs_reopen:
             return NoReply("The robot is not open: open it again.")
@@ -103,11 +120,11 @@ class DescriptionWorker:
             return NoReply("The worker gave a reply of the wrong kind.")
         return reply
 
-    async def _ask(self, request: Request) -> Answer:
+    async def _ask(self, request: Request, timeout_s: float | None = None) -> Answer:
         if self.needs_reopen:
             return self._failure("no-session", "The robot is not open: open it again.")
         try:
-            answer = await self._worker.ask(request, object, self._timeout_s)
+            answer = await self._worker.ask(request, object, timeout_s or self._timeout_s)
         except WorkerTimeoutError as error:
             self.needs_reopen = True
             sentence = f"The expansion took longer than {error.timeout_s:g} s and was ended."

@@ -51,6 +51,7 @@ HELPERS: Final[dict[str, Any]] = {
     "__add": guarded.add,
     "__modulo": guarded.modulo,
     "__attribute": guarded.attribute,
+    "__made": guarded.made,
     "__builtins__": {},
 }
 """Names that compiled expressions need; `__steps` (iterable -> iterable) comes from the run."""
@@ -163,6 +164,41 @@ class _Guarding(ast.NodeTransformer):
         if helper is None or _cannot_grow(node):
             return node
         return _call(helper, node.left, node.right)
+
+    def visit_Call(self, node: ast.Call) -> ast.expr:
+        self.generic_visit(node)
+        return _call("__made", node)
+
+    def visit_List(self, node: ast.List) -> ast.expr:
+        return self._display(node, node.elts)
+
+    def visit_Tuple(self, node: ast.Tuple) -> ast.expr:
+        return self._display(node, node.elts)
+
+    def visit_Set(self, node: ast.Set) -> ast.expr:
+        return self._display(node, node.elts)
+
+    def visit_Dict(self, node: ast.Dict) -> ast.expr:
+        return self._display(node, node.values)
+
+    def visit_ListComp(self, node: ast.ListComp) -> ast.expr:
+        self.generic_visit(node)
+        return _call("__made", node)
+
+    def visit_SetComp(self, node: ast.SetComp) -> ast.expr:
+        self.generic_visit(node)
+        return _call("__made", node)
+
+    def visit_DictComp(self, node: ast.DictComp) -> ast.expr:
+        self.generic_visit(node)
+        return _call("__made", node)
+
+    def _display(self, node: ast.expr, items: list[ast.expr]) -> ast.expr:
+        """What is written out item by item; constants alone are as small as they look."""
+        is_target = isinstance(getattr(node, "ctx", None), ast.Store)
+        is_small = all(isinstance(item, ast.Constant) for item in items)
+        self.generic_visit(node)
+        return node if is_target or is_small else _call("__made", node)
 
     def visit_Attribute(self, node: ast.Attribute) -> ast.expr:
         self.generic_visit(node)

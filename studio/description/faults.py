@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from difflib import get_close_matches
-from typing import TYPE_CHECKING
+from itertools import islice
+from typing import TYPE_CHECKING, Final
 
 from studio.problems import Fix, Place, Problem, Severity
 
@@ -11,6 +12,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from studio.problems import MacroCall
+
+
+_NAMES_LOOKED_AT: Final = 2_000
 
 
 class Fault(Exception):  # noqa: N818 - a fault of the description, not of the studio
@@ -45,7 +49,7 @@ class Unsupported(Exception):  # noqa: N818 - never leaves the room
 
 def hint(name: str, known: Iterable[str], otherwise: str) -> str:
     """`did you mean "x"?` when a known name is near, else what to do instead."""
-    near = get_close_matches(name, list(known), n=1, cutoff=0.7)
+    near = get_close_matches(name, islice(known, _NAMES_LOOKED_AT), n=1, cutoff=0.7)
     return f'did you mean "{near[0]}"?' if near else otherwise
 
 

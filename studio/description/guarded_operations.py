@@ -7,22 +7,32 @@ module whatever the expression is.
 
 from __future__ import annotations
 
-import re
+from collections.abc import ItemsView, KeysView, ValuesView
 from datetime import date
-from string import Formatter
 from typing import TYPE_CHECKING, Any, Final, cast
 
+from studio.description.bounded_values import (
+    BITS_LIMIT,
+    ITEMS_LIMIT,
+    SIZE_LIMIT,
+    made,
+    too_large,
+    weight,
+)
 from studio.description.faults import Refusal
+from studio.description.guarded_methods import (
+    check_template,
+    checked_format,
+    guarded_method,
+    unbound_method,
+)
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Sized
+    from collections.abc import Sized
 
-SIZE_LIMIT: Final = 1_000_000
-"""Characters of a text, items of a list."""
-BITS_LIMIT: Final = 8_192
-"""Of a whole number; 2,466 digits."""
-_PADDING_LIMIT: Final = 10_000
-_WIDE_FIELD: Final = re.compile(r"\d{5,}|\*")
+PRINTED_LIMIT: Final = 100_000
+"""Items of a value that is printed; a YAML file may hold more than an expression may make."""
+__all__ = ["METHODS", "MUTATING", "SIZE_LIMIT", "made", "text_of", "too_large"]
 
 
 def _names(text: str) -> frozenset[str]:
@@ -33,9 +43,9 @@ _STR: Final = _names(
     "capitalize casefold count endswith find index isalnum isalpha isascii isdecimal isdigit "
     "isidentifier islower isnumeric isprintable isspace istitle isupper join lower lstrip "
     "partition removeprefix removesuffix replace rfind rindex rpartition rsplit rstrip split "
-    "splitlines startswith strip swapcase title upper"
+    "splitlines startswith strip swapcase title upper "
+    "center expandtabs ljust rjust zfill"
 )
-_PADDING: Final = _names("center expandtabs ljust rjust zfill")
 _DICT_READING: Final = _names("copy get items keys values")
 _DICT: Final = _DICT_READING | _names("clear fromkeys pop popitem setdefault update")
 _LIST: Final = _names("append clear copy count extend index insert pop remove reverse sort")
@@ -64,6 +74,8 @@ METHODS: Final[dict[type, frozenset[str]]] = {
     date: frozenset({"day", "month", "year"}),
 }
 """Attributes that an expression may ask for, by exact type."""
+_WITH_METHODS: Final = frozenset({str, list, dict, set})
+"""Types of which some methods are guarded."""
 
 
 def attribute(value: Any, name: str) -> Any:  # noqa: ANN401 - any value of a description
@@ -75,15 +87,13 @@ def attribute(value: Any, name: str) -> Any:  # noqa: ANN401 - any value of a de
     """
     kind = cast("type[object]", type(value))
     if name in METHODS.get(kind, ()):
-        return getattr(value, name)
-    if isinstance(value, str) and name in _PADDING:
-        return _padded(cast("Callable[..., str]", getattr(value, name)))
+        return guarded_method(value, name) if kind in _WITH_METHODS else getattr(value, name)
     if isinstance(value, dict):
         return _named(cast("dict[str, Any]", value), name)
     if kind is type and name in METHODS.get(cast("type", value), ()):
-        return getattr(value, name)
+        return unbound_method(cast("type", value), name, attribute)
     if kind is str and name == "format":
-        return _checked_format(value)
+        return checked_format(value)
     if kind in METHODS and not hasattr(kind, name):
         raise AttributeError(f'a value of type {kind.__name__} has no "{name}"')
     raise Refusal("expression-refused", f'".{name}" may not be used in an expression.')
@@ -97,32 +107,6 @@ def _named(value: dict[str, Any], name: str) -> Any:  # noqa: ANN401
     if look_up is None or hasattr(dict, name) or name.startswith("__"):
         raise Refusal("expression-refused", f'".{name}" may not be used in an expression.')
     return look_up(value, name)
-
-
-def _padded(method: Callable[..., str]) -> Callable[..., str]:
-    def pad(width: int = 8, *fill: str) -> str:
-        if width > _PADDING_LIMIT:
-            raise too_large()
-        return method(width, *fill)
-
-    return pad
-
-
-def _checked_format(template: str) -> Callable[..., str]:
-    """`template.format`: fields by number or name only, no attribute, index, nested or wide field.
-
-    A field like `{0.__globals__}` would print what no expression can reach.
-    """
-    for _literal, field, layout, _conversion in Formatter().parse(template):
-        plain = not field or field.isidentifier() or field.isdigit()
-        if not plain or "{" in (layout or "") or _WIDE_FIELD.search(layout or ""):
-            raise Refusal("expression-refused", f'The format "{template}" has a field too complex.')
-    return template.format
-
-
-def too_large() -> Refusal:
-    """What every size guard raises."""
-    return Refusal("value-too-large", "An expression makes a value that is too large.")
 
 
 def multiply(left: Any, right: Any) -> Any:  # noqa: ANN401
@@ -141,8 +125,11 @@ def multiply(left: Any, right: Any) -> Any:  # noqa: ANN401
 
 
 def _check_repeat(sequence: Any, times: int) -> None:  # noqa: ANN401
-    if hasattr(sequence, "__len__") and len(cast("Sized", sequence)) * times > SIZE_LIMIT:
-        raise too_large()
+    if isinstance(sequence, str):
+        if len(sequence) * times > SIZE_LIMIT:
+            raise too_large()
+    elif isinstance(sequence, list | tuple) and times > 1:
+        weight(cast("object", sequence), ITEMS_LIMIT // times)
 
 
 def power(base: Any, exponent: Any) -> Any:  # noqa: ANN401
@@ -157,51 +144,25 @@ def shift_left(value: Any, places: Any) -> Any:  # noqa: ANN401
     """`value << places`."""
     if isinstance(places, int) and places > BITS_LIMIT:
         raise too_large()
-    return value << places
-
-
-_GROWING: Final = frozenset({str, list, tuple})
+    return made(value << places)
 
 
 def add(left: Any, right: Any) -> Any:  # noqa: ANN401
     """`left + right`."""
-    grows = type(left) in _GROWING and type(right) in _GROWING
-    if grows and len(left) + len(right) > SIZE_LIMIT:
-        raise too_large()
-    return left + right
+    if type(left) is float or type(left) is int:
+        return left + right
+    if isinstance(left, str | list | tuple):
+        limit = SIZE_LIMIT if isinstance(left, str) else ITEMS_LIMIT
+        if len(cast("Sized", left)) + len(right) > limit:
+            raise too_large()
+    return made(left + right)
 
 
 def modulo(left: Any, right: Any) -> Any:  # noqa: ANN401
     """`left % right`; a format text may not ask for wide fields."""
-    if isinstance(left, str) and _WIDE_FIELD.search(left):
-        raise too_large()
+    if isinstance(left, str):
+        check_template(left, right)
     return left % right
-
-
-def bounded_range(*bounds: int) -> range:
-    """`range` of at most SIZE_LIMIT steps."""
-    made = range(*bounds)
-    if not -SIZE_LIMIT <= (made.stop - made.start) // made.step <= SIZE_LIMIT:
-        raise too_large()
-    return made
-
-
-def bounded_round(number: Any, digits: int | None = None) -> Any:  # noqa: ANN401
-    """`round`; the number of digits must be sensible."""
-    if digits is not None and abs(digits) > 400:
-        raise too_large()
-    return round(number, digits)
-
-
-def bounded(function: Callable[..., Any], limit: int) -> Callable[..., Any]:
-    """A function of whole numbers that may not be larger than `limit`."""
-
-    def call(*arguments: Any) -> Any:  # noqa: ANN401
-        if any(isinstance(one, int) and one > limit for one in arguments):
-            raise too_large()
-        return function(*arguments)
-
-    return call
 
 
 def type_of(value: object) -> type:
@@ -213,7 +174,8 @@ def text_of(value: Any) -> str:  # noqa: ANN401
     """`str(value)`, as xacro prints it, of a value that is not too large to print."""
     if isinstance(value, str):
         return value
-    check_printable(value)
+    if type(value) is not float:
+        check_printable(value)
     return str(value)
 
 
@@ -221,27 +183,7 @@ def check_printable(value: Any) -> None:  # noqa: ANN401
     """See that a value can be printed: a list of lists of lists may be short and print without end.
 
     Raises:
-        Refusal: It would print more than a tenth of SIZE_LIMIT items.
+        Refusal: It would print more than PRINTED_LIMIT items.
     """
-    if isinstance(value, list | tuple | dict | set):
-        _count(cast("object", value), SIZE_LIMIT // 10)
-
-
-def _count(value: Any, left: int) -> int:  # noqa: ANN401
-    """What is left of `left` items after all items of a container, repeats counted each time."""
-    if left <= 0:
-        raise too_large()
-    for item in _items(value):
-        left = _count(item, left - 1)
-    return left
-
-
-def _items(value: Any) -> Iterator[Any]:  # noqa: ANN401
-    """Raw items: looking at a YAML value must not count as reading it."""
-    if isinstance(value, dict):
-        return iter(cast("Any", dict).values(value))
-    if isinstance(value, list):
-        return cast("Any", list).__iter__(value)
-    if isinstance(value, tuple | set):
-        return iter(cast("Iterable[Any]", value))
-    return iter(())
+    if isinstance(value, list | tuple | dict | set | KeysView | ItemsView | ValuesView):
+        weight(cast("object", value), PRINTED_LIMIT)

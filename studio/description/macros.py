@@ -6,14 +6,22 @@ import re
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Final
 
+from studio.description.faults import Refusal
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from studio.description.output_tree import Node
     from studio.description.run_record import Binding
 
-_DEFAULT: Final = r"""\$\{.*?\}|\$\(.*?\)|(?:'.*?'|\".*?\"|[^\s'\"]+)+|"""
-_PARAMETER: Final = re.compile(r"^\s*([^\s:=]+?)\s*:?=\s*(\^\|?)?(" + _DEFAULT + r")(?:\s+|$)(.*)")
+DEFAULT: Final = r"""\$\{.*?\}|\$\(.*?\)|(?:(?>'.*?')|(?>".*?")|[^\s'"]++)+|"""
+"""As xacro's, but what was found is not given back: looking for it again takes forever."""
+_PARAMETER: Final = re.compile(r"^\s*([^\s:=]+?)\s*:?=\s*(\^\|?)?(" + DEFAULT + r")(?:\s+|$)(.*)")
+_AS_XACRO: Final = re.compile(re.sub(r"\(\?>([^)]*)\)|\+(\+)", r"\1\2", _PARAMETER.pattern))
+"""Xacro's own, for the few texts that only giving back can read: quotes without their pairs."""
+_QUOTES_LIMIT: Final = 12
+PARAMS_LIMIT: Final = 20_000
+"""Characters of `params`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,21 +51,33 @@ class Macro:
 
 
 def read_parameters(text: str) -> tuple[list[str], dict[str, Default]]:
-    """Read `params="a b:=1 c:='x y' d:=^|3 *block **blocks"`."""
+    """Read `params="a b:=1 c:='x y' d:=^|3 *block **blocks"`.
+
+    Raises:
+        Refusal: It is longer than PARAMS_LIMIT.
+    """
+    if len(text) > PARAMS_LIMIT:
+        raise Refusal("params-too-long", "The params of a macro are too long to be read.")
     names: list[str] = []
     defaults: dict[str, Default] = {}
-    while text:
-        match = _PARAMETER.match(text)
-        if match:
-            name, forward, default, text = match.groups()
-            defaults[name] = Default(forward is not None, default or None)
-        else:
-            words = text.lstrip().split(None, 1)
-            if not words:
-                break
-            name, text = words[0], words[1] if len(words) > 1 else ""
+    while text.strip():
+        name, default, text = parameter(text)
         names.append(name)
+        if default is not None:
+            defaults[name] = default
     return names, defaults
+
+
+def parameter(text: str) -> tuple[str, Default | None, str]:
+    """The first parameter of a `params`, its default, and the text behind it."""
+    match = _PARAMETER.match(text)
+    if match is None and sum(map(text.count, "'\"")) <= _QUOTES_LIMIT:
+        match = _AS_XACRO.match(text)
+    if match is None:
+        name, *rest = text.lstrip().split(None, 1)
+        return name, None, rest[0] if rest else ""
+    name, forward, default, rest = match.groups()
+    return name, Default(forward is not None, default or None), rest
 
 
 class MacroTable:

@@ -27,7 +27,9 @@ from studio.description.budget import Budget, Limits
 from studio.description.evaluation import Evaluation
 from studio.description.expressions import HELPERS, compile_expression
 from studio.description.faults import Fault, Refusal, Unsupported, problem_of
+from studio.description.guarded_functions import guarded_functions
 from studio.description.guarded_operations import METHODS
+from studio.description.macros import PARAMS_LIMIT, parameter
 from studio.description.packages_found import find_package
 from studio.description.source_store import SourceStore
 from studio.description.source_tree import SourceError, parse_source
@@ -45,11 +47,8 @@ if TYPE_CHECKING:
 
 EXPORT_LIMITS: Final = Limits(seconds=8.0)
 """Stock is about ten times slower than our own evaluator."""
-_BOUNDED: Final[dict[str, Any]] = {
-    "range": guarded.bounded_range,
-    "round": guarded.bounded_round,
-    "type": guarded.type_of,
-}
+_LEXED_LIMIT: Final = 1_000_000_000
+"""Stock copies the rest of a text for each of its pieces."""
 
 
 def export_urdf(
@@ -79,7 +78,7 @@ def expand_root(
     file: str, arguments: Mapping[str, str], policy: ReadPolicy, store: SourceStore
 ) -> str:
     """The expanded root element as XML, with the texts of a store; raises as `export_urdf`."""
-    root = _process(file, arguments, _Guard(policy, store, EXPORT_LIMITS)).documentElement
+    root = _process(file, arguments, _Guard(policy, store, Limits())).documentElement
     assert root is not None
     return root.toxml()
 
@@ -147,6 +146,7 @@ class _Guard:
         self._policy, self._store = policy, store
         self._budget = Budget(limits)
         self._eval_text: Callable[[Any, Any], Any] = xacro.eval_text
+        self.functions = guarded_functions(self._budget.steps)
         self.environment = policy.environment
 
     def safe_eval(self, text: str, names: dict[str, Any], _locals: object = None) -> Any:  # noqa: ANN401
@@ -155,15 +155,15 @@ class _Guard:
         names.update(HELPERS, __steps=self._budget.steps)
         return eval(code, names)
 
-    def eval_text(self, text: Any, names: Any) -> Any:  # noqa: ANN401
+    def eval_text(self, text: str, names: Any) -> Any:  # noqa: ANN401
         """In place of `xacro.eval_text`: counts, and bounds what comes out."""
         self._budget.evaluation()
         if xacro.macrostack:
             self._budget.depth(len(xacro.macrostack), "?")
-        value = self._eval_text(text, names)
-        guarded.check_printable(value)
-        if isinstance(value, str) and len(value) > guarded.SIZE_LIMIT:
+        if len(text) * text.count("$") > _LEXED_LIMIT:
             raise guarded.too_large()
+        value = guarded.made(self._eval_text(text, names))
+        guarded.check_printable(value)
         return value
 
     def open(self, path: str) -> io.TextIOWrapper:
@@ -228,7 +228,6 @@ def _on(guard: _Guard) -> Generator[None]:
     METHODS[xacro.YamlDictWrapper] = METHODS[dict]
     METHODS[xacro.YamlListWrapper] = METHODS[list]
     symbols = xacro._global_symbols
-    bounded = {**_BOUNDED, **_bounded_math()}
     with ExitStack() as stack:
         for name in ("safe_eval", "eval_text"):
             stack.enter_context(patch.object(xacro, name, getattr(guard, name)))
@@ -242,15 +241,19 @@ def _on(guard: _Guard) -> Generator[None]:
             ("_eval_find", guard.find_package),
         ):
             stack.enter_context(patch.object(substitution_args, name, function))
-        for table in (symbols, symbols["python"], symbols["math"]):
-            stack.enter_context(_replaced(table, bounded))
+        stack.enter_context(patch.object(xacro, "parse_macro_arg", _parameter))
+        for table in (symbols, symbols["python"], symbols["math"], symbols["xacro"]):
+            stack.enter_context(_replaced(table, guard.functions))
         yield
 
 
-def _bounded_math() -> dict[str, Any]:
-    from studio.description.symbols import PURE_SYMBOLS  # noqa: PLC0415 - one table, one use
-
-    return {name: PURE_SYMBOLS[name] for name in ("factorial", "comb", "perm")}
+def _parameter(text: str) -> tuple[str, tuple[str | None, str | None] | None, str]:
+    """In place of `xacro.parse_macro_arg`, whose pattern some texts keep busy without end."""
+    if len(text) > PARAMS_LIMIT:
+        raise guarded.too_large()
+    name, default, rest = parameter(text)
+    found = None if default is None else (name if default.forward else None, default.text)
+    return name, found, rest
 
 
 @contextmanager

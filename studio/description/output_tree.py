@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Final, TypeAlias, cast
 
+from studio.description.faults import Refusal
 from studio.description.source_tree import SourceComment, SourceElement, SourceText
 from studio.problems import MacroCall
 
@@ -67,6 +68,8 @@ Node: TypeAlias = SourceElement | OutputElement
 OutputChild: TypeAlias = OutputElement | SourceText | SourceComment
 ChildNode: TypeAlias = SourceElement | OutputElement | SourceText | SourceComment
 
+OUTPUT_LIMIT: Final = 64_000_000
+"""Characters of one robot."""
 _IN_TEXT: Final = re.compile(r"[&<>]")
 _IN_ATTRIBUTE: Final = re.compile(r"[&<>\"\t\n\r]")
 _ESCAPES: Final = {
@@ -90,10 +93,16 @@ def macro_calls(frame: CallFrame | None) -> tuple[MacroCall, ...]:
 
 
 def write_xml(element: OutputElement, extra_attributes: dict[str, str] | None = None) -> str:
-    """One line of XML, attributes in their order; `extra_attributes` go on the element itself."""
+    """One line of XML, attributes in their order; `extra_attributes` go on the element itself.
+
+    Raises:
+        Refusal: It would be longer than OUTPUT_LIMIT: few texts in a file can come out often.
+    """
     out: list[str] = []
     attributes = element.attributes
     _write(element, out, attributes | extra_attributes if extra_attributes else attributes)
+    if sum(map(len, out)) > OUTPUT_LIMIT:
+        raise Refusal("output-too-large", "The robot comes to more text than can be shown.")
     return "".join(out)
 
 

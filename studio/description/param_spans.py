@@ -11,13 +11,13 @@ import re
 from dataclasses import dataclass
 
 from studio.description.attribute_spans import attribute_bytes, attribute_text, character_offsets
+from studio.description.macros import DEFAULT, PARAMS_LIMIT
 from studio.description.values import Span
 from studio.errors import EditError
 
-_DEFAULT = r"""\$\{.*?\}|\$\(.*?\)|(?:'.*?'|".*?"|[^\s'"]+)+|"""
-_PARAM = re.compile(rf"\s*([^\s:=]+?)\s*:?=\s*(?:\^\|?)?({_DEFAULT})(?:\s+|$)")
+_PARAM = re.compile(rf"\s*([^\s:=]+?)\s*:?=\s*(?:\^\|?)?({DEFAULT})(?:\s+|$)")
 _NO_DEFAULT = re.compile(r"\s*\S+(?:\s+|$)")
-_UNAMBIGUOUS = re.compile(r"""\$\{.*\}|\$\(.*\)|(?!\$[{(])(?:'[^']*'|"[^"]*"|[^\s'"]+)+""")
+_UNAMBIGUOUS = re.compile(r"""\$\{.*\}|\$\(.*\)|(?!\$[{(])(?:'[^']*'|"[^"]*"|[^\s'"]++)+""")
 """Defaults that end where they should, whatever follows: the grammar's `.*?` reaches further."""
 _QUOTED = re.compile(r"""'[^']*'|"[^"]*\"""")
 
@@ -41,7 +41,7 @@ def param_defaults(data: bytes, params: Span, encoding: str = "utf-8") -> tuple[
     syntax = "param" if params.syntax == '"' else "param'"
     defaults: list[ParamDefault] = []
     position = 0
-    while position < len(text):
+    while position < len(text) <= PARAMS_LIMIT:
         found = _PARAM.match(text, position)
         if found is not None and found[2]:
             start, end = (

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final, NamedTuple
 
-from studio.description.output_tree import OutputElement, macro_calls, write_xml
+from studio.description.faults import Refusal
+from studio.description.output_tree import OUTPUT_LIMIT, OutputElement, macro_calls, write_xml
 from studio.description.values import Part
 
 if TYPE_CHECKING:
@@ -38,11 +39,18 @@ class WrittenPart(NamedTuple):
 
 
 def write_parts(root: OutputElement) -> list[WrittenPart]:
-    """Write each top-level element as XML that stands alone, prefixes declared."""
+    """Write each top-level element as XML that stands alone, prefixes declared.
+
+    Raises:
+        Refusal: All of them together are longer than OUTPUT_LIMIT.
+    """
     prefixes = _prefixes(root)
-    return [
+    parts = [
         WrittenPart(key, _write(element, prefixes), element) for key, element in part_keys(root)
     ]
+    if sum(len(part.xml) for part in parts) > OUTPUT_LIMIT:
+        raise Refusal("output-too-large", "The robot comes to more text than can be shown.")
+    return parts
 
 
 def write_part(root: OutputElement, key: str, element: OutputElement) -> WrittenPart:

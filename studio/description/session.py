@@ -161,11 +161,14 @@ class Session:
                 reason = str(unknown)
                 evaluation, root = self._fall_back()
             _check_root(root)
+            return self._expansion(evaluation, root, reason)
+        except MemoryError:
+            fault = Refusal("output-too-large", "The robot comes to more text than can be shown.")
+            return Failure(problem_of(fault, self._entry), tuple(self._store.asked))
         except Fault as fault:
             return Failure(problem_of(fault, self._entry), tuple(self._store.asked))
         except DescriptionError as error:
             return Failure(_problem_of_error(error, self._entry), tuple(self._store.asked))
-        return self._expansion(evaluation, root, reason)
 
     def _fall_back(self) -> tuple[Evaluation, OutputElement]:
         """Let stock xacro expand; its elements all seem to stand at the entry's first line."""

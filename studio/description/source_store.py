@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from studio.description.values import Edit
 
 _MAGIC: Final = re.compile(r"[*[?]")
+WILDCARD_LEVELS: Final = 3
+"""Links that lead back to their own folder make each further one many times as slow."""
 
 
 class Roots(Protocol):
@@ -125,12 +127,16 @@ class SourceStore:
         """Files that a pattern with `*`, `?` or `[` matches, sorted.
 
         Raises:
-            Refusal: Its folder lies outside the roots, or it climbs after its first wildcard.
+            Refusal: Its folder lies outside the roots, it climbs after its first wildcard, or it
+                has too many of them.
         """
         magic = _MAGIC.search(pattern)
         fixed = pattern[: magic.start()] if magic else pattern
         if ".." in pattern[len(fixed) :].split("/"):
             raise Refusal("outside-roots", f'"{pattern}" climbs out with ".." behind a wildcard.')
+        if sum(bool(_MAGIC.search(part)) for part in pattern.split("/")) > WILDCARD_LEVELS:
+            sentence = f'"{pattern}" has wildcards in more than {WILDCARD_LEVELS} folders.'
+            raise Refusal("too-many-wildcards", sentence)
         self.resolve(os.path.dirname(fixed) or ".")  # noqa: PTH120 - a text, not a Path
         return sorted(glob.glob(pattern))  # noqa: PTH207 - as xacro does it
 

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-import math
 import re
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Final, Protocol
 
 from studio.description.expressions import HELPERS, compile_expression
 from studio.description.faults import Fault, Refusal, shorten
+from studio.description.guarded_functions import MATH, counted_functions
 from studio.description.guarded_operations import text_of
 from studio.description.symbols import SAFE_BUILTINS
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Iterator
 
 _COMMANDS: Final = ("find", "env", "optenv", "dirname", "arg")
 _FIND_ONLY: Final = ("find",)
@@ -36,7 +36,7 @@ class Context(Protocol):
         """The folder of a package; Fault when there is none."""
         ...
 
-    def steps(self, items: Iterable[Any]) -> Iterable[Any]:
+    def steps(self, items: Iterable[Any]) -> Iterator[Any]:
         """The items of a loop, each counted."""
         ...
 
@@ -132,7 +132,8 @@ class _EvalNames(dict[str, Any]):
         super().__init__(HELPERS)
         self._context = context
         self["__steps"] = context.steps
-        self.update({n: v for n, v in vars(math).items() if not n.startswith("_")})
+        self._builtins = SAFE_BUILTINS | counted_functions(context.steps)
+        self.update(MATH)
         self.update({"true": True, "false": False, "True": True, "False": False})
         self["arg"] = self._argument
         self["find"] = context.find_package
@@ -149,8 +150,8 @@ class _EvalNames(dict[str, Any]):
         try:
             return self._argument(name)
         except Fault:
-            if name in SAFE_BUILTINS:
-                return SAFE_BUILTINS[name]
+            if name in self._builtins:
+                return self._builtins[name]
             raise NameError(f"name '{name}' is not defined") from None
 
 

@@ -5,17 +5,24 @@ Builtins stand alone and in `python`, mathematics alone and in `math`, xacro's o
 
 from __future__ import annotations
 
-import math
-import re
 from typing import TYPE_CHECKING, Any, Final, Protocol
 
-from studio.description import guarded_operations as guarded
+from studio.description.expressions import HELPERS
 from studio.description.faults import Fault
+from studio.description.guarded_functions import (
+    MATH,
+    bounded_range,
+    bounded_round,
+    bounded_sum,
+    counted_functions,
+    tokenize,
+)
+from studio.description.guarded_operations import text_of, type_of
 from studio.description.scopes import Namespace
 from studio.description.yaml_values import YamlMapping
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable, Iterator
 
 _LONG_EXPOSED: Final[dict[str, Any]] = {
     "list": list,
@@ -30,9 +37,9 @@ _LONG_EXPOSED: Final[dict[str, Any]] = {
     "False": False,
     "min": min,
     "max": max,
-    "round": guarded.bounded_round,
+    "round": bounded_round,
 }
-_RECENT: Final[dict[str, Any]] = {"sorted": sorted, "range": guarded.bounded_range}
+_RECENT: Final[dict[str, Any]] = {"sorted": sorted, "range": bounded_range}
 _PYTHON: Final[dict[str, Any]] = {
     **_LONG_EXPOSED,
     **_RECENT,
@@ -52,21 +59,15 @@ _PYTHON: Final[dict[str, Any]] = {
     "reversed": reversed,
     "slice": slice,
     "set": set,
-    "sum": sum,
+    "sum": bounded_sum,
     "tuple": tuple,
-    "type": guarded.type_of,
+    "type": type_of,
     "zip": zip,
 }
-_MATH: Final[dict[str, Any]] = {
-    **{name: value for name, value in vars(math).items() if not name.startswith("_")},
-    "factorial": guarded.bounded(math.factorial, 1_000),
-    "comb": guarded.bounded(math.comb, 2_000),
-    "perm": guarded.bounded(math.perm, 2_000),
-}
-PURE_SYMBOLS: Final[dict[str, Any]] = {**_LONG_EXPOSED, **_MATH}
+PURE_SYMBOLS: Final[dict[str, Any]] = {**_LONG_EXPOSED, **MATH}
 """What needs no run: for the tags of YAML files, and to know what a property hides."""
 SAFE_BUILTINS: Final[dict[str, Any]] = _PYTHON
-"""Builtins that `$(eval ...)` sees."""
+"""Builtins that `$(eval ...)` sees, with the counted functions of its run in their place."""
 
 
 class Services(Protocol):
@@ -88,6 +89,10 @@ class Services(Protocol):
         """A message of the description: `message`, `warning`, `error` or `deprecated`."""
         ...
 
+    def steps(self, items: Iterable[Any]) -> Iterator[Any]:
+        """The items of a loop, each counted."""
+        ...
+
 
 def make_symbols(services: Services) -> dict[str, Any]:
     """All global names of one run; fresh namespaces, so that no run can change another's."""
@@ -99,12 +104,15 @@ def make_symbols(services: Services) -> dict[str, Any]:
     xacro = Namespace(own)
     xacro.update(arg=services.argument, fatal=_fatal, tokenize=tokenize, print_location=_silent)
     xacro.update({level: _messenger(services, level) for level in ("message", "warning", "error")})
+    counted = counted_functions(services.steps)
+    recent = {name: counted.get(name, one) for name, one in _RECENT.items()}
     return {
         **PURE_SYMBOLS,
-        **_deprecated(services, _RECENT, "python"),
+        **{name: one for name, one in counted.items() if name in _LONG_EXPOSED},
+        **_deprecated(services, recent, "python"),
         **_deprecated(services, own, "xacro"),
-        "python": Namespace(_PYTHON),
-        "math": Namespace(_MATH),
+        "python": Namespace(_PYTHON | counted),
+        "math": Namespace(MATH),
         "xacro": xacro,
     }
 
@@ -124,7 +132,7 @@ def _deprecated(
 
 def _messenger(services: Services, level: str) -> Callable[..., str]:
     def say(*words: Any, **_options: Any) -> str:  # noqa: ANN401
-        services.say(level, " ".join(guarded.text_of(word) for word in words))
+        services.say(level, " ".join(text_of(word) for word in words))
         return ""
 
     return say
@@ -135,14 +143,15 @@ def _silent(*_arguments: object, **_named: object) -> str:
 
 
 def _fatal(*words: Any) -> None:  # noqa: ANN401
-    raise Fault("fatal", " ".join(guarded.text_of(word) for word in words))
+    raise Fault("fatal", " ".join(text_of(word) for word in words))
 
 
 def _dotify(items: dict[Any, Any]) -> YamlMapping:
     return YamlMapping(items, None, ())
 
 
-def tokenize(text: str, sep: str = ",; ", skip_empty: bool = True) -> list[str]:  # noqa: FBT001, FBT002 - xacro's
-    """Split a text at any of the separators."""
-    parts = re.split(f"[{sep}]", text)
-    return [part for part in parts if part] if skip_empty else parts
+def pure_names(steps: Callable[[Iterable[Any]], Iterator[Any]]) -> dict[str, Any]:
+    """What an expression of a YAML file knows; `steps` counts the turns of its loops."""
+    counted = counted_functions(steps)
+    known = {name: counted.get(name, one) for name, one in PURE_SYMBOLS.items()}
+    return {**HELPERS, "__steps": steps, **known}

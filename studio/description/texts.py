@@ -7,6 +7,7 @@ import re
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, Final, cast
 
+from studio.description.budget import Budget, Limits
 from studio.description.expressions import HELPERS, Expression, compile_expression
 from studio.description.faults import Fault, Refusal, hint, shorten
 from studio.description.graph import Readable, Record, Role
@@ -15,7 +16,7 @@ from studio.description.packages_found import find_package
 from studio.description.run_record import YamlReads
 from studio.description.scopes import Cell, Scope, literal_value
 from studio.description.substitution import substitute
-from studio.description.symbols import PURE_SYMBOLS, make_symbols
+from studio.description.symbols import make_symbols, pure_names
 from studio.description.templates import Cut, segments_of
 from studio.description.yaml_values import Reader, wrap
 from studio.problems import Problem, Severity
@@ -23,7 +24,6 @@ from studio.problems import Problem, Severity
 if TYPE_CHECKING:
     from collections.abc import Generator, Iterable, Iterator
 
-    from studio.description.budget import Budget
     from studio.description.graph import Consumer, Sink
     from studio.description.run_record import Binding, Input, YamlScalar
     from studio.description.scopes import Replay
@@ -34,6 +34,13 @@ if TYPE_CHECKING:
 _ARG_COMPARED: Final = re.compile(r"""['"]?\$\(arg\s+(\w+)\)['"]?\s*[=!]=\s*['"]([^'"]*)['"]""")
 _STRUCTURE: Final = Role.STRUCTURE
 _LASTING: Final = frozenset({int, float, str, bool, list, dict, tuple, type(None)})
+_PURE_LIMITS: Final = Limits(seconds=0.5)
+"""Of one expression in a YAML file."""
+_LONG: Final = 1_000
+"""Characters; shorter texts are bounded by their number."""
+WARNINGS_LIMIT: Final = 1_000
+_MESSAGE_LIMIT: Final = 2_000
+"""Characters."""
 _SEVERITIES: Final = {
     "message": Severity.INFO,
     "deprecated": Severity.INFO,
@@ -113,6 +120,8 @@ class Texts:
         joined = "".join(pieces)
         if len(joined) > SIZE_LIMIT:
             raise Refusal("value-too-large", "A text grows too large.")
+        if len(joined) > _LONG:
+            self.budget.text(len(joined))
         return joined
 
     def evaluated(
@@ -199,6 +208,8 @@ class Texts:
         if self.replay is not None:
             self.replay.refuse(sentence)
         self._now.is_noisy = True
+        if len(self.warnings) >= WARNINGS_LIMIT:
+            return
         place = self.at.place if self.at else None
         self.warnings[Problem(severity, code, sentence, place)] = None
 
@@ -289,7 +300,7 @@ class Texts:
     def say(self, severity: str, text: str) -> None:
         """A message of the description, or about a name that it uses."""
         if text:
-            self.warn(f"xacro-{severity}", text, _SEVERITIES[severity])
+            self.warn(f"xacro-{severity}", text[:_MESSAGE_LIMIT], _SEVERITIES[severity])
 
     def steps(self, items: Iterable[Any]) -> Iterator[Any]:
         """The items of a loop, each counted."""
@@ -308,7 +319,7 @@ class Texts:
     def _expression(self, text: str, scope: Scope) -> Any:  # noqa: ANN401
         expression = compile_expression(text)
         if expression.name is not None:
-            return scope.value_of(expression.name)
+            return self._counted(scope.value_of(expression.name))
         self.is_pure &= expression.is_pure
         try:
             value = eval(expression.code, scope.names)
@@ -320,6 +331,12 @@ class Texts:
             raise _failed(text, error) from None
         if expression.compared and self.replay is None:
             self._note_compared(expression, scope)
+        return self._counted(value)
+
+    def _counted(self, value: Any) -> Any:  # noqa: ANN401
+        """The value, its characters counted when it is a long text."""
+        if type(value) is str and len(value) > _LONG:
+            self.budget.text(len(value))
         return value
 
     def _substitution(self, text: str, scope: Scope) -> str:
@@ -356,7 +373,7 @@ def pure_value(text: str) -> Any:  # noqa: ANN401
     """An expression of a YAML file: no names but mathematics and builtins."""
     code = compile_expression(text).code
     try:
-        return eval(code, {**HELPERS, "__steps": list, **PURE_SYMBOLS})
+        return eval(code, pure_names(Budget(_PURE_LIMITS).steps))
     except Fault:
         raise
     except Exception as error:  # noqa: BLE001 - whatever the expression does

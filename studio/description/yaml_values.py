@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import math
+import re
 from typing import TYPE_CHECKING, Any, Final, SupportsIndex, cast
 
 import yaml
@@ -19,10 +20,15 @@ if TYPE_CHECKING:
 
     from studio.description.run_record import Input
 
-EXPANDED_LIMIT: Final = 200_000
+EXPANDED_LIMIT: Final = 100_000
 """Values of a document with every alias counted where it stands."""
 DEPTH_LIMIT: Final = 64
 """Values inside values; the deepest file of the corpus has 9."""
+_SEPARATORS_LIMIT: Final = 250_000
+_BRACKETS: Final = re.compile(rb"[\[\]{}]")
+_COMPACT: Final = re.compile(rb"(?:[-?:][ \t]+){65}")
+_DIGITS_LIMIT: Final = 24
+"""Of a whole number, its sign and separators too; more than 64 bits have."""
 UNITS: Final = {
     "!radians": 1.0,
     "!degrees": math.pi / 180.0,
@@ -314,6 +320,7 @@ def read_yaml(path: str, data: bytes, evaluate: Callable[[str], Any]) -> Any:  #
         Fault: It is no YAML, with its place.
         Refusal: Its aliases would expand without bound.
     """
+    _refuse_bulk(data)
     try:
         return _construct(data.decode("utf-8"), evaluate)
     except yaml.YAMLError as error:
@@ -330,12 +337,30 @@ def check_aliases(data: bytes) -> None:
     Raises:
         Refusal: They do.
     """
+    _refuse_bulk(data)
     base = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
     try:
         node = yaml.compose(data, Loader=base)
     except (yaml.YAMLError, RecursionError, ValueError):
         return
     _count(node, {}, set())
+
+
+def _refuse_bulk(data: bytes) -> None:
+    """Refuse what would take long to parse, before it is."""
+    if sum(map(data.count, (b",", b":", b"\n"))) > _SEPARATORS_LIMIT:
+        raise Refusal("yaml-too-large", "A YAML file holds more values than any robot needs.")
+    depth = 0
+    for bracket in _BRACKETS.finditer(data):
+        depth += 1 if bracket[0] in b"[{" else -1
+        if depth > 4 * DEPTH_LIMIT:
+            raise _too_deep()
+    if _COMPACT.search(data):
+        raise _too_deep()
+
+
+def _too_deep() -> Refusal:
+    return Refusal("yaml-too-deep", f"A YAML file nests values deeper than {DEPTH_LIMIT}.")
 
 
 def _construct(text: str, evaluate: Callable[[str], Any]) -> Any:  # noqa: ANN401
@@ -372,7 +397,9 @@ def _count(node: Any, counted: dict[int, int], inside: set[int]) -> int:  # noqa
     if key in inside:
         raise Refusal("yaml-bomb", "A YAML file has an anchor that contains itself.")
     if len(inside) > DEPTH_LIMIT:
-        raise Refusal("yaml-too-deep", f"A YAML file nests values deeper than {DEPTH_LIMIT}.")
+        raise _too_deep()
+    if isinstance(node, yaml.ScalarNode):
+        _check_number(node.tag, node.value)
     inside.add(key)
     total = 1 + sum(_count(child, counted, inside) for child in _children(node))
     inside.discard(key)
@@ -380,6 +407,13 @@ def _count(node: Any, counted: dict[int, int], inside: set[int]) -> int:  # noqa
         raise Refusal("yaml-bomb", "The aliases of a YAML file expand to too many values.")
     counted[key] = total
     return total
+
+
+def _check_number(tag: str, text: str) -> None:
+    """Refuse whole numbers that take long to read, or that all have the same hash."""
+    is_long = len(text) > _DIGITS_LIMIT and not text.lstrip("+-").startswith("0b")
+    if tag == "tag:yaml.org,2002:int" and (is_long or len(text) > 4 * _DIGITS_LIMIT):
+        raise Refusal("value-too-large", "A YAML file holds a whole number that is too large.")
 
 
 def _children(node: Any) -> Iterator[Any]:  # noqa: ANN401

@@ -26,8 +26,9 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 GOOD = robot('<link name="a${1+1}"/>')
-ENDLESS = robot('<x v="${len(python.sum([[i] for i in range(200000)], []))}"/>')
-"""Quadratic inside one C call: nothing in the process can stop it, only its parent."""
+SAME_HASH = "python.set([i * (2**61 - 1) for i in range(9000)])"
+ENDLESS = robot(f'<x v="${{[len({SAME_HASH}) for i in range(9000)]}}"/>')
+"""Quadratic inside C calls: nothing in the process can stop one, only its parent."""
 
 
 def request(file: Path) -> OpenRequest:
