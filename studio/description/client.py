@@ -44,6 +44,8 @@ class DescriptionWorker:
         self._entry = ""
         self._files: tuple[str, ...] = ()
         self.needs_reopen = True
+        self._turn = asyncio.Lock()
+        """Held by whoever has the process: requests are answered in the order they were made."""
         self._started = 0
         """The generation of the process that is known to be up."""
         self._questions: set[asyncio.Task[Reply]] = set()
@@ -59,10 +61,12 @@ class DescriptionWorker:
 
     async def open(self, request: OpenRequest) -> Answer:
         """Start on a file; everything is in the answer."""
-        self._entry, self._files = request.entry, (request.entry,)
+        self._entry = request.entry
         self.needs_reopen = False
-        failure = await self._start()
-        return failure or await self._ask(request)
+        async with self._turn:
+            failure = await self._start()
+            self._files = (request.entry,)
+            return failure or await self._exchange(request, self._timeout_s)
 
     async def edit(self, request: EditRequest) -> Answer:
         """Change texts and run; what changed is in the answer."""
@@ -102,16 +106,17 @@ class DescriptionWorker:
         await self._worker.warm()
         if self._started != self._worker.generation:
             self._started = self._worker.generation
-            answer = await self._ask(EditRequest(()), START_TIMEOUT_S)
+            answer = await self._exchange(EditRequest(()), START_TIMEOUT_S)
             if self.needs_reopen and isinstance(answer, Failure):
                 return answer
         return None
 
     async def _question(self, query: Query) -> Reply:
-        if self.needs_reopen:
-            return NoReply("The robot is not open: open it again.")
         try:
-            reply = await self._worker.ask(query, object, self._timeout_s)
+            async with self._turn:
+                if self.needs_reopen:
+                    return NoReply("The robot is not open: open it again.")
+                reply = await self._worker.ask(query, object, self._timeout_s)
         except (WorkerTimeoutError, WorkerDiedError) as error:
             self.needs_reopen = True
             return NoReply(str(error))
@@ -120,11 +125,15 @@ class DescriptionWorker:
             return NoReply("The worker gave a reply of the wrong kind.")
         return reply
 
-    async def _ask(self, request: Request, timeout_s: float | None = None) -> Answer:
+    async def _ask(self, request: Request) -> Answer:
+        async with self._turn:
+            return await self._exchange(request, self._timeout_s)
+
+    async def _exchange(self, request: Request, timeout_s: float) -> Answer:
         if self.needs_reopen:
             return self._failure("no-session", "The robot is not open: open it again.")
         try:
-            answer = await self._worker.ask(request, object, timeout_s or self._timeout_s)
+            answer = await self._worker.ask(request, object, timeout_s)
         except WorkerTimeoutError as error:
             self.needs_reopen = True
             sentence = f"The expansion took longer than {error.timeout_s:g} s and was ended."
