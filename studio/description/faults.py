@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 
 
 _NAMES_LOOKED_AT: Final = 2_000
+_SENTENCE_LIMIT: Final = 480
+"""Characters; names and texts of hostile files may be as long as the file."""
 
 
 class Fault(Exception):  # noqa: N818 - a fault of the description, not of the studio
@@ -67,7 +69,7 @@ def problem_of(fault: Fault, entry: str) -> Problem:
     return Problem(
         Severity.ERROR,
         fault.code,
-        fault.sentence,
+        shorten(fault.sentence, _SENTENCE_LIMIT),
         fault.place or Place(entry),
         fault.include_chain,
         fault.macro_stack,

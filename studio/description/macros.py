@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 DEFAULT: Final = r"""\$\{.*?\}|\$\(.*?\)|(?:(?>'.*?')|(?>".*?")|[^\s'"]++)+|"""
 """As xacro's, but what was found is not given back: looking for it again takes forever."""
 _PARAMETER: Final = re.compile(r"^\s*([^\s:=]+?)\s*:?=\s*(\^\|?)?(" + DEFAULT + r")(?:\s+|$)(.*)")
-_AS_XACRO: Final = re.compile(re.sub(r"\(\?>([^)]*)\)|\+(\+)", r"\1\2", _PARAMETER.pattern))
+_AS_XACRO: Final = re.compile(re.sub(r"\(\?>([^)]*)\)", r"\1", _PARAMETER.pattern))
 """Xacro's own, for the few texts that only giving back can read: quotes without their pairs."""
 _QUOTES_LIMIT: Final = 12
 PARAMS_LIMIT: Final = 20_000

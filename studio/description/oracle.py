@@ -146,6 +146,7 @@ class _Guard:
         self._policy, self._store = policy, store
         self._budget = Budget(limits)
         self._eval_text: Callable[[Any, Any], Any] = xacro.eval_text
+        self._eval_all: Callable[[Any, Any, Any], None] = xacro.eval_all
         self.functions = guarded_functions(self._budget.steps)
         self.environment = policy.environment
 
@@ -164,7 +165,14 @@ class _Guard:
             raise guarded.too_large()
         value = guarded.made(self._eval_text(text, names))
         guarded.check_printable(value)
+        if isinstance(value, str):
+            self._budget.text(len(value))
         return value
+
+    def eval_all(self, node: Any, macros: Any, symbols: Any) -> None:  # noqa: ANN401
+        """In place of `xacro.eval_all`, which each element goes through: counts."""
+        self._budget.element()
+        self._eval_all(node, macros, symbols)
 
     def open(self, path: str) -> io.TextIOWrapper:
         """In place of `open` inside the xacro module."""
@@ -229,7 +237,7 @@ def _on(guard: _Guard) -> Generator[None]:
     METHODS[xacro.YamlListWrapper] = METHODS[list]
     symbols = xacro._global_symbols
     with ExitStack() as stack:
-        for name in ("safe_eval", "eval_text"):
+        for name in ("safe_eval", "eval_text", "eval_all"):
             stack.enter_context(patch.object(xacro, name, getattr(guard, name)))
         stack.enter_context(patch.object(xacro, "open", guard.open, create=True))
         stack.enter_context(patch.object(xacro, "glob", guard))
