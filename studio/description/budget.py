@@ -39,7 +39,7 @@ class Budget:
 
     def restart(self) -> None:
         """Count anew, for an edit of what came out."""
-        self._elements = self._evaluations = 0
+        self._elements = self._evaluations = self._characters = 0
         self._ends_at = perf_counter() + self.limits.seconds
 
     def element(self) -> None:

@@ -19,7 +19,8 @@ from studio.description.scopes import Cell, literal_value
 from studio.description.text_edits import TextEdits
 from studio.description.texts import Argument, pure_value
 from studio.description.values import SiteKind
-from studio.description.yaml_values import replace_item, rewrite, scalar_of
+from studio.description.yaml_reading import scalar_of
+from studio.description.yaml_values import replace_item, rewrite
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping

@@ -34,7 +34,7 @@ from studio.description.packages_found import find_package
 from studio.description.source_store import SourceStore
 from studio.description.source_tree import SourceError, parse_source
 from studio.description.substitution import evaluate, variable
-from studio.description.yaml_values import check_aliases
+from studio.description.yaml_reading import check_aliases
 from studio.errors import ExpansionError, RefusedError
 from studio.packages.roots import ServedRoots
 from studio.problems import Place, Problem, Severity

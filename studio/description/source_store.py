@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Final, Protocol
 
 from studio.description.faults import Fault, Refusal
 from studio.description.source_tree import SourceError, SourceTree, parse_source
-from studio.description.yaml_values import read_yaml
+from studio.description.yaml_reading import read_yaml
 from studio.errors import EditError, OutsideRootsError, UnreadableFileError
 
 if TYPE_CHECKING:
