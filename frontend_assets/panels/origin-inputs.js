@@ -1,14 +1,15 @@
 /** What a number is made of: each input as a button that opens its row and what is behind it in turn. */
 
-/** @import { OriginInput } from "../types/wire.d.ts" */
+/** @import { OriginInput, Place } from "../types/wire.d.ts" */
 
 import { html, useSignal } from "vendor/preact.js";
 import { PlaceLink } from "../app/place-link.js";
 import { site, sitesRevision } from "../app/state/document.js";
 import { hoverSite } from "../app/state/origin.js";
 import { degrees } from "../app/state/view.js";
+import { WrittenText } from "../app/written-text.js";
 import { t } from "../lib/i18n.js";
-import { isComputed, valueText } from "../lib/origin.js";
+import { valueText } from "../lib/origin.js";
 import { Icon } from "../lib/ui.js";
 import { PropertyRow } from "./property-row.js";
 
@@ -19,12 +20,13 @@ const DEEPEST = 60;
  * @param {object} props
  * @param {readonly number[]} props.of
  * @param {readonly OriginInput[]} props.inputs all of the part
- * @param {string} [props.site] of the text itself, when that can be edited
+ * @param {string} [props.site] of the text itself, when it is a property of its own
+ * @param {{place: Place, text: string, label: string} | null} [props.written] the text itself otherwise
  * @param {number} [props.depth]
  */
-export function Inputs({ of, inputs, site: own = "", depth = 0 }) {
+export function Inputs({ of, inputs, site: own = "", written = null, depth = 0 }) {
   const open = useSignal(/** @type {number | null} */ (null));
-  if (of.length === 0 && !own) return null;
+  if (of.length === 0 && !own && !written) return null;
   const chosen = open.value;
   const shown = chosen !== null && chosen >= 0 ? inputs[chosen] : undefined;
   /** @param {number} at -1: the text itself */
@@ -33,7 +35,6 @@ export function Inputs({ of, inputs, site: own = "", depth = 0 }) {
   };
   return html`<div class="inputs">
     <div class="chips">
-      ${own && html`<${OwnChip} id=${own} open=${chosen === -1} onClick=${() => toggle(-1)} />`}
       ${of.map((at) => {
         const input = inputs[at];
         return (
@@ -41,17 +42,19 @@ export function Inputs({ of, inputs, site: own = "", depth = 0 }) {
           html`<${InputChip} key=${at} input=${input} open=${chosen === at} onClick=${() => toggle(at)} />`
         );
       })}
+      ${(own || written) && html`<${OwnChip} id=${own} open=${chosen === -1} onClick=${() => toggle(-1)} />`}
     </div>
-    ${chosen === -1 && html`<${SiteRow} id=${own} />`}
+    ${chosen === -1 && (own ? html`<${SiteRow} id=${own} />` : html`<${WrittenLine} ...${written} />`)}
     ${shown && depth < DEEPEST && html`<${Opened} input=${shown} inputs=${inputs} depth=${depth} />`}
   </div>`;
 }
 
-/** @param {{id: string, open: boolean, onClick: () => void}} props a number that stands there as it is */
+/** @param {{id: string, open: boolean, onClick: () => void}} props the very text that stands at the attribute */
 function OwnChip({ id, open, onClick }) {
-  return html`<button type="button" class="chip input-chip" aria-expanded=${open} onClick=${onClick}
-    ...${pointing(id)}>
-    <${Icon} name="pencil" size=${12} />${t("origin.edit")}</button>`;
+  const label = t(id ? "origin.edit" : "origin.edit_text");
+  return html`<button type="button" class=${`chip input-chip ${id ? "" : "quiet"}`} aria-expanded=${open} aria-label=${label}
+    title=${label} onClick=${onClick} ...${pointing(id)}>
+    <${Icon} name="pencil" size=${12} />${id && label}</button>`;
 }
 
 /** @param {{input: OriginInput, open: boolean, onClick: () => void}} props */
@@ -89,11 +92,17 @@ function Opened({ input, inputs, depth }) {
         ? html`<${SiteRow} id=${input.site} />`
         : html`<p class="origin-line"><span class="muted">${t(`origin.kind.${input.kind}`)}</span>
         <strong class="property-name">${input.name}</strong><span class="origin-value numbers" title=${input.value}>${input.value}</span></p>
-        ${isComputed(input.text) && html`<code class="origin-text">${input.text}</code>`}`
+        <${WrittenLine} place=${input.place} text=${input.text} label=${input.name} />`
     }
     ${input.place.file ? html`<p class="opened-place"><${PlaceLink} place=${input.place} /></p>` : html`<p class="note">${t("origin.given")}</p>`}
     ${input.inputs.length > 0 && html`<${Inputs} of=${input.inputs} inputs=${inputs} depth=${depth + 1} />`}
   </div>`;
+}
+
+/** @param {{place: Place, text: string, label: string}} props a text that is no property, edited all the same */
+function WrittenLine({ place, text, label }) {
+  if (!place.file) return null;
+  return html`<p class="written"><${WrittenText} place=${place} text=${text} label=${label} /></p>`;
 }
 
 /** @param {{id: string}} props the property as the panel of properties has it */

@@ -135,6 +135,8 @@ function Attribute({ of, inputs, part: key }) {
   }, [sought, wanted]);
   const value = valueText(of.value, of.unit, degrees.value);
   const computed = isComputed(of.text);
+  const written =
+    of.attribute && !of.site ? { place: of.place, text: of.text, label: of.attribute } : null;
   return html`<div ref=${row} class=${`origin-attribute ${sought ? "chosen" : ""}`} role="group"
       aria-label=${of.attribute || t("origin.text")}>
     <div class="origin-line">
@@ -143,6 +145,6 @@ function Attribute({ of, inputs, part: key }) {
       <${PlaceLink} place=${of.place} />
     </div>
     ${computed && html`<code class="origin-text">${of.text}</code>`}
-    <${Inputs} of=${of.inputs} inputs=${inputs} site=${of.site} />
+    <${Inputs} of=${of.inputs} inputs=${inputs} site=${of.site} written=${written} />
   </div>`;
 }

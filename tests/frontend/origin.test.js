@@ -2,6 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { byElement, countedAspects, valueText } from "../../frontend_assets/lib/origin.js";
 import { elementsByLine } from "../../frontend_assets/lib/urdf-elements.js";
+import { offsetAt, replacement } from "../../frontend_assets/lib/written-text.js";
 
 /** @import { OriginAttribute } from "../../frontend_assets/types/wire.d.ts" */
 
@@ -89,4 +90,30 @@ test("a text that is cut off is read as far as it goes", () => {
     [[1, { part: "link:a", element: "" }]],
   );
   assert.equal(elementsByLine([]).size, 0);
+});
+
+test("a written text is found by line and column, whatever stands before it", () => {
+  const file = '<a>\n  <b n="ä" t="🦀" x=\'1 &lt; 2\'/>\n</a>';
+  const column = '  <b n="ä" t="'.length + 1;
+  assert.deepEqual(replacement(file, { line: 2, column }, "🦀", "\"'&<"), {
+    start: file.indexOf("🦀"),
+    end: file.indexOf("🦀") + 2,
+    text: "&quot;'&amp;&lt;",
+  });
+  const later = [...'  <b n="ä" t="🦀" x=\''].length + 1;
+  assert.deepEqual(replacement(file, { line: 2, column: later }, "1 < 2", "'"), {
+    start: file.indexOf("1 &lt;"),
+    end: file.indexOf("1 &lt;") + "1 &lt; 2".length,
+    text: "&apos;",
+  });
+});
+
+test("where something else stands by now, nothing is written", () => {
+  const file = '<a x="1"/>';
+  const place = { line: 1, column: 7 };
+  assert.equal(replacement(file, place, "2", "3"), null);
+  assert.equal(replacement(file, { line: 1, column: 2 }, "a", "b"), null);
+  assert.equal(replacement(file, { line: 5, column: 1 }, "1", "3"), null);
+  assert.equal(replacement(file, { line: 1, column: 99 }, "1", "3"), null);
+  assert.equal(offsetAt(file, place), 6);
 });
