@@ -6,7 +6,13 @@
  * @import { TextLink } from "../app/texts.js"
  */
 
-import { acceptCompletion, autocompletion, keymap, snippet } from "vendor/codemirror.js";
+import {
+  acceptCompletion,
+  autocompletion,
+  keymap,
+  snippet,
+  startCompletion,
+} from "vendor/codemirror.js";
 import { complete } from "../app/language.js";
 import { mayEdit } from "../app/state/connection.js";
 import { t } from "../lib/i18n.js";
@@ -20,6 +26,7 @@ const IN_TAG = /<[^<>]*\s$/;
 const LOOK_BACK = 500;
 const STILL_FITS = /^[\w:.-]*$/;
 const BOOST_MOST = 99;
+const GOES_ON = new Set(["command", "folder", "package"]);
 
 /** @param {TextLink} link @returns {Extension} */
 export function completion(link) {
@@ -63,8 +70,22 @@ function optionOf({ label, kind, insert, stops, detail, doc }, at, count) {
     type: kind,
     ...(detail === "" ? {} : { detail }),
     ...(doc === "" ? {} : { info: doc }),
-    apply: stops.length === 0 ? insert : snippet(snippetTemplate(insert, stops)),
+    apply: writing(kind, insert, stops),
     boost: BOOST_MOST - Math.round((2 * BOOST_MOST * at) / Math.max(count, 1)),
+  };
+}
+
+/**
+ * @param {string} kind @param {string} insert @param {Offer["stops"]} stops
+ * @returns {NonNullable<Completion["apply"]>} after what cannot stand alone the next choice is offered
+ */
+function writing(kind, insert, stops) {
+  const write = snippet(snippetTemplate(insert, stops));
+  if (!GOES_ON.has(kind) || (stops.length === 0 && !insert.endsWith("/")))
+    return stops.length === 0 ? insert : write;
+  return (view, option, from, to) => {
+    write(view, option, from, to);
+    startCompletion(view);
   };
 }
 

@@ -9,6 +9,7 @@ import { shortcutText } from "../lib/keys.js";
 import { shortPath } from "../lib/paths.js";
 import { tabNames } from "../lib/tab-names.js";
 import { Icon, IconButton, MenuButton } from "../lib/ui.js";
+import { ACTIONS } from "./source-actions.js";
 
 /** @param {{find: () => void, goToLine: () => void}} props what the menu offers for the text in front */
 export function SourceTabs({ find, goToLine }) {
@@ -98,6 +99,13 @@ function menuItems(goToLine) {
     for (const one of others) closeFile(one);
   };
   return [
+    ...ACTIONS.map(({ id, icon, key, run }) => ({
+      label: t(`command.${id}`),
+      icon,
+      disabled: file === "",
+      hint: shortcutText(key, onMac),
+      run,
+    })),
     {
       label: t("source.go_to_line"),
       icon: "jump",

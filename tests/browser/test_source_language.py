@@ -138,7 +138,7 @@ def test_a_call_is_completed_and_another_one_inserted_from_the_list_of_macros(ta
     radius = tab.page.get_by_role("option", name="wheel_radius")
     wait_until("names with values", lambda: radius.count() == 1 and "0.105" in radius.inner_text())
     radius.click()
-    wait_until("the name", lambda: 'side="1" front="${wheel_radius"' in line_of(tab))
+    wait_until("the name", lambda: 'side="1" front="${wheel_radius}"' in line_of(tab))
     tab.page.get_by_role("searchbox", name="Filter files, macros and names").fill("spoke")
     tab.page.get_by_role("button", name="spoke", exact=False).first.click()
     tab.page.get_by_role("button", name="Insert call").click()
