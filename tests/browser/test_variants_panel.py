@@ -8,12 +8,14 @@ import pytest
 import yaml
 
 from tests.support.server import running_studio
-from tests.support.studio_page import StudioPage, studio_page, wait_until
+from tests.support.studio_page import StudioPage, studio_context, studio_page, wait_until
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from playwright.sync_api import Browser, Locator
+
+    from tests.support.server import RunningStudio
 
 pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(300)]
 
@@ -49,9 +51,62 @@ def switch(tab: StudioPage, name: str) -> None:
     panel(tab).get_by_role("button", name=name, pressed=True).wait_for()
 
 
+def look_as_a_viewer(browser: Browser, studio: RunningStudio, radii: list[str]) -> None:
+    """Whoever only looks sees the list and the comparison, and can change neither."""
+    assert studio.process.stdout is not None
+    context = studio_context(browser)
+    viewer = StudioPage(context.new_page())
+    viewer.open(studio.process.stdout.readline().removeprefix("Viewer: ").strip())
+    show(viewer, "Variants")
+    given = panel(viewer).get_by_role("row", name="wheel_radius property")
+    given.wait_for()
+    assert given.get_by_role("cell").all_inner_texts() == radii
+    switches = panel(viewer).get_by_title("Only who has control can switch")
+    assert [one.is_disabled() for one in switches.all()] == [True, True]
+    for name in ("Save as variant…", "Over", "End the comparison"):
+        assert panel(viewer).get_by_role("button", name=name).is_disabled()
+    assert viewer.errors == []
+    context.close()
+
+
+def compare(tab: StudioPage, was: str, now: str) -> None:
+    """Compare the robot of the file with the variant: what was given, and one wheel's radius."""
+    panel(tab).get_by_role("button", name="More for Big wheels").click()
+    tab.page.get_by_role("menuitem", name="Compare with the present robot").click()
+    given = panel(tab).get_by_role("row", name="wheel_radius property")
+    given.wait_for()
+    assert given.get_by_role("cell").all_inner_texts() == [was, now]
+    search = panel(tab).get_by_role("searchbox", name="Filter differences")
+    search.fill("front_left_wheel radius")
+    wheel = panel(tab).get_by_role("row", name="Collision 1 radius")
+    wait_until("the row of the radius", lambda: wheel.count() == 1)
+    cells = wheel.get_by_role("cell").all_inner_texts()
+    assert (cells[:2], cells[2][0]) == ([was, now], "+")
+
+
+def select_wheel(tab: StudioPage) -> None:
+    """A click on a part selects it; afterwards nothing is selected, nor under the pointer."""
+    panel(tab).get_by_role("button", name="front_left_wheel", exact=True).click()
+    tab.page.get_by_role("complementary", name="front_left_wheel").wait_for()
+    tab.page.keyboard.press("Escape")
+    tab.page.mouse.move(5, 5)
+
+
+def see_ghost(tab: StudioPage, plain: bytes) -> None:
+    """The ghost changes the picture, and leaves nothing behind."""
+    wait_until("the plain picture", lambda: tab.settle() == plain)
+    panel(tab).get_by_role("button", exact=True, name="Over").click()
+    wait_until("the ghost to be seen", lambda: tab.settle() != plain)
+    panel(tab).get_by_role("button", exact=True, name="Off").click()
+    wait_until("the ghost to be gone", lambda: tab.settle() == plain)
+
+
 def test_a_variant_is_saved_switched_compared_and_seen(browser: Browser, tmp_path: Path):
     data = tmp_path / "data"
-    with running_studio(["demo"], data) as studio, studio_page(browser, studio) as tab:
+    with (
+        running_studio(["demo", "--viewer-link"], data) as studio,
+        studio_page(browser, studio) as tab,
+    ):
         show(tab, "Variants")
         panel(tab).get_by_text("No variants yet").wait_for()
         was = radius(tab)
@@ -65,30 +120,10 @@ def test_a_variant_is_saved_switched_compared_and_seen(browser: Browser, tmp_pat
         switch(tab, "As in the file")
         assert radius(tab) == was
         plain = tab.settle()
-
-        panel(tab).get_by_role("button", name="More for Big wheels").click()
-        tab.page.get_by_role("menuitem", name="Compare with the present robot").click()
-        given = panel(tab).get_by_role("row", name="wheel_radius property")
-        given.wait_for()
-        assert given.get_by_role("cell").all_inner_texts() == [was, now]
-        panel(tab).get_by_role("searchbox", name="Filter differences").fill(
-            "front_left_wheel radius"
-        )
-        wheel = panel(tab).get_by_role("row", name="Collision 1 radius")
-        wait_until("the row of the radius", lambda: wheel.count() == 1)
-        cells = wheel.get_by_role("cell").all_inner_texts()
-        assert cells[:2] == [was, now]
-        assert cells[2].startswith("+")
-        panel(tab).get_by_role("button", name="front_left_wheel", exact=True).click()
-        tab.page.get_by_role("complementary", name="front_left_wheel").wait_for()
-        tab.page.keyboard.press("Escape")
-        tab.page.mouse.move(5, 5)  # what the pointer is on shines in 3D
-        wait_until("the plain picture", lambda: tab.settle() == plain)
-
-        panel(tab).get_by_role("button", exact=True, name="Over").click()
-        wait_until("the ghost to be seen", lambda: tab.settle() != plain)
-        panel(tab).get_by_role("button", exact=True, name="Off").click()
-        wait_until("the ghost to be gone", lambda: tab.settle() == plain)
+        compare(tab, was, now)
+        look_as_a_viewer(browser, studio, [was, now])
+        select_wheel(tab)
+        see_ghost(tab, plain)
 
         switch(tab, "Big wheels")
         panel(tab).get_by_text("The robots are the same.").wait_for()
