@@ -89,6 +89,12 @@ def test_a_pointed_at_property_lights_up_what_it_shapes_and_says_so(tab: StudioP
     assert tab.settle() == dark
     tab.box("wheel_width").focus()
     wait_until("the words by keyboard", lambda: words.count() == 1)
+    tab.row("wheel_width").get_by_role("button", name="More").click()
+    tab.page.get_by_role("menuitem", name="Show in the source").click()
+    tab.page.get_by_role("searchbox", name="Filter properties").focus()
+    wait_until("the words to go again", lambda: words.count() == 0)
+    tab.page.locator(".cm-activeLine", has_text="wheel_width").hover()
+    wait_until("the words from the source", lambda: words.count() == 1)
     assert tab.errors == []
 
 

@@ -182,6 +182,45 @@ def test_a_deep_chain_of_properties_is_followed_to_its_end(tmp_path: Path):
     assert not origin.is_cut
 
 
+def check_values(traced: TracedRobot) -> None:
+    """Every attribute of every part is told, with the value that the part has."""
+    told = {
+        (part, one.element, one.attribute): one.value
+        for part in traced.parts
+        for one in traced.origin(part).attributes
+    }
+    cut = {key for key, value in told.items() if value.endswith("...")}
+    there = {key: value for key, value in traced.attributes().items() if key not in cut}
+    assert {key: told.get(key) for key in there} == there
+
+
+def test_what_is_told_follows_every_edit(tmp_path: Path):
+    body = (
+        '<xacro:property name="a" value="1"/><xacro:property name="b" value="${a}"/>'
+        '<link name="x"><mass value="${b}"/></link><link name="y"><mass value="2"/></link>'
+    )
+    traced = opened(tmp_path, body)
+    data = (tmp_path / "a.xacro").read_bytes()
+    for old, new in ((b'"1"', b'"7"'), (b'"${a}"', b'"${a * 2}"'), (b'"2"', b'"${b}"')):
+        start = data.index(old)
+        traced.edit(str(tmp_path / "a.xacro"), start, start + len(old), new)
+        data = data[:start] + new + data[start + len(old) :]
+        check_values(traced)
+    origin = traced.origin("link:y")
+    assert way_to(origin, "mass", "value") == [("property", "b"), ("property", "a")]
+    assert attribute(origin, "mass", "value").value == "14"
+
+
+def test_every_attribute_of_real_robots_is_told():
+    folder = corpus()
+    arm = folder / "UniversalRobots+Universal_Robots_ROS2_Description" / "urdf" / "ur.urdf.xacro"
+    check_values(TracedRobot(arm, arm.parents[1], ur_type="ur10e", name="ur"))
+    burger = folder / "ROBOTIS-GIT+turtlebot3" / "turtlebot3_description" / "urdf"
+    check_values(TracedRobot(burger / "turtlebot3_burger.urdf", burger.parents[1], namespace=""))
+    pr2 = folder / "PR2+pr2_common" / "pr2_description" / "robots" / "pr2.urdf.xacro"
+    check_values(TracedRobot(pr2, pr2.parents[2]))
+
+
 def test_the_elbow_of_a_real_arm_leads_to_a_key_of_its_yaml_file():
     folder = corpus() / "UniversalRobots+Universal_Robots_ROS2_Description"
     arm = TracedRobot(folder / "urdf" / "ur.urdf.xacro", folder, ur_type="ur10e", name="ur")
