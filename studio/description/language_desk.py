@@ -28,7 +28,6 @@ if TYPE_CHECKING:
 
     from studio.description.good_run import GoodRun
     from studio.description.language import LanguageQuery, LanguageReply
-    from studio.description.run_record import RunRecord
     from studio.description.source_store import SourceStore
     from studio.description.values import ReadPolicy, Site
 
@@ -55,9 +54,10 @@ class LanguageDesk:
         try:
             texts = {} if isinstance(query, OutlineQuery) else {query.file: query.text}
             reading.begin(texts, arguments, sites)
-            # What is typed breaks the text most of the time: the names of a while ago will do.
-            if reading.trace is None or not isinstance(query, CompletionQuery):
-                reading.watch(_texts_of(good.record) if good else None)
+            if isinstance(query, CompletionQuery):
+                reading.follow(good)
+            else:
+                reading.watch(good)
             return self._reply(query)
         except EditError as error:
             return NoReply(str(error))
@@ -75,9 +75,3 @@ class LanguageDesk:
         if isinstance(query, ReferencesQuery):
             return references_to(subject, self._reading, self._uses) if subject else _NAMED_NOWHERE
         return LookedUp(meaning_of(subject, cursor) if subject else None)
-
-
-def _texts_of(record: RunRecord) -> dict[str, bytes]:
-    """What a run read, by resolved path."""
-    texts = {path: tree.data for path, tree in record.trees.items()}
-    return texts | {path: one.data for path, one in record.yaml.items()}

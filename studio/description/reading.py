@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from time import perf_counter
+from typing import TYPE_CHECKING, Final
 
 from studio.description.definitions import Definitions
 from studio.description.faults import Fault
@@ -13,9 +14,13 @@ from studio.description.watched_run import Trace, WatchedRun
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from studio.description.good_run import GoodRun
     from studio.description.language import TextPlace
     from studio.description.source_tree import SourceElement, SourceTree
     from studio.description.values import ReadPolicy, Site
+
+_REST_S: Final = 1.0
+"""Between two runs that are watched while somebody types."""
 
 
 class _Mirror(SourceStore):
@@ -71,6 +76,8 @@ class Reading:
         self._is_of_arguments = False
         """Whether the trace was run with these arguments."""
         self._failed: dict[str, bytes] | None = None
+        self._followed: GoodRun | None = None
+        self._watched_s = 0.0
         self._by_offset: dict[str, tuple[SourceTree, dict[int, SourceElement]]] = {}
         self._drifts: dict[str, tuple[bytes, bytes, Drift]] = {}
         self._places: dict[str, TextPlaces] = {}
@@ -87,23 +94,46 @@ class Reading:
         is_watched = self.trace is not None and self._is_of_arguments
         self.is_current = is_watched and self._is_as_read(self._bytes_of(self.trace))
 
-    def watch(self, good: Mapping[str, bytes] | None) -> None:
+    def watch(self, good: GoodRun | None) -> None:
         """Run the texts, unless that was done; what breaks in between changes nothing.
 
         Args:
-            good: The texts of the last good run by path, for the time while these do not run.
+            good: The last good run, whose texts count while these do not run.
         """
         if self.is_current or (self._failed is not None and self._is_as_read(self._failed)):
             return
-        instead = self._mirror.instead
         if self._run():
             self.is_current = True
             return
         self._failed = self._what_was_asked()
         if self.trace is None and good is not None:
-            self._mirror.use(good)
-            self._run()
-            self._mirror.use(instead)
+            self._run_good(good)
+
+    def follow(self, good: GoodRun | None) -> None:
+        """Take what the last good run has brought since, but not at every letter.
+
+        For questions in the midst of typing: the text is broken then most of the time.
+        """
+        if self.trace is None:
+            self.watch(good)
+        rested = perf_counter() - self._watched_s > _REST_S
+        if good is None or good is self._followed or self.is_current or not rested:
+            return
+        failed = self._failed
+        self._run_good(good)
+        self._failed = failed
+
+    def _run_good(self, good: GoodRun) -> None:
+        """Run the texts of a good run."""
+        instead = self._mirror.instead
+        self._followed = good
+        try:
+            texts = {path: good.store.read(path)[1] for path in good.record.files}
+        except Fault:  # a file that is gone from the disk since
+            return
+        self._mirror.use(texts)
+        self._run()
+        self._mirror.use(instead)
 
     @property
     def definitions(self) -> Definitions | None:
@@ -120,6 +150,7 @@ class Reading:
         except Fault:
             return False
         self.trace, self._failed, self._is_of_arguments = trace, None, True
+        self._watched_s = perf_counter()
         return True
 
     def _bytes_of(self, trace: Trace | None) -> dict[str, bytes]:

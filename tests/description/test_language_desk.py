@@ -24,6 +24,7 @@ from studio.description.values import ArgumentsRequest, EditRequest, Expansion
 from tests.description.test_subject_at import FILES, pr2
 from tests.support.descriptions import robot, write
 from tests.support.language import Editor, at, labels
+from tests.support.studio_page import wait_until
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -132,6 +133,21 @@ def test_while_the_text_is_broken_the_last_values_are_told_where_they_moved_to(e
     assert not isinstance(editor.answer, Expansion)
     found = editor.meaning(editor.entry, '"0 ${len|gth} 0"')
     assert (found.values, at(found.places[0])) == (("7",), "robot.xacro:6")
+
+
+def test_what_a_good_run_brought_is_offered_soon_while_typing_goes_on(editor: Editor):
+    assert editor.completions(editor.entry, "</robot>", "<xacro:ar").items
+    start = editor.entry.read_bytes().index(b"</robot>")
+    other = robot('<xacro:macro name="brought" params="x"/>')
+    write(editor.root, {"urdf/other.xacro": other})
+    editor.type(editor.entry, start, start, b'<xacro:include filename="other.xacro"/>')
+    assert isinstance(editor.answer, Expansion)
+
+    def offered_now() -> bool:
+        found = editor.completions(editor.entry, "</robot>", "<xacro:bro")
+        return labels(found) == ["xacro:brought"]
+
+    wait_until("the macro of the new include", offered_now, patience_s=10)
 
 
 def test_questions_leave_no_trace_in_the_run(editor: Editor):
