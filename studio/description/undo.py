@@ -7,6 +7,7 @@ began leaves none.
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 from studio.description.values import Edit
 
@@ -49,7 +50,7 @@ class ArgumentChange:
     new: str | None
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Step:
     """One entry of the undo list; `is_value`: its bytes are a whole value, worth showing."""
 
@@ -59,7 +60,7 @@ class Step:
     gesture: str = ""
     is_value: bool = True
 
-    @property
+    @cached_property
     def label(self) -> str:
         """What the undo list shows, e.g. `wheel_radius 0.1 → 0.12`."""
         texts = self._texts()
