@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
     from studio.description.values import Expansion, Part
     from studio.problems import Problem
+    from studio.robot.kinematics import Floats
     from studio.scene import DocumentScene
 
 
@@ -42,8 +43,8 @@ class Model:
         self.joints = JointPositions(self.kinematics)
         self.revision = 0
         """Counts structural changes."""
-        self.posed: Callable[[], None] = lambda: None
-        """Called whenever the links were moved, before that is sent."""
+        self.posed: Callable[[tuple[str, ...], Floats], None] = lambda _links, _poses: None
+        """Called with the links and their poses whenever they were moved, before that is sent."""
         self._inertia: dict[str, list[Problem]] = {}
         self._meshes: dict[str, tuple[str, ...]] = {}
 
@@ -101,8 +102,9 @@ class Model:
     def pose(self) -> None:
         """Send the links to where the joint positions put them."""
         links = self.kinematics.link_names
-        self.scene.set_poses(links, self.kinematics.wxyz_xyz(self.joints.values))
-        self.posed()
+        poses = self.kinematics.wxyz_xyz(self.joints.values)
+        self.scene.set_poses(links, poses)
+        self.posed(links, poses)
         self.scene.flush()
 
     def mesh_uris(self) -> frozenset[str]:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Final, Literal
 
+from pydantic import Field
+
 from studio.description.values import SiteKind
 from studio.engine.message import Message
 
@@ -20,7 +22,7 @@ class Side(Message):
     """A state that can be compared: the robot as it is, as its files say, or a variant."""
 
     kind: Literal["present", "saved", "variant"]
-    name: str = ""
+    name: str = Field(default="", max_length=100)
     """Of the variant."""
 
 

@@ -41,6 +41,7 @@ class GhostDrawing:
         self._robot = Robot("")
         self._shelf = MeshShelf()
         self._drawn: dict[str, Nodes] = {}
+        self._hidden: frozenset[str] = frozenset()
         self._poses = PoseWriter(graph, ghost_node)
         self._opacity = 0.35
         self._offset_m: Vector3 = node.ORIGIN
@@ -73,6 +74,14 @@ class GhostDrawing:
     def set_poses(self, link_names: Sequence[str], wxyz_xyz: NDArray[np.floating]) -> None:
         """Move the links, as `DocumentScene.set_poses`, in the frame of the ghost's root."""
         self._poses.write(link_names, wxyz_xyz, self._drawn)
+
+    def hide(self, links: Set[str]) -> None:
+        """Do not show these links, and all others."""
+        changed = (links ^ self._hidden) & self._drawn.keys()
+        self._hidden = frozenset(links)
+        with self._graph.atomic():
+            for name in changed:
+                self._put_link(name)
 
     def shift(self, offset_m: Vector3) -> None:
         """Stand that far from the robot, in its root frame."""
@@ -107,6 +116,9 @@ class GhostDrawing:
     def _put_root(self) -> None:
         self._graph.put(GHOST, node.group(position=self._offset_m))
 
+    def _put_link(self, name: str) -> None:
+        self._graph.put(ghost_node(name), node.group(visible=name not in self._hidden))
+
     def _draw(self, link: Link) -> None:
         root = ghost_node(link.name)
         old, new = self._drawn.get(link.name), self._nodes(link)
@@ -114,7 +126,7 @@ class GhostDrawing:
             if below not in new:
                 self._graph.drop(f"{root}/{below}")
         if old is None:
-            self._graph.put(root, node.group())
+            self._put_link(link.name)
             self._poses.forget(link.name)
         for below, drawn in new.items():
             self._graph.put(f"{root}/{below}", drawn)

@@ -150,6 +150,33 @@ def test_the_ghost_shows_the_other_robot_and_follows_the_joints(mast: Path, tmp_
     asyncio.run(run())
 
 
+def shown(sent: list[dict[str, Any]]) -> set[str]:
+    """The links of the ghost that can be seen by somebody who comes now."""
+    visible = {one["name"]: one["visible"] for one in sent if "visible" in one}
+    return {name for name in ("base", "tip", "gripper") if visible.get(f"/ghost/{name}")}
+
+
+def test_over_the_robot_only_what_differs_is_drawn(mast: Path, tmp_path: Path):
+    async def run() -> None:
+        async with desk(mast, tmp_path / "data", gripper="true") as at:
+            await at.edit("jaw", "0.5")
+            await at.compared(PRESENT, SAVED)
+            await at.ask(m.SetDisplay(display="ghost", name="visible", value=True))
+            await until(lambda: at.ear.last("comparison")["ghost"] is not None)
+            assert shown((await joined(at.document.scene))[1]) == {"gripper"}
+            await at.edit("reach", "0.6")
+            assert shown((await joined(at.document.scene))[1]) == {"tip", "gripper"}
+            await at.ask(m.SetDisplay(display="ghost", name="beside", value=True))
+            links = at.document.scene.ghost.links
+            for _ in range(50):
+                if shown((await joined(at.document.scene))[1]) == links:
+                    return
+                await asyncio.sleep(0.05)
+            pytest.fail("beside the robot not all of the ghost was drawn")
+
+    asyncio.run(run())
+
+
 def test_beside_it_stands_clear_of_the_robot(mast: Path, tmp_path: Path):
     async def run() -> None:
         async with desk(mast, tmp_path / "data", gripper="true") as at:

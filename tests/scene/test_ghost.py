@@ -68,6 +68,23 @@ def test_only_links_that_differ_are_drawn_again():
     watched(scenario)
 
 
+def test_links_are_hidden_and_shown_again_without_drawing_them():
+    async def scenario(scene: DocumentScene, peer: Peer) -> None:
+        scene.ghost.hide({"mast", "elsewhere"})
+        scene.ghost.show(rover())
+        sent = [m for m in sent_by(scene, peer) if m["type"] == "SetSceneNodeVisibilityMessage"]
+        assert [m["name"] for m in sent if not m["visible"]] == ["/ghost/mast"]
+        scene.ghost.hide({"wheel_0"})
+        sent = sent_by(scene, peer)
+        assert set(types_of(sent)) == {"SetSceneNodeVisibilityMessage"}
+        assert {m["name"]: m["visible"] for m in sent} == {
+            "/ghost/mast": True,
+            "/ghost/wheel_0": False,
+        }
+
+    watched(scenario)
+
+
 def test_a_ghost_that_is_taken_away_leaves_nothing():
     async def scenario(scene: DocumentScene, peer: Peer) -> None:
         scene.ghost.show(rover())
