@@ -3,7 +3,7 @@
 /** @import { SiteView } from "../types/wire.d.ts" */
 
 /**
- * @typedef {{words: string, kinds: ReadonlySet<string>, owners: ReadonlySet<string> | null}} SiteFilter
+ * @typedef {{words: string, kinds: ReadonlySet<string>, chosen: ReadonlySet<string> | null}} SiteFilter
  * @typedef {{key: string, group: string, file: string, sites: string[]}} SiteGroup
  */
 
@@ -27,8 +27,8 @@ export function matchesWords(site, words) {
 }
 
 /** @param {SiteView} site @param {SiteFilter} filter @returns {boolean} */
-export function isShown(site, { words, kinds, owners }) {
-  if (owners ? !owners.has(site.owner) : !kinds.has(site.kind)) return false;
+export function isShown(site, { words, kinds, chosen }) {
+  if (chosen ? !chosen.has(site.id) : !kinds.has(site.kind)) return false;
   return words === "" || matchesWords(site, words.toLowerCase());
 }
 

@@ -12,6 +12,7 @@ import {
   siteOrder,
   sitesRevision,
 } from "../app/state/document.js";
+import { followShaping, shaping } from "../app/state/origin.js";
 import { onlySelected, propertyFilter, selected, soughtSite } from "../app/state/view.js";
 import { t } from "../lib/i18n.js";
 import { baseName, shortPath } from "../lib/paths.js";
@@ -33,6 +34,7 @@ export function PropertiesPanel() {
   const filter = currentFilter(counts);
   const groups = groupSites(siteOrder.value, sites, filter);
   useSought(folded);
+  useEffect(followShaping, []);
   /** @param {string} key */
   const toggle = (key) => {
     const now = new Set(folded.value);
@@ -68,7 +70,7 @@ function currentFilter(counts) {
   return {
     words: propertyFilter.value.trim(),
     kinds: shownKinds(counts),
-    owners: selectionOwners(),
+    chosen: selectionSites(),
   };
 }
 
@@ -79,11 +81,18 @@ function shownKinds(counts) {
   return new Set(wanted.length > 0 ? wanted : present);
 }
 
-/** @returns {ReadonlySet<string> | null} the selected link and the joint above it; null: no such filter */
-function selectionOwners() {
+/** @returns {ReadonlySet<string> | null} ids of what shapes the selected link or the joint above it; null: no such filter */
+function selectionSites() {
   if (!onlySelected.value || !selected.value) return null;
-  const joint = robot.value?.joints.find(({ child }) => child === selected.value);
-  return new Set([`link:${selected.value}`, ...(joint ? [`joint:${joint.name}`] : [])]);
+  return shaping.value?.link === selected.value ? shaping.value.sites : ownSites(selected.value);
+}
+
+/** @param {string} link @returns {ReadonlySet<string>} the numbers written at it: known before the studio tells the others */
+function ownSites(link) {
+  const joint = robot.value?.joints.find(({ child }) => child === link)?.name;
+  const owners = [`link:${link}`, `joint:${joint}`];
+  const own = [...allSites().values()].filter(({ owner }) => owners.includes(owner));
+  return new Set(own.map(({ id }) => id));
 }
 
 /** @param {{counts: ReadonlyMap<string, number>}} props */
@@ -137,7 +146,7 @@ function Nothing({ counts }) {
   const others = groupSites(siteOrder.value, allSites(), {
     words,
     kinds: everywhere,
-    owners: null,
+    chosen: null,
   });
   const count = others.reduce((sum, group) => sum + group.sites.length, 0);
   const show = () => {

@@ -55,7 +55,7 @@ const KINDS = new Set(["arg", "property"]);
 const shown = (groups) => groups.map(({ file, group, sites }) => [file, group, ...sites]);
 
 test("sites stand under their file and heading, in the order of the studio", () => {
-  const groups = groupSites(ORDER, SITES, { words: "", kinds: KINDS, owners: null });
+  const groups = groupSites(ORDER, SITES, { words: "", kinds: KINDS, chosen: null });
   assert.deepEqual(shown(groups), [
     ["a.xacro", "Wheels", "wheel_radius", "wheel_width"],
     ["a.xacro", "", "arm"],
@@ -64,7 +64,7 @@ test("sites stand under their file and heading, in the order of the studio", () 
 });
 
 test("all words of the filter must be found, in name, heading, text or help", () => {
-  const groups = groupSites(ORDER, SITES, { words: "WHEELS rad", kinds: KINDS, owners: null });
+  const groups = groupSites(ORDER, SITES, { words: "WHEELS rad", kinds: KINDS, chosen: null });
   assert.deepEqual(shown(groups), [["a.xacro", "Wheels", "wheel_radius"]]);
 });
 
@@ -72,13 +72,13 @@ test("what shapes a link is found whatever its kind", () => {
   const groups = groupSites(ORDER, SITES, {
     words: "",
     kinds: KINDS,
-    owners: new Set(["link:base"]),
+    chosen: new Set(["box @size"]),
   });
   assert.deepEqual(shown(groups), [["a.xacro", "", "box @size"]]);
 });
 
 test("an id that is in the order but not yet known is left out", () => {
-  const groups = groupSites(["ghost", "arm"], SITES, { words: "", kinds: KINDS, owners: null });
+  const groups = groupSites(["ghost", "arm"], SITES, { words: "", kinds: KINDS, chosen: null });
   assert.deepEqual(shown(groups), [["a.xacro", "", "arm"]]);
 });
 

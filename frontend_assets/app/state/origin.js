@@ -11,7 +11,7 @@ import { RefusedError, send } from "../wire.js";
 import { connection } from "./connection.js";
 import { built, robot, site } from "./document.js";
 import { litPlaces } from "./source.js";
-import { selected } from "./view.js";
+import { onlySelected, selected } from "./view.js";
 
 /** The pointer rests so long before anything is asked. */
 const REST_MS = 70;
@@ -99,6 +99,41 @@ async function askOrigin(key) {
     if (part.peek() === key && error instanceof RefusedError)
       origin.value = { part: key, origin: null, refused: error.message };
   }
+}
+
+/** Ids of all that shapes a link or the joint that holds it. @typedef {{link: string, sites: ReadonlySet<string>}} Shaping */
+/** @type {Signal<Shaping | null>} */
+export const shaping = signal(null);
+
+/** Keep `shaping` true of the selected link while only its properties are listed. @returns {() => void} the end of it */
+export function followShaping() {
+  /** @type {ReturnType<typeof setTimeout> | undefined} */
+  let later;
+  const end = effect(() => {
+    const link = onlySelected.value && connection.value === "connected" ? selected.value : null;
+    const joint = robot.value?.joints.find(({ child }) => child === link)?.name;
+    built.value;
+    clearTimeout(later);
+    const again = untracked(() => shaping.value?.link === link);
+    if (link) later = setTimeout(() => askShaping(link, joint), again ? SETTLE_MS : 0);
+  });
+  return () => {
+    clearTimeout(later);
+    end();
+  };
+}
+
+/** @param {string} link @param {string | undefined} joint */
+async function askShaping(link, joint) {
+  const parts = [`link:${link}`, ...(joint === undefined ? [] : [`joint:${joint}`])];
+  const asked = parts.map((one) => send({ type: "get_origin", part: one }).catch(() => null));
+  const sites = new Set();
+  for (const answer of await Promise.all(asked)) {
+    if (answer?.type !== "origin") return;
+    const { attributes, inputs } = answer.origin;
+    for (const one of [...attributes, ...inputs]) if (one.site) sites.add(one.site);
+  }
+  if (selected.peek() === link) shaping.value = { link, sites };
 }
 
 /** What the pointed-at property shapes, as soon as it is known. @type {Signal<Effects | null>} */
