@@ -222,6 +222,8 @@ class _Work:
             self._detaching.detach(record)
 
     def _set_literal(self, path: str, before: Draft, now: Draft) -> None:
+        if "$" in before.text:
+            raise PatchRefused("the attribute was evaluated")
         element = self._run.record.trees[path].elements[now.ordinal]
         name = now.attribute
         for made in self._run.index.came_out.get(element, ()):

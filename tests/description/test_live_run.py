@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import os
+import random
 import re
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -217,6 +218,23 @@ def test_every_number_of_our_models_edited_and_edited_back_is_as_in_a_full_run(n
     done = sweep(file, policy_for(MODELS))
     assert done.wrong == []
     assert done.patched > done.full
+
+
+@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("name", ["rover_description/urdf/rover.urdf.xacro", "arm6_description"])
+def test_a_random_sequence_of_edits_of_our_models_is_as_in_full_runs(name: str, seed: int):
+    file = next(iter((MODELS / name).rglob("*.urdf.xacro")), MODELS / name)
+    side, choose = SideBySide(file, policy_for(MODELS)), random.Random(seed)
+    for _ in range(25):
+        site = side.told.site(choose.choice(side.told.sites))
+        near = f"{(site.number or 1) * choose.uniform(0.5, 2):.4f}"
+        text = choose.choice([near, near, near, "0", "-1.5", "100", f"${{{near}}}", "true"])
+        side.edit(site.id, text)
+        assert side.differences() == []
+        if side.told.failure is not None:
+            side.undo()
+            assert side.differences() == []
+    assert side.patched
 
 
 @settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.too_slow])

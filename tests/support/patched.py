@@ -77,6 +77,13 @@ class SideBySide:
         self.full_told.sources.edit(edit, "edit")
         return self.send(EditRequest((edit,)))
 
+    def undo(self) -> bool:
+        """Take the last edit back; whether that was patched."""
+        change, same = self.told.sources.undo(), self.full_told.sources.undo()
+        assert change is not None
+        assert same is not None
+        return self.send(EditRequest(change.edits))
+
     def splice(self, *edits: Edit) -> bool:
         """Edit bytes; whether that was patched."""
         for edit in edits:
