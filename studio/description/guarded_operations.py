@@ -166,7 +166,13 @@ def modulo(left: Any, right: Any) -> Any:  # noqa: ANN401
 
 
 def type_of(value: object) -> type:
-    """`type` with one argument; with three it would make a class."""
+    """`type` with one argument; with three it would make a class, and so would the type of one.
+
+    Raises:
+        Refusal: The value is a type.
+    """
+    if isinstance(value, type):
+        raise Refusal("expression-refused", "The type of a type may not be used in an expression.")
     return type(value)
 
 
