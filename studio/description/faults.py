@@ -57,7 +57,7 @@ def hint(name: str, known: Iterable[str], otherwise: str) -> str:
 
 def shorten(text: str, limit: int = 120) -> str:
     """A text for a sentence: on one line, cut when long."""
-    line = " ".join(text.split())
+    line = " ".join(text.encode("utf-8", "replace").decode().split())
     return line if len(line) <= limit else line[: limit - 3] + "..."
 
 

@@ -38,6 +38,7 @@ _PURE_LIMITS: Final = Limits(seconds=0.5)
 """Of one expression in a YAML file."""
 _LONG: Final = 1_000
 """Characters; shorter texts are bounded by their number."""
+_NOT_XML: Final = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 WARNINGS_LIMIT: Final = 1_000
 _MESSAGE_LIMIT: Final = 2_000
 """Characters."""
@@ -300,7 +301,8 @@ class Texts:
     def say(self, severity: str, text: str) -> None:
         """A message of the description, or about a name that it uses."""
         if text:
-            self.warn(f"xacro-{severity}", text[:_MESSAGE_LIMIT], _SEVERITIES[severity])
+            said = shorten(text, _MESSAGE_LIMIT)
+            self.warn(f"xacro-{severity}", said, _SEVERITIES[severity])
 
     def steps(self, items: Iterable[Any]) -> Iterator[Any]:
         """The items of a loop, each counted."""
@@ -334,9 +336,12 @@ class Texts:
         return self._counted(value)
 
     def _counted(self, value: Any) -> Any:  # noqa: ANN401
-        """The value, its characters counted when it is a long text."""
-        if type(value) is str and len(value) > _LONG:
-            self.budget.text(len(value))
+        """The value; a text can be written as XML, and is counted when it is long."""
+        if type(value) is str:
+            if len(value) > _LONG:
+                self.budget.text(len(value))
+            if not value.isprintable() and _NOT_XML.search(value):
+                raise Fault("not-xml-text", "It makes a character that XML cannot hold.")
         return value
 
     def _substitution(self, text: str, scope: Scope) -> str:
@@ -344,7 +349,7 @@ class Texts:
         if command == "cwd":
             return os.getcwd()  # noqa: PTH109 - as xacro says it
         try:
-            return substitute(command, self)
+            return self._counted(substitute(command, self))
         except Fault:
             raise
         except (RecursionError, MemoryError) as error:
