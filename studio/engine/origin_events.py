@@ -34,7 +34,7 @@ class Effects(Message):
     parts: tuple[PartEffect, ...]
     """Parts that an attribute of changes, the first 1000."""
     changed_links: tuple[str, ...]
-    """Links that look otherwise: size, mesh or colour."""
+    """Links that look otherwise: size, mesh or colour, or that are not there at all."""
     moved_links: tuple[str, ...]
     """Links that only sit elsewhere, those below a moved joint too."""
     counts: dict[Aspect, int]

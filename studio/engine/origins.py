@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from studio.robot.values import Robot
 
 PARTS_KEPT: Final = 1_000
-_LOOKS: Final = frozenset({Aspect.SIZE, Aspect.SHAPE, Aspect.COLOR})
+_LOOKS: Final = frozenset({Aspect.SIZE, Aspect.SHAPE, Aspect.COLOR, Aspect.PRESENCE})
 
 
 class OriginDesk:

@@ -98,6 +98,14 @@ def test_a_pointed_at_property_lights_up_what_it_shapes_and_says_so(tab: StudioP
     assert tab.errors == []
 
 
+def test_the_values_of_a_link_are_all_that_shape_it(tab: StudioPage):
+    tab.page.get_by_role("treeitem", name="front_left_wheel").click()
+    tab.page.get_by_role("button", name="Show its values").click()
+    wait_until("what its macro reads", lambda: tab.row("wheel_radius").count() == 1)
+    assert tab.row("wheel_base").count() == 1
+    assert tab.row("cameras").count() == 0
+
+
 def test_an_element_of_the_urdf_leads_to_its_number(tab: StudioPage):
     tab.page.get_by_role("tab", name="URDF", exact=True).click()
     limit = tab.page.locator("code[data-line]", has_text="upper=").first

@@ -35,6 +35,9 @@ BODY = """
   <origin xyz="0 0 ${reach}"/><axis xyz="0 0 1"/>
   <limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
 <joint name="hold" type="fixed"><parent link="arm"/><child link="tip"/></joint>
+<xacro:arg name="extra" default="true"/>
+<xacro:if value="$(arg extra)"><link name="more"/>
+  <joint name="carry" type="fixed"><parent link="tip"/><child link="more"/></joint></xacro:if>
 """
 
 
@@ -58,13 +61,16 @@ def test_who_lights_up_is_known_from_the_robot(tmp_path: Path):
             document, ear = await opened(made, file)
             reach = await effects(document, ear, "reach")
             assert reach["request"] == 7
-            assert (reach["changed_links"], reach["moved_links"]) == ([], ["arm", "tip"])
-            assert reach["counts"] == {"pose": 2}
+            assert (reach["changed_links"], reach["moved_links"]) == ([], ["arm", "tip", "more"])
+            assert reach["counts"] == {"pose": 3}
             assert reach["parts"] == [{"part": "joint:turn", "aspects": ["pose"]}]
             width = await effects(document, ear, "width")
             assert (width["changed_links"], width["moved_links"]) == (["base"], [])
             shade = await effects(document, ear, "shade")
             assert (shade["changed_links"], shade["counts"]) == (["base"], {"color": 1})
+            extra = await effects(document, ear, "extra")
+            assert (extra["changed_links"], extra["counts"]) == (["more"], {"presence": 2})
+            assert extra["decisions"] == 1
             idle = await effects(document, ear, "idle")
             assert (idle["parts"], idle["readers"]) == ([], [])
 
