@@ -88,10 +88,12 @@ function RenameForm({ variant, onDone }) {
 
 /** The robot as its files say: always there to go back to. */
 function AsSaved() {
-  const active = variants.value.active === "";
+  const { active: name, modified } = variants.value;
+  const active = name === "";
+  const changed = modified || !active;
   return html`<li class=${`variant ${active ? "active" : ""}`}>
     <${Choice} name="" label=${t("variants.saved")} active=${active}>
-      <small class="muted">${t("variants.saved.note")}</small>
+      <small class="muted">${t(changed ? "variants.saved.back" : "variants.saved.note")}</small>
     <//>
   </li>`;
 }

@@ -53,7 +53,7 @@ def rows(one: Link | Joint, other: Link | Joint) -> list[Row]:
     return [each.row for each in found]
 
 
-def whats(found: list[Row]) -> list[str]:
+def told_of(found: list[Row]) -> list[str]:
     return [row.what for row in found]
 
 
@@ -117,12 +117,12 @@ def test_a_slide_has_limits_in_metres():
 
 
 def test_limits_of_joints_of_another_type_are_not_compared():
-    assert whats(rows(HINGE, replace(HINGE, type=JointType.PRISMATIC))) == ["type"]
+    assert told_of(rows(HINGE, replace(HINGE, type=JointType.PRISMATIC))) == ["type"]
 
 
 def test_only_where_an_axis_points_matters():
     assert rows(HINGE, replace(HINGE, axis=(0, 0, 3))) == []
-    assert whats(rows(HINGE, replace(HINGE, axis=(0, 0, -1)))) == ["axis.z"]
+    assert told_of(rows(HINGE, replace(HINGE, axis=(0, 0, -1)))) == ["axis.z"]
     fixed = replace(HINGE, type=JointType.FIXED)
     assert rows(fixed, replace(fixed, axis=(1, 0, 0))) == []
 
@@ -131,11 +131,11 @@ def test_shapes_differ_in_their_own_measures():
     assert rows(link("a", Box((1, 1, 1))), link("a", Box((1, 1, 2)))) == [
         Row("visual.size.z", 1, 2, "m", 1)
     ]
-    assert whats(rows(link("a", Cylinder(1, 1)), link("a", Cylinder(2, 3)))) == [
+    assert told_of(rows(link("a", Cylinder(1, 1)), link("a", Cylinder(2, 3)))) == [
         "visual.radius",
         "visual.length",
     ]
-    assert whats(rows(link("a", Sphere(1)), link("a", Sphere(2)))) == ["visual.radius"]
+    assert told_of(rows(link("a", Sphere(1)), link("a", Sphere(2)))) == ["visual.radius"]
     assert rows(link("a", Mesh("m.stl")), link("a", Mesh("n.stl", (1, 1, 2)))) == [
         Row("visual.mesh", "m.stl", "n.stl", "", 1),
         Row("visual.scale.z", 1.0, 2, "", 1),
@@ -150,7 +150,7 @@ def test_colours_and_textures_differ():
         Row("visual.color", "1 0 0 1", "0 0 1 1", "", 1)
     ]
     painted = Material("p", None, "p.png")
-    assert whats(rows(link("a", Sphere(1)), link("a", Sphere(1), painted))) == ["visual.texture"]
+    assert told_of(rows(link("a", Sphere(1)), link("a", Sphere(1), painted))) == ["visual.texture"]
 
 
 def test_shapes_are_counted_and_those_that_only_one_has_are_named():
@@ -165,5 +165,5 @@ def test_masses_differ_with_their_centre_and_inertia():
     one = Inertial(Origin(), 1.0, 1e-9, 0, 0, 1e-9, 0, 1e-9)
     other = replace(one, mass_kg=2.0, ixx=3e-9, origin=Origin((0.1, 0, 0)))
     found = rows(Link("a", inertial=one), Link("a", inertial=other))
-    assert whats(found) == ["mass", "inertial.x", "ixx"]
+    assert told_of(found) == ["mass", "inertial.x", "ixx"]
     assert rows(Link("a", inertial=one), Link("a")) == [Row("mass", 1.0, None, "kg")]

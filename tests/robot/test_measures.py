@@ -84,8 +84,8 @@ def test_whole_robots_differ_in_mass_reach_size_and_counts():
     other = measure(higher, Kinematics(higher), np.zeros(1), bar)
     assert [row.what for row in whole_rows(measured, other)] == ["reach", "size.z"]
     lighter = replace(other, mass_kg=1.0, joints=0, name="s", box=None)
-    whats = [row.what for row in whole_rows(measured, lighter)]
-    assert whats == ["name", "joints", "total_mass", "reach"]
+    told_of = [row.what for row in whole_rows(measured, lighter)]
+    assert told_of == ["name", "joints", "total_mass", "reach"]
 
 
 def test_masses_that_are_no_numbers_count_for_nothing():
