@@ -90,7 +90,7 @@ class Record:
         self.forwards = False
         """`text` is a name that is passed on as it is (`:=^`)."""
         self.is_noisy = False
-        """It gave a warning."""
+        """It did more than come to a value: a warning, say."""
 
     @property
     def counts(self) -> bool:

@@ -206,9 +206,7 @@ class Texts:
 
     def warn(self, code: str, sentence: str, severity: Severity = Severity.WARNING) -> None:
         """Note a warning at the element being worked on, once."""
-        if self.replay is not None:
-            self.replay.refuse(sentence)
-        self._now.is_noisy = True
+        self._says_more(sentence)
         if len(self.warnings) >= WARNINGS_LIMIT:
             return
         place = self.at.place if self.at else None
@@ -312,17 +310,31 @@ class Texts:
 
     def _segment(self, cut: Cut, text: str, scope: Scope) -> Any:  # noqa: ANN401
         if cut is Cut.EXPRESSION:
-            inner = text_of(self.value(text, scope)) if "$" in text else text
-            return self._expression(inner, scope)
+            return self._expression(self._inner(text, scope) if "$" in text else text, scope)
         if cut is Cut.SUBSTITUTION:
             return self._substitution(text, scope)
         return text
+
+    def _inner(self, text: str, scope: Scope) -> str:
+        """The text of an expression that is put together first."""
+        inner = text_of(self.value(text, scope))
+        if compile_expression(inner).compared:
+            self._says_more("what is compared depends on a value")
+        return inner
+
+    def _says_more(self, reason: str) -> None:
+        """Note that the text under way does more than come to a value."""
+        if self.replay is not None:
+            self.replay.refuse(reason)
+        self._now.is_noisy = True
 
     def _expression(self, text: str, scope: Scope) -> Any:  # noqa: ANN401
         expression = compile_expression(text)
         if expression.name is not None:
             return self._counted(scope.value_of(expression.name))
-        self.is_pure &= expression.is_pure
+        if not expression.is_pure:
+            self._says_more("an expression changes what it reads")
+            self.is_pure = False
         try:
             value = eval(expression.code, scope.names)
         except Fault:

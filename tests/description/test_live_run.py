@@ -195,6 +195,16 @@ def test_values_are_told_apart_as_they_print(tmp_path: Path):
         assert edited(side, side.told.sites[0], text)
 
 
+def test_choices_that_an_argument_gives_another_property_follow_it(tmp_path: Path):
+    body = (
+        '<xacro:arg name="t" default="left"/><xacro:property name="k" value="right"/>'
+        '<link name="a"><visual><origin xyz="${1 if k == \'$(arg t)\' else 2} 0 0"/></visual></link>'
+    )
+    side = SideBySide(write(tmp_path, {"r.xacro": robot(body)}), policy_for(tmp_path))
+    assert not edited(side, site_of(side, "t", SiteKind.ARG), "middle")
+    assert "middle" in side.told.site(site_of(side, "k")).widget.choices
+
+
 def test_a_lazy_property_is_read_by_the_next_reader_when_its_first_is_gone(tmp_path: Path):
     body = (
         '<xacro:property name="y" value="${xacro.load_yaml(\'l.yaml\')}"/>'
