@@ -113,7 +113,8 @@ def _add_read_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--trust",
         action="store_true",
-        help="let $(env) in the files see every environment variable, not only those of ROS",
+        help="for your own files, on this machine only: $(env) sees every environment variable, "
+        "not only those of ROS; expressions and what may be read stay as they are",
     )
 
 

@@ -107,6 +107,19 @@ def test_xacro_hides_the_environment_unless_it_is_trusted(tmp_path: Path):
     assert f'name="{os.environ["HOME"]}"'.encode() in run(*arguments, "--trust").stdout
 
 
+def test_trust_opens_the_environment_and_nothing_else(tmp_path: Path):
+    (tmp_path / "secret.yaml").write_text("k: found\n")
+    folder = tmp_path / "own"
+    folder.mkdir()
+    robot = folder / "r.xacro"
+    arguments = ("xacro", str(robot), "--trust", "--data-dir", str(tmp_path / "data"))
+    for text in ("().__class__", "9**9**9", "xacro.load_yaml('../secret.yaml')"):
+        robot.write_text(f'<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="${{{text}}}"/>')
+        done = run(*arguments)
+        assert (done.returncode, done.stdout) == (2, b"")
+        assert b"Traceback" not in done.stderr
+
+
 def one_sentence(done: subprocess.CompletedProcess[bytes]) -> str:
     """The sentence on stderr of a command that ended with 2."""
     assert done.returncode == 2
@@ -129,6 +142,8 @@ def test_every_mistake_is_one_sentence(tmp_path: Path):
     assert "choose --data-dir" in one_sentence(run("demo", "--data-dir", unusable))
     beyond = one_sentence(run("demo", "--no-token", "--host", "0.0.0.0", *data))
     assert "--no-token is only for this machine" in beyond
+    trusting = one_sentence(run("demo", "--trust", "--host", "0.0.0.0", *data))
+    assert "--trust is only for this machine" in trusting
 
 
 def test_a_taken_port_is_one_sentence(tmp_path: Path):

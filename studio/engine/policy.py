@@ -14,8 +14,13 @@ if TYPE_CHECKING:
 
 
 def target_of(location: Location, *, trusted: bool) -> Target:
-    """The entry file of a location that has one, and the rules its expansion runs under."""
+    """The entry file of a location that has one, and the rules its expansion runs under.
+
+    Trust shows the files the whole environment, and nothing else: expressions stay bounded, and
+    what may be read is what is served. What came in an archive is never trusted.
+    """
     assert location.entry is not None
+    trusted = trusted and not location.is_unpacked
     environment = {
         name: value for name, value in os.environ.items() if trusted or name in XACRO_ENVIRONMENT
     }

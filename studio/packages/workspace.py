@@ -53,6 +53,11 @@ class Location:
     problems: tuple[Problem, ...]
     data_folder: Path
 
+    @property
+    def is_unpacked(self) -> bool:
+        """Whether it came in an archive: somebody else's, most likely."""
+        return self.root.is_relative_to(self.data_folder / UPLOADS)
+
     def choose_package(self, name: str, folder: Path) -> Location:
         """Use a folder for a package from now on, serve it, and remember it.
 

@@ -54,6 +54,8 @@ def launch(settings: Settings, opening: Opening, *, viewer_link: bool = False) -
     )
     if settings.token is None and not is_loopback(settings.host):
         raise SettingsError("--no-token is only for this machine: leave it out with this --host.")
+    if settings.trusted and not is_loopback(settings.host):
+        raise SettingsError("--trust is only for this machine: leave it out with this --host.")
     key = cookie_key(settings.data_folder, datetime.now(UTC).timestamp())
     credentials = Credentials(settings.token, key)
     with bind(settings.host, settings.port) as listener:
