@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from studio.engine.comparison import ROWS_SHOWN, input_differences, robot_differences
 from studio.engine.ghost import Ghost
+from studio.engine.listeners import encode
 from studio.engine.second_robot import SecondRobot, SecondRobots, present_robot
 from studio.engine.variant_events import Comparison, Side
 from studio.errors import CommandError
@@ -152,7 +153,8 @@ class ComparisonDesk:
     def _tell(self, news: Comparison) -> None:
         if news != self.told:
             self.told = news
-            self._document.board.audience.tell(news)
+            # While somebody drags, a slow page need not have them all.
+            self._document.board.audience.post(encode(news), key="comparison")
 
 
 def _renamed(side: Side, old: str, new: str) -> Side:

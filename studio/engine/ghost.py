@@ -98,11 +98,7 @@ class Ghost:
     def _positions(self, kinematics: Kinematics) -> Floats:
         """Where the joints of the robot stand, for another one that has some of them."""
         positions = self._model.joints.by_name()
-        kept = {
-            name: kinematics.clamp(name, positions[name])
-            for name in kinematics.free
-            if name in positions
-        }
+        kept = {name: kinematics.clamp(name, positions.get(name, 0.0)) for name in kinematics.free}
         return kinematics.positions_with_mimic(kept)
 
 
