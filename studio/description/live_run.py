@@ -13,11 +13,12 @@ from typing import TYPE_CHECKING, NamedTuple
 from studio.description.detaching import Detaching
 from studio.description.faults import Fault
 from studio.description.propagation import Propagation
+from studio.description.pure_expressions import pure_value
 from studio.description.replay import PatchRefused, Replay, is_same
 from studio.description.run_record import YamlScalar
 from studio.description.scopes import Cell, literal_value
 from studio.description.text_edits import TextEdits
-from studio.description.texts import Argument, pure_value
+from studio.description.texts import Argument
 from studio.description.values import SiteKind
 from studio.description.yaml_reading import scalar_of
 from studio.description.yaml_values import replace_item, rewrite

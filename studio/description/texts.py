@@ -7,16 +7,16 @@ import re
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, Final, cast
 
-from studio.description.budget import Budget, Limits
 from studio.description.expressions import HELPERS, Expression, compile_expression
 from studio.description.faults import Fault, Refusal, hint, shorten
 from studio.description.graph import Readable, Record, Role
 from studio.description.guarded_operations import SIZE_LIMIT, text_of
 from studio.description.packages_found import find_package
+from studio.description.pure_expressions import failed, out_of_bounds, pure_value
 from studio.description.run_record import YamlReads
 from studio.description.scopes import Cell, Scope, literal_value
 from studio.description.substitution import substitute
-from studio.description.symbols import make_symbols, pure_names
+from studio.description.symbols import make_symbols
 from studio.description.templates import Cut, segments_of
 from studio.description.yaml_values import Reader, wrap
 from studio.problems import Problem, Severity
@@ -24,6 +24,7 @@ from studio.problems import Problem, Severity
 if TYPE_CHECKING:
     from collections.abc import Generator, Iterable, Iterator
 
+    from studio.description.budget import Budget
     from studio.description.graph import Consumer, Sink
     from studio.description.run_record import Binding, Input, YamlScalar
     from studio.description.scopes import Replay
@@ -34,8 +35,6 @@ if TYPE_CHECKING:
 _ARG_COMPARED: Final = re.compile(r"""['"]?\$\(arg\s+(\w+)\)['"]?\s*[=!]=\s*['"]([^'"]*)['"]""")
 _STRUCTURE: Final = Role.STRUCTURE
 _LASTING: Final = frozenset({int, float, str, bool, list, dict, tuple, type(None)})
-_PURE_LIMITS: Final = Limits(seconds=0.5)
-"""Of one expression in a YAML file."""
 _LONG: Final = 1_000
 """Characters; shorter texts are bounded by their number."""
 _NOT_XML: Final = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
@@ -340,9 +339,9 @@ class Texts:
         except Fault:
             raise
         except (RecursionError, MemoryError) as error:
-            raise _out_of_bounds(error) from None
+            raise out_of_bounds(error) from None
         except Exception as error:  # noqa: BLE001 - whatever the expression does
-            raise _failed(text, error) from None
+            raise failed(text, error) from None
         if expression.compared and self.replay is None:
             self._note_compared(expression, scope)
         return self._counted(value)
@@ -365,9 +364,9 @@ class Texts:
         except Fault:
             raise
         except (RecursionError, MemoryError) as error:
-            raise _out_of_bounds(error) from None
+            raise out_of_bounds(error) from None
         except Exception as error:  # noqa: BLE001 - $(eval) may raise anything
-            raise _failed(command, error) from None
+            raise failed(command, error) from None
 
     # Notes
 
@@ -384,28 +383,3 @@ class Texts:
             found = scope.find(name)
             if found is not None and found[0].binding is not None:
                 found[0].binding.compared[text] = None
-
-
-def pure_value(text: str) -> Any:  # noqa: ANN401
-    """An expression of a YAML file: no names but mathematics and builtins."""
-    code = compile_expression(text).code
-    try:
-        return eval(code, pure_names(Budget(_PURE_LIMITS).steps))
-    except Fault:
-        raise
-    except Exception as error:  # noqa: BLE001 - whatever the expression does
-        raise _failed(text, error) from None
-
-
-def _failed(text: str, error: Exception) -> Fault:
-    reason = str(error.args[0]) if isinstance(error, KeyError) and error.args else str(error)
-    if isinstance(error, KeyError):
-        reason = f"there is no key {error}"
-    spoken = reason or type(error).__name__
-    return Fault("bad-expression", f'"{shorten(text)}" cannot be evaluated: {spoken}.')
-
-
-def _out_of_bounds(error: BaseException) -> Refusal:
-    if isinstance(error, MemoryError):
-        return Refusal("value-too-large", "An expression needs too much memory.")
-    return Refusal("nested-too-deep", "Properties or expressions are nested too deeply.")

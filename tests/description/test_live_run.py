@@ -198,7 +198,8 @@ def test_values_are_told_apart_as_they_print(tmp_path: Path):
 def test_choices_that_an_argument_gives_another_property_follow_it(tmp_path: Path):
     body = (
         '<xacro:arg name="t" default="left"/><xacro:property name="k" value="right"/>'
-        '<link name="a"><visual><origin xyz="${1 if k == \'$(arg t)\' else 2} 0 0"/></visual></link>'
+        '<xacro:property name="m" value="${1 if k == \'$(arg t)\' else 2}"/>'
+        '<link name="a"><inertial><mass value="${m}"/></inertial></link>'
     )
     side = SideBySide(write(tmp_path, {"r.xacro": robot(body)}), policy_for(tmp_path))
     assert not edited(side, site_of(side, "t", SiteKind.ARG), "middle")
