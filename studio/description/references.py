@@ -15,7 +15,7 @@ from studio.description.named_files import existing
 from studio.description.subject import found_in
 from studio.description.templates import Cut
 from studio.description.uses import Use, uses_in
-from studio.description.words import FILE_ATTRIBUTES, PART_REFERENCES, XACRO_TAGS
+from studio.description.words import FILE_ATTRIBUTES, PART_REFERENCES
 from studio.errors import EditError
 
 if TYPE_CHECKING:
@@ -172,9 +172,10 @@ def _macro_around(element: SourceElement) -> SourceElement | None:
 
 def _given(subject: Subject, definitions: Definitions) -> Iterator[_Spot]:
     """Calls that give a parameter, and `insert_block` of a block."""
-    for element, macros in definitions.called.items():
-        if subject.name in element.attributes and not set(macros).isdisjoint(subject.elements):
-            yield from _attribute_name(element, subject.name)
+    for element in _callers(subject, definitions):
+        if subject.name in element.attributes:
+            in_run = element in definitions.called
+            yield from _attribute_name(element, subject.name, in_run=in_run)
     for tree in definitions.trace.trees.values():
         for element in tree.elements:
             is_insert = element.tag == "xacro:insert_block"
@@ -184,31 +185,34 @@ def _given(subject: Subject, definitions: Definitions) -> Iterator[_Spot]:
                     yield from _attribute(element, "name")
 
 
+def _callers(subject: Subject, definitions: Definitions) -> Iterator[SourceElement]:
+    """Elements that call a macro of the subject, or would if the run came by."""
+    names = {macro.attributes.get("name", "") for macro in subject.elements}
+    for tree in definitions.trace.trees.values():
+        for element in tree.elements:
+            called = definitions.called.get(element)
+            if called is None:
+                own = element.tag.removeprefix("xacro:")
+                is_call = own != element.tag and own.rpartition(".")[2] in names
+            else:
+                is_call = not set(called).isdisjoint(subject.elements)
+            if is_call:
+                yield element
+
+
 def _is_block_property(subject: Subject) -> bool:
     return any(one.tag == "xacro:property" for one in subject.elements)
 
 
 def _calls(subject: Subject, definitions: Definitions) -> Iterator[_Spot]:
-    """Elements that call a macro, or would if the run came by."""
-    last = subject.name.rpartition(".")[2]
-    for tree in definitions.trace.trees.values():
-        for element in tree.elements:
-            called = definitions.called.get(element)
-            own = element.tag.removeprefix("xacro:")
-            is_named = own != element.tag and own not in XACRO_TAGS
-            if called is not None and not set(called).isdisjoint(subject.elements):
-                yield from _call(element)
-            elif called is None and is_named and own.rpartition(".")[2] == last:
-                start = element.offset + 1
-                yield _Spot(tree.path, start, start + len(element.tag.encode()), in_run=False)
-
-
-def _call(element: SourceElement) -> Iterator[_Spot]:
-    if element.tag == "xacro:call":
-        yield from _attribute(element, "macro")
-        return
-    start = element.offset + 1
-    yield _Spot(element.tree.path, start, start + len(element.tag.encode()))
+    """Calls of a macro: the names of their tags, or what `xacro:call` says."""
+    for element in _callers(subject, definitions):
+        if element.tag == "xacro:call":
+            yield from _attribute(element, "macro")
+            continue
+        start = element.offset + 1
+        end = start + len(element.tag.encode())
+        yield _Spot(element.tree.path, start, end, element in definitions.called)
 
 
 def _parts(subject: Subject, definitions: Definitions) -> Iterator[_Spot]:
@@ -244,10 +248,12 @@ def _attribute(element: SourceElement, attribute: str) -> Iterator[_Spot]:
     yield _Spot(element.tree.path, span.start, span.end)
 
 
-def _attribute_name(element: SourceElement, attribute: str) -> Iterator[_Spot]:
+def _attribute_name(
+    element: SourceElement, attribute: str, *, in_run: bool = True
+) -> Iterator[_Spot]:
     """The name of an attribute: it stands before its value, its `=` and its quote."""
     tree = element.tree
     for spot in _attribute(element, attribute):
         start = tree.data.rfind(attribute.encode(tree.encoding), element.offset, spot.start)
         if start >= 0:
-            yield _Spot(tree.path, start, start + len(attribute.encode(tree.encoding)))
+            yield _Spot(tree.path, start, start + len(attribute.encode(tree.encoding)), in_run)

@@ -201,7 +201,7 @@ def open_tags(text: str, index: int) -> tuple[Tag, ...]:
     A closing tag closes the nearest open one of its name; what lies between is taken as closed.
     """
     opened: list[Tag] = []
-    for tag, is_closing, is_empty in _tags_before(text, index):
+    for tag, is_closing, is_empty in tags_before(text, index):
         if not is_closing:
             if not is_empty:
                 opened.append(tag)
@@ -221,7 +221,7 @@ def declarations_in(text: str) -> Iterator[Tag]:
         yield tag
 
 
-def _tags_before(text: str, index: int) -> Iterator[tuple[Tag, bool, bool]]:
+def tags_before(text: str, index: int) -> Iterator[tuple[Tag, bool, bool]]:
     """Each whole tag before the cursor: (tag, it closes, it is empty)."""
     position = max(0, index - WALK_LIMIT)
     while (position := text.find("<", position, index)) >= 0:

@@ -1,4 +1,4 @@
-"""Every place in a file's attributes where an expression or substitution names something."""
+"""Every place in a file where an expression or substitution names something."""
 
 from __future__ import annotations
 
@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING, Final
 
 from studio.description.attribute_spans import attribute_spans, character_offsets
 from studio.description.name_chains import chains_of
-from studio.description.token_at import segments_in
+from studio.description.source_tree import SourceText
+from studio.description.token_at import segments_in, tags_before
+from studio.description.values import Span
 from studio.errors import EditError
 
 if TYPE_CHECKING:
@@ -16,9 +18,9 @@ if TYPE_CHECKING:
 
     from studio.description.name_chains import Chain
     from studio.description.source_tree import SourceElement, SourceTree
-    from studio.description.values import Span
 
 _SUBSTITUTION: Final = re.compile(r"\s*(\w+)\s+(\S+)")
+_NO_MARKUP: Final = re.compile(r"<!--.*?-->|<!\[CDATA\[.*?\]\]>", re.DOTALL)
 _PACKAGE: Final = re.compile(r"(?:package|model)://([^/\s\"']+)")
 
 
@@ -41,8 +43,9 @@ class Use:
 
 
 def uses_in(tree: SourceTree) -> tuple[Use, ...]:
-    """All uses of a file in the order of its elements; those in texts between tags are left out."""
-    return tuple(use for element in tree.elements for use in _of_element(tree, element))
+    """All uses of a file: in attributes, in the order of their elements, then between tags."""
+    in_attributes = (use for element in tree.elements for use in _of_element(tree, element))
+    return (*in_attributes, *_of_contents(tree))
 
 
 def _of_element(tree: SourceTree, element: SourceElement) -> Iterator[Use]:
@@ -53,6 +56,38 @@ def _of_element(tree: SourceTree, element: SourceElement) -> Iterator[Use]:
             yield from _of_value(tree, element, span)
     except EditError:
         return
+
+
+def _of_contents(tree: SourceTree) -> Iterator[Use]:
+    texts = (child for one in tree.elements for child in one.children if type(child) is SourceText)
+    if not any("$" in one.text and not one.literal for one in texts):
+        return
+    try:
+        for element, start, end in _contents(tree):
+            yield from _of_value(tree, element, Span(start, end, ""))
+    except EditError:
+        return
+
+
+def _contents(tree: SourceTree) -> Iterator[tuple[SourceElement, int, int]]:
+    """The texts between tags that hold a `$`: the element around, and the bytes."""
+    # As many characters as bytes; what is no markup here keeps its length.
+    text = _NO_MARKUP.sub(_blanked, tree.data.decode("latin-1"))
+    elements = {one.offset: one for one in tree.elements}
+    opened: list[SourceElement | None] = []
+    behind = 0
+    for tag, is_closing, is_empty in tags_before(text, len(text)):
+        if opened and (around := opened[-1]) and "$" in text[behind : tag.start]:
+            yield around, behind, tag.start
+        behind = tag.end
+        if is_closing:
+            del opened[-1:]
+        elif not is_empty:
+            opened.append(elements.get(tag.start))
+
+
+def _blanked(found: re.Match[str]) -> str:
+    return " " * len(found[0])
 
 
 def _of_value(tree: SourceTree, element: SourceElement, span: Span) -> Iterator[Use]:

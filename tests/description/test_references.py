@@ -95,6 +95,27 @@ def test_args_packages_links_and_files_are_named(editor: Editor, words: str, exp
     assert named(editor.references(editor.entry, words)) == expected
 
 
+def test_texts_between_tags_and_calls_that_are_not_made_name_things_too(tmp_path: Path):
+    body = """
+  <xacro:macro name="inner" params="topic size:=1"><link name="l${size}"/></xacro:macro>
+  <xacro:macro name="never" params="topic"><!-- ${topic} <a> -->
+    <xacro:inner topic="a"/><param name="p">x > 1 ${topic} </param>
+  </xacro:macro>
+  <xacro:property name="rate" value="5"/>
+  <gazebo><rate a=">">${rate}</rate><![CDATA[ ${rate} ]]><update> ${rate * 2} </update></gazebo>
+"""
+    editor = Editor(tmp_path, write(tmp_path, {"a.xacro": robot(body)}))
+    inner = editor.references(editor.entry, 'name="inner" params="to|pic')
+    assert named(inner) == ["a.xacro:2 topic", "a.xacro:4 topic"]
+    assert [one.in_run for one in inner.references] == [True, False]
+    never = editor.references(editor.entry, 'name="never" params="to|pic')
+    assert named(never) == ["a.xacro:3 topic", "a.xacro:4 topic"]
+    rate = editor.references(editor.entry, 'property name="ra|te"')
+    assert named(rate) == ["a.xacro:6 rate", "a.xacro:7 rate", "a.xacro:7 rate"]
+    assert all(one.in_run for one in rate.references)
+    assert editor.meaning(editor.entry, "${ra|te}</rate>").values == ("5",)
+
+
 def test_what_nothing_names_has_no_references(editor: Editor):
     found = editor.references(editor.entry, "<!-- [0.1:2] m h|ow")
     assert (found.kind, found.count) == (None, 0)
