@@ -1,6 +1,6 @@
 /** What is told of a part's origin, as lists for the page: its attributes by element, values as read. */
 
-/** @import { Aspect, OriginAttribute, OriginInput } from "../types/wire.d.ts" */
+/** @import { Aspect, OriginAttribute } from "../types/wire.d.ts" */
 
 import { formatNumber, parseNumber, toDegrees } from "./numbers.js";
 
@@ -36,9 +36,13 @@ export function valueText(value, unit, degrees) {
 /** @param {string} text @returns {boolean} something in it was computed or looked up */
 export const isComputed = (text) => text.includes("$");
 
-/** @param {readonly OriginInput[]} inputs @param {number} at @returns {OriginInput[]} what it was made of */
-export function behind(inputs, at) {
-  return (inputs[at]?.inputs ?? []).flatMap((one) => inputs[one] ?? []);
+/** By element and attribute: the kind of part that the attribute names. @type {Record<string, string>} */
+const REFERENCES = { "parent@link": "link", "child@link": "link", "mimic@joint": "joint" };
+
+/** @param {OriginAttribute} attribute @returns {string | null} key of another part that it names */
+export function referredPart({ element, attribute, value }) {
+  const kind = REFERENCES[`${element}@${attribute}`];
+  return kind ? `${kind}:${value}` : null;
 }
 
 /** Aspects in the order in which they are told. */

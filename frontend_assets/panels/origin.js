@@ -15,7 +15,7 @@ import {
 } from "../app/state/origin.js";
 import { degrees } from "../app/state/view.js";
 import { t } from "../lib/i18n.js";
-import { byElement, isComputed, valueText } from "../lib/origin.js";
+import { byElement, isComputed, referredPart, valueText } from "../lib/origin.js";
 import { shortPath } from "../lib/paths.js";
 import { EmptyState, Icon } from "../lib/ui.js";
 import { EffectLine } from "./effect-line.js";
@@ -135,13 +135,19 @@ function Attribute({ of, inputs, part: key }) {
   }, [sought, wanted]);
   const value = valueText(of.value, of.unit, degrees.value);
   const computed = isComputed(of.text);
+  const other = referredPart(of);
   const written =
     of.attribute && !of.site ? { place: of.place, text: of.text, label: of.attribute } : null;
   return html`<div ref=${row} class=${`origin-attribute ${sought ? "chosen" : ""}`} role="group"
       aria-label=${of.attribute || t("origin.text")}>
     <div class="origin-line">
       <span class="property-name" title=${of.attribute}>${of.attribute || t("origin.text")}</span>
-      <span class="origin-value numbers" title=${of.value}>${value}</span>
+      ${
+        other
+          ? html`<span class="origin-value"><button type="button" class="text-button" title=${t("origin.show")}
+        onClick=${() => selectPart(other)}>${value}</button></span>`
+          : html`<span class="origin-value numbers" title=${of.value}>${value}</span>`
+      }
       <${PlaceLink} place=${of.place} />
     </div>
     ${computed && html`<code class="origin-text">${of.text}</code>`}

@@ -1,6 +1,11 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { byElement, countedAspects, valueText } from "../../frontend_assets/lib/origin.js";
+import {
+  byElement,
+  countedAspects,
+  referredPart,
+  valueText,
+} from "../../frontend_assets/lib/origin.js";
 import { elementsByLine } from "../../frontend_assets/lib/urdf-elements.js";
 import { offsetAt, replacement } from "../../frontend_assets/lib/written-text.js";
 
@@ -116,4 +121,10 @@ test("where something else stands by now, nothing is written", () => {
   assert.equal(replacement(file, { line: 5, column: 1 }, "1", "3"), null);
   assert.equal(replacement(file, { line: 1, column: 99 }, "1", "3"), null);
   assert.equal(offsetAt(file, place), 6);
+});
+
+test("an attribute that names another part leads there", () => {
+  assert.equal(referredPart({ ...attribute("child", "link"), value: "arm" }), "link:arm");
+  assert.equal(referredPart({ ...attribute("mimic", "joint"), value: "a" }), "joint:a");
+  assert.equal(referredPart(attribute("", "name")), null);
 });

@@ -40,16 +40,20 @@ export const part = computed(() => {
 
 /** @param {string} key @returns {string | null} the link that is selected with a part, if it has one */
 function linkOf(key) {
-  const [kind = "", name = ""] = splitKey(key);
+  const [kind, name] = splitKey(key);
   if (kind === "link") return name;
   if (kind !== "joint") return null;
   return robot.value?.joints.find((joint) => joint.name === name)?.child ?? null;
 }
 
-/** @param {string} key @returns {[string, string]} kind and name of a part */
+/** @param {string} key @returns {[string, string]} kind and name of a part; `#2` at the end counts parts of one name */
 export function splitKey(key) {
   const at = key.indexOf(":");
-  return [key.slice(0, at), key.slice(at + 1).replace(/#\d+$/, "")];
+  const kind = key.slice(0, at);
+  const name = key.slice(at + 1);
+  const known = (kind === "joint" ? robot.value?.joints : robot.value?.links) ?? [];
+  const isName = known.some((one) => one.name === name);
+  return [kind, isName ? name : name.replace(/#\d+$/, "")];
 }
 
 /**
@@ -166,13 +170,13 @@ export const lights = computed(() => (built.value === pointedRun.value ? effects
 
 effect(() => {
   const id = pointedSite.value;
-  const again = knownOf !== built.value;
-  if (again) known.clear();
+  if (knownOf !== built.value) known.clear();
   knownOf = built.value;
   clearTimeout(asking);
   const shown = untracked(() => effects.value);
   const answer = id === null ? null : known.get(id);
-  if (id === null || answer || shown?.site !== id) effects.value = answer ?? null;
+  const again = id !== null && shown?.site === id;
+  if (answer || !again) effects.value = answer ?? null;
   if (id !== null && !answer)
     asking = setTimeout(() => askEffects(id), again ? SETTLE_MS : REST_MS);
 });
