@@ -11,7 +11,7 @@ from studio.engine import messages as m
 from studio.engine.variant_events import Side
 from studio.errors import CommandError
 from tests.support.open_documents import until
-from tests.support.variant_desk import desk, write_mast
+from tests.support.variant_desk import Desk, desk, write_mast
 from tests.support.viser_frames import joined
 
 if TYPE_CHECKING:
@@ -150,10 +150,15 @@ def test_the_ghost_shows_the_other_robot_and_follows_the_joints(mast: Path, tmp_
     asyncio.run(run())
 
 
-def shown(sent: list[dict[str, Any]]) -> set[str]:
-    """The links of the ghost that can be seen by somebody who comes now."""
-    visible = {one["name"]: one["visible"] for one in sent if "visible" in one}
-    return {name for name in ("base", "tip", "gripper") if visible.get(f"/ghost/{name}")}
+async def is_shown(at: Desk, links: set[str]) -> None:
+    """Wait until just these links of the ghost can be seen by somebody who comes."""
+    async with asyncio.timeout(30):
+        seen: set[str] | None = None
+        while seen != links:
+            _, sent = await joined(at.document.scene)
+            visible = {one["name"]: one["visible"] for one in sent if "visible" in one}
+            names = ("base", "tip", "gripper")
+            seen = {name for name in names if visible.get(f"/ghost/{name}")}
 
 
 def test_over_the_robot_only_what_differs_is_drawn(mast: Path, tmp_path: Path):
@@ -162,17 +167,11 @@ def test_over_the_robot_only_what_differs_is_drawn(mast: Path, tmp_path: Path):
             await at.edit("jaw", "0.5")
             await at.compared(PRESENT, SAVED)
             await at.ask(m.SetDisplay(display="ghost", name="visible", value=True))
-            await until(lambda: at.ear.last("comparison")["ghost"] is not None)
-            assert shown((await joined(at.document.scene))[1]) == {"gripper"}
+            await is_shown(at, {"gripper"})
             await at.edit("reach", "0.6")
-            assert shown((await joined(at.document.scene))[1]) == {"tip", "gripper"}
+            await is_shown(at, {"tip", "gripper"})
             await at.ask(m.SetDisplay(display="ghost", name="beside", value=True))
-            links = at.document.scene.ghost.links
-            for _ in range(50):
-                if shown((await joined(at.document.scene))[1]) == links:
-                    return
-                await asyncio.sleep(0.05)
-            pytest.fail("beside the robot not all of the ghost was drawn")
+            await is_shown(at, {"base", "tip", "gripper"})
 
     asyncio.run(run())
 
