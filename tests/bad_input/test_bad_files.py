@@ -45,6 +45,16 @@ BAD: dict[str, str | bytes] = {
         '<xacro:m n="${n - 1}"/><xacro:m n="${n - 1}"/></xacro:if></xacro:macro>'
         '<xacro:m n="40"/>'
     ),
+    "lists that double": robot(
+        '<xacro:property name="p0" value="${[1]}"/>'
+        + "".join(f'<xacro:property name="p{n + 1}" value="${{[p{n}, p{n}]}}"/>' for n in range(40))
+        + '<link name="${len(str(p40))}"/>'
+    ),
+    "a pattern as separators": value_of("${xacro.tokenize('a' * 40, sep='x]|(?:a|a)*b|[y')}"),
+    "half a character": value_of("${'\\ud800'}"),
+    "numbers of one hash": value_of(
+        "${[python.set([i * (2**61 - 1) for i in range(9000)]) for j in range(9000)]}"
+    ),
     "tower of powers": value_of("${9**9**9}"),
     "huge text": value_of("${'a' * 10**11}"),
     "lambda": value_of(f"${{{LAMBDA}}}"),
