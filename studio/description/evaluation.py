@@ -263,7 +263,7 @@ def _set_attribute(
     name_text, value_text = required(node, "name", "value")
     named = run.texts.consumed(name_text, scope, (run.path, name_text))
     record = run.texts.evaluated(value_text, scope, Role.STRUCTURE, (run.path, str(named)))
-    name = xml_name(node, named)
+    name = xml_name(node, named, written=out.comes_out)
     if out.comes_out:
         out.attributes = {**out.attributes, name: attribute_text(name, record.value)}
         out.made(name, record)

@@ -45,15 +45,15 @@ def import_namespaces(texts: Texts, into: OutputElement, attributes: dict[str, s
                 into.attributes = {**into.attributes, name: value}
 
 
-def xml_name(node: Node, value: Any) -> str:  # noqa: ANN401
-    """What the name of an element or attribute came to.
+def xml_name(node: Node, value: Any, *, written: bool = True) -> str:  # noqa: ANN401
+    """What the name of an element or attribute came to; `written` when it comes out.
 
     Raises:
         Fault: It is no text (where xacro fails as well), or XML does not allow it as a name.
     """
     if value == "":
         raise Fault("empty-name", f"{node.tag} came to an empty name.")
-    if not isinstance(value, str) or not _XML_NAME.fullmatch(value):
+    if not isinstance(value, str) or (written and not _XML_NAME.fullmatch(value)):
         sentence = f'<{node.tag}> came to the name "{text_of(value)}", which is no XML name.'
         raise Fault("bad-name", shorten(sentence, 300))
     return value

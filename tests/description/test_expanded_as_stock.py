@@ -108,6 +108,9 @@ EXPANDED = {
         ' d="${python.any([0, 1])}" e="${python.isinstance(1, int)}" f="${math.floor(2.5)}"/>'
     ),
     "none is none": '<x a="${None}" b="${None == 0}"/>',
+    "an attribute of no name that is lost": (
+        '<x><xacro:if value="1"><xacro:attribute name="3" value="1"/></xacro:if></x>'
+    ),
     "letters of any alphabet": (
         '<xacro:property name="größe" value="ß"/><x v="${größe * 2}">🍔 ${größe}</x>'
     ),
