@@ -48,8 +48,8 @@ def _plain(comment: str) -> str:
 
 
 def parameter_documentation(documentation: str, name: str) -> str:
-    """What the documentation of a macro says of one parameter, on the line that begins with it."""
-    for line in documentation.splitlines():
+    """What the documentation of a macro says of one parameter, where a line begins with it."""
+    for line in re.split(r"\n|;", documentation):
         words = _LIST_MARK.sub("", line)
         rest = words.removeprefix(name)
         if rest != words and (said := re.match(r"\s*(?:\([^)]*\)\s*)?[:=\u2013-]\s*(.+)", rest)):

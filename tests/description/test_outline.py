@@ -73,7 +73,7 @@ def test_an_include_that_is_not_taken_is_not_listed_and_one_in_a_macro_is_once(t
 def test_macros_tell_what_they_take_and_where_they_are_called(editor: Editor):
     (arm,) = editor.outline().macros
     assert (arm.name, arm.calls, at(arm.place)) == ("arm", 2, "arm.xacro:4")
-    assert arm.doc == "One arm.\nside: left or right"
+    assert arm.doc == "One arm.\nside: left or right; length - how far it reaches"
     assert [at(place) for place in arm.called_at] == ["robot.xacro:12", "robot.xacro:13"]
     assert [(one.name, one.kind, one.default) for one in arm.parameters] == [
         ("side", "value", None), ("length", "value", "${reach * 2}"), ("origin", "block", None),

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 ARM = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro">
   <!-- One arm.
-       side: left or right -->
+       side: left or right; length - how far it reaches -->
   <xacro:macro name="arm" params="side length:=${reach * 2} *origin">
     <link name="${side}_arm">
       <visual><geometry><box size="${length} ${reach} 0.1"/></geometry></visual>
@@ -76,6 +76,7 @@ def test_a_property_has_its_value_and_its_place(editor: Editor):
 def test_a_parameter_shadows_a_property_of_its_name(editor: Editor):
     inside = editor.meaning(arm(editor), '"${len|gth} ${reach}')
     assert (inside.kind, inside.values) == (Kind.PARAMETER, ("1.0", "1"))
+    assert inside.doc == "how far it reaches"
     assert [text_at(place) for place in inside.places] == ["length"]
     assert at(inside.places[0]) == "arm.xacro:4"
     outside = editor.meaning(editor.entry, '"0 ${len|gth} 0"')
