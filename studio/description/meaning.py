@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from studio.description.definitions import parameter_place, parameters_of, place_of
 from studio.description.documentation import documentation_of, parameter_documentation
-from studio.description.language import Meaning, TextPlace
+from studio.description.language import Meaning
 from studio.description.language import SubjectKind as Kind
 from studio.description.subject import distinct
 from studio.description.values import Widget, WidgetKind
@@ -14,6 +14,7 @@ from studio.description.yaml_spans import key_path_text, read_yaml_document
 
 if TYPE_CHECKING:
     from studio.description.cursor import Cursor
+    from studio.description.language import TextPlace
     from studio.description.reading import Reading
     from studio.description.source_tree import SourceElement
     from studio.description.subject import Subject
@@ -99,8 +100,6 @@ def _documentation(subject: Subject, first: SourceElement | None, widget: Widget
 
 def places_of(subject: Subject, reading: Reading) -> tuple[TextPlace, ...]:
     """Where a subject is defined, in the texts of now."""
-    if subject.target and subject.kind is Kind.FILE:
-        return (TextPlace(subject.target, 1, 1),)
     if subject.yaml:
         return _yaml_places(subject, reading)
     if not subject.elements:

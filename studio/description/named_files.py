@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 
 NAMES_LISTED: Final = 1_000
 """Of one folder; more nobody reads."""
+_TEXT_ENDINGS: Final = frozenset(
+    (".xacro", ".urdf", ".xml", ".yaml", ".yml", ".gazebo", ".srdf", ".sdf", ".trans", ".txt")
+)
 _FIND: Final = re.compile(r"\$\(\s*find\s+([^\s)]+)\s*\)")
 _ARG: Final = re.compile(r"\$\(\s*arg\s+([^\s)]+)\s*\)")
 _URI: Final = re.compile(r"(?:package|model)://([^/]*)(.*)", re.DOTALL)
@@ -56,6 +59,11 @@ def existing(reading: Reading, text: str, asking_file: str) -> str:
     path = path_named(reading, text, asking_file)
     real = reading.resolve(path) if path else None
     return real if real and Path(real).exists() else ""
+
+
+def is_text(path: str) -> bool:
+    """Whether a file is one that an editor shows, by its name."""
+    return Path(path).suffix.lower() in _TEXT_ENDINGS
 
 
 def names_in(reading: Reading, folder: str) -> list[tuple[str, bool]]:

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Final
 
 from studio.description.definitions import name_in_params, parameters_of
 from studio.description.language import SubjectKind as Kind
+from studio.description.language import TextPlace
 from studio.description.macros import read_parameters
 from studio.description.name_chains import chain_at, string_at
-from studio.description.named_files import existing, package_folder
+from studio.description.named_files import existing, is_text, package_folder
 from studio.description.subject import Subject, distinct, found_in, subject_of
 from studio.description.token_at import Where
 from studio.description.words import FILE_ATTRIBUTES, PART_REFERENCES, XACRO_TAGS
@@ -167,7 +168,8 @@ def _string(cursor: Cursor, segment: Segment, text: str) -> Subject | None:
     if not target or "." not in str(found.key):
         return None
     start, end = segment.start + found.start, segment.start + found.end
-    return Subject(Kind.FILE, str(found.key), start, end, target=target)
+    places = (TextPlace(target, 1, 1),) if is_text(target) else ()
+    return Subject(Kind.FILE, str(found.key), start, end, target=target, places=places)
 
 
 def chain_subject(cursor: Cursor, chain: Chain) -> Subject | None:
@@ -316,7 +318,7 @@ def _named_elsewhere(  # noqa: PLR0911 - one case a kind of attribute
             kind = Kind.ARG if tag.name == "xacro:arg" else Kind.PROPERTY
             return _named_here(cursor, kind, cursor.written(tag, "name"))
         case name, which if (name, which) in FILE_ATTRIBUTES:
-            return file_subject(cursor, text)
+            return _files(cursor, attribute, text)
         case name, which if (name, which) in PART_REFERENCES:
             return part_subject(cursor, Kind(PART_REFERENCES[name, which]), text)
         case name, _ if name.startswith("xacro:") and name[6:] not in XACRO_TAGS:
@@ -325,10 +327,20 @@ def _named_elsewhere(  # noqa: PLR0911 - one case a kind of attribute
             return None
 
 
-def file_subject(cursor: Cursor, text: str) -> Subject | None:
-    """The file, or the folder of the package, that a text names."""
-    target = existing(cursor.reading, text, cursor.file)
-    return Subject(Kind.FILE, text, target=target) if target else None
+def _files(cursor: Cursor, attribute: Attribute, text: str) -> Subject | None:
+    """The files that an include brought in or a mesh came out as; else what the text names."""
+    found: list[str] = []
+    definitions, element = cursor.reading.definitions, cursor.element
+    if definitions is not None and element is not None:
+        includes = definitions.trace.seen.includes
+        found += dict.fromkeys(one.file for one in includes if one.element is element)
+        written = definitions.written_out(element, attribute.name)
+        found += (existing(cursor.reading, one, cursor.file) for one in written)
+    found = [one for one in (*found, existing(cursor.reading, text, cursor.file)) if one]
+    if not found:
+        return None
+    places = tuple(TextPlace(one, 1, 1) for one in dict.fromkeys(found) if is_text(one))
+    return Subject(Kind.FILE, text, target=found[0], places=places)
 
 
 def part_subject(cursor: Cursor, kind: Kind, name: str) -> Subject:

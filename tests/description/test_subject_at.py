@@ -152,6 +152,28 @@ def test_files_and_packages_lead_to_where_they_are(editor: Editor):
     assert (yaml.kind, yaml.target) == (Kind.FILE, str(editor.root / "config/limits.yaml"))
 
 
+def test_a_file_named_by_an_expression_is_what_it_came_to(tmp_path: Path):
+    files = {
+        "a.xacro": robot(
+            '<xacro:property name="part" value="arm"/><xacro:include filename="${part}.xacro"/>'
+            '<xacro:include filename="more_*.xacro"/>'
+            '<link name="l"><visual><geometry><mesh filename="meshes/${part}.stl"/></geometry>'
+            "</visual></link>"
+        ),
+        "arm.xacro": robot(""),
+        "more_1.xacro": robot(""),
+        "more_2.xacro": robot(""),
+        "meshes/arm.stl": b"",
+    }
+    editor = Editor(tmp_path, write(tmp_path, files))
+    include = editor.meaning(editor.entry, "${part}.xa|cro")
+    assert (include.kind, [at(place) for place in include.places]) == (Kind.FILE, ["arm.xacro:1"])
+    several = editor.meaning(editor.entry, "more_|*")
+    assert [at(place) for place in several.places] == ["more_1.xacro:1", "more_2.xacro:1"]
+    mesh = editor.meaning(editor.entry, "${part}.s|tl")
+    assert (mesh.target, mesh.places) == (str(tmp_path / "meshes/arm.stl"), ())
+
+
 def test_an_arg_is_known_by_its_value(editor: Editor):
     found = editor.meaning(editor.entry, "$(arg ki|nd)")
     assert (found.kind, found.values, at(found.places[0])) == (
