@@ -17,6 +17,7 @@ import yaml
 
 from studio.description.annotations import Comment
 from studio.description.values import Span
+from studio.description.yaml_reading import is_bulky
 from studio.description.yaml_text import yaml_text
 from studio.errors import EditError
 
@@ -77,11 +78,13 @@ def key_path_text(path: KeyPath) -> str:
 
 
 def read_yaml_document(data: bytes) -> YamlDocument:
-    """Find every scalar of the first document; an unreadable text has none.
+    """Find every scalar of the first document; a text that no run reads has none.
 
     A key that occurs twice counts where YAML takes it from: the last time. Scalars over several
     lines, empty ones and those of non-scalar keys are left out.
     """
+    if is_bulky(data):
+        return YamlDocument()
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError:

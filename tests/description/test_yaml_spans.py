@@ -145,3 +145,7 @@ def test_every_scalar_of_the_corpus_is_where_yaml_reads_it(corpus: Path):
             assert yaml_value_at(edited, one.path) == "m#a'r: k", (path, one)
             checked += 1
     assert checked > 200
+
+
+def test_a_text_of_more_values_than_any_run_reads_has_none():
+    assert not read_yaml_document(b"k: [" + b"1," * 60_000 + b"1]\n").scalars
