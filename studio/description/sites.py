@@ -6,7 +6,7 @@ out the same as in the run before is the same object.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from studio.description.drafts import Draft, FileDrafts, draft_xml, draft_yaml
@@ -98,13 +98,25 @@ class SiteBuilder:
             return _Built(draft, seen, site, site.widget)
         if before.seen == seen and (before.draft is draft or before.draft == draft):
             return before
-        site = _site(draft, seen, (before.first, before.site.widget))
+        if _is_as_before(before, draft, seen):
+            site = replace(before.site, place=draft.place, span=draft.span, reads=seen.reads)
+        else:
+            site = _site(draft, seen, (before.first, before.site.widget))
         return _Built(draft, seen, site, before.first)
 
 
 def build_sites(record: RunRecord) -> list[Site]:
     """The sites of one run; keep a `SiteBuilder` where runs follow each other."""
     return SiteBuilder().build(record)
+
+
+def _is_as_before(before: _Built, draft: Draft, seen: Seen) -> bool:
+    """Whether a site has only moved, or got or lost readers of the same kind."""
+    known = before.draft
+    return (
+        (known.text, known.group, known.annotation, known.element_path)
+        == (draft.text, draft.group, draft.annotation, draft.element_path)
+    ) and before.seen._replace(reads=0) == seen._replace(reads=0)
 
 
 def _site(draft: Draft, seen: Seen, before: tuple[Widget, ...]) -> Site:
