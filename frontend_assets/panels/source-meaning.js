@@ -95,7 +95,8 @@ function texts({ kind, name, text, values: seen, doc }) {
 /** @param {Meaning} meaning @returns {HTMLElement[]} */
 function places({ places: found, target, kind }) {
   const links = found.slice(0, PLACES_SHOWN).map((place) => placeButton(place));
-  if (target !== "" && (kind !== "file" || links.length === 0)) links.unshift(made("code", "muted", target));
+  if (target !== "" && (kind !== "file" || links.length === 0))
+    links.unshift(made("code", "muted", target));
   return links.length > 0 ? [made("div", "meaning-places", ...links)] : [];
 }
 
