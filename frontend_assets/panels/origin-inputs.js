@@ -75,9 +75,11 @@ function pointing(id) {
   return { onPointerEnter: begin, onPointerLeave: end, onFocusIn: begin, onFocusOut: end };
 }
 
-/** @param {OriginInput} input @returns {string} of a long text nothing */
+/** @param {OriginInput} input @returns {string} as it is now, also in the middle of a drag; of a long text nothing */
 function shownValue({ value, site: id }) {
-  const text = valueText(value, (id && site(id)?.value.widget.unit) || "", degrees.value);
+  const live = (id && site(id)?.value) || null;
+  const now = live && live.values.length === 0 ? live.value : value;
+  const text = valueText(now, live?.widget.unit ?? "", degrees.value);
   return text.length <= 24 ? text : "";
 }
 

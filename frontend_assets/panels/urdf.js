@@ -1,6 +1,6 @@
 /** The URDF that the xacro came to, as text to read, copy and keep. It is fetched when it is looked at. */
 
-import { html, useEffect, useMemo, useSignal } from "vendor/preact.js";
+import { html, useEffect, useMemo, useRef, useSignal } from "vendor/preact.js";
 import { commandById } from "../app/commands.js";
 import { connection } from "../app/state/connection.js";
 import { built, robot, title } from "../app/state/document.js";
@@ -38,9 +38,11 @@ export function UrdfPanel() {
 
 /** @param {{lines: string[], text: string}} props each element leads to where it comes from */
 function Lines({ lines, text }) {
-  const drawn = useMemo(() => lines.map(coloured), [text]);
+  const pre = useRef(/** @type {HTMLElement | null} */ (null));
+  // Thousands of lines: drawn once for a text, not anew at every choice.
+  const drawn = useMemo(() => lines.map(drawnLine), [text]);
   const elements = useMemo(() => elementsByLine(lines), [text]);
-  const wanted = wantedPart.value;
+  useChosenLine(pre, elements);
   /** @param {MouseEvent} event */
   const choose = (event) => {
     const target = event.target instanceof Element ? event.target : null;
@@ -50,12 +52,29 @@ function Lines({ lines, text }) {
     selectPart(found.part, found.element, attributeAt(target));
     commandById("panel.origin")?.run();
   };
-  return html`<pre class="code scroll" tabindex="0" aria-label=${t("panel.urdf")} title=${t("urdf.where")} onClick=${choose}>
-    ${drawn.map((words, at) => {
-      const one = elements.get(at);
-      const chosen = one?.part === part.value && one?.element === (wanted?.element ?? "");
-      return html`<code key=${at} data-line=${at + 1} class=${chosen ? "chosen" : ""}>${words}</code>`;
-    })}</pre>`;
+  return html`<pre ref=${pre} class="code scroll" tabindex="0" aria-label=${t("panel.urdf")} title=${t("urdf.where")}
+    onClick=${choose}>${drawn}</pre>`;
+}
+
+/** @param {string} line @param {number} at */
+function drawnLine(line, at) {
+  return html`<code key=${at} data-line=${at + 1}>${coloured(line)}</code>`;
+}
+
+/** The line of the chosen element is marked and in view. @param {{current: HTMLElement | null}} pre @param {ReturnType<typeof elementsByLine>} elements */
+function useChosenLine(pre, elements) {
+  const lines = useMemo(() => {
+    const entries = [...elements].map(([line, one]) => [`${one.part} ${one.element}`, line]);
+    return new Map(/** @type {[string, number][]} */ (entries));
+  }, [elements]);
+  const wanted = wantedPart.value?.part === part.value ? wantedPart.value : null;
+  const line = lines.get(`${part.value} ${wanted?.element ?? ""}`);
+  useEffect(() => {
+    const code = pre.current?.querySelector(`[data-line="${(line ?? -1) + 1}"]`);
+    code?.classList.add("chosen");
+    code?.scrollIntoView({ block: "nearest" });
+    return () => code?.classList.remove("chosen");
+  }, [line, elements]);
 }
 
 /** @param {Element | null} word the name of an attribute, or its value @returns {string} the attribute's name */
