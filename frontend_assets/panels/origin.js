@@ -4,7 +4,7 @@
 
 import { html, useEffect, useRef } from "vendor/preact.js";
 import { PlaceLink } from "../app/place-link.js";
-import { documentState, robot } from "../app/state/document.js";
+import { documentState, robot, showingLastGood } from "../app/state/document.js";
 import {
   followOrigin,
   origin,
@@ -42,6 +42,7 @@ function Content() {
     return html`<${Heading} part=${key} /><${EmptyState} icon="info" title=${known.refused} />`;
   return html`<${Heading} part=${key} />
     <div class="scroll" key=${key}>
+      ${showingLastGood.value && html`<p class="note padded"><${Icon} name="info" size=${13} />${t("last_good")}</p>`}
       <${Way} origin=${known.origin} />
       ${byElement(known.origin.attributes).map(
         ({ element, attributes }) => html`<${Element} key=${element} origin=${known.origin}
