@@ -18,6 +18,8 @@ from studio.description.token_at import (
 )
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from studio.description.editor_text import EditorText
     from studio.description.language import SubjectKind, TextPlace
     from studio.description.reading import Reading
@@ -147,16 +149,19 @@ class Cursor:
 
     def declared(self, kind: SubjectKind, name: str) -> tuple[TextPlace, ...]:
         """Where this text itself declares a name; for texts that no run has seen."""
-        tag = f"xacro:{kind.value}"
-        found = (one for one in self.declarations if one.name == tag)
-        values = (
-            (one, next((a for a in one.attributes if a.name == "name"), None)) for one in found
-        )
-        return tuple(
-            self.place(attribute.start, attribute.end)
-            for tag_found, attribute in values
-            if attribute is not None and self.written(tag_found, "name") == name
-        )
+        found = (one for tag in self._declaring(kind, name) for one in tag.attributes)
+        return tuple(self.place(one.start, one.end) for one in found if one.name == "name")
+
+    def declared_text(self, kind: SubjectKind, name: str) -> str:
+        """What this text itself gives a name that it declares; empty for any other."""
+        for tag in self._declaring(kind, name):
+            return self.written(tag, "value") or self.written(tag, "default")
+        return ""
+
+    def _declaring(self, kind: SubjectKind, name: str) -> Iterator[Tag]:
+        wanted = f"xacro:{kind.value}"
+        named = (one for one in self.declarations if one.name == wanted)
+        return (one for one in named if self.written(one, "name") == name)
 
     def parameter_of(self, macro: Tag, name: str) -> TextPlace:
         """Where a macro of this text names a parameter."""

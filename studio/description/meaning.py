@@ -39,7 +39,7 @@ def meaning_of(subject: Subject, cursor: Cursor) -> Meaning:
         name=_name(subject),
         start=start,
         end=end,
-        text=_written(subject, first, reading),
+        text=_written(subject, first, cursor),
         values=subject.values,
         unit=widget.unit,
         doc=_documentation(subject, first, widget),
@@ -60,13 +60,13 @@ def _calls(macro: SourceElement, reading: Reading) -> int:
     return reading.trace.seen.call_counts.get(macro, 0) if reading.trace else 0
 
 
-def _written(subject: Subject, first: SourceElement | None, reading: Reading) -> str:
+def _written(subject: Subject, first: SourceElement | None, cursor: Cursor) -> str:
     """The text of a definition as it stands in its file."""
     if subject.yaml:
-        scalar = next(iter(_yaml_scalars(subject, reading)), None)
+        scalar = next(iter(_yaml_scalars(subject, cursor.reading)), None)
         return scalar.text if scalar else ""
     if first is None:
-        return ""
+        return cursor.declared_text(subject.kind, subject.name)
     if subject.kind in _OF_MACROS:
         parameters = parameters_of(first.attributes.get("params", ""))
         found = next((one for one in parameters if one.name == subject.name), None)

@@ -208,6 +208,7 @@ def test_a_text_that_no_run_has_seen_declares_its_own_names(tmp_path: Path):
     editor = Editor(tmp_path, write(tmp_path, {"a.xacro": robot(body)}))
     found = editor.meaning(editor.entry, "${ne|w}")
     assert (found.kind, [text_at(place) for place in found.places]) == (Kind.PROPERTY, ["new"])
+    assert (found.text, found.values) == ("1", ())
     macro = '<xacro:macro name="m" params="size"><link name="${size}"/><xacro:m'
     editor.texts[editor.entry] = robot(macro).encode()
     parameter = editor.meaning(editor.entry, "${si|ze}")
