@@ -107,13 +107,14 @@ class Readers:
             for one in reached
             if isinstance(one, Governor) and not reached.keys().isdisjoint(one.own_inputs)
         }
-        places = dict.fromkeys(attribute_place(*text) for text in self._direct_readers(starts))
+        texts = list(dict.fromkeys(self._direct_readers(starts)))
+        places = dict.fromkeys(attribute_place(*text) for text in texts[:READERS_KEPT])
         return SiteEffects(
             site=site,
             effects=tuple(effects)[:EFFECTS_KEPT],
             decisions=len(decisions),
-            readers=tuple(places)[:READERS_KEPT],
-            is_cut=len(effects) > EFFECTS_KEPT or len(places) > READERS_KEPT,
+            readers=tuple(places),
+            is_cut=len(effects) > EFFECTS_KEPT or len(texts) > READERS_KEPT,
         )
 
     def _reached(self, starts: Iterable[Input]) -> dict[Input, None]:

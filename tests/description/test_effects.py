@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from studio.description.effects import aspect_of
+from studio.description.effects import EFFECTS_KEPT, READERS_KEPT, aspect_of
 from studio.description.number_text import parse_number
 from studio.description.origin_values import Aspect, SiteEffects
 from studio.description.queries import NoReply
@@ -103,6 +103,14 @@ def test_a_mapping_that_is_read_whole_is_shaped_by_each_of_its_values(tmp_path: 
     traced = TracedRobot(write(tmp_path, files))
     assert shaped(traced, "all.deep", SiteKind.YAML) == {("link:x", "note", "text")}
     assert shaped(traced, "one", SiteKind.YAML) == {("link:x", "mass", "value")}
+
+
+def test_what_thousands_read_is_cut_and_it_is_said(tmp_path: Path):
+    links = "".join(f'<link name="l{n}"><mass value="${{a}}"/></link>\n' for n in range(6_000))
+    traced = opened(tmp_path, f'<xacro:property name="a" value="1"/>{links}')
+    found = traced.effects(traced.site("a"))
+    assert (len(found.effects), len(found.readers)) == (EFFECTS_KEPT, READERS_KEPT)
+    assert found.is_cut
 
 
 def test_a_text_that_is_gone_is_told_in_a_sentence(tmp_path: Path):
