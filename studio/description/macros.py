@@ -18,7 +18,7 @@ DEFAULT: Final = r"""\$\{.*?\}|\$\(.*?\)|(?:(?>'.*?')|(?>".*?")|[^\s'"]++)+|"""
 """As xacro's, but what was found is not given back: looking for it again takes forever."""
 _PARAMETER: Final = re.compile(r"^\s*([^\s:=]+?)\s*:?=\s*(\^\|?)?(" + DEFAULT + r")(?:\s+|$)(.*)")
 _AS_XACRO: Final = re.compile(re.sub(r"\(\?>([^)]*)\)", r"\1", _PARAMETER.pattern))
-"""Xacro's own, for the few texts that only giving back can read: quotes without their pairs."""
+"""Xacro's own, where few quotes leave few ways to pair them; with many all must have their pair."""
 _QUOTES_LIMIT: Final = 12
 PARAMS_LIMIT: Final = 20_000
 """Characters of `params`."""
@@ -70,9 +70,8 @@ def read_parameters(text: str) -> tuple[list[str], dict[str, Default]]:
 
 def parameter(text: str) -> tuple[str, Default | None, str]:
     """The first parameter of a `params`, its default, and the text behind it."""
-    match = _PARAMETER.match(text)
-    if match is None and sum(map(text.count, "'\"")) <= _QUOTES_LIMIT:
-        match = _AS_XACRO.match(text)
+    quotes = sum(map(text.count, "'\""))
+    match = (_AS_XACRO if quotes <= _QUOTES_LIMIT else _PARAMETER).match(text)
     if match is None:
         name, *rest = text.lstrip().split(None, 1)
         return name, None, rest[0] if rest else ""
