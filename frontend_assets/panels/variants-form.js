@@ -12,7 +12,10 @@ export function VariantForm({ title, action, name, note, run, onDone }) {
   const words = useSignal(note);
   const busy = useSignal(false);
   const first = useRef(/** @type {HTMLInputElement | null} */ (null));
-  useEffect(() => first.current?.select(), []);
+  useEffect(() => {
+    first.current?.select();
+    first.current?.form?.scrollIntoView({ block: "nearest" });
+  }, []);
   const submit = async (/** @type {Event} */ event) => {
     event.preventDefault();
     if (typed.value.trim() === "" || busy.value) return;

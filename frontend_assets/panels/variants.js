@@ -29,13 +29,8 @@ export function VariantsPanel() {
   if (!documentState.value || !robot.value)
     return html`<section class="panel-body" aria-label=${t("panel.variants")}><${EmptyState} icon="variants" title=${t("urdf.none")} /></section>`;
   return html`<section class="panel-body variants" aria-label=${t("panel.variants")}>
-    <div class="panel-bar row">
-      <button type="button" class="button small" disabled=${!mayEdit.value || adding.value} onClick=${begin}>
-        <${Icon} name="plus" size=${14} />${t("variants.save")}</button>
-    </div>
     <div class="scroll">
       <div class="variants-side">
-      ${adding.value && html`<${SaveForm} onDone=${() => (adding.value = false)} />`}
       <${Trouble} />
       ${list.length === 0 && !adding.value && html`<${Purpose} />`}
       <ul class="variant-list">
@@ -46,6 +41,13 @@ export function VariantsPanel() {
             : html`<${VariantRow} key=${one.name} variant=${one} onRename=${() => (editing.value = one.name)} />`,
         )}
       </ul>
+      ${adding.value && html`<${SaveForm} onDone=${() => (adding.value = false)} />`}
+      ${
+        !adding.value &&
+        html`<div class="variants-actions">
+        <button type="button" class="button small" disabled=${!mayEdit.value} onClick=${begin}>
+          <${Icon} name="plus" size=${14} />${t("variants.save")}</button></div>`
+      }
       </div>
       <${VariantsComparison} />
     </div>

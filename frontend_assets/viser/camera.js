@@ -122,7 +122,7 @@ export class CameraView {
     const first = this.#meshes === 0;
     this.#meshes = meshes;
     const direction = first ? this.#inScene(DIRECTIONS.iso ?? [1, 0, 0]) : this.#direction();
-    this.#look(this.#robot.corners(), direction, FILL, false);
+    this.#look(this.#robot.corners(this.#robot.drawn), direction, FILL, false);
     document.documentElement.dataset.drawn = "";
   }
 
