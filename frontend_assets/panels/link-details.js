@@ -19,9 +19,9 @@ export function LinkDetails() {
     selected.value = null;
   };
   return html`<aside class="details" aria-label=${t("link.details", { name: link.name })}>
-    <header><strong title=${link.name}>${link.name}</strong>
+    <header><strong><button type="button" class="text-button" title=${`${link.name}\n${t("origin.show")}`}
+        onClick=${() => explain(`link:${link.name}`)}>${link.name}</button></strong>
       <${IconButton} icon="fit" label=${t("link.focus")} onClick=${() => focusLink(link.name)} />
-      <${IconButton} icon="origin" label=${t("origin.show")} onClick=${() => explain(`link:${link.name}`)} />
       <${IconButton} icon="properties" label=${t("link.values")} onClick=${showValues} />
       <${IconButton} icon="close" label=${t("link.deselect")} onClick=${close} />
     </header>
