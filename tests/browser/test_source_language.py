@@ -25,7 +25,7 @@ _REST_S = 4.0
 _BOX = """(text) => {
   const all = [...document.querySelectorAll(".cm-line .source-expression")];
   const found = all.find((one) => one.textContent === text);
-  found?.scrollIntoView({ block: "center" });
+  found?.scrollIntoView({ block: "nearest" });
   const box = found?.getBoundingClientRect();
   return box ? [box.x, box.y, box.width, box.height] : null;
 }"""
@@ -150,7 +150,7 @@ def test_a_call_is_completed_and_another_one_inserted_from_the_list_of_macros(ta
     wait_until("names with values", lambda: radius.count() == 1 and "0.105" in radius.inner_text())
     radius.click()
     wait_until("the name", lambda: 'side="1" front="${wheel_radius}"' in line_of(tab))
-    tab.page.get_by_role("searchbox", name="Filter files, macros and names").fill("spoke")
+    tab.page.get_by_role("searchbox", name="Filter files and macros").fill("spoke")
     tab.page.get_by_role("button", name="spoke", exact=False).first.click()
     tab.page.get_by_role("button", name="Insert call").click()
     wait_until("the second call", lambda: "<xacro:spoke" in line_of(tab))
@@ -170,5 +170,9 @@ def test_a_viewer_reads_what_words_mean_and_writes_nothing(
     viewer.page.get_by_role("button", name="spoke", exact=False).first.click()
     assert viewer.page.get_by_role("button", name="Go to definition").is_visible()
     assert viewer.page.get_by_role("button", name="Insert call").count() == 0
+    viewer.page.get_by_role("treeitem", name="rover.urdf.xacro").focus()
+    viewer.page.keyboard.press("ArrowDown")
+    viewer.page.keyboard.press("Enter")
+    wait_until("the file that keys chose", lambda: "<material" in text_of(viewer))
     assert viewer.errors == []
     context.close()
