@@ -34,7 +34,6 @@ if TYPE_CHECKING:
     from studio.description.run_record import Binding, RunRecord
     from studio.description.values import Edit
 
-
 _log = logging.getLogger(__name__)
 
 
@@ -64,20 +63,20 @@ class LiveRun:
         files: Mapping[str, FileDrafts],
     ) -> None:
         self.record, self.index, self.reads, self.files = record, index, reads, files
-        self._evaluation = evaluation
+        self.evaluation, self.replay = evaluation, Replay(evaluation.texts)
         self.texts = TextEdits(evaluation.store, files)
-        self._replay = Replay(evaluation.texts)
         self.has_edited = False
+        """Whether the store holds the edits that were asked for last."""
 
     @property
     def can_patch(self) -> bool:
         """Whether its expressions come to the same when they are evaluated again."""
-        return self._evaluation.texts.is_pure
+        return self.evaluation.texts.is_pure
 
     def edit(self, edits: Iterable[Edit]) -> Patch | None:
         """Carry out edits in the texts and in the run; None when only a full run can tell.
 
-        `has_edited` says then whether the store holds all of them or none.
+        `has_edited` says then whether the store holds all of them, or none.
         """
         self.has_edited = False
         self.texts.begin()
@@ -110,7 +109,7 @@ class LiveRun:
         try:
             for name, value in new.items():
                 if value != old[name]:
-                    work.set_argument(self._evaluation.texts.arguments[name], value)
+                    work.set_argument(self.evaluation.texts.arguments[name], value)
             return work.finish(self.texts)
         except Exception as reason:  # noqa: BLE001 - as above
             _tell(reason)
@@ -127,16 +126,6 @@ class LiveRun:
         if "containers" in vars(self):
             found = (one for one in changed if isinstance(one.value, dict | list | tuple))
             self.containers.update(dict.fromkeys(found))
-
-    @property
-    def evaluation(self) -> Evaluation:
-        """The run itself."""
-        return self._evaluation
-
-    @property
-    def replay(self) -> Replay:
-        """Evaluates its texts again."""
-        return self._replay
 
 
 class _Work:
