@@ -3,6 +3,9 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from hypothesis import given
+from hypothesis import strategies as st
+
 from studio.robot.comparison import differences
 from studio.robot.difference_rows import Row
 from studio.robot.values import (
@@ -67,6 +70,15 @@ def test_wheels_of_another_radius_differ_in_that():
     assert wheels == {f"link:wheel_{n}" for n in range(4)}
     assert Row("visual.radius", 0.105, 0.12, "m", 1) in [one.row for one in found]
     assert {one.row.what for one in found} == {"visual.radius", "collision.radius", "origin.z"}
+
+
+@given(st.floats(0.01, 1), st.floats(0.01, 1))
+def test_the_other_way_round_the_values_change_places(one_m: float, other_m: float):
+    one, other = rover(wheel_radius_m=one_m), rover(wheel_radius_m=other_m)
+    there = [
+        (d.part, replace(d.row, one=d.row.other, other=d.row.one)) for d in differences(one, other)
+    ]
+    assert there == [(d.part, d.row) for d in differences(other, one)]
 
 
 def test_parts_that_came_or_went_are_one_row_each():

@@ -1,0 +1,62 @@
+"""How a variant names files: so that they are found again, here and on another machine."""
+
+from __future__ import annotations
+
+import asyncio
+import shutil
+from typing import TYPE_CHECKING
+
+import pytest
+
+from studio.engine import messages as m
+from tests.support.packages import write_package
+from tests.support.variant_desk import desk
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+pytestmark = pytest.mark.timeout(120)
+
+ROBOT = """<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:include filename="$(find parts_description)/urdf/parts.xacro"/>
+  <xacro:include filename="common/sizes.xacro"/>
+  <link name="base">
+    <visual><geometry><box size="${side} ${side} ${part}"/></geometry></visual>
+  </link>
+</robot>
+"""
+SIZE = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:property name="{}" value="1"/>
+</robot>
+"""
+
+
+def write(folder: Path) -> Path:
+    write_package(folder / "parts_description", files={"urdf/parts.xacro": SIZE.format("part")})
+    files = {"urdf/r.urdf.xacro": ROBOT, "urdf/common/sizes.xacro": SIZE.format("side")}
+    return write_package(folder / "r_description", files=files) / "urdf/r.urdf.xacro"
+
+
+def test_a_file_goes_by_its_place_beside_the_entry_or_by_its_package(tmp_path: Path):
+    here, there = tmp_path / "here/src", tmp_path / "there/deeper/src"
+
+    async def run() -> None:
+        async with desk(write(here), tmp_path / "data") as at:
+            await at.edit("part", "3")
+            await at.edit("side", "2")
+            await at.ask(m.SaveVariant(name="Tall"))
+            told = at.ear.last("variants")["variants"][0]["texts"]
+            assert [(one["file"], one["text"]) for one in told] == [
+                ("common/sizes.xacro", "2"),
+                ("package://parts_description/urdf/parts.xacro", "3"),
+            ]
+            saved = at.file
+        entry = write(there)
+        shutil.copy(saved, entry.parent)
+        async with desk(entry, tmp_path / "data2") as at:
+            assert await at.apply("Tall") == []
+            (visual,) = at.document.model.robot.links["base"].visuals
+            assert visual.geometry.size_m == (2, 2, 3)  # pyright: ignore
+            await at.is_told("Tall")
+
+    asyncio.run(run())
