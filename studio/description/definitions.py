@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from studio.description.attribute_spans import attribute_spans, character_offsets
 from studio.description.language import Parameter, TextPlace
-from studio.description.macros import read_parameters
+from studio.description.macros import PARAMS_LIMIT, parameter, read_parameters
 from studio.description.subject import printed
 from studio.description.templates import Cut
 from studio.errors import EditError
@@ -162,12 +162,12 @@ def parameter_place(reading: Reading, macro: SourceElement, name: str) -> TextPl
 
 def name_in_params(text: str, name: str) -> int:
     """Where `params` names a parameter, its stars left out; -1 when it does not."""
+    if len(text) > PARAMS_LIMIT:
+        return -1
     at = 0
-    for one in read_parameters(text)[0]:
-        at = text.find(one, at)
-        if at < 0:
-            return -1
-        if one.lstrip("*") == name:
-            return at + len(one) - len(name)
-        at += len(one)
+    while (rest := text[at:]).strip():
+        found, _, behind = parameter(rest)
+        if found.lstrip("*") == name:
+            return at + len(rest) - len(rest.lstrip()) + len(found) - len(name)
+        at = len(text) - len(behind)
     return -1

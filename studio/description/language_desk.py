@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Final
 from studio.description.completion import completions_at
 from studio.description.cursor import Cursor
 from studio.description.editor_text import EditorText
+from studio.description.faults import Fault
 from studio.description.language import (
     CompletionQuery,
     Completions,
@@ -61,6 +62,8 @@ class LanguageDesk:
             return self._reply(query)
         except EditError as error:
             return NoReply(str(error))
+        except Fault as fault:
+            return NoReply(fault.sentence)
         except Exception as error:  # noqa: BLE001 - a question may not cost the process its robot
             return NoReply(f"The question could not be answered: {type(error).__name__}: {error}")
 
