@@ -12,8 +12,6 @@ from studio.description.faults import Fault
 from studio.description.packages_found import find_package
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from studio.description.reading import Reading
 
 NAMES_LISTED: Final = 1_000
@@ -81,8 +79,3 @@ def names_in(reading: Reading, folder: str) -> list[tuple[str, bool]]:
     except OSError:
         return []
     return sorted(found, key=lambda one: (not one[1], one[0]))
-
-
-def packages_of(reading: Reading) -> Mapping[str, tuple[str, ...]]:
-    """All packages with their folders."""
-    return reading.policy.packages
