@@ -15,7 +15,7 @@ from studio.description.faults import Fault, Refusal
 from studio.description.substitution import auto_typed, substitute
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Iterator
 
 ARGUMENTS = {"n": "2", "t": "left", "p": "$(find pkg)/x", "f": "0.5", "b": "true"}
 ENVIRONMENT = {"SHOWN": "yes"}
@@ -37,8 +37,8 @@ class Context:
             raise Fault("package-not-found", name)
         return PACKAGES[name]
 
-    def steps(self, items: Iterable[Any]) -> Iterable[Any]:
-        return items
+    def steps(self, items: Iterable[Any]) -> Iterator[Any]:
+        return iter(items)
 
 
 def by_stock(command: str) -> str | None:
