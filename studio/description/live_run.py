@@ -115,6 +115,13 @@ class LiveRun:
             _tell(reason)
             return None
 
+    def expect_edits_like(self, before: LiveRun) -> None:
+        """Prepare for edits of the files that were edited before, while nobody waits."""
+        for path in before.texts.edited & self.files.keys():
+            self.texts.live(path)
+        if "containers" in vars(before):
+            self.note_containers(self.containers)
+
     @cached_property
     def containers(self) -> dict[Cell | Argument, None]:
         """Whatever is bound to a list or mapping, of a YAML file perhaps."""

@@ -104,7 +104,10 @@ class Session:
             return self.run()
         self._sites.update(live.texts.moved(self._sites))
         told = self._told
-        return verified(self.run(), told, self._entry)
+        answer = verified(self.run(), told, self._entry)
+        if self._live is not None:
+            self._live.expect_edits_like(live)
+        return answer
 
     def _patched(self, live: LiveRun, patch: Patch) -> Expansion:
         """Answer what a patch changed."""

@@ -62,6 +62,11 @@ class TextEdits:
         """Whether there is such a site."""
         return path in self._files and site in self.live(path).index_of
 
+    @property
+    def edited(self) -> frozenset[str]:
+        """Files that were edited."""
+        return frozenset(self._live)
+
     def live(self, path: str) -> LiveDrafts:
         """The drafts of a file as they are now."""
         live = self._live.get(path)
