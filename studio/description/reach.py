@@ -57,12 +57,12 @@ class Reach:
         while front:
             reached: list[Input] = []
             for one in front:
-                links = self.links(one)
-                for consumer in links.consumers:
-                    found[consumer] = None
-                if len(found) >= CONSUMERS_KEPT:
-                    return found
-                for dependent in links.dependents:
+                _, consumers, dependents = self._links.get(one) or self.links(one)
+                if consumers:
+                    found.update(dict.fromkeys(consumers))
+                    if len(found) >= CONSUMERS_KEPT:
+                        return found
+                for dependent in dependents:
                     if dependent not in seen:
                         seen.add(dependent)
                         reached.append(dependent)
