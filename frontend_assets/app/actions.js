@@ -92,6 +92,7 @@ export function reload() {
     title: t("reload"),
     text: t("reload.unsaved"),
     action: t("reload.discard"),
+    danger: true,
     run,
   };
   return undefined;
@@ -110,6 +111,7 @@ export async function closeDocument() {
     title: t("document.close"),
     text: t("document.close.unsaved"),
     action: t("document.close.discard"),
+    danger: true,
     run,
   };
   return undefined;

@@ -2,9 +2,8 @@
 
 import { html } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
-import { shortcutText } from "../lib/keys.js";
 import { Dialog } from "../lib/ui.js";
-import { commandLabel, commands, onMac } from "./commands.js";
+import { KeysDialog } from "./keys-dialog.js";
 import { LaunchDialog } from "./launch-dialog.js";
 import { MergeDialog } from "./merge-dialog.js";
 import { OpenDialog, PackageDialog } from "./open-dialog.js";
@@ -32,7 +31,7 @@ export function Dialogs() {
     case "share":
       return html`<${ShareDialog} link=${shown.link} onClose=${close} />`;
     case "keys":
-      return html`<${KeysDialog} />`;
+      return html`<${KeysDialog} onClose=${close} />`;
     case "palette":
       return html`<${Palette} onClose=${close} />`;
     case "confirm":
@@ -43,37 +42,16 @@ export function Dialogs() {
 }
 
 /** @param {Extract<Shown, {kind: "confirm"}>} props */
-function ConfirmDialog({ title, text, action, run }) {
+function ConfirmDialog({ title, text, details = [], action, danger = false, run }) {
   const confirm = () => {
     close();
     run();
   };
   return html`<${Dialog} title=${title} closeLabel=${t("close")} class="confirm" onClose=${close}>
     <p class="dialog-text">${text}</p>
+    ${details.length > 0 && html`<ul class="confirm-details">${details.map((one) => html`<li key=${one}>${one}</li>`)}</ul>`}
     <footer><span class="push"></span>
       <button type="button" class="button" data-first onClick=${close}>${t("cancel")}</button>
-      <button type="button" class="button danger" onClick=${confirm}>${action}</button></footer>
-  <//>`;
-}
-
-const STEPS = /** @type {const} */ ([
-  ["keys.step", ["↑", "↓"]],
-  ["keys.coarse", ["Shift", "↑"]],
-  ["keys.fine", ["Alt", "↑"]],
-  ["keys.write", ["Enter"]],
-  ["keys.tree", ["←", "→"]],
-  ["keys.eye", ["Space"]],
-]);
-
-function KeysDialog() {
-  const named = commands.value.filter(({ keys }) => keys && keys.length > 0);
-  return html`<${Dialog} title=${t("command.keys")} closeLabel=${t("close")} class="keys" onClose=${close}>
-    <dl class="keys-list">
-      ${named.map(
-        (command) => html`<dt>${commandLabel(command)}</dt>
-        <dd><kbd>${shortcutText(command.keys?.[0] ?? "", onMac)}</kbd></dd>`,
-      )}
-      ${STEPS.map(([key, strokes]) => html`<dt>${t(key)}</dt><dd>${strokes.map((one) => html`<kbd>${one}</kbd>`)}</dd>`)}
-    </dl>
+      <button type="button" class=${`button ${danger ? "danger" : "primary"}`} onClick=${confirm}>${action}</button></footer>
   <//>`;
 }

@@ -6,6 +6,7 @@ import { html } from "vendor/preact.js";
 import { copyText } from "../lib/clipboard.js";
 import { t } from "../lib/i18n.js";
 import { allSettled } from "../lib/latest.js";
+import { linkContents } from "../lib/link-contents.js";
 import { baseName } from "../lib/paths.js";
 import { recall, remember } from "../lib/remembered.js";
 import { Dialog } from "../lib/ui.js";
@@ -17,6 +18,10 @@ const MARK = "#robot=";
 const LEFT_OUT = "link.left_out";
 /** Longer ones are cut by chat programs and mail. */
 const LONG = 2000;
+/** Of the arguments in a link so many are told before it is opened. */
+const ARGUMENTS_SHOWN = 6;
+/** A link may come from anybody, and hold texts of any length. */
+const DETAIL_CHARACTERS = 200;
 
 export async function copyLink() {
   await allSettled();
@@ -34,8 +39,8 @@ export function ShareDialog({ link, onClose }) {
   return html`<${Dialog} title=${t("share.title")} closeLabel=${t("close")} class="share" onClose=${onClose}>
     <p class="dialog-text">${t("share.text")}</p>
     <ul class="share-list">
-      <li>${t("share.arguments", { count: link.arguments })}</li>
-      <li>${t("share.edits", { count: link.edits })}${link.files.length > 0 ? `: ${link.files.map(baseName).join(", ")}` : ""}</li>
+      <li>${link.arguments > 0 ? t("share.arguments", { count: link.arguments }) : t("share.no_arguments")}</li>
+      <li>${link.edits > 0 ? t("share.edits", { count: link.edits }) : t("share.no_edits")}${link.files.length > 0 ? `: ${link.files.map(baseName).join(", ")}` : ""}</li>
     </ul>
     <label class="field"><span>${t("share.address")}</span>
       <input type="text" class="box wide" readonly value=${address} onFocus=${(/** @type {any} */ event) => event.currentTarget.select()} /></label>
@@ -47,7 +52,7 @@ export function ShareDialog({ link, onClose }) {
 }
 
 /** Follow the link that this page was opened by; a viewer is told what to do. */
-export function followLink() {
+export async function followLink() {
   sayLeftOut();
   if (!location.hash.startsWith(MARK)) return;
   const text = location.hash.slice(MARK.length);
@@ -56,13 +61,26 @@ export function followLink() {
     notify(t("share.viewer"), { bad: true });
     return;
   }
+  const holds = await linkContents(text);
+  const file = holds && baseName(holds.file);
   dialog.value = {
     kind: "confirm",
-    title: t("share.open"),
+    title: file ? t("share.open.file", { file }) : t("share.open"),
     text: t("share.open.text"),
+    details: holds ? detailsOf(holds) : [],
     action: t("share.open.action"),
     run: () => void openLink(text),
   };
+}
+
+/** @param {import("../lib/link-contents.js").LinkContents} holds @returns {string[]} the file, what it is given, how much is edited */
+function detailsOf({ file, arguments: given, edits }) {
+  const passed = Object.entries(given).map(([name, value]) => `${name}:=${value}`);
+  const some = passed.slice(0, ARGUMENTS_SHOWN);
+  if (passed.length > some.length)
+    some.push(t("variants.more", { count: passed.length - some.length }));
+  const changes = edits > 0 ? [t("share.edits", { count: edits })] : [];
+  return [file, ...some, ...changes].map((one) => one.slice(0, DETAIL_CHARACTERS));
 }
 
 /** @param {string} text */

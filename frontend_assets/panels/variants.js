@@ -157,6 +157,7 @@ function menuItems(variant, onRename) {
         file: shortPath(variants.value.path, documentState.value?.root ?? ""),
       }),
       action: t("variants.delete"),
+      danger: true,
       run: () => void ask({ type: "delete_variant", name }),
     };
   };

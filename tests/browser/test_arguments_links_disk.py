@@ -69,7 +69,7 @@ def test_a_robot_asks_for_what_it_needs_and_a_link_opens_it_with_its_edits(
         dragged = tab.drag_slider("reach", 0.7)
         link = link_of(tab)
         other.page.goto(link)
-        dialog = other.page.get_by_role("dialog", name="Open the robot of this link?")
+        dialog = other.page.get_by_role("dialog", name="from this link?")
         dialog.get_by_role("button", name="Open", exact=True).click()
         other.page.wait_for_url("**/d/mast-2")
         wait_until("it to be drawn", other.has_drawn_robot)
