@@ -1,7 +1,7 @@
 /** The editor of the source panel: one CodeMirror view, and a state for each open file. */
 
 /**
- * @import { Extension } from "vendor/codemirror.js"
+ * @import { Extension, ViewUpdate } from "vendor/codemirror.js"
  * @import { TextLink } from "../app/texts.js"
  */
 
@@ -35,13 +35,16 @@ import {
   xml,
   yaml,
 } from "vendor/codemirror.js";
+import { documentState } from "../app/state/document.js";
 import { createGesture } from "../lib/gesture.js";
 import { language, t } from "../lib/i18n.js";
 import { indentationOf } from "../lib/indentation.js";
+import { shortPath } from "../lib/paths.js";
 import { iconElement } from "../lib/ui.js";
 import { changeMarks } from "./source-changes.js";
 import { LIGHTS } from "./source-lights.js";
 import { SOURCE_LOOK } from "./source-look.js";
+import { tabPassesThrough } from "./source-tab-key.js";
 
 /** Marks what did not come from the keyboard here. */
 export const fromElsewhere = Annotation.define();
@@ -75,6 +78,7 @@ export function commonExtensions(events) {
     indentOnInput(),
     search({ top: true }),
     historyKeys(events),
+    tabPassesThrough(isTyped),
     keymap.of([
       ...closeBracketsKeymap,
       ...defaultKeymap,
@@ -162,7 +166,7 @@ export function stateOf(link, common, { dark, mayEdit, more }) {
 function typing({ shared }) {
   const gesture = createGesture();
   return EditorView.updateListener.of((update) => {
-    const own = !update.transactions.some((one) => one.annotation(fromElsewhere));
+    const own = isTyped(update);
     if (update.docChanged) {
       if (own) shared.type(update.changes, gesture.id());
     } else if (update.selectionSet && own) {
@@ -172,8 +176,14 @@ function typing({ shared }) {
   });
 }
 
+/** @param {ViewUpdate} update @returns {boolean} it came from the keyboard or the mouse here */
+function isTyped({ transactions }) {
+  return !transactions.some((one) => one.annotation(fromElsewhere));
+}
+
 /** @param {string} file @returns {Extension} its name for a screen reader, and the words of the search */
 function wordsFor(file) {
+  const short = shortPath(file, documentState.value?.root ?? "");
   const phrases = [
     "Find",
     "Replace",
@@ -196,7 +206,7 @@ function wordsFor(file) {
     "unfold",
   ];
   return [
-    EditorView.contentAttributes.of({ "aria-label": t("source.text", { file }) }),
+    EditorView.contentAttributes.of({ "aria-label": t("source.text", { file: short }) }),
     EditorState.phrases.of(
       Object.fromEntries(phrases.map((one) => [one, t(`editor.${one.replaceAll(" ", "_")}`)])),
     ),
