@@ -35,8 +35,8 @@ export function KeysDialog({ onClose }) {
   return html`<${Dialog} title=${t("command.keys")} closeLabel=${t("close")} class="keys" onClose=${onClose}>
     <div class="keys-list">
       <${Keys} title=${t("keys.page")} rows=${named()} />
-      <${Keys} title=${t("keys.in_source")} rows=${IN_SOURCE} />
-      <${Keys} title=${t("keys.everywhere")} rows=${IN_LISTS} />
+      <${Keys} title=${t("keys.in_source")} rows=${said(IN_SOURCE)} />
+      <${Keys} title=${t("keys.everywhere")} rows=${said(IN_LISTS)} />
     </div>
   <//>`;
 }
@@ -49,11 +49,14 @@ function named() {
   });
 }
 
+/** @param {readonly Row[]} rows @returns {Row[]} in the words of the language */
+const said = (rows) => rows.map(([key, strokes]) => [t(key), strokes]);
+
 /** @param {{title: string, rows: readonly Row[]}} props */
 function Keys({ title, rows }) {
   return html`<section><h3>${title}</h3><dl>
     ${rows.map(
-      ([words, keys]) => html`<dt>${t(words)}</dt>
+      ([words, keys]) => html`<dt>${words}</dt>
       <dd>${keys.map((one) => html`<kbd>${shortcutText(one, onMac)}</kbd>`)}</dd>`,
     )}
   </dl></section>`;

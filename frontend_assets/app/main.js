@@ -11,19 +11,28 @@ import { clearSelection, redo, save, toggleAnimation, undo, watch, zeroJoints } 
 import { addCommands, onKey } from "./commands.js";
 import { followMissing } from "./launch-dialog.js";
 import { followSize } from "./layouts.js";
+import { menuCommands } from "./menu-commands.js";
 import { followDisk } from "./merge-dialog.js";
 import { dockPanels, PANELS } from "./panels.js";
-import { copyLink, followLink } from "./share.js";
+import { followLink } from "./share.js";
 import { Shell } from "./shell.js";
 import { mayEdit, role } from "./state/connection.js";
 import { documentId, history, movable, title, unsaved } from "./state/document.js";
-import { activePanel, dialog, languageChoice, selected, size, theme } from "./state/view.js";
+import {
+  activePanel,
+  dialog,
+  isFree,
+  languageChoice,
+  selected,
+  size,
+  theme,
+} from "./state/view.js";
 import { viewport } from "./viewport.js";
 import { connect } from "./wire.js";
 
 /** @import { Dock } from "../lib/dock.js" */
 
-const EDITING = { enabled: () => mayEdit.value && dialog.value === null };
+const EDITING = { enabled: () => mayEdit.value && isFree() };
 
 /** @param {HTMLElement} element */
 function startDock(element) {
@@ -83,18 +92,6 @@ function addPageCommands() {
       run: () => show({ kind: "open" }),
     },
     {
-      id: "arguments",
-      icon: "properties",
-      enabled: () => EDITING.enabled() && documentId.value !== "",
-      run: () => show({ kind: "launch", path: "" }),
-    },
-    {
-      id: "copy_link",
-      icon: "link",
-      enabled: () => EDITING.enabled() && documentId.value !== "",
-      run: copyLink,
-    },
-    {
       id: "save",
       icon: "disk",
       keys: ["Mod+S"],
@@ -120,7 +117,7 @@ function addPageCommands() {
       id: "fit",
       icon: "fit",
       keys: ["F"],
-      enabled: () => viewport.value !== null && dialog.value === null,
+      enabled: () => viewport.value !== null && isFree(),
       run: () => viewport.value?.fit(),
     },
     {
@@ -139,10 +136,11 @@ function addPageCommands() {
       id: "deselect",
       icon: "close",
       keys: ["Escape"],
-      enabled: () => selected.value !== null && dialog.value === null,
+      enabled: () => selected.value !== null && isFree(),
       run: clearSelection,
     },
     { id: "keys", icon: "keyboard", keys: ["?"], run: () => show({ kind: "keys" }) },
+    ...menuCommands(),
   ]);
 }
 

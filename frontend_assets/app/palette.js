@@ -4,9 +4,11 @@ import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { shownText } from "../lib/expressions.js";
 import { t } from "../lib/i18n.js";
 import { shortcutText } from "../lib/keys.js";
-import { shortPath } from "../lib/paths.js";
+import { placeText, shortPath } from "../lib/paths.js";
+import { ranked } from "../lib/ranking.js";
 import { Dialog, Icon } from "../lib/ui.js";
 import { commandById, commandLabel, commands, onMac } from "./commands.js";
+import { compareWith } from "./menu-commands.js";
 import { mayEdit } from "./state/connection.js";
 import { allSites, documentState, robot, siteOrder } from "./state/document.js";
 import { showFile } from "./state/source.js";
@@ -15,7 +17,7 @@ import { propertyFilter, soughtSite } from "./state/view.js";
 import { applyVariant } from "./variants.js";
 import { focusLink } from "./viewport.js";
 
-/** @typedef {{key: string, icon: string, label: string, hint: string, run: () => void}} Choice */
+/** @typedef {import("../lib/ranking.js").Ranked & {key: string, icon: string, hint: string, run: () => void}} Choice */
 
 const SHOWN = 40;
 
@@ -67,20 +69,17 @@ export function Palette({ onClose }) {
   <//>`;
 }
 
-/** @param {string} text @returns {Choice[]} whose words all occur, those that begin with them first */
+/** @param {string} text @returns {Choice[]} */
 function found(text) {
-  const words = text.trim().toLowerCase().split(/\s+/).filter(Boolean);
+  if (text.trim() === "") return commandChoices();
   const all = [
     ...commandChoices(),
-    ...(words.length > 0
-      ? [...propertyChoices(), ...linkChoices(), ...fileChoices(), ...variantChoices()]
-      : []),
+    ...linkChoices(),
+    ...variantChoices(),
+    ...propertyChoices(),
+    ...fileChoices(),
   ];
-  const fits = all.filter(({ label }) => words.every((word) => label.toLowerCase().includes(word)));
-  const first = words[0] ?? "";
-  const start = new RegExp(`(^|[ :_.])${first.replace(/\W/g, "\\$&")}`, "i");
-  const begins = (/** @type {Choice} */ { label }) => Number(start.test(label));
-  return first ? fits.sort((a, b) => begins(b) - begins(a)).slice(0, SHOWN) : fits;
+  return ranked(all, text).slice(0, SHOWN);
 }
 
 /** @returns {Choice[]} */
@@ -90,6 +89,7 @@ function commandChoices() {
     .map((command) => {
       const key = command.keys?.[0];
       return {
+        rank: "command",
         key: command.id,
         icon: command.icon,
         label: commandLabel(command),
@@ -104,27 +104,32 @@ function propertyChoices() {
   const sites = allSites();
   return siteOrder.value.flatMap((id) => {
     const site = sites.get(id);
-    if (!site) return [];
-    const run = () => {
+    return site ? [propertyChoice(site)] : [];
+  });
+}
+
+/** @param {import("../types/wire.d.ts").SiteView} site @returns {Choice} texts without a name are told apart by their places */
+function propertyChoice(site) {
+  const unnamed = site.kind === "literal";
+  const text = shownText(site.argument ?? site.text);
+  return {
+    rank: unnamed ? "literal" : "property",
+    key: site.id,
+    icon: "properties",
+    label: t("palette.property", { name: site.name }),
+    hint: unnamed ? `${text} · ${placeText(site)}` : text,
+    run: () => {
       propertyFilter.value = "";
       commandById("panel.properties")?.run();
-      soughtSite.value = id;
-    };
-    return [
-      {
-        key: id,
-        icon: "properties",
-        label: t("palette.property", { name: site.name }),
-        hint: shownText(site.argument ?? site.text),
-        run,
-      },
-    ];
-  });
+      soughtSite.value = site.id;
+    },
+  };
 }
 
 /** @returns {Choice[]} */
 function linkChoices() {
   return (robot.value?.links ?? []).map(({ name }) => ({
+    rank: "link",
     key: `link ${name}`,
     icon: "box",
     label: t("palette.link", { name }),
@@ -136,19 +141,31 @@ function linkChoices() {
 /** @returns {Choice[]} */
 function variantChoices() {
   if (!mayEdit.value) return [];
-  return variants.value.variants.map(({ name, note }) => ({
-    key: `variant ${name}`,
-    icon: "variants",
-    label: t("palette.variant", { name }),
-    hint: shownText(note),
-    run: () => void applyVariant(name),
-  }));
+  return variants.value.variants.flatMap(({ name, note }) => [
+    {
+      rank: "variant",
+      key: `variant ${name}`,
+      icon: "variants",
+      label: t("palette.variant", { name }),
+      hint: shownText(note),
+      run: () => void applyVariant(name),
+    },
+    {
+      rank: "variant",
+      key: `compare ${name}`,
+      icon: "compare",
+      label: t("palette.compare", { name }),
+      hint: "",
+      run: () => compareWith({ kind: "variant", name }),
+    },
+  ]);
 }
 
 /** @returns {Choice[]} */
 function fileChoices() {
   const state = documentState.value;
   return (state?.files ?? []).map((file) => ({
+    rank: "file",
     key: `file ${file}`,
     icon: "fileCode",
     label: t("palette.file", { name: shortPath(file, state?.root ?? "") }),

@@ -20,7 +20,7 @@ export function StatusBar() {
   return html`<footer class="status-bar">
     <${Link} />
     <${Evaluator} />
-    ${robot.value && html`<span class="wide-only"><b>${robot.value.links.length}</b> ${t("links")} · <b>${robot.value.joints.length}</b> ${t("joints")}</span>`}
+    <${Size} />
     <${Work} />
     <span class="push"></span>
     <${Build} />
@@ -42,6 +42,13 @@ function Evaluator() {
   const fallback = state.fallback_reason !== "";
   return html`<span class=${`wide-only ${fallback ? "amber" : ""}`} title=${state.fallback_reason || t("evaluator.hint")}>
     ${fallback ? t("evaluator.fallback", { name: state.evaluator }) : t("evaluator", { name: state.evaluator })}</span>`;
+}
+
+/** How much of a robot it is. */
+function Size() {
+  if (!robot.value) return null;
+  const [links, joints] = [robot.value.links.length, robot.value.joints.length];
+  return html`<span class="wide-only"><b>${links}</b> ${t("links", { count: links })} · <b>${joints}</b> ${t("joints", { count: joints })}</span>`;
 }
 
 function Work() {

@@ -74,7 +74,7 @@ function documentItems() {
       disabled: none,
       run: () => commandById("copy_link")?.run(),
     },
-    { label: t("reload"), icon: "reload", disabled: none, run: reload },
+    { label: t("command.reload"), icon: "reload", disabled: none, run: reload },
     { label: t("document.close"), icon: "close", disabled: none, run: closeDocument },
   ];
 }

@@ -58,6 +58,8 @@ export const size = signal("wide");
 /** @typedef {{kind: "open"} | {kind: "choose_package", name: string} | {kind: "launch", path: string} | {kind: "merge", file: string} | {kind: "share", link: import("../../types/wire.d.ts").Link} | {kind: "keys"} | {kind: "palette"} | {kind: "confirm", title: string, text: string, details?: readonly string[], action: string, danger?: boolean, run: () => void}} Shown */
 /** The one window over the page. @type {Signal<Shown | null>} */
 export const dialog = signal(null);
+/** No window waits for an answer; the palette is gone before what it found begins. */
+export const isFree = () => dialog.value === null || dialog.value.kind === "palette";
 
 /** @typedef {{id: number, text: string, bad: boolean}} Notice */
 /** @type {Signal<readonly Notice[]>} */
