@@ -11,7 +11,7 @@ function packed(shared) {
 test("a link tells its file, its arguments and how much is edited", async () => {
   const edits = [{ at: 1, old: "1", new: "2" }];
   const entry = {
-    path: "/home/me/ws/mast/urdf/mast.xacro",
+    path: "/data/me/ws/mast/urdf/mast.xacro",
     package: "mast",
     inside: "urdf/mast.xacro",
   };
