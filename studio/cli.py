@@ -196,7 +196,7 @@ def _settings(options: argparse.Namespace) -> Settings:
 
 
 def _xacro(options: argparse.Namespace, arguments: dict[str, str]) -> None:
-    from studio.description.oracle import export_urdf
+    from studio.description.evaluator.oracle import export_urdf
     from studio.settings import XACRO_MEMORY_BYTES
     from studio.system import limit_memory
 

@@ -57,7 +57,11 @@ def committed() -> list[Path]:
 
 
 COMMITTED = committed()
-ROOMS = sorted(path.parent for path in COMMITTED if path.match("studio/*/__init__.py"))
+ROOMS = sorted(
+    path.parent
+    for path in COMMITTED
+    if path.match("studio/*/__init__.py") or path.match("studio/*/*/__init__.py")
+)
 SOURCES = [path for path in COMMITTED if path.suffix == ".py"]
 PAGE_SOURCES = [
     path
@@ -141,10 +145,15 @@ OF_A_WHOLE_ROOM = {
 }
 
 
-@pytest.mark.parametrize("path", [p for p in SOURCES if p.match("tests/*/test_*.py")], ids=name_of)
+TESTS_OF_ROOMS = [
+    p for p in SOURCES if p.match("tests/*/test_*.py") or p.match("tests/*/*/test_*.py")
+]
+
+
+@pytest.mark.parametrize("path", TESTS_OF_ROOMS, ids=name_of)
 def test_a_test_file_mirrors_a_source_file(path: Path):
-    room = path.parent.name
-    if room in ACROSS_ROOMS or path.name in OF_A_WHOLE_ROOM:
+    room = path.parent.relative_to(REPOSITORY / "tests")
+    if room.parts[0] in ACROSS_ROOMS or path.name in OF_A_WHOLE_ROOM:
         return
     source = REPOSITORY / "studio" / room / path.name.removeprefix("test_")
     assert source.is_file(), f"{name_of(path)} tests no file of studio/{room}/"

@@ -6,12 +6,13 @@ import asyncio
 from typing import TYPE_CHECKING, Final
 
 from studio.description.codec import CODEC
-from studio.description.queries import REPLIES, NoReply
+from studio.description.queries import REPLIES
 from studio.description.values import (
     ArgumentsRequest,
     EditRequest,
     Expansion,
     Failure,
+    NoReply,
     OpenRequest,
     ReloadRequest,
     VerifyRequest,

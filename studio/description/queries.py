@@ -6,38 +6,21 @@ value here in `QUERIES`, its reply one in `REPLIES`, and an arm in `replies.repl
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Final, TypeAlias
 
-from studio.description.language import (
+from studio.description.language.questions import (
     LANGUAGE_QUERIES,
     LANGUAGE_REPLIES,
     LanguageQuery,
     LanguageReply,
 )
-from studio.description.origin_values import PartOrigin, SiteEffects
-
-
-@dataclass(frozen=True, slots=True)
-class PartOriginQuery:
-    """Where does this part come from? `part` is a `Part.key`."""
-
-    part: str
-
-
-@dataclass(frozen=True, slots=True)
-class SiteEffectsQuery:
-    """What does this text shape? `site` is a `Site.id`."""
-
-    site: str
-
-
-@dataclass(frozen=True, slots=True)
-class NoReply:
-    """The question cannot be answered; `sentence` says why and what to do."""
-
-    sentence: str
-
+from studio.description.origins.origin_values import (
+    PartOrigin,
+    PartOriginQuery,
+    SiteEffects,
+    SiteEffectsQuery,
+)
+from studio.description.values import NoReply
 
 Query: TypeAlias = PartOriginQuery | SiteEffectsQuery | LanguageQuery
 Reply: TypeAlias = PartOrigin | SiteEffects | NoReply | LanguageReply

@@ -4,19 +4,20 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, assert_never
 
-from studio.description.effects import site_effects
 from studio.description.faults import Fault
-from studio.description.language import (
+from studio.description.language.questions import (
     CompletionQuery,
     LookUpQuery,
     OutlineQuery,
     ReferencesQuery,
 )
-from studio.description.provenance import part_origin
-from studio.description.queries import NoReply, PartOriginQuery, SiteEffectsQuery
+from studio.description.origins.effects import site_effects
+from studio.description.origins.origin_values import PartOriginQuery, SiteEffectsQuery
+from studio.description.origins.provenance import part_origin
+from studio.description.values import NoReply
 
 if TYPE_CHECKING:
-    from studio.description.good_run import GoodRun
+    from studio.description.origins.good_run import GoodRun
     from studio.description.queries import Query, Reply
 
 NOT_OPEN = "No robot is open in this worker: open it again."

@@ -5,20 +5,21 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
-from studio.description.evaluation import Evaluation
+from studio.description.evaluator.evaluation import Evaluation
+from studio.description.evaluator.output_tree import OutputElement
+from studio.description.evaluator.parts import part_of, write_part, write_parts
+from studio.description.evaluator.run_record import RunRecord
+from studio.description.evaluator.source_store import SourceStore
 from studio.description.faults import Fault, Refusal, Unsupported, problem_of
-from studio.description.good_run import GoodRun
-from studio.description.language import LANGUAGE_QUERIES
-from studio.description.language_desk import LanguageDesk
-from studio.description.live_run import LiveRun
-from studio.description.output_index import OutputIndex
-from studio.description.output_tree import OutputElement
-from studio.description.parts import part_of, write_part, write_parts
+from studio.description.language.language_desk import LanguageDesk
+from studio.description.language.questions import LANGUAGE_QUERIES
+from studio.description.origins.good_run import GoodRun
+from studio.description.patching.live_run import LiveRun
+from studio.description.patching.output_index import OutputIndex
+from studio.description.patching.verification import verified
 from studio.description.replies import reply_to
-from studio.description.run_record import RunRecord
-from studio.description.sites import SiteBuilder
-from studio.description.source_store import SourceStore
-from studio.description.source_tree import SourceElement, SourceText, parse_source
+from studio.description.sites.sites import SiteBuilder
+from studio.description.syntax.source_tree import SourceElement, SourceText, parse_source
 from studio.description.values import (
     ArgumentsRequest,
     EditRequest,
@@ -28,7 +29,6 @@ from studio.description.values import (
     ReloadRequest,
     VerifyRequest,
 )
-from studio.description.verification import verified
 from studio.errors import DescriptionError, EditError, ExpansionError
 from studio.packages.roots import ServedRoots
 from studio.problems import Place, Problem, Severity
@@ -36,7 +36,7 @@ from studio.problems import Place, Problem, Severity
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from studio.description.live_run import Patch
+    from studio.description.patching.live_run import Patch
     from studio.description.queries import Query, Reply
     from studio.description.values import ReadPolicy, Site
 
@@ -175,7 +175,7 @@ class Session:
 
     def _fall_back(self) -> tuple[Evaluation, OutputElement]:
         """Let stock xacro expand; its elements all seem to stand at the entry's first line."""
-        from studio.description.oracle import expand_root  # noqa: PLC0415 - only when needed
+        from studio.description.evaluator.oracle import expand_root  # noqa: PLC0415 - only when needed
 
         text = expand_root(self._entry, self._arguments, self._policy, self._store)
         origin = self._store.tree(self._entry).root

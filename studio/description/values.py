@@ -201,3 +201,10 @@ class VerifyRequest:
 
     The answer then has a warning with the code PATCH_DIFFERED; else it `is_patch` without news.
     """
+
+
+@dataclass(frozen=True, slots=True)
+class NoReply:
+    """The question cannot be answered; `sentence` says why and what to do."""
+
+    sentence: str

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Final
 
+from studio.description.editing.variants import differing_names
 from studio.description.values import SiteKind
-from studio.description.variants import differing_names
 from studio.engine.variant_events import DifferenceView, InputDifference, shown
 from studio.robot.comparison import differences
 from studio.robot.measures import measure, whole_rows

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
-from studio.description.disk_news import FileChange
+from studio.description.editing.disk_news import FileChange
 from studio.engine.disk_problems import changed_on_disk, file_gone
 from studio.engine.messages import Collisions, CollisionView, DiskMerged
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from studio.description.disk_news import DiskNews
-    from studio.description.merging import Merge, Place, Side
-    from studio.description.sources import Sources
+    from studio.description.editing.disk_news import DiskNews
+    from studio.description.editing.merging import Merge, Place, Side
+    from studio.description.editing.sources import Sources
     from studio.description.values import Edit
     from studio.engine.board import Board
     from studio.engine.messages import GetCollisions

@@ -8,9 +8,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, TypeVar
 
-from studio.description.queries import NoReply
-from studio.description.sources import Change, Sources
-from studio.description.values import Expansion, Failure
+from studio.description.editing.sources import Change, Sources
+from studio.description.values import Expansion, Failure, NoReply
 from studio.engine.board import Board
 from studio.engine.disk import DiskDesk
 from studio.engine.edit_loop import EditLoop, Outcome, Target
@@ -34,7 +33,7 @@ from studio.settings import LOOPBACK_HOSTS
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable, Mapping, Sequence
 
-    from studio.description.merging import Side
+    from studio.description.editing.merging import Side
     from studio.description.queries import Query
     from studio.description.values import Edit
     from studio.engine.messages import EditText

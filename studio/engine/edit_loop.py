@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from studio.description.client import DescriptionWorker
+    from studio.description.editing.sources import Sources
     from studio.description.queries import Query, Reply
-    from studio.description.sources import Sources
 
 CHECK_AFTER_S: Final = 0.15
 """Quiet time after the last of some patches."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from studio.description.language import (
+from studio.description.language.questions import (
     CompletionQuery,
     Completions,
     LookedUp,

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Literal
 
-from studio.description.language import Completions, Meaning, Outline, References
+from studio.description.language.questions import Completions, Meaning, Outline, References
 from studio.engine.message import Message
 
 

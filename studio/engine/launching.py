@@ -6,7 +6,7 @@ import asyncio
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from studio.description.launch_arguments import LaunchArgument, launch_arguments
+from studio.description.sites.launch_arguments import LaunchArgument, launch_arguments
 from studio.description.values import SiteKind
 from studio.engine.messages import Arguments, ArgumentView
 from studio.errors import CommandError, PackageError

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Literal
 
-from studio.description.origin_values import Aspect, PartOrigin
+from studio.description.origins.origin_values import Aspect, PartOrigin
 from studio.engine.message import Message
 from studio.problems import Place
 

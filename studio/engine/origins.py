@@ -4,8 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
-from studio.description.origin_values import Aspect, PartOrigin, SiteEffects
-from studio.description.queries import PartOriginQuery, SiteEffectsQuery
+from studio.description.origins.origin_values import (
+    Aspect,
+    PartOrigin,
+    PartOriginQuery,
+    SiteEffects,
+    SiteEffectsQuery,
+)
 from studio.engine.origin_events import Effects, Origin, PartEffect
 
 if TYPE_CHECKING:

@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from studio.description.splice import difference
-from studio.description.variants import NamedTexts, TextName, Variant, texts_by_file
+from studio.description.editing.splice import difference
+from studio.description.editing.variants import NamedTexts, TextName, Variant, texts_by_file
 from studio.errors import EditError, PackageError
 from studio.packages.roots import package_folder_of
 from studio.packages.uris import resolve_uri
@@ -16,7 +16,7 @@ from studio.packages.uris import resolve_uri
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from studio.description.sources import Sources
+    from studio.description.editing.sources import Sources
     from studio.description.values import Edit
     from studio.packages.workspace import Location
 

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 
 from pydantic import Field, ValidationError
 
-from studio.description.merging import hunks_between
+from studio.description.editing.merging import hunks_between
 from studio.description.values import Edit
 from studio.engine.message import Message
 from studio.engine.messages import Link
@@ -27,7 +27,7 @@ from studio.packages.roots import package_folder_of
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from studio.description.sources import Sources
+    from studio.description.editing.sources import Sources
     from studio.packages.roots import ServedRoots
     from studio.packages.workspace import Location
 

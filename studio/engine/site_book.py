@@ -13,7 +13,7 @@ from studio.errors import EditError
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from studio.description.sources import Sources
+    from studio.description.editing.sources import Sources
     from studio.description.values import Expansion, Site
 
 

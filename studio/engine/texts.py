@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from studio.description.editor_text import EditorText
-from studio.description.text_changes import Piece, changes_between, patched
+from studio.description.editing.editor_text import EditorText
+from studio.description.editing.text_changes import Piece, changes_between, patched
 from studio.engine import messages as m
 from studio.engine.roles import Role
 from studio.errors import CommandError, EditError, ReadOnlyTextError, StaleTextError

@@ -8,14 +8,14 @@ import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from studio.description.variants_file import SIZE_LIMIT_BYTES, read_variants, write_variants
+from studio.description.editing.variants_file import SIZE_LIMIT_BYTES, read_variants, write_variants
 from studio.errors import NotSavedError, PackageError, VariantsFileError
 from studio.packages.presence import is_there
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from studio.description.variants import Variant
+    from studio.description.editing.variants import Variant
     from studio.packages.roots import ServedRoots
 
 _ENDINGS: Final = (".urdf.xacro", ".xacro", ".urdf", ".xml")

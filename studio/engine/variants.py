@@ -6,8 +6,8 @@ import asyncio
 from dataclasses import replace
 from typing import TYPE_CHECKING, Final
 
-from studio.description.sources import Change
-from studio.description.variants_file import NAME_LIMIT, VARIANT_LIMIT
+from studio.description.editing.sources import Change
+from studio.description.editing.variants_file import NAME_LIMIT, VARIANT_LIMIT
 from studio.engine import messages as m
 from studio.engine.comparison_desk import ComparisonDesk
 from studio.engine.listeners import encode
@@ -20,8 +20,8 @@ from studio.errors import CommandError
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
+    from studio.description.editing.variants import Variant
     from studio.description.values import Edit
-    from studio.description.variants import Variant
     from studio.engine.document import Document
     from studio.engine.services import Services
 

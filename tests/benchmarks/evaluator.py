@@ -11,10 +11,10 @@ import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from studio.description.evaluation import Evaluation
+from studio.description.editing.sources import Sources
+from studio.description.evaluator.evaluation import Evaluation
+from studio.description.evaluator.source_store import SourceStore
 from studio.description.session import open_session
-from studio.description.source_store import SourceStore
-from studio.description.sources import Sources
 from studio.description.values import EditRequest, Expansion, OpenRequest
 from studio.packages.roots import ServedRoots
 from tests.benchmarks.report import Timings, judge, judge_ratio, say, say_beside

@@ -11,13 +11,14 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.description.client import DescriptionWorker
-from studio.description.queries import NoReply, PartOrigin, PartOriginQuery
+from studio.description.origins.origin_values import PartOrigin, PartOriginQuery
 from studio.description.values import (
     ArgumentsRequest,
     Edit,
     EditRequest,
     Expansion,
     Failure,
+    NoReply,
     OpenRequest,
 )
 from tests.support.descriptions import policy_for, robot, write

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from studio.description.queries import NoReply, PartOrigin, PartOriginQuery
+from studio.description.origins.origin_values import PartOrigin, PartOriginQuery
 from studio.description.session import Session, open_session
-from studio.description.values import EditRequest, Expansion, Failure, OpenRequest
+from studio.description.values import EditRequest, Expansion, Failure, NoReply, OpenRequest
 from tests.support.descriptions import policy_for, robot, write
 from tests.support.edits import replacement
 

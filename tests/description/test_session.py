@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from studio.description.evaluation import Evaluation
+from studio.description.evaluator.evaluation import Evaluation
 from studio.description.faults import Unsupported
 from studio.description.session import Session, open_session
 from studio.description.values import (

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.description.client import DescriptionWorker
-from studio.description.queries import PartOrigin, PartOriginQuery
-from studio.description.sources import Sources
+from studio.description.editing.sources import Sources
+from studio.description.origins.origin_values import PartOrigin, PartOriginQuery
 from studio.description.values import Edit, Expansion
 from studio.engine.edit_loop import EditLoop, Target
 from studio.packages.roots import ServedRoots

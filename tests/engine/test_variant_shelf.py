@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from studio.description.variants import Variant
+from studio.description.editing.variants import Variant
 from studio.engine.variant_shelf import VariantShelf
 from studio.errors import OutsideRootsError, UnreadableFileError, VariantsFileError
 from studio.packages.roots import ServedRoots

@@ -6,9 +6,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 from xml.dom import minidom
 
-from studio.description.comments import CommentedEvaluation
-from studio.description.output_tree import write_xml
-from studio.description.source_store import SourceStore
+from studio.description.evaluator.comments import CommentedEvaluation
+from studio.description.evaluator.output_tree import write_xml
+from studio.description.evaluator.source_store import SourceStore
 from studio.packages.roots import ServedRoots
 
 if TYPE_CHECKING:

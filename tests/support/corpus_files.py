@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from studio.description.source_tree import SourceError, SourceTree, parse_source
+from studio.description.syntax.source_tree import SourceError, SourceTree, parse_source
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -13,11 +13,11 @@ from xml.parsers.expat import ExpatError
 import xacro
 from xacro import substitution_args
 
-from studio.description.evaluation import Evaluation
+from studio.description.evaluator.evaluation import Evaluation
+from studio.description.evaluator.output_tree import OutputElement
+from studio.description.evaluator.source_store import SourceStore
 from studio.description.faults import Fault
-from studio.description.output_tree import OutputElement
-from studio.description.source_store import SourceStore
-from studio.description.source_tree import SourceText
+from studio.description.syntax.source_tree import SourceText
 from studio.description.values import ReadPolicy
 from studio.packages.roots import ServedRoots
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
     from pathlib import Path
 
-    from studio.description.budget import Limits
+    from studio.description.expressions.budget import Limits
 
 XMLNS = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
 _PACKAGE_NAME = re.compile(r"<name>\s*([^<\s]+)")

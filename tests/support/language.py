@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from studio.description.editor_text import EditorText
-from studio.description.language import (
+from studio.description.editing.editor_text import EditorText
+from studio.description.language.questions import (
     CompletionQuery,
     Completions,
     LookedUp,
@@ -18,12 +18,13 @@ from studio.description.language import (
 )
 from studio.description.session import open_session
 from studio.description.values import Edit, EditRequest, OpenRequest
+from tests.support.corpus import corpus
 from tests.support.descriptions import policy_for
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from studio.description.language import Completion, LanguageQuery, Meaning, TextPlace
+    from studio.description.language.questions import Completion, LanguageQuery, Meaning, TextPlace
     from studio.description.queries import Reply
 
 
@@ -117,3 +118,9 @@ def text_at(place: TextPlace) -> str:
     units = line.encode("utf-16-le")
     start = 2 * (place.column - 1)
     return units[start : start + 2 * place.length].decode("utf-16-le")
+
+
+def pr2() -> Editor:
+    """The PR2 of the corpus; skips the test without one."""
+    root = corpus() / "PR2+pr2_common"
+    return Editor(root, root / "pr2_description/robots/pr2.urdf.xacro")

@@ -6,9 +6,9 @@ import random
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from studio.description.evaluator.packages_found import find_package
 from studio.description.faults import Fault
-from studio.description.launch_arguments import LaunchArgument, launch_arguments
-from studio.description.packages_found import find_package
+from studio.description.sites.launch_arguments import LaunchArgument, launch_arguments
 from studio.description.values import WidgetKind
 from studio.errors import UnreadableFileError
 

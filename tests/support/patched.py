@@ -6,8 +6,8 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from studio.description.editing.sources import Sources
 from studio.description.session import Session, open_session
-from studio.description.sources import Sources
 from studio.description.values import EditRequest, Expansion, Failure, OpenRequest
 
 if TYPE_CHECKING:

@@ -5,8 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 
-from studio.description.origin_values import OriginAttribute, OriginInput, PartOrigin, SiteEffects
-from studio.description.queries import PartOriginQuery, SiteEffectsQuery
+from studio.description.origins.origin_values import (
+    OriginAttribute,
+    OriginInput,
+    PartOrigin,
+    PartOriginQuery,
+    SiteEffects,
+    SiteEffectsQuery,
+)
 from studio.description.session import open_session
 from studio.description.values import Edit, EditRequest, Expansion, OpenRequest, Site, SiteKind
 from tests.support.descriptions import policy_for

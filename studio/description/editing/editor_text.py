@@ -1,0 +1,146 @@
+"""A file's bytes as the text that a browser's editor holds, and the way between the two.
+
+The editor's text has no byte order mark, every line break (CRLF, LF, CR) is one LF, and offsets
+count UTF-16 code units from 0, as JavaScript counts. A byte that is no text of the file's encoding
+is shown as U+FFFD and stays the byte that it is. What an edit does not touch keeps its bytes.
+"""
+
+from __future__ import annotations
+
+import codecs
+import re
+from bisect import bisect_left, bisect_right
+from functools import cached_property
+from itertools import accumulate
+from typing import Final
+
+from studio.description.syntax.attribute_spans import text_encoding, writing_encoding
+from studio.description.values import Edit
+from studio.errors import EditError
+
+_LINE_BREAK: Final = re.compile(r"\r\n|\r|\n")
+_BREAK_TO_COME: Final = re.compile(r"\r\n?|\n")
+_NOT_TEXT: Final = re.compile("[\udc80-\udcff]")
+_BEYOND_ONE_UNIT: Final = re.compile("[\U00010000-\U0010ffff]")
+
+
+class EditorText:
+    """The text of one state of a file; `data` are its bytes."""
+
+    def __init__(self, data: bytes) -> None:
+        self.data = data
+        self._encoding = _readable_encoding(data)
+        self._bom_bytes = len(codecs.BOM_UTF8) if data.startswith(codecs.BOM_UTF8) else 0
+        self._raw = data[self._bom_bytes :].decode(self._encoding, "surrogateescape")
+        shown = self._raw if data.isascii() else _NOT_TEXT.sub("\ufffd", self._raw)
+        self.text = _LINE_BREAK.sub("\n", shown) if "\r" in shown else shown
+        """What the editor shows."""
+
+    @cached_property
+    def line_break(self) -> str:
+        """The file's own line break: its first; LF when it has none."""
+        found = _LINE_BREAK.search(self._raw)
+        return found[0] if found else "\n"
+
+    @property
+    def length(self) -> int:
+        """Length of the editor's text in code units."""
+        return self.offset_of(len(self.text))
+
+    def byte_at(self, offset: int) -> int:
+        """The byte at which the character at an editor's offset begins.
+
+        Raises:
+            EditError: The offset lies outside the text, or within a character.
+        """
+        index = self._raw_index(self.index_of(offset))
+        if self._encoding != "utf-8" or self.data.isascii():
+            return self._bom_bytes + index
+        return self._bom_bytes + len(self._raw[:index].encode("utf-8", "surrogateescape"))
+
+    def offset_at(self, byte: int) -> int:
+        """The editor's offset of the character that holds a byte; the nearest end outside."""
+        decoder = codecs.getincrementaldecoder(self._encoding)("surrogateescape")
+        before = decoder.decode(self.data[self._bom_bytes : max(byte, self._bom_bytes)])
+        in_break = before.endswith("\r") and self._raw[len(before) : len(before) + 1] == "\n"
+        return self.offset_of(len(before) - before.count("\r\n") - in_break)
+
+    def index_of(self, offset: int) -> int:
+        """The index into `text` of an editor's offset.
+
+        Raises:
+            EditError: The offset lies outside the text, or within a character.
+        """
+        passed = bisect_left(self._wide_offsets, offset)
+        is_within = self._wide_offsets[passed : passed + 1] == [offset]
+        if is_within or not 0 <= offset - passed <= len(self.text):
+            raise EditError(f"The text has no place {offset} to edit: load it again.")
+        return offset - passed
+
+    def offset_of(self, index: int) -> int:
+        """The editor's offset of an index into `text`."""
+        return index + bisect_left(self._wide_indices, index)
+
+    def edit(self, file: str, start: int, end: int, text: str) -> Edit:
+        """The edit of the bytes that puts `text` in the place of the editor's [start, end).
+
+        Line breaks of `text` become the file's own.
+
+        Raises:
+            EditError: The place is not in the text, or the encoding lacks a character of it.
+        """
+        if end < start:
+            raise EditError(f"The text has no place {start} to {end} to edit: load it again.")
+        new = _BREAK_TO_COME.sub(self.line_break, text)
+        return Edit(file, self.byte_at(start), self.byte_at(end), self._encoded(new))
+
+    def _encoded(self, text: str) -> bytes:
+        encoding = writing_encoding(self.data) if self._encoding == "utf-8" else self._encoding
+        try:
+            return text.encode(encoding)
+        except UnicodeEncodeError as error:
+            raise EditError(
+                f"{text[error.start]!r} cannot be written in the encoding that the file declares: "
+                f"write &#{ord(text[error.start])}; or declare UTF-8."
+            ) from None
+
+    def _raw_index(self, index: int) -> int:
+        if "\r\n" not in self._raw:
+            return index
+        shown_starts, raw_starts = self._line_starts
+        line = bisect_right(shown_starts, index) - 1
+        return raw_starts[line] + index - shown_starts[line]
+
+    @cached_property
+    def _line_starts(self) -> tuple[list[int], list[int]]:
+        """Where each line starts: in `text`, and in the text with its own line breaks."""
+        raw = [0, *(found.end() for found in _LINE_BREAK.finditer(self._raw))]
+        widths = (len(found[0]) - 1 for found in _LINE_BREAK.finditer(self._raw))
+        shifts = accumulate(widths, initial=0)
+        return [start - shift for start, shift in zip(raw, shifts, strict=True)], raw
+
+    @cached_property
+    def _wide_indices(self) -> list[int]:
+        """Indices into `text` of the characters that take two code units."""
+        if self.data.isascii():
+            return []
+        return [found.start() for found in _BEYOND_ONE_UNIT.finditer(self.text)]
+
+    @cached_property
+    def _wide_offsets(self) -> list[int]:
+        """Offsets of the second code units of those characters."""
+        return [index + number + 1 for number, index in enumerate(self._wide_indices)]
+
+
+def _readable_encoding(data: bytes) -> str:
+    """UTF-8, or the one-byte encoding that an XML file declares; others count as UTF-8."""
+    encoding = text_encoding(data)
+    if encoding == "utf-8":
+        return encoding
+    every_byte = bytes(range(256))
+    try:
+        characters = every_byte.decode(encoding, "surrogateescape")
+        is_exact = characters.encode(encoding, "surrogateescape") == every_byte
+    except (LookupError, ValueError):
+        return "utf-8"
+    return encoding if is_exact and len(characters) == len(every_byte) else "utf-8"

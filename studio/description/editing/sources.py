@@ -1,0 +1,366 @@
+"""The texts of an open document as the disk has them and as they are edited, with undo and saving.
+
+The main process's truth about the files; the worker holds a copy that follows the same edits. Pure:
+it reads and writes files when asked, and waits for nothing.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from studio.description.editing.disk_news import DiskNews, FileChange
+from studio.description.editing.held_text import HeldText, edits_between
+from studio.description.editing.merging import merge
+from studio.description.editing.saving import FileToSave, save_files
+from studio.description.editing.span_table import SpanTable
+from studio.description.editing.splice import decode, difference, edit_at, inverse
+from studio.description.editing.undo import ArgumentChange, Splice, Step, UndoStack
+from studio.description.values import Edit
+from studio.errors import EditError, PackageError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Mapping
+
+    from studio.description.editing.merging import Merge, Side
+    from studio.description.values import Expansion
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """What an undo or redo did: send it on. `arguments` are all of them, None when unchanged."""
+
+    label: str
+    edits: tuple[Edit, ...] = ()
+    arguments: dict[str, str] | None = None
+
+
+class Sources:
+    """The files of one document; `spans` answers where its sites stand now.
+
+    Args:
+        read: Reads a file below the opened folders, or raises a PackageError.
+        resolve: Gives a path's real place below the opened folders, or raises.
+        may_write: Whether that place may be written; default: any.
+        arguments: The xacro arguments that the document was opened with.
+    """
+
+    def __init__(
+        self,
+        read: Callable[[Path], bytes],
+        resolve: Callable[[Path], Path],
+        may_write: Callable[[Path], bool] = lambda _: True,
+        arguments: Mapping[str, str] | None = None,
+    ) -> None:
+        self._read, self._resolve, self._may_write = read, resolve, may_write
+        self._texts: dict[str, HeldText] = {}
+        self._steps = UndoStack()
+        self._arguments = dict(arguments or {})
+        self._conflicts: dict[str, bytes] = {}
+        """By file, what the disk has where it collides with unsaved edits."""
+        self.spans = SpanTable()
+
+    @property
+    def files(self) -> tuple[str, ...]:
+        """Every file whose text is held."""
+        return tuple(self._texts)
+
+    @property
+    def arguments(self) -> dict[str, str]:
+        """The arguments as they are now; a copy."""
+        return dict(self._arguments)
+
+    @property
+    def undo_labels(self) -> tuple[str, ...]:
+        """The steps that can be taken back, newest last."""
+        return tuple(step.label for step in self._steps.done)
+
+    @property
+    def redo_labels(self) -> tuple[str, ...]:
+        """The steps that can be done again, newest last."""
+        return tuple(step.label for step in self._steps.undone)
+
+    @property
+    def unsaved_files(self) -> tuple[str, ...]:
+        """Files whose text differs from the disk's as it was read."""
+        return tuple(file for file, text in self._texts.items() if text.now != text.disk)
+
+    @property
+    def unsaved_count(self) -> int:
+        """How many places differ, in all files."""
+        return sum(len(text.regions) for text in self._texts.values())
+
+    @property
+    def conflicts(self) -> frozenset[str]:
+        """Files that changed on disk where they have unsaved edits."""
+        return frozenset(self._conflicts)
+
+    def overlay(self) -> dict[str, bytes]:
+        """The edited texts by file, for a run that starts from the disk."""
+        return {file: self._texts[file].now for file in self.unsaved_files}
+
+    def text(self, file: str) -> bytes:
+        """A file's text as it is now.
+
+        Raises:
+            PackageError: It is not held and cannot be read.
+        """
+        return self._held(file).now
+
+    def saved(self, file: str) -> bytes:
+        """A file's text as it was last read from the disk or written to it.
+
+        Raises:
+            PackageError: It is not held and cannot be read.
+        """
+        return self._held(file).disk
+
+    def track(self, files: Iterable[str]) -> None:
+        """Hold the texts of these files too; one that cannot be read is left out."""
+        for file in files:
+            try:
+                self._held(file)
+            except PackageError:
+                continue
+
+    def adopt(self, expansion: Expansion, version: int) -> None:
+        """Take over a good run: its files and sites, true at that `spans.version`."""
+        self.track(expansion.files)
+        self.spans.adopt(expansion.changed_sites, expansion.site_order, version)
+
+    def edit(self, edit: Edit, name: str, gesture: str = "", *, is_value: bool = True) -> None:
+        """Apply an edit as an undo step called `name`, e.g. `wheel_radius 0.1 → 0.12`.
+
+        Edits of the same gesture are one step, until something else happens. `is_value`: the step
+        shows what its bytes were and are.
+
+        Raises:
+            EditError: The edit lies outside the file.
+            PackageError: The file cannot be read.
+        """
+        self._push(edit, Step(name, gesture=gesture, is_value=is_value))
+
+    def edit_site(self, site_id: str, text: str, gesture: str = "") -> Edit:
+        """Write a new text at a site, quoted and escaped as its place needs it.
+
+        Raises:
+            StaleEditError: The site is no longer where the last run saw it.
+            EditError: The place cannot hold the text.
+        """
+        site, span = self.spans.site(site_id), self.spans.span(site_id)
+        edit = edit_at(site.place.file, self.text(site.place.file), span, text)
+        self.edit(edit, site.name, gesture)
+        return edit
+
+    def reset_site(self, site_id: str) -> Edit | None:
+        """Put a site back to the bytes that the disk has; None when it has them.
+
+        Raises:
+            StaleEditError: The site is no longer where the last run saw it.
+            EditError: A reload changed the file around it.
+        """
+        site, span = self.spans.site(site_id), self.spans.span(site_id)
+        text = self._held(site.place.file)
+        saved = text.saved_at(span)
+        if saved is None:
+            raise EditError(f"{site.name} has no saved value any more: edit it instead.")
+        if saved == text.now[span.start : span.end]:
+            return None
+        edit = Edit(site.place.file, span.start, span.end, saved)
+        self.edit(edit, site.name)
+        return edit
+
+    def saved_text(self, site_id: str) -> str | None:
+        """What the disk says at a site, when it says something else than the text here.
+
+        Raises:
+            StaleEditError: The site is no longer where the last run saw it.
+        """
+        site = self.spans.site(site_id)
+        text = self._texts.get(site.place.file)
+        if text is None or not len(text.regions):
+            return None
+        span = self.spans.span(site_id)
+        base = text.regions.base_span(span)
+        if base is None:
+            return None
+        is_same = text.disk[base.start : base.end] == text.now[span.start : span.end]
+        return None if is_same else decode(text.disk, base)
+
+    def current_text(self, site_id: str) -> str:
+        """What stands at a site now, whether or not a run has seen it.
+
+        Raises:
+            StaleEditError: The site is no longer where the last run saw it.
+        """
+        site = self.spans.site(site_id)
+        return decode(self._held(site.place.file).now, self.spans.span(site_id))
+
+    def set_argument(self, name: str, value: str | None, gesture: str = "") -> None:
+        """Pass an argument, or take it back with None; an undo step like any edit."""
+        self.set_arguments({name: value}, name, gesture)
+
+    def set_arguments(
+        self, values: Mapping[str, str | None], label: str, gesture: str = ""
+    ) -> None:
+        """Pass several arguments, or take those with None back, as one undo step."""
+        old = self._arguments
+        changes = [ArgumentChange(one, old.get(one), value) for one, value in values.items()]
+        self._put_arguments(values)
+        self._steps.push(Step(label, arguments=tuple(changes), gesture=gesture))
+
+    def undo(self) -> Change | None:
+        """Take the newest step back; None when there is none."""
+        step = self._steps.undo()
+        if step is None:
+            return None
+        edits = tuple(splice.backward() for splice in reversed(step.splices))
+        return self._carry_out(step, edits, {one.name: one.old for one in step.arguments})
+
+    def redo(self) -> Change | None:
+        """Do the step last taken back again; None when there is none."""
+        step = self._steps.redo()
+        if step is None:
+            return None
+        edits = tuple(splice.forward() for splice in step.splices)
+        return self._carry_out(step, edits, {one.name: one.new for one in step.arguments})
+
+    def save(self) -> tuple[str, ...]:
+        """Write every changed file, all or none; the files written.
+
+        Raises:
+            SaveConflictError: A file on disk is no longer the one that was read.
+            NotSavedError: A file cannot be written.
+            OutsideRootsError: A file leads out of the opened folders.
+        """
+        changed = [
+            FileToSave(file, self._texts[file].disk, self._texts[file].now)
+            for file in self.unsaved_files
+        ]
+        self._steps.end_gesture()
+        save_files(changed, self._resolve, self._may_write, self._saved)
+        return tuple(one.file for one in changed)
+
+    def refresh(self, file: str) -> DiskNews:
+        """Look at the disk after somebody may have written a file that is held.
+
+        What the disk changed is taken, as a step to take back, and unsaved edits stay unsaved
+        against the new text; where both changed the same place nothing is taken.
+        """
+        text = self._texts.get(file)
+        if text is None:
+            return DiskNews(FileChange.NONE)
+        try:
+            disk = self._disk(file)
+        except PackageError:
+            return DiskNews(FileChange.GONE)
+        self._conflicts.pop(file, None)
+        merged = merge(text.disk, text.now, disk)
+        if merged.collisions:
+            self._conflicts[file] = disk
+            return DiskNews(FileChange.CONFLICT)
+        # A burst of writes is one step.
+        step = Step(f"Changed on disk: {Path(file).name}", gesture=f"disk {file}", is_value=False)
+        edits = self._become(file, merged.text(), step)
+        self._texts[file] = self._held(file).rebased(disk)
+        if not edits:
+            return DiskNews(FileChange.NONE)
+        what = FileChange.MERGED if merged.kept else FileChange.RELOADED
+        return DiskNews(what, edits, merged.kept)
+
+    def collisions(self, file: str) -> Merge:
+        """The unsaved edits and the disk's changes of a file, as they stand now.
+
+        Raises:
+            EditError: They do not collide.
+        """
+        disk, text = self._conflicts.get(file), self._texts.get(file)
+        if disk is None or text is None:
+            raise EditError(f"{file}: its edits collide with no change on disk any more.")
+        return merge(text.disk, text.now, disk)
+
+    def resolve(self, file: str, wins: Side) -> tuple[Edit, ...]:
+        """Take the disk's changes; where they collide with unsaved edits, the winner's.
+
+        Undo brings back the other one's, and then the text before.
+
+        Raises:
+            EditError: They do not collide.
+        """
+        merged, name = self.collisions(file), Path(file).name
+        taken = Step(f"Take the changes on disk: {name}", is_value=False)
+        edits = self._become(file, merged.text("theirs"), taken)
+        if wins == "mine":
+            kept = Step(f"Keep the edits: {name}", is_value=False)
+            edits += self._become(file, merged.text("mine"), kept)
+        self._texts[file] = self._held(file).rebased(self._conflicts.pop(file))
+        return edits
+
+    def reload(self, file: str) -> Edit | None:
+        """Take the disk's text, unsaved edits given up (undo brings them back).
+
+        Returns:
+            The edit that does the same to the text before; None when nothing changed.
+
+        Raises:
+            PackageError: The file cannot be read; its text here is kept.
+        """
+        return self._take(file, self._disk(file))
+
+    def _held(self, file: str) -> HeldText:
+        text = self._texts.get(file)
+        if text is None:
+            text = self._texts[file] = HeldText(file, self._disk(file))
+        return text
+
+    def _disk(self, file: str) -> bytes:
+        return self._read(Path(file))
+
+    def _take(self, file: str, disk: bytes) -> Edit | None:
+        """Make the disk's text the base and the text; the way there is a step to take back."""
+        edit = difference(file, self._held(file).now, disk)
+        if edit is not None:
+            self._push(edit, Step(f"Reload {Path(file).name}", is_value=False))
+        self._texts[file] = HeldText(file, disk)
+        self._conflicts.pop(file, None)
+        return edit
+
+    def _become(self, file: str, wanted: bytes, step: Step) -> tuple[Edit, ...]:
+        """Make a text another one, place by place; the edits that did it, the last place first."""
+        edits = edits_between(file, self._held(file).now, wanted)
+        splices = tuple(self._splice(edit) for edit in edits)
+        if splices:
+            self._steps.push(replace(step, splices=splices))
+        return edits
+
+    def _push(self, edit: Edit, step: Step) -> None:
+        self._steps.push(replace(step, splices=(self._splice(edit),)))
+
+    def _splice(self, edit: Edit) -> Splice:
+        """Apply an edit; what it did."""
+        undone = inverse(self._held(edit.file).now, edit)
+        self._apply((edit,))
+        return Splice(edit.file, edit.start, undone.new, edit.new)
+
+    def _apply(self, edits: Iterable[Edit]) -> None:
+        for edit in edits:
+            self._held(edit.file).apply(edit)
+            self.spans.note((edit,))
+
+    def _carry_out(
+        self, step: Step, edits: tuple[Edit, ...], arguments: Mapping[str, str | None]
+    ) -> Change:
+        self._apply(edits)
+        if not arguments:
+            return Change(step.label, edits)
+        self._put_arguments(arguments)
+        return Change(step.label, edits, self.arguments)
+
+    def _put_arguments(self, values: Mapping[str, str | None]) -> None:
+        now = {**self._arguments, **values}
+        self._arguments = {name: value for name, value in now.items() if value is not None}
+
+    def _saved(self, saved: FileToSave) -> None:
+        self._texts[saved.file] = HeldText(saved.file, saved.data)
+        self._conflicts.pop(saved.file, None)

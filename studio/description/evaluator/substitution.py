@@ -1,0 +1,163 @@
+"""`$(find ...)`, `$(arg ...)`, `$(env ...)`, `$(optenv ...)`, `$(eval ...)` as xacro has them."""
+
+from __future__ import annotations
+
+import re
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any, Final, Protocol
+
+from studio.description.evaluator.symbols import SAFE_BUILTINS
+from studio.description.expressions.expressions import HELPERS, compile_expression
+from studio.description.expressions.guarded_functions import MATH, counted_functions
+from studio.description.expressions.guarded_operations import text_of
+from studio.description.faults import Fault, Refusal, shorten
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+_COMMANDS: Final = ("find", "env", "optenv", "dirname", "arg")
+_FIND_ONLY: Final = ("find",)
+_COMMAND: Final = re.compile(r"\$\(([^$()]+)\)")
+_NESTED: Final = re.compile(r"\$\([^)]*[$(]")
+LENGTH_LIMIT: Final = 1_000_000
+"""Characters of a text with all its substitutions."""
+
+
+class Context(Protocol):
+    """What substitutions ask the run for."""
+
+    environment: dict[str, str]
+
+    def argument(self, name: str) -> str:
+        """The value of an arg; Fault when nobody gave it."""
+        ...
+
+    def find_package(self, name: str) -> str:
+        """The folder of a package; Fault when there is none."""
+        ...
+
+    def steps(self, items: Iterable[Any]) -> Iterator[Any]:
+        """The items of a loop, each counted."""
+        ...
+
+
+def substitute(command: str, context: Context) -> str:
+    """What `$(command)` stands for.
+
+    Raises:
+        Fault: The command is unknown, lacks its argument, or names what does not exist.
+    """
+    text = f"$({command})"
+    if command.startswith("eval "):
+        return evaluate(command[5:], context)
+    resolved = _resolve(text, context, _COMMANDS)
+    if "$" in resolved:  # the value of an arg may hold a $(find ...)
+        resolved = _resolve(resolved, context, _FIND_ONLY)
+    if len(resolved) > LENGTH_LIMIT:
+        raise Refusal("value-too-large", "A substitution makes a text that is too large.")
+    return resolved
+
+
+def _resolve(text: str, context: Context, active: tuple[str, ...]) -> str:
+    for command in _commands_in(text):
+        words = [word for word in command.split(" ") if word]
+        if not words or words[0] not in _COMMANDS:
+            raise Fault(
+                "bad-substitution",
+                f'"$({shorten(command)})" is not known: use $(find), $(arg), $(env), $(optenv) '
+                "or $(eval).",
+            )
+        if words[0] in active:
+            value = _value(words[0], words[1:], command, context)
+            text = text.replace(f"$({command})", value)
+    return text
+
+
+def _value(name: str, words: list[str], command: str, context: Context) -> str:
+    if name == "optenv" and words:
+        return context.environment.get(words[0], " ".join(words[1:]))
+    if name == "dirname":
+        raise Fault("bad-substitution", "$(dirname) is not known in xacro: use $(find package).")
+    if len(words) != 1:
+        raise Fault("bad-substitution", f'"$({shorten(command)})" must name one thing.')
+    if name == "arg":
+        return context.argument(words[0])
+    if name == "find":
+        return context.find_package(words[0])
+    return variable(words[0], context)
+
+
+def variable(name: str, context: Context) -> str:
+    """`$(env name)`.
+
+    Raises:
+        Fault: It is not set, or not in the environment that is shown.
+    """
+    try:
+        return context.environment[name]
+    except KeyError:
+        sentence = (
+            f'The environment variable "{name}" is not set or may not be seen: '
+            f"write $(optenv {name} default)."
+        )
+        raise Fault("environment-missing", sentence) from None
+
+
+@lru_cache(maxsize=4096)
+def _commands_in(text: str) -> tuple[str, ...]:
+    """The insides of all `$(...)` of a text."""
+    if _NESTED.search(text):
+        raise Fault("bad-substitution", f'"$" or "(" stands inside $(...) in "{shorten(text)}".')
+    return tuple(_COMMAND.findall(text))
+
+
+def evaluate(text: str, context: Context) -> str:
+    """`$(eval text)`: Python over args by name, mathematics, and env, optenv, find, arg.
+
+    Raises:
+        Fault: Python cannot parse it.
+        Refusal: It uses what is not allowed.
+    """
+    if "__" in text:
+        raise Refusal("expression-refused", '$(eval ...) may not contain "__".')
+    expression = compile_expression(text)
+    names = _EvalNames(context)
+    return text_of(eval(expression.code, names))
+
+
+class _EvalNames(dict[str, Any]):
+    """The names of `$(eval ...)`: functions, then args, then builtins."""
+
+    def __init__(self, context: Context) -> None:
+        super().__init__(HELPERS)
+        self._context = context
+        self["__steps"] = context.steps
+        self._builtins = SAFE_BUILTINS | counted_functions(context.steps)
+        self.update(MATH)
+        self.update({"true": True, "false": False, "True": True, "False": False})
+        self["arg"] = self._argument
+        self["find"] = context.find_package
+        self["env"] = self._variable
+        self["optenv"] = context.environment.get
+
+    def _argument(self, name: str) -> Any:  # noqa: ANN401
+        return auto_typed(self._context.argument(name))
+
+    def _variable(self, name: str) -> str:
+        return variable(name, self._context)
+
+    def __missing__(self, name: str) -> Any:  # noqa: ANN401
+        try:
+            return self._argument(name)
+        except Fault:
+            if name in self._builtins:
+                return self._builtins[name]
+            raise NameError(f"name '{name}' is not defined") from None
+
+
+def auto_typed(text: str) -> Any:  # noqa: ANN401
+    """An arg as `$(eval)` sees it: float with a point, else int, else true or false, else text."""
+    try:
+        return float(text) if "." in text else int(text)
+    except ValueError:
+        return {"true": True, "false": False}.get(text.lower(), text)

@@ -1,0 +1,1 @@
+"""What `${}` and `$()` may compute: parsed, allowed or refused, evaluated within bounds."""

@@ -1,0 +1,244 @@
+"""Where a part comes from: its place, the calls that led there, and what each number is made of."""
+
+from __future__ import annotations
+
+from itertools import islice
+from typing import TYPE_CHECKING, Final
+
+from studio.description.evaluator.parts import part_keys
+from studio.description.evaluator.run_record import Input, YamlScalar
+from studio.description.origins.attribute_places import attribute_place
+from studio.description.origins.element_paths import walk_named
+from studio.description.origins.origin_values import (
+    InputKind,
+    OriginAttribute,
+    OriginCall,
+    OriginCause,
+    OriginInput,
+    PartOrigin,
+)
+from studio.description.origins.site_inputs import YamlSites, site_of_binding
+from studio.description.origins.tracing import Given, Governor, TracedBinding, inputs_of, written_at
+from studio.description.sites.quantities import quantity_of_attribute
+from studio.description.syntax.source_tree import SourceText
+from studio.description.values import NoReply, SiteKind
+from studio.problems import Place
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from studio.description.evaluator.output_tree import CallFrame, OutputElement
+    from studio.description.origins.good_run import GoodRun
+
+ATTRIBUTES_KEPT: Final = 400
+"""PR2's largest part has 130."""
+INPUTS_KEPT: Final = 500
+_TEXT_KEPT: Final = 2_000
+"""Characters of a text or value; one may be a whole file."""
+_KINDS: Final = {
+    None: InputKind.PARAMETER,
+    SiteKind.PROPERTY: InputKind.PROPERTY,
+    SiteKind.ARG: InputKind.ARG,
+    SiteKind.PARAM_DEFAULT: InputKind.PARAM_DEFAULT,
+}
+_GOVERNING_ATTRIBUTES: Final = ("value", "filename", "macro", "xacro:name", "name")
+
+
+def part_origin(run: GoodRun, part: str) -> PartOrigin | NoReply:
+    """Where a part comes from, by its key.
+
+    Raises:
+        Fault: The run cannot be repeated.
+    """
+    if run.evaluator != "studio":
+        return NoReply("xacro itself expanded this robot: it does not tell where parts come from.")
+    element = dict(part_keys(run.trace.root)).get(part)
+    if element is None:
+        return NoReply(f'The robot has no part "{part}": it may be gone since.')
+    return _Origins(run).of_part(part, element)
+
+
+class _Origins:
+    """Collects what is behind one part; each input once."""
+
+    def __init__(self, run: GoodRun) -> None:
+        self._run, self._trace = run, run.trace
+        self._yaml = YamlSites(run.trace.yaml)
+        self._numbers: dict[Input, int] = {}
+        self._is_cut = False
+
+    def of_part(self, part: str, top: OutputElement) -> PartOrigin:
+        """Everything about one part."""
+        attributes = tuple(islice(self._attributes(top), ATTRIBUTES_KEPT + 1))
+        calls = tuple(self._call(frame) for frame in _frames(top.calls))
+        causes = tuple(self._cause(one) for one in _governors(self._trace.governors.get(top)))
+        inputs = self._told()
+        place = top.origin.place
+        return PartOrigin(
+            part=part,
+            place=place,
+            include_chain=tuple(self._includes(place.file)),
+            calls=calls,
+            causes=causes,
+            attributes=attributes[:ATTRIBUTES_KEPT],
+            inputs=inputs,
+            is_cut=self._is_cut or len(attributes) > ATTRIBUTES_KEPT,
+        )
+
+    def _includes(self, file: str) -> list[Place]:
+        chain: list[Place] = []
+        while (place := self._trace.included_at.get(file)) and place not in chain:
+            chain.append(place)
+            file = place.file
+        return chain[::-1]
+
+    def _attributes(self, top: OutputElement) -> Iterator[OriginAttribute]:
+        is_slide = top.tag == "joint" and top.attributes.get("type") == "prismatic"
+        above = "joint:prismatic/" if is_slide else ""
+        for path, element in walk_named(top):
+            for name, value in element.attributes.items():
+                quantity = quantity_of_attribute(above + element.tag, name)
+                yield self._attribute(path, element, name, value, quantity.unit if quantity else "")
+            if text := self._text(path, element):
+                yield text
+
+    def _attribute(
+        self, path: str, element: OutputElement, name: str, value: str, unit: str
+    ) -> OriginAttribute:
+        written = written_at(element, name)
+        if written is None:  # an attribute that the namespace declarations of a root left
+            place = element.origin.place
+            return OriginAttribute(path, name, _cut(value), "", unit, place, "", ())
+        source, attribute = written.element, written.attribute
+        text = source.attributes.get(attribute, "")
+        return OriginAttribute(
+            element=path,
+            attribute=name,
+            value=_cut(value),
+            text=_cut(text),
+            unit=unit,
+            place=attribute_place(source, attribute),
+            site=self._known(f"{source.tree.path}#{source.ordinal}@{attribute}"),
+            inputs=self._all(written.inputs),
+        )
+
+    def _text(self, path: str, element: OutputElement) -> OriginAttribute | None:
+        texts = [child for child in element.children if isinstance(child, SourceText)]
+        value = "".join(one.text for one in texts).strip()
+        if not value:
+            return None
+        children = element.origin.children
+        text = "".join(one.text for one in children if isinstance(one, SourceText)).strip()
+        read = [one for child in texts for one in self._trace.text_inputs.get(child, ())]
+        place, inputs = element.origin.place, self._all(read)
+        return OriginAttribute(path, "", _cut(value), _cut(text), "", place, "", inputs)
+
+    def _call(self, frame: CallFrame) -> OriginCall:
+        called = self._trace.calls.get(frame)
+        bound = called.parameters.values() if called else ()
+        defined_at = called.macro.place if called else frame.call.place
+        return OriginCall(frame.macro, frame.call.place, defined_at, self._all(bound))
+
+    def _cause(self, governor: Governor) -> OriginCause:
+        element = governor.element
+        name = next((one for one in _GOVERNING_ATTRIBUTES if one in element.attributes), "")
+        return OriginCause(
+            tag=element.tag,
+            text=_cut(element.attributes.get(name, "")),
+            place=attribute_place(element, name),
+            inputs=self._all(governor.inputs),
+        )
+
+    def _all(self, inputs: Iterable[Input]) -> tuple[int, ...]:
+        """The numbers of inputs, which are told from now on; what is no text is left out."""
+        numbers = (self._number(one) for one in inputs)
+        return tuple(dict.fromkeys(number for number in numbers if number is not None))
+
+    def _number(self, one: Input) -> int | None:
+        if one in self._numbers:
+            return self._numbers[one]
+        if isinstance(one, YamlScalar) and self._yaml.draft_of(one) is None:
+            return None
+        if not isinstance(one, TracedBinding | Given | YamlScalar):
+            return None
+        if len(self._numbers) >= INPUTS_KEPT:
+            self._is_cut = True
+            return None
+        return self._numbers.setdefault(one, len(self._numbers))
+
+    def _told(self) -> tuple[OriginInput, ...]:
+        """All that was numbered, and what is behind it, which gets its number on the way."""
+        told: list[OriginInput] = []
+        while len(told) < len(self._numbers):
+            waiting = list(self._numbers)[len(told) :]
+            told += [self._input(one) for one in waiting]
+        return tuple(told)
+
+    def _input(self, one: Input) -> OriginInput:
+        match one:
+            case TracedBinding():
+                return self._binding(one)
+            case YamlScalar():
+                return self._scalar(one)
+            case Given():
+                value = _cut(one.value)
+                return OriginInput(
+                    InputKind.ARG, one.name, "", value, Place(""), "", given=True, inputs=()
+                )
+            case _:
+                raise TypeError(f"{one!r} is never numbered")
+
+    def _binding(self, one: TracedBinding) -> OriginInput:
+        is_default = one.kind is SiteKind.PARAM_DEFAULT
+        return OriginInput(
+            kind=_KINDS[one.kind],
+            name=one.name,
+            text=_cut(one.text),
+            value=_cut(next(iter(one.values), "")),
+            place=attribute_place(one.element, one.attribute, one.name if is_default else ""),
+            site=self._known(site_of_binding(one)),
+            given=one.overridden,
+            inputs=self._all(one.inputs),
+        )
+
+    def _scalar(self, one: YamlScalar) -> OriginInput:
+        draft = self._yaml.draft_of(one)
+        assert draft is not None
+        text = _cut(draft.text)
+        return OriginInput(
+            InputKind.YAML,
+            draft.name,
+            text,
+            text,
+            draft.place,
+            self._known(draft.id),
+            given=False,
+            inputs=(),
+        )
+
+    def _known(self, site: str) -> str:
+        return site if site in self._run.sites else ""
+
+
+def _frames(frame: CallFrame | None) -> list[CallFrame]:
+    frames: list[CallFrame] = []
+    while frame is not None:
+        frames.append(frame)
+        frame = frame.outer
+    return frames[::-1]
+
+
+def _governors(innermost: Governor | None) -> list[Governor]:
+    """Those that read something of their own, the outermost first."""
+    found: dict[Governor, None] = {}
+    front = [innermost] if innermost else []
+    while front:
+        governor = front.pop()
+        found.pop(governor, None)
+        found[governor] = None
+        front += [one for one in inputs_of(governor) if isinstance(one, Governor)]
+    return [one for one in reversed(found) if one.own_inputs]
+
+
+def _cut(text: str) -> str:
+    return text if len(text) <= _TEXT_KEPT else text[:_TEXT_KEPT] + "..."

@@ -1,0 +1,323 @@
+"""What a robot can be launched with, told from its files alone: also when no run succeeds.
+
+A name is followed from `$(arg name)` into properties and macro parameters that hold nothing else,
+by name: what a form offers need not be exact, a run decides.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, replace
+from itertools import islice
+from pathlib import PurePath
+from typing import TYPE_CHECKING, Final, Protocol
+
+from studio.description.sites.argument_choices import (
+    CHOICES_KEPT,
+    Folders,
+    Named,
+    common,
+    compared,
+    folder_choices,
+    paths_in,
+    reads,
+    truth,
+)
+from studio.description.sites.drafts import draft_xml
+from studio.description.sites.widgets import infer_widget
+from studio.description.syntax.annotations import NOTHING, Annotation
+from studio.description.syntax.number_text import parse_number
+from studio.description.syntax.source_tree import SourceError, SourceText, parse_source
+from studio.description.values import SiteKind, Widget, WidgetKind
+from studio.errors import PackageError
+from studio.problems import Place
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Mapping
+
+    from studio.description.syntax.source_tree import SourceElement, SourceTree
+
+_FILES: Final = 100
+_ROUNDS: Final = 12
+"""Includes inside includes that are followed."""
+_TEXTS: Final = 20_000
+_DEPTH: Final = 8
+"""Names behind names that are followed."""
+_SUBSTITUTION: Final = re.compile(
+    r"\$\(find\s+(?P<find>[\w.-]+)\s*\)|package://(?P<package>[\w.-]+)"
+    r"|\$\(arg\s+(?P<arg>[\w.-]+)\s*\)|\$\{\s*(?P<name>\w+)\s*\}"
+)
+_ARG: Final = re.compile(r"\$\(arg\s+([\w.-]+)\s*\)")
+_ALIAS: Final = re.compile(r"\$\(arg\s+(?P<arg>[\w.-]+)\s*\)|\$\{\s*(?P<name>\w+)\s*\}")
+_CONDITIONS: Final = frozenset({"xacro:if", "xacro:unless"})
+
+
+class World(Folders, Protocol):
+    """The files and packages that may be read."""
+
+    def read(self, path: str) -> bytes:
+        """A file's text as it is edited; PackageError when it may not or cannot be read."""
+        ...
+
+    def find(self, package: str, asking_file: str) -> str | None:
+        """The folder of a package."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class LaunchArgument:
+    """One argument: `default` as written, None where the robot needs a value from outside."""
+
+    name: str
+    place: Place
+    default: str | None
+    shown: str
+    """What it comes to now, where the texts alone tell."""
+    widget: Widget
+    is_file: bool
+    """Its value names a file."""
+    in_macro: bool
+    """It is read in macros only, which need not be called."""
+    is_early: bool
+    """The root element reads it, above its declaration: a default there comes too late."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Text:
+    text: str
+    element: SourceElement
+    attribute: str
+
+
+@dataclass(frozen=True, slots=True)
+class _Declared:
+    place: Place
+    text: str
+    annotation: Annotation
+
+
+def launch_arguments(
+    entry: str, arguments: Mapping[str, str], world: World, also: Iterable[str] = ()
+) -> tuple[LaunchArgument, ...]:
+    """Every argument of a file and what it includes, those without a default first.
+
+    Args:
+        entry: The file that is launched.
+        arguments: What is passed already; it may decide what is included.
+        world: What may be read.
+        also: More files that a run is known to have read.
+    """
+    scan = _Scan(arguments, world)
+    scan.follow([entry, *also])
+    names = dict.fromkeys([*scan.used_undeclared(), *scan.early(entry), *scan.declared])
+    return tuple(scan.argument(name) for name in names)
+
+
+class _Scan:
+    """All that the files say of arguments."""
+
+    def __init__(self, arguments: Mapping[str, str], world: World) -> None:
+        self._arguments, self._world = arguments, world
+        self._trees: dict[str, SourceTree | None] = {}
+        self._texts: list[_Text] = []
+        self._alias: dict[str, str] = {}
+        self._literals: dict[str, str] = {}
+        self._used: dict[str, _Text] = {}
+        self.declared: dict[str, _Declared] = {}
+
+    def follow(self, files: Iterable[str]) -> None:
+        """Read files and, as far as their names can be told, what they include."""
+        pending = list(files)
+        for _ in range(_ROUNDS):
+            for path in pending:
+                if path not in self._trees and len(self._trees) < _FILES:
+                    self._trees[path] = self._parsed(path)
+            pending = [path for path in self._included() if path not in self._trees]
+            if not pending:
+                return
+
+    def used_undeclared(self) -> list[str]:
+        """Names that are read and that no file declares."""
+        return [name for name in self._used if name not in self.declared]
+
+    def early(self, entry: str) -> list[str]:
+        """Names that the entry's root element reads."""
+        tree = self._trees.get(entry)
+        texts = tree.root.attributes.values() if tree else ()
+        return [name for text in texts for name in _ARG.findall(text)]
+
+    def argument(self, name: str) -> LaunchArgument:
+        """All about one of them."""
+        declared = self.declared.get(name)
+        default = declared.text if declared else None
+        shown = self._value_of(name) or ""
+        used = self._used.get(name)
+        place = declared.place if declared else used.element.place if used else Place("")
+        annotation = declared.annotation if declared else NOTHING
+        return LaunchArgument(
+            name=name,
+            place=place,
+            default=default,
+            shown=shown,
+            widget=self._widget(name, default or "", shown, annotation),
+            is_file=bool(PurePath(shown).suffix) and "/" in shown,
+            in_macro=used is not None and _in_macro(used.element),
+            is_early=used is not None and used.element.parent is None,
+        )
+
+    def _parsed(self, path: str) -> SourceTree | None:
+        try:
+            tree = parse_source(path, self._world.read(path))
+        except (PackageError, SourceError):
+            return None
+        drafts = draft_xml(tree).drafts
+        for draft in drafts:
+            if draft.kind is SiteKind.ARG:
+                told = _Declared(draft.place, draft.text, draft.annotation)
+                self.declared.setdefault(draft.name, told)
+        for text in islice(_texts_of(tree), max(0, _TEXTS - len(self._texts))):
+            self._note(text)
+        return tree
+
+    def _note(self, text: _Text) -> None:
+        element = text.element
+        if "$" not in text.text:
+            if element.tag == "xacro:property" and text.attribute in {"value", "default"}:
+                self._literals.setdefault(element.attributes.get("name", ""), text.text)
+            return
+        self._texts.append(text)
+        for name in _ARG.findall(text.text):
+            known = self._used.get(name)
+            if known is None or (_in_macro(known.element) and not _in_macro(element)):
+                self._used[name] = text
+        alias = _ALIAS.fullmatch(text.text.strip())
+        held = _holder(text)
+        if alias and held:
+            source = alias["arg"] or self._alias.get(alias["name"])
+            if source:
+                self._alias.setdefault(held, source)
+
+    def _included(self) -> Iterator[str]:
+        for tree in [one for one in self._trees.values() if one]:
+            for element in tree.elements:
+                written = element.attributes.get("filename", "")
+                if element.tag != "xacro:include" or not written:
+                    continue
+                path = self._resolve(written, tree.path)
+                if path:
+                    yield str(PurePath(tree.path).parent / path.removeprefix("file://"))
+
+    def _resolve(
+        self, text: str, path: str, known: Mapping[str, str] | None = None, depth: int = 0
+    ) -> str | None:
+        """A text's value as far as finding packages, args and plain properties give it."""
+        parts: list[str] = []
+        at = 0
+        for found in _SUBSTITUTION.finditer(text):
+            value = self._substituted(found, path, known or {}, depth)
+            if value is None:
+                return None
+            parts += [text[at : found.start()], value]
+            at = found.end()
+        parts.append(text[at:])
+        made = "".join(parts)
+        return None if "$" in made else made
+
+    def _substituted(
+        self, found: re.Match[str], path: str, known: Mapping[str, str], depth: int
+    ) -> str | None:
+        if package := found["find"] or found["package"]:
+            return self._world.find(package, path)
+        name = found["arg"] or self._alias.get(found["name"], "")
+        if name in known:
+            return known[name]
+        if name:
+            return self._value_of(name, depth + 1)
+        return self._literals.get(found["name"])
+
+    def _value_of(self, name: str, depth: int = 0) -> str | None:
+        if name in self._arguments:
+            return self._arguments[name]
+        declared = self.declared.get(name)
+        if declared is None or depth > _DEPTH:
+            return None
+        return self._resolve(declared.text, declared.place.file, depth=depth)
+
+    def _widget(self, name: str, text: str, shown: str, annotation: Annotation) -> Widget:
+        words = [word for word in self._compared_with(name) if word]
+        widget = infer_widget(name, text, shown, annotation, (), words)
+        if annotation.gives_range:
+            return widget
+        folders = common(self._folder_choices(name))
+        if parse_number(shown) is not None:
+            folders = tuple(one for one in folders if parse_number(one) is not None)
+        if len(folders) > 1 or (folders and not text):
+            return replace(widget, kind=WidgetKind.CHOICE, choices=folders)
+        if widget.choices == (shown,):  # compared with what it is anyway
+            return replace(widget, kind=WidgetKind.TEXT, choices=())
+        if not shown and widget.kind is WidgetKind.TEXT and self._is_truth(name):
+            return replace(widget, kind=WidgetKind.SWITCH)
+        return widget
+
+    def _means(self, named: Named | None, name: str) -> bool:
+        if named is None:
+            return False
+        return named.name == name if named.is_arg else self._alias.get(named.name) == name
+
+    def _compared_with(self, name: str) -> tuple[str, ...]:
+        found = {
+            word: None
+            for one in self._texts
+            for named, word in compared(one.text)
+            if self._means(named, name)
+        }
+        return tuple(found)[:CHOICES_KEPT]
+
+    def _is_truth(self, name: str) -> bool:
+        return any(
+            one.element.tag in _CONDITIONS and self._means(truth(one.text), name)
+            for one in self._texts
+        )
+
+    def _folder_choices(self, name: str) -> Iterator[tuple[str, ...]]:
+        seen: set[str] = set()
+        for one in self._texts:
+            for path in paths_in(one.text, is_filename=one.attribute == "filename"):
+                if path in seen:
+                    continue
+                seen.add(path)
+                for named, at in reads(path):
+                    if self._means(named, name):
+                        yield self._leading(path, at, name, one.element.tree.path)
+
+    def _leading(self, path: str, at: re.Match[str], name: str, file: str) -> tuple[str, ...]:
+        def resolve(text: str, value: str | None) -> str | None:
+            return self._resolve(text, file, {} if value is None else {name: value})
+
+        return folder_choices(path, at, resolve, self._world)
+
+
+def _texts_of(tree: SourceTree) -> Iterator[_Text]:
+    for element in tree.elements:
+        for attribute, text in element.attributes.items():
+            yield _Text(text, element, attribute)
+        for child in element.children:
+            if isinstance(child, SourceText) and "$" in child.text:
+                yield _Text(child.text, element, "")
+
+
+def _holder(text: _Text) -> str:
+    """The property or macro parameter that a text gives its value."""
+    element = text.element
+    if element.tag == "xacro:property":
+        return element.attributes.get("name", "")
+    return text.attribute if element.tag.startswith("xacro:") else ""
+
+
+def _in_macro(element: SourceElement) -> bool:
+    above: SourceElement | None = element
+    while above is not None:
+        if above.tag == "xacro:macro":
+            return True
+        above = above.parent
+    return False

@@ -1,0 +1,289 @@
+"""The tree of one XML source file: raw attributes, and where each element stands in the bytes.
+
+Unlike DOM parsers it keeps line, column and byte offset, so that a text can be edited where it is
+written. A file is hostile until shown otherwise: entity declarations are refused, size and depth
+are bounded.
+"""
+
+from __future__ import annotations
+
+import codecs
+import re
+from typing import TYPE_CHECKING
+from xml.parsers import expat
+
+from studio.description.syntax.xml_faults import sentence_of
+from studio.problems import Place
+from studio.settings import SOURCE_SIZE_LIMIT_BYTES
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from typing import TypeAlias
+
+XACRO_NAMESPACES = frozenset({"http://www.ros.org/wiki/xacro", "http://ros.org/wiki/xacro"})
+DEPTH_LIMIT = 256
+"""Elements inside elements; the deepest file of the corpus has 14."""
+
+_UTF16_MARKS = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE, b"<\0", b"\0<")
+_DECLARATION = re.compile(rb"<\?xml\s")
+_OUTSIDE_XML = re.compile(rb"[\0-\x08\x0b\x0c\x0e-\x1f]")
+_IMPLIED_PREFIXES = frozenset({"xml", "xmlns"})
+
+
+class SourceError(Exception):
+    """A text is no XML that may be read; `sentence` says why and what to do. 1-based place."""
+
+    def __init__(self, code: str, sentence: str, place: Place) -> None:
+        super().__init__(f"{place}: {sentence}")
+        self.code, self.sentence, self.place = code, sentence, place
+
+
+class SourceText:
+    """Text between tags; `literal` for a CDATA section, which xacro does not evaluate."""
+
+    __slots__ = ("literal", "text")
+
+    def __init__(self, text: str, *, literal: bool = False) -> None:
+        self.text, self.literal = text, literal
+
+
+class SourceComment:
+    """A comment and the byte offset of its `<`; its text without the dashes."""
+
+    __slots__ = ("line", "offset", "text")
+
+    def __init__(self, text: str, line: int, offset: int) -> None:
+        self.text, self.line, self.offset = text, line, offset
+
+
+class SourceElement:
+    """One element as written. Compared by identity; `ordinal` counts start tags from 0.
+
+    `attributes` are raw (only XML's own references resolved) in written order, xmlns included.
+    `offset` is the byte of `<` in the file; `line` and `column` are 1-based, in characters.
+    """
+
+    __slots__ = (
+        "attributes",
+        "children",
+        "column",
+        "line",
+        "offset",
+        "ordinal",
+        "parent",
+        "plan",
+        "tag",
+        "tree",
+    )
+
+    def __init__(self, tree: SourceTree, parent: SourceElement | None, tag: str) -> None:
+        self.tree, self.parent, self.tag = tree, parent, tag
+        self.attributes: dict[str, str] = {}
+        self.children: list[SourceNode] = []
+        self.line = self.column = 1
+        self.offset = self.ordinal = 0
+        self.plan: object | None = None
+        """What the evaluator keeps about this element between runs."""
+
+    @property
+    def origin(self) -> SourceElement:
+        """Itself: so that evaluated and written elements are asked alike."""
+        return self
+
+    @property
+    def xacro_name(self) -> str | None:
+        """`property` for `xacro:property`; None for an ordinary element."""
+        return self.tag[6:] if self.tag.startswith("xacro:") else None
+
+    @property
+    def place(self) -> Place:
+        """Where its `<` stands."""
+        return Place(self.tree.path, self.line, self.column)
+
+    def elements(self) -> Iterator[SourceElement]:
+        """Its child elements, in order."""
+        return (child for child in self.children if isinstance(child, SourceElement))
+
+    def __repr__(self) -> str:
+        return f"<{self.tag}> {self.place}"
+
+
+if TYPE_CHECKING:
+    SourceNode: TypeAlias = SourceElement | SourceText | SourceComment
+
+
+class SourceTree:
+    """One parsed file: `elements[n].ordinal == n`. Made by `parse_source`, not changed after."""
+
+    __slots__ = ("comments", "data", "elements", "encoding", "path", "root", "uses_xacro")
+
+    def __init__(self, path: str, data: bytes, encoding: str) -> None:
+        self.path, self.data, self.encoding = path, data, encoding
+        self.elements: list[SourceElement] = []
+        self.comments: list[SourceComment] = []
+        """All comments inside the root, in order."""
+        self.uses_xacro = False
+        """It declares xacro's namespace, in either spelling, whatever its suffix."""
+        self.root: SourceElement
+
+
+def parse_source(path: str, data: bytes) -> SourceTree:
+    """Parse the bytes of one file; `path` is only named in errors and places.
+
+    UTF-8 (with or without BOM) as xacro reads it, else the encoding that the file declares.
+
+    Raises:
+        SourceError: Empty, too large, binary, UTF-16, not well-formed, or it declares entities.
+    """
+    _refuse_what_is_no_text(path, data)
+    tree = SourceTree(path, data, _encoding_of(path, data))
+    _Builder(tree).parse()
+    return tree
+
+
+def _refuse_what_is_no_text(path: str, data: bytes) -> None:
+    def refuse(code: str, sentence: str) -> SourceError:
+        return SourceError(code, sentence, Place(path, 1, 1))
+
+    if len(data) > SOURCE_SIZE_LIMIT_BYTES:
+        limit_mb = SOURCE_SIZE_LIMIT_BYTES >> 20
+        raise refuse("file-too-large", f"The file is larger than {limit_mb} MB and was not read.")
+    if not data.strip():
+        raise refuse("file-empty", "The file is empty: a robot description starts with <robot>.")
+    if data.startswith(_UTF16_MARKS):
+        raise refuse("file-utf16", "The file is UTF-16: save it as UTF-8.")
+    if _OUTSIDE_XML.search(data, 0, 1 << 16):
+        raise refuse("file-binary", "The file is binary, not XML: choose a .xacro or .urdf file.")
+    declared = _DECLARATION.search(data)
+    start = len(codecs.BOM_UTF8) if data.startswith(codecs.BOM_UTF8) else 0
+    if declared and declared.start() != start and b"<" not in data[start : declared.start()]:
+        raise refuse(
+            "xml-not-first", "There is text or an empty line before <?xml ...?>: remove it."
+        )
+
+
+def _encoding_of(path: str, data: bytes) -> str:
+    """UTF-8 wherever the bytes are, as xacro does; else what the XML declaration says."""
+    try:
+        data.decode("utf-8")
+    except UnicodeDecodeError:
+        declared = re.match(rb"\s*<\?xml[^>]*?encoding\s*=\s*[\"']([\w.:-]+)", data)
+        name = declared[1].decode("ascii") if declared else "utf-8"
+    else:
+        return "utf-8"
+    try:
+        data.decode(name)
+    except (LookupError, UnicodeDecodeError):
+        sentence = f"The file is not {name.upper()} as it says it is: save it as UTF-8."
+        raise SourceError("file-encoding", sentence, Place(path, 1, 1)) from None
+    return name
+
+
+class _Builder:
+    """Expat's handlers for one file."""
+
+    def __init__(self, tree: SourceTree) -> None:
+        self._tree = tree
+        self._open: list[SourceElement] = []
+        self._prefixes: list[frozenset[str]] = [_IMPLIED_PREFIXES]
+        self._in_cdata = False
+        self._parser = self._make_parser()
+
+    def _make_parser(self) -> expat.XMLParserType:
+        parser = expat.ParserCreate(self._tree.encoding)
+        parser.buffer_text = True
+        parser.ordered_attributes = True
+        parser.StartElementHandler = self._start
+        parser.EndElementHandler = self._end
+        parser.CharacterDataHandler = self._text
+        parser.CommentHandler = self._comment
+        parser.StartCdataSectionHandler = self._start_cdata
+        parser.EndCdataSectionHandler = self._end_cdata
+        parser.EntityDeclHandler = self._refuse_entity
+        return parser
+
+    def parse(self) -> None:
+        """Fill the tree.
+
+        Raises:
+            SourceError: See `parse_source`.
+        """
+        try:
+            self._parser.Parse(self._tree.data, True)  # noqa: FBT003 - expat's own way
+        except expat.ExpatError as error:
+            place = Place(self._tree.path, error.lineno, error.offset + 1)
+            at = self._parser.ErrorByteIndex
+            sentence = sentence_of(error, self._tree.data, at, self._open)
+            raise SourceError("xml-malformed", sentence, place) from None
+        except ValueError:  # expat's word for encodings of more than one byte per character
+            sentence = f"The encoding {self._tree.encoding} is not read: save the file as UTF-8."
+            place = Place(self._tree.path, 1, 1)
+            raise SourceError("file-encoding", sentence, place) from None
+
+    def _start(self, tag: str, attributes: list[str]) -> None:
+        parser, tree = self._parser, self._tree
+        element = SourceElement(tree, self._open[-1] if self._open else None, tag)
+        element.line, element.column = parser.CurrentLineNumber, parser.CurrentColumnNumber + 1
+        element.offset, element.ordinal = parser.CurrentByteIndex, len(tree.elements)
+        element.attributes = dict(zip(attributes[::2], attributes[1::2], strict=True))
+        if len(self._open) >= DEPTH_LIMIT:
+            raise SourceError(
+                "xml-too-deep", f"Elements are nested deeper than {DEPTH_LIMIT}.", element.place
+            )
+        if self._open:
+            self._open[-1].children.append(element)
+        else:
+            tree.root = element
+        tree.elements.append(element)
+        self._open.append(element)
+        self._check_prefixes(element)
+
+    def _check_prefixes(self, element: SourceElement) -> None:
+        declared = self._prefixes[-1]
+        own = [name for name in element.attributes if name.startswith("xmlns:")]
+        if own:
+            declared = declared | {name[6:] for name in own}
+            self._tree.uses_xacro |= any(element.attributes[n] in XACRO_NAMESPACES for n in own)
+        self._prefixes.append(declared)
+        for name in (element.tag, *element.attributes):
+            prefix, colon, _ = name.partition(":")
+            if colon and prefix not in declared:
+                raise SourceError("xml-unbound-prefix", _unbound(prefix), element.place)
+
+    def _end(self, _tag: str) -> None:
+        self._open.pop()
+        self._prefixes.pop()
+
+    def _text(self, text: str) -> None:
+        siblings = self._open[-1].children
+        last = siblings[-1] if siblings else None
+        if isinstance(last, SourceText) and last.literal == self._in_cdata:
+            last.text += text  # expat hands long texts out in pieces
+        else:
+            siblings.append(SourceText(text, literal=self._in_cdata))
+
+    def _comment(self, text: str) -> None:
+        if self._open:
+            at = self._parser
+            node = SourceComment(text, at.CurrentLineNumber, at.CurrentByteIndex)
+            self._open[-1].children.append(node)
+            self._tree.comments.append(node)
+
+    def _start_cdata(self) -> None:
+        self._in_cdata = True
+
+    def _end_cdata(self) -> None:
+        self._in_cdata = False
+
+    def _refuse_entity(self, name: str, *_rest: object) -> None:
+        place = Place(self._tree.path, self._parser.CurrentLineNumber)
+        raise SourceError(
+            "xml-entity", f'The file declares the XML entity "{name}", which is not read.', place
+        )
+
+
+def _unbound(prefix: str) -> str:
+    if prefix == "xacro":
+        declaration = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
+        return f"xacro: is used but not declared: add {declaration} to the root element."
+    return f'The prefix "{prefix}:" is not declared: add xmlns:{prefix}="..." to the root element.'

@@ -1,0 +1,153 @@
+"""What is wrong with a file that is no XML, said for those who write it by hand."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Final
+from xml.parsers.expat import ErrorString, errors
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+    from xml.parsers.expat import ExpatError
+
+    from studio.description.syntax.source_tree import SourceElement
+
+_SENTENCES: Final = {
+    errors.XML_ERROR_MISPLACED_XML_PI: (
+        "<?xml ...?> must be the very first thing of the file: move it up or remove it."
+    ),
+    errors.XML_ERROR_JUNK_AFTER_DOC_ELEMENT: (
+        "The root element is closed above: remove what follows it or move it inside."
+    ),
+    errors.XML_ERROR_DUPLICATE_ATTRIBUTE: "An attribute stands twice in this tag: remove one.",
+    errors.XML_ERROR_UNCLOSED_TOKEN: (
+        "What begins here goes on to the end of the file: is its > missing, or a quote?"
+    ),
+    errors.XML_ERROR_UNCLOSED_CDATA_SECTION: "<![CDATA[ is never closed: write ]]> behind it.",
+    errors.XML_ERROR_UNDEFINED_ENTITY: (
+        "This &name; is not known: write &amp; for an ampersand that means itself."
+    ),
+}
+_LOOKED_BACK: Final = 400
+"""Bytes before a fault in which its cause is looked for."""
+_UNQUOTED: Final = re.compile(rb"[\s\"']([\w:.-]+)\s*=\s*$")
+_VALUELESS: Final = re.compile(rb"\s([\w:.-]+)\s*$")
+_QUOTED: Final = re.compile(rb"\"[^\"]*\"|'[^']*'")
+_IN_COMMENT: Final = re.compile(rb"<!--(?!.*-->)", re.DOTALL)
+_IN_TAG: Final = re.compile(rb"<([\w:.-]+)([^<]*)$")
+
+
+def sentence_of(
+    error: ExpatError, data: bytes, byte: int, still_open: Sequence[SourceElement]
+) -> str:
+    """One sentence on what is wrong and what to do.
+
+    Args:
+        error: What expat says.
+        data: The whole file.
+        byte: Where expat stopped.
+        still_open: The elements that are open there, the root first.
+    """
+    reason = ErrorString(error.code)
+    if reason == errors.XML_ERROR_TAG_MISMATCH:
+        return _mismatch(data, byte, still_open[-1])
+    if reason == errors.XML_ERROR_NO_ELEMENTS:
+        return _unfinished(still_open)
+    if reason == errors.XML_ERROR_INVALID_TOKEN:
+        return _odd_character(data, byte)
+    return _SENTENCES.get(reason, f"The XML is not well-formed here: {reason}.")
+
+
+def _mismatch(data: bytes, byte: int, innermost: SourceElement) -> str:
+    closing = re.match(rb"(?:</)?([^\s>]{1,80})", data[byte : byte + 82])
+    name = closing[1].decode("utf-8", "replace") if closing else "…"
+    return (
+        f"</{name}> closes nothing here: <{innermost.tag}> of line {innermost.line} is still open."
+    )
+
+
+def _unfinished(still_open: Sequence[SourceElement]) -> str:
+    if not still_open:
+        return "The file ends before its root element does: close every tag."
+    innermost = still_open[-1]
+    return f"The file ends while <{innermost.tag}> of line {innermost.line} is open: close it."
+
+
+def _odd_character(data: bytes, byte: int) -> str:
+    before, here = data[max(0, byte - _LOOKED_BACK) : byte], data[byte : byte + 12]
+    for cause in _CAUSES:
+        if sentence := cause(before, here):
+            return sentence
+    character = here.decode("utf-8", "ignore")[:1]
+    shown = f'"{character}"' if character.isprintable() and character else "This character"
+    return f"{shown} cannot stand here: is a quote, a > or a = missing before it?"
+
+
+def _comment(before: bytes, _here: bytes) -> str:
+    if before.endswith(b"--") and _IN_COMMENT.search(before):
+        return 'A comment cannot hold "--": take one of the dashes out.'
+    return ""
+
+
+def _no_name(before: bytes, _here: bytes) -> str:
+    if before.endswith((b"<", b"</")):
+        return "A tag's name follows its < at once: a < that means itself is written &lt;."
+    return ""
+
+
+def _ampersand(before: bytes, here: bytes) -> str:
+    if here.startswith(b"&") or before.endswith(b"&"):
+        return "An ampersand that means itself is written &amp;."
+    return ""
+
+
+def _open_value(before: bytes, here: bytes) -> str:
+    tag = _OpenTag.around(before)
+    if tag and tag.within_quotes and here.startswith(b"<"):
+        return "A value cannot hold <: is its closing quote missing? (A < itself is written &lt;.)"
+    return ""
+
+
+def _attribute(before: bytes, here: bytes) -> str:
+    """What is wrong with an attribute or with how its value is quoted."""
+    tag = _OpenTag.around(before)
+    if not tag or tag.within_quotes:
+        return ""
+    if found := _UNQUOTED.search(before):
+        return f'The value of {_word(found)} needs quotes: write {_word(found)}="...".'
+    if found := _VALUELESS.search(tag.outside_quotes):
+        return f'{_word(found)} has no value: write {_word(found)}="...".'
+    if before.endswith((b'"', b"'")) and here[:1].isalpha():
+        return "A space is missing between the value before this and the name here."
+    return f"The tag <{tag.name}> before this has no > yet." if here.startswith(b"<") else ""
+
+
+class _OpenTag:
+    """A start tag whose > has not come yet."""
+
+    def __init__(self, name: str, rest: bytes) -> None:
+        self.name = name
+        self.outside_quotes = _QUOTED.sub(b'""', rest)
+        self.within_quotes = bool(re.search(rb"[\"']", self.outside_quotes.replace(b'""', b"")))
+
+    @classmethod
+    def around(cls, before: bytes) -> _OpenTag | None:
+        """The tag within which a text ends."""
+        found = _IN_TAG.search(before)
+        if found is None:
+            return None
+        tag = cls(_word(found), found[2])
+        return None if b">" in tag.outside_quotes and not tag.within_quotes else tag
+
+
+def _word(found: re.Match[bytes]) -> str:
+    return found[1].decode("utf-8", "replace")
+
+
+_CAUSES: Final[tuple[Callable[[bytes, bytes], str], ...]] = (
+    _comment,
+    _no_name,
+    _ampersand,
+    _open_value,
+    _attribute,
+)
