@@ -31,6 +31,7 @@ EDITS = 28
 STOCK_RUNS = 7
 _QUIET_S = 0.1
 _PATIENCE_S = 10.0
+_MESHES_QUIET_S = 2.0
 
 Site: TypeAlias = dict[str, Any]
 
@@ -167,6 +168,8 @@ class Lane:
         end_s = time.monotonic() + _PATIENCE_S
         while not self.sites and time.monotonic() < end_s:
             self.drain()
+        while _receive(self.scene, _MESHES_QUIET_S) is not None:
+            pass  # meshes: a frame of theirs is not that of an edit
 
     def send(self, kind: str, **fields: object) -> None:
         """Send any command, without waiting."""
