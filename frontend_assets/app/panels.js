@@ -75,8 +75,8 @@ function problemsBadge() {
 function Tab({ id }) {
   const entry = PANELS[id];
   const badge = entry?.badge?.();
-  return html`<${Icon} name=${entry?.icon ?? "box"} /><span>${panelTitle(id)}</span>
-    ${badge && html`<span class=${`badge ${badge.tone}`} title=${badge.label} aria-label=${badge.label}>${badge.text}</span>`}`;
+  return html`<span class="tab-face" title=${panelTitle(id)}><${Icon} name=${entry?.icon ?? "box"} /><span class="tab-label">${panelTitle(id)}</span>
+    ${badge && html`<span class=${`badge ${badge.tone}`} title=${badge.label} aria-label=${badge.label}>${badge.text}</span>`}</span>`;
 }
 
 /** @param {{id: string}} props draws the panel as soon as its file is here */

@@ -1,8 +1,10 @@
 /** The dock: panels in tabs and splits. The one place that knows dockview, so that it can be replaced. */
 
-/** @import { DockviewApi, DockviewGroupPanel, SerializedDockview } from "vendor/dockview.js" */
+/** @import { DockviewApi, DockviewGroupPanel, IDockviewPanel, SerializedDockview } from "vendor/dockview.js" */
 
 import { createDockview } from "vendor/dockview.js";
+import { keepScrolled } from "./scrolled.js";
+import { keepTabsWhole } from "./tight-tabs.js";
 
 /**
  * @typedef {object} Panel
@@ -40,27 +42,35 @@ const THEME = { name: "studio", className: "dockview-theme-studio", gap: 6 };
  * @returns {Dock}
  */
 export function createDock(element, panels, options) {
+  /** @type {Restores} */
+  const restores = new Set();
   const api = createDockview(element, {
     theme: THEME,
     disableFloatingGroups: true,
     noPanelsOverlay: "watermark",
-    createComponent: ({ name }) => contentOf(panels[name]),
+    createComponent: ({ name }) => contentOf(panels[name], restores),
     createTabComponent: ({ name }) => tabOf(panels[name]),
     createRightHeaderActionComponent: (group) => maximizeButton(group, options),
   });
   element.addEventListener("keydown", (event) => onTabKey(api, event));
+  const tabsChanged = keepTabsWhole(element);
   let quiet = false;
   let single = false;
   api.onDidLayoutChange(() => {
+    tabsChanged();
     if (!quiet && !single) options.onChange();
   });
 
-  api.onDidActivePanelChange(({ panel }) => options.onActive(panel?.id ?? null));
+  api.onDidActivePanelChange(({ panel }) => {
+    tabsChanged();
+    options.onActive(panel?.id ?? null);
+  });
 
   /** @param {SerializedDockview} layout */
   function load(layout) {
     quiet = true;
     api.fromJSON(layout, { reuseExistingPanels: true });
+    for (const restore of restores) restore();
     // dockview tells of changes in a later task; they are not the person's.
     setTimeout(() => {
       quiet = false;
@@ -100,15 +110,26 @@ export function createDock(element, panels, options) {
   };
 }
 
-/** @param {Panel | undefined} panel */
-function contentOf(panel) {
+/** What scrolls the panels to where they were, once they are back in the page. @typedef {Set<() => void>} Restores */
+
+/** @param {Panel | undefined} panel @param {Restores} restores */
+function contentOf(panel, restores) {
   const element = document.createElement("div");
   element.className = "panel";
+  const restore = keepScrolled(element);
+  restores.add(restore);
   let end = () => {};
   return {
     element,
-    init() {
-      end = panel?.mount(element) ?? end;
+    /** @param {{api: IDockviewPanel["api"]}} parameters */
+    init({ api }) {
+      const unmount = panel?.mount(element);
+      const shown = api.onDidVisibilityChange(({ isVisible }) => isVisible && restore());
+      end = () => {
+        restores.delete(restore);
+        shown.dispose();
+        unmount?.();
+      };
     },
     dispose: () => end(),
   };
