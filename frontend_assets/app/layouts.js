@@ -59,7 +59,7 @@ export function modelLayout(kind, width, height) {
   const low = Math.round(Math.min(340, height * 0.36));
   const scene = { tabs: ["scene"], size: height - low };
   const below = { tabs: ["source", "variants", "problems", "urdf"], size: low };
-  const left = Math.round(Math.min(280, width * 0.22));
+  const left = Math.round(Math.min(300, width * 0.22));
   const right = Math.round(Math.min(390, width * 0.28));
   return [
     { tabs: ["displays", "outline"], size: left },

@@ -2,7 +2,7 @@
 
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
-import { Icon, IconButton } from "../lib/ui.js";
+import { Icon, IconButton, MenuButton } from "../lib/ui.js";
 import { goTo, openPath } from "./actions.js";
 import { commandById } from "./commands.js";
 import { Dialogs } from "./dialogs.js";
@@ -75,14 +75,43 @@ function Notices() {
   )}</div>`;
 }
 
-const PHONE_PANELS = ["scene", "properties", "joints", "displays", "problems"];
+const PHONE_PANELS = ["scene", "properties", "joints", "displays"];
 
 function PhoneTabs() {
-  return html`<nav class="phone-tabs" aria-label=${t("panels")}>${PHONE_PANELS.map(
-    (id) => html`<button key=${id} type="button"
-    aria-current=${activePanel.value === id ? "page" : null} onClick=${() => commandById(`panel.${id}`)?.run()}>
-    <span class="phone-icon"><${Icon} name=${PANELS[id]?.icon ?? "box"} size=${18} /><${Mark} id=${id} /></span><span>${id === "scene" ? t("panel.scene.short") : panelTitle(id)}</span></button>`,
-  )}</nav>`;
+  return html`<nav class="phone-tabs" aria-label=${t("panels")}>
+    ${PHONE_PANELS.map(
+      (
+        id,
+      ) => html`<button key=${id} type="button" aria-current=${activePanel.value === id ? "page" : null}
+      onClick=${() => commandById(`panel.${id}`)?.run()}><${PhoneTab} id=${id} /></button>`,
+    )}
+    <${MorePanels} />
+  </nav>`;
+}
+
+/** The panels that have no tab of their own; the one that is shown lends the tab its name. */
+function MorePanels() {
+  const others = Object.keys(PANELS).filter((id) => !PHONE_PANELS.includes(id));
+  const shown = others.find((id) => id === activePanel.value);
+  const items = () =>
+    others.map((id) => ({
+      label: panelTitle(id),
+      icon: PANELS[id]?.icon ?? "box",
+      run: () => commandById(`panel.${id}`)?.run(),
+    }));
+  return html`<${MenuButton} class=${shown ? "current" : ""} label=${t("panels.more")} items=${items}>
+    ${
+      shown
+        ? html`<${PhoneTab} id=${shown} />`
+        : html`<span class="phone-icon"><${Icon} name="dots" size=${18} /><${Mark} id="problems" /></span><span class="phone-label">${t("panels.more")}</span>`
+    }<//>`;
+}
+
+/** @param {{id: string}} props */
+function PhoneTab({ id }) {
+  const name = id === "scene" ? t("panel.scene.short") : panelTitle(id);
+  return html`<span class="phone-icon"><${Icon} name=${PANELS[id]?.icon ?? "box"} size=${18} /><${Mark} id=${id} /></span>
+    <span class="phone-label">${name}</span>`;
 }
 
 /** @param {{id: string}} props how much waits there to be seen */
