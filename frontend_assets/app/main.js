@@ -3,7 +3,7 @@
 import { effect, html, render } from "vendor/preact.js";
 import { createDock } from "../lib/dock.js";
 import { nearestLanguage, t, useLanguage } from "../lib/i18n.js";
-import { takesText } from "../lib/keys.js";
+import { matches, takesText } from "../lib/keys.js";
 import { anyUnderWay } from "../lib/latest.js";
 import { documentOf } from "../lib/paths.js";
 import { iconElement } from "../lib/ui.js";
@@ -158,8 +158,16 @@ function listenToKeys() {
     if (event.key === "Escape" && (inText || dialog.value !== null)) return;
     if (dialog.value !== null && !mod) return;
     if (onKey(event, { inText })) event.preventDefault();
+    else if (!inText && matches("Mod+A", event)) selectAllOf(event);
   });
   // Leaving with unsaved edits loses nothing (the studio holds them), so nothing asks.
+}
+
+/** Ctrl+A takes the text that has the focus; the labels of the page are no text. @param {KeyboardEvent} event */
+function selectAllOf(event) {
+  event.preventDefault();
+  const text = event.target instanceof Element ? event.target.closest("pre") : null;
+  if (text) getSelection()?.selectAllChildren(text);
 }
 
 function followState() {
