@@ -26,6 +26,8 @@ export class CameraView {
   #door;
   #robot;
   #untouched = true;
+  /** Width by height of the picture. */
+  #aspect = 0;
   #meshes = 0;
   #usualSmoothTime = 0;
   /** @type {"rviz" | "trackpad"} */
@@ -39,6 +41,7 @@ export class CameraView {
     this.#robot = robot;
     door.onPicture(() => {
       if (this.#control() !== this.#mouseOf) this.setMouse(this.#mouse);
+      this.#keepInPicture();
       this.#fitWhileMeshesArrive();
     });
     door.ready.then(({ camera }) => {
@@ -113,6 +116,20 @@ export class CameraView {
     const control = this.#control();
     if (!control) return 1;
     return control.getPosition(this.#vector()).distanceTo(control.getTarget(this.#vector()));
+  }
+
+  /** A picture of another shape shows at least as much: what was seen along its shorter side stays seen. */
+  #keepInPicture() {
+    const [camera, control] = [this.#door.mutable?.camera, this.#control()];
+    const { innerWidth: width, innerHeight: height } = window;
+    if (!camera || !control || !width || !height) return;
+    const before = this.#aspect;
+    this.#aspect = width / height;
+    if (!before || before === this.#aspect) return;
+    const farther = Math.min(1, before) / Math.min(1, this.#aspect);
+    const target = control.getTarget(this.#vector());
+    const eye = control.getPosition(this.#vector()).sub(target).multiplyScalar(farther);
+    if (farther !== 1) this.#move(eye.add(target), target, false);
   }
 
   #fitWhileMeshesArrive() {
