@@ -151,16 +151,18 @@ function show(shown) {
 
 function listenToKeys() {
   addEventListener("keydown", (event) => {
-    if (event.defaultPrevented) return;
+    if (event.defaultPrevented || belongsToWindow(event)) return;
     const inText = takesText(event.target);
-    const mod = event.ctrlKey || event.metaKey;
-    // Escape belongs to a dialog while one is open, and to a box while text is typed.
-    if (event.key === "Escape" && (inText || dialog.value !== null)) return;
-    if (dialog.value !== null && !mod) return;
     if (onKey(event, { inText })) event.preventDefault();
     else if (!inText && matches("Mod+A", event)) selectAllOf(event);
   });
   // Leaving with unsaved edits loses nothing (the studio holds them), so nothing asks.
+}
+
+/** @param {KeyboardEvent} event @returns {boolean} a dialog has its keys, and Escape is also that of a box with text */
+function belongsToWindow({ key, target, ctrlKey, metaKey }) {
+  if (dialog.value !== null) return key === "Escape" || !(ctrlKey || metaKey);
+  return key === "Escape" && takesText(target);
 }
 
 /** Ctrl+A takes the text that has the focus; the labels of the page are no text. @param {KeyboardEvent} event */
