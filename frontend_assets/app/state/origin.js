@@ -3,7 +3,7 @@
  * somebody looks, true of the last good run, and asked anew when there is another one.
  */
 
-/** @import { Effects, PartOrigin } from "../../types/wire.d.ts" */
+/** @import { Effects, PartOrigin, RobotState } from "../../types/wire.d.ts" */
 /** @import { Signal } from "vendor/preact.js" */
 
 import { batch, computed, effect, signal, untracked } from "vendor/preact.js";
@@ -11,7 +11,7 @@ import { RefusedError, send } from "../wire.js";
 import { connection } from "./connection.js";
 import { built, robot, site } from "./document.js";
 import { litPlaces } from "./source.js";
-import { onlySelected, selected } from "./view.js";
+import { hovered, onlySelected, selected } from "./view.js";
 
 /** The pointer rests so long before anything is asked. */
 const REST_MS = 70;
@@ -37,6 +37,25 @@ export const part = computed(() => {
   if (wanted && (linkOf(wanted.part) ?? link) === link) return wanted.part;
   return link ? `link:${link}` : null;
 });
+
+// What the robot has no more is not chosen any more, nor under the pointer.
+effect(() => {
+  const known = robot.value;
+  if (known) untracked(() => batch(() => forgetGone(known)));
+});
+
+/** @param {RobotState} known */
+function forgetGone({ links, joints }) {
+  const isLink = (/** @type {string | null} */ name) => links.some((link) => link.name === name);
+  if (!isLink(selected.value)) {
+    if (selected.value) onlySelected.value = false;
+    selected.value = null;
+  }
+  if (!isLink(hovered.value)) hovered.value = null;
+  const [kind, name] = splitKey(wantedPart.value?.part ?? "");
+  const isJoint = joints.some((joint) => joint.name === name);
+  if ((kind === "joint" && !isJoint) || (kind === "link" && !isLink(name))) wantedPart.value = null;
+}
 
 /** @param {string} key @returns {string | null} the link that is selected with a part, if it has one */
 function linkOf(key) {
