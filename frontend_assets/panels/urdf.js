@@ -71,10 +71,33 @@ function useChosenLine(pre, elements) {
   const line = lines.get(`${part.value} ${wanted?.element ?? ""}`);
   useEffect(() => {
     const code = pre.current?.querySelector(`[data-line="${(line ?? -1) + 1}"]`);
-    code?.classList.add("chosen");
-    code?.scrollIntoView({ block: "nearest" });
-    return () => code?.classList.remove("chosen");
+    if (!code) return undefined;
+    code.classList.add("chosen");
+    const shown = whenInView(pre.current, () => scrollTo(code));
+    return () => {
+      shown();
+      code.classList.remove("chosen");
+    };
   }, [line, elements]);
+}
+
+/** Once, and not before the panel is looked at. @param {Element | null} element @param {() => void} run @returns {() => void} the end of waiting */
+function whenInView(element, run) {
+  const watcher = new IntersectionObserver((entries) => {
+    if (!entries.some(({ isIntersecting }) => isIntersecting)) return;
+    watcher.disconnect();
+    run();
+  });
+  if (element) watcher.observe(element);
+  return () => watcher.disconnect();
+}
+
+/** A line in view stays where it is. @param {Element} code */
+function scrollTo(code) {
+  const around = code.parentElement?.getBoundingClientRect();
+  const { top, bottom } = code.getBoundingClientRect();
+  if (around && (top < around.top || bottom > around.bottom))
+    code.scrollIntoView({ block: "center" });
 }
 
 /** @param {Element | null} word the name of an attribute, or its value @returns {string} the attribute's name */
