@@ -2,9 +2,12 @@
 
 /** @import { Side } from "../types/wire.d.ts" */
 
+import { t } from "../lib/i18n.js";
 import { allSettled } from "../lib/latest.js";
 import { ask } from "./actions.js";
+import { variants } from "./state/variants.js";
 import { notify } from "./state/view.js";
+import { RefusedError, send } from "./wire.js";
 
 /** Sentences said at once; more than that nobody reads. */
 const SAID = 3;
@@ -21,13 +24,32 @@ export async function applyVariant(name) {
   if (answer?.type === "variant_applied") say(answer.left_out);
 }
 
-/** @param {string} name @param {string} note @returns {Promise<boolean>} it was done */
+/** @param {string} name @param {string} note @returns {Promise<string>} why it was not done; empty: it was */
 export async function saveVariant(name, note) {
   await allSettled();
-  const answer = await ask({ type: "save_variant", name, note });
-  if (answer?.type !== "variant_saved") return false;
-  say(answer.left_out);
-  return true;
+  return refusal(name, "", async () => {
+    const answer = await send({ type: "save_variant", name, note });
+    if (answer.type === "variant_saved") say(answer.left_out);
+  });
+}
+
+/** @param {string} name @param {string} newName @param {string} note @returns {Promise<string>} why it was not done; empty: it was */
+export function renameVariant(name, newName, note) {
+  return refusal(newName, name, () =>
+    send({ type: "rename_variant", name, new_name: newName, note }),
+  );
+}
+
+/** @param {string} name @param {string} own which may be the same @param {() => Promise<unknown>} run @returns {Promise<string>} */
+async function refusal(name, own, run) {
+  if (name !== own && variants.value.variants.some((one) => one.name === name))
+    return t("variants.clash", { name });
+  try {
+    await run();
+    return "";
+  } catch (error) {
+    return error instanceof RefusedError ? error.message : t("connection.lost");
+  }
 }
 
 /** @param {string} name is given the present arguments and values */

@@ -51,11 +51,12 @@ function Begin() {
     const other = list.find(({ name }) => name !== active);
     /** @type {Side} */
     const saved = { kind: "saved", name: "" };
+    /** @type {Side} */
+    const present = { kind: "present", name: "" };
     const same = !modified && active === "" && other;
-    compareSides(
-      { kind: "present", name: "" },
-      same ? { kind: "variant", name: other.name } : saved,
-    );
+    // What changed since reads from then to now.
+    if (same) compareSides(present, { kind: "variant", name: other.name });
+    else compareSides(saved, present);
   };
   return html`<div class="comparison-begin">
     <button type="button" class="button small" disabled=${!mayEdit.value} onClick=${begin}>

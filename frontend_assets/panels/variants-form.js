@@ -2,15 +2,17 @@
 
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
+import { Icon } from "../lib/ui.js";
 
 /**
  * @param {{title: string, action: string, name: string, note: string,
- *   run: (name: string, note: string) => Promise<boolean>, onDone: () => void}} props `run` says whether it was done
+ *   run: (name: string, note: string) => Promise<string>, onDone: () => void}} props `run` says why it was not done; empty: it was
  */
 export function VariantForm({ title, action, name, note, run, onDone }) {
   const typed = useSignal(name);
   const words = useSignal(note);
   const busy = useSignal(false);
+  const error = useSignal("");
   const first = useRef(/** @type {HTMLInputElement | null} */ (null));
   useEffect(() => {
     first.current?.select();
@@ -20,9 +22,10 @@ export function VariantForm({ title, action, name, note, run, onDone }) {
     event.preventDefault();
     if (typed.value.trim() === "" || busy.value) return;
     busy.value = true;
-    const done = await run(typed.value.trim(), words.value.trim());
+    error.value = await run(typed.value.trim(), words.value.trim());
     busy.value = false;
-    if (done) onDone();
+    if (error.value === "") onDone();
+    else first.current?.select();
   };
   const cancel = (/** @type {KeyboardEvent} */ event) => {
     if (event.key !== "Escape") return;
@@ -32,9 +35,12 @@ export function VariantForm({ title, action, name, note, run, onDone }) {
   return html`<form class="variant-form" aria-label=${title} onSubmit=${submit} onKeyDown=${cancel}>
     <label><span>${t("variants.name")}</span>
       <input ref=${first} type="text" class="box wide" maxlength="100" required spellcheck=${false} value=${typed.value}
+        aria-invalid=${error.value !== ""} aria-describedby=${error.value ? "variant-form-error" : undefined}
         onInput=${(/** @type {any} */ event) => {
           typed.value = event.currentTarget.value;
+          error.value = "";
         }} /></label>
+    ${error.value && html`<p id="variant-form-error" class="note bad" role="alert"><${Icon} name="error" size=${13} />${error.value}</p>`}
     <label><span>${t("variants.note")}</span>
       <input type="text" class="box wide" maxlength="2000" value=${words.value}
         onInput=${(/** @type {any} */ event) => {

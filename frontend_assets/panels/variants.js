@@ -9,7 +9,13 @@ import { mayEdit } from "../app/state/connection.js";
 import { documentState, robot } from "../app/state/document.js";
 import { variants } from "../app/state/variants.js";
 import { dialog } from "../app/state/view.js";
-import { applyVariant, compareSides, saveVariant, updateVariant } from "../app/variants.js";
+import {
+  applyVariant,
+  compareSides,
+  renameVariant,
+  saveVariant,
+  updateVariant,
+} from "../app/variants.js";
 import { t } from "../lib/i18n.js";
 import { shortPath } from "../lib/paths.js";
 import { EmptyState, Icon, MenuButton } from "../lib/ui.js";
@@ -80,10 +86,7 @@ function SaveForm({ onDone }) {
 /** @param {{variant: VariantView, onDone: () => void}} props */
 function RenameForm({ variant, onDone }) {
   /** @param {string} name @param {string} note */
-  const rename = async (name, note) => {
-    const command = { name: variant.name, new_name: name, note };
-    return (await ask({ type: "rename_variant", ...command })) !== null;
-  };
+  const rename = (name, note) => renameVariant(variant.name, name, note);
   return html`<li><${VariantForm} title=${t("variants.rename")} action=${t("variants.rename.do")} name=${variant.name}
     note=${variant.note} run=${rename} onDone=${onDone} /></li>`;
 }
