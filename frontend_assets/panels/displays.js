@@ -345,8 +345,10 @@ function Twisty({ row, setOpen }) {
 
 /** @param {{eye: NonNullable<Row["eye"]>}} props */
 function Eye({ eye }) {
-  return html`<button type="button" class="eye" aria-label=${eye.label} title=${eye.label} aria-pressed=${eye.on}
-    tabindex=${-1} disabled=${eye.shared && !mayEdit.value} onDblClick=${stop}
+  const locked = eye.shared && !mayEdit.value;
+  const hint = locked ? `${eye.label}\n${t("display.shared")}` : eye.label;
+  return html`<button type="button" class="eye" aria-label=${eye.label} title=${hint} aria-pressed=${eye.on}
+    tabindex=${-1} disabled=${locked} onDblClick=${stop}
     onClick=${(/** @type {MouseEvent} */ event) => {
       event.stopPropagation();
       eye.set(!eye.on);

@@ -153,8 +153,11 @@ function resultText({ number, value, widget }) {
 /** @param {{site: SiteView}} props an argument that was passed wins over what the file says */
 function PassedNote({ site }) {
   return html`<p class="note passed">${t("property.passed", { text: site.text || "''" })}
-    <button type="button" class="text-button" disabled=${!mayEdit.value} onClick=${() => setArgument(site.name, null)}>
-      ${t("property.unpass")}</button></p>`;
+    ${
+      mayEdit.value &&
+      html`<button type="button" class="text-button" onClick=${() => setArgument(site.name, null)}>
+      ${t("property.unpass")}</button>`
+    }</p>`;
 }
 
 /** @param {{site: SiteView, writer: Writer}} props */
