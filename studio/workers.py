@@ -84,14 +84,25 @@ class Worker:
         async with self._lock:
             await self._ensure_process()
 
-    async def ask(self, request: object, answer: type[Answer], timeout_s: float) -> Answer:
+    async def ask(
+        self, request: object, answer: type[Answer], timeout_s: float, *, starts: bool = True
+    ) -> Answer:
         """Send one request and wait for its answer.
+
+        Args:
+            request: One of the codec's types.
+            answer: What the answer must be.
+            timeout_s: Time for the answer.
+            starts: A process that is not running is started; else that is an error, for a request
+                that means something only to the process that knows those before.
 
         Raises:
             WorkerTimeoutError: No answer in time; the process was ended.
             WorkerDiedError: The process ended, or answered what is not `answer`.
         """
         async with self._lock:
+            if not starts and not self._is_running:
+                raise WorkerDiedError(self.name, await self._end())
             process = await self._ensure_process()
             try:
                 body = await asyncio.wait_for(self._exchange(process, request), timeout_s)
@@ -117,6 +128,10 @@ class Worker:
             self._process = await self._start()
             self.generation += 1
         return self._process
+
+    @property
+    def _is_running(self) -> bool:
+        return self._process is not None and self._process.returncode is None
 
     async def _start(self) -> asyncio.subprocess.Process:
         starting = asyncio.ensure_future(self._spawn())

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import asyncio
 
+import pytest
+
 from studio.description.codec import CODEC
 from studio.description.values import Edit, EditRequest, Failure
+from studio.errors import WorkerDiedError
 from studio.workers import Worker
 
 REQUEST = EditRequest((Edit("/nowhere", 0, 0, b""),))
@@ -30,5 +33,17 @@ def test_requests_that_come_together_are_all_answered():
         assert {answer.problem.code for answer in answers} == {"no-session"}
         assert worker.generation == 1
         await worker.close()
+
+    asyncio.run(run())
+
+
+def test_a_request_that_means_nothing_to_a_new_process_starts_none():
+    async def run() -> None:
+        worker = Worker("xacro", "studio.description.worker", CODEC)
+        await worker.ask(REQUEST, Failure, 30)
+        await worker.close()
+        with pytest.raises(WorkerDiedError):
+            await worker.ask(REQUEST, Failure, 30, starts=False)
+        assert (worker.pid, worker.generation) == (None, 1)
 
     asyncio.run(run())

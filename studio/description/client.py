@@ -89,6 +89,9 @@ class DescriptionWorker:
         """Ask about the last good run, behind whatever is under way.
 
         Whoever asks may be cancelled: the process answers all the same, and keeps its robot.
+
+        Raises:
+            WorkerDiedError: The process ended, perhaps long ago, and with it its robot.
         """
         question = asyncio.create_task(self._question(query))
         self._questions.add(question)
@@ -117,10 +120,13 @@ class DescriptionWorker:
             async with self._turn:
                 if self.needs_reopen:
                     return NoReply("The robot is not open: open it again.")
-                reply = await self._worker.ask(query, object, self._timeout_s)
-        except (WorkerTimeoutError, WorkerDiedError) as error:
+                reply = await self._worker.ask(query, object, self._timeout_s, starts=False)
+        except WorkerTimeoutError as error:
             self.needs_reopen = True
             return NoReply(str(error))
+        except WorkerDiedError:
+            self.needs_reopen = True
+            raise
         if not isinstance(reply, REPLIES):
             self.needs_reopen = True
             return NoReply("The worker gave a reply of the wrong kind.")
@@ -134,7 +140,8 @@ class DescriptionWorker:
         if self.needs_reopen:
             return self._failure("no-session", "The robot is not open: open it again.")
         try:
-            answer = await self._worker.ask(request, object, timeout_s)
+            # The process was started by `open`: another one would know nothing of this robot.
+            answer = await self._worker.ask(request, object, timeout_s, starts=False)
         except WorkerTimeoutError as error:
             self.needs_reopen = True
             sentence = f"The expansion took longer than {error.timeout_s:g} s and was ended."

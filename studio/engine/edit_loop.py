@@ -13,10 +13,12 @@ from studio.description.values import (
     EditRequest,
     Expansion,
     Failure,
+    NoReply,
     OpenRequest,
     ReadPolicy,
     ReloadRequest,
 )
+from studio.errors import WorkerDiedError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -27,6 +29,9 @@ if TYPE_CHECKING:
 
 CHECK_AFTER_S: Final = 0.15
 """Quiet time after the last of some patches."""
+
+_GONE: Final = frozenset({"worker-died", "no-session"})
+"""Codes of a worker that has lost its robot, through no fault of what it was asked for."""
 
 _log = logging.getLogger(__name__)
 
@@ -65,6 +70,7 @@ class EditLoop:
         self._turns: asyncio.Task[None] | None = None
         self._check: asyncio.TimerHandle | None = None
         """Counts the quiet time after a patch."""
+        self._is_closed = False
 
     @property
     def worker_pid(self) -> int | None:
@@ -97,6 +103,16 @@ class EditLoop:
 
         A worker that has no robot, for it is opening or has ended, gets one first.
         """
+        try:
+            return await self._question(query)
+        except WorkerDiedError:
+            pass  # it may have ended long ago, unnoticed: it gets its robot again
+        try:
+            return await self._question(query)
+        except WorkerDiedError as error:
+            return NoReply(str(error))
+
+    async def _question(self, query: Query) -> Reply:
         if self._worker.needs_reopen:
             if self._turns is None or self._turns.done():
                 await self._next_run()
@@ -105,7 +121,8 @@ class EditLoop:
         return await self._worker.query(query)
 
     async def close(self) -> None:
-        """End the worker; those who wait are cancelled."""
+        """End the worker; those who wait, and who come later, are cancelled."""
+        self._is_closed = True
         self._keep_quiet()
         for waiter in self._waiters:
             waiter.cancel()
@@ -115,6 +132,8 @@ class EditLoop:
         await self._worker.close()
 
     async def _next_run(self) -> None:
+        if self._is_closed:  # a run would start a process that nobody ends
+            raise asyncio.CancelledError
         waiter: asyncio.Future[None] = asyncio.get_running_loop().create_future()
         self._waiters.append(waiter)
         self._keep_quiet()
@@ -126,10 +145,7 @@ class EditLoop:
         while self._waiters:
             waiters, self._waiters = self._waiters, []
             try:
-                version = self._sources.spans.version
-                outcome = await self._run()
-                self._take(outcome, version)
-                self._check_later(outcome)
+                self._check_later(await self._run())
             except asyncio.CancelledError:
                 for waiter in waiters:
                     waiter.cancel()
@@ -167,19 +183,31 @@ class EditLoop:
         version = self._sources.spans.version
         outcome = await self._worker.verify()
         if self._worker.needs_reopen:
-            version = self._sources.spans.version
-            outcome = await self._run()
-        if isinstance(outcome, Failure) or not outcome.is_patch:
+            await self._run()
+        elif isinstance(outcome, Failure) or not outcome.is_patch:
             self._take(outcome, version)
 
     async def _run(self) -> Outcome:
-        """Send what changed since the last run; more than one kind of change opens anew."""
-        edits, self._edits = tuple(self._edits), []
-        reload, self._reload = tuple(self._reload), set[str]()
-        arguments, self._arguments_changed = self._arguments_changed, False
-        kinds = bool(edits) + bool(reload) + arguments
-        if self._open or self._worker.needs_reopen or kinds != 1:
-            self._open = False
+        """Run with what changed since the last run, and have it taken.
+
+        A worker that has lost its robot, be it at this moment or long ago, gets everything once
+        more: then nobody notices.
+        """
+        version = self._sources.spans.version
+        outcome = await self._run_changes()
+        if isinstance(outcome, Failure) and outcome.problem.code in _GONE:
+            version = self._sources.spans.version
+            self._forget_changes()
+            outcome = await self._worker.open(self._whole())
+        self._take(outcome, version)
+        return outcome
+
+    async def _run_changes(self) -> Outcome:
+        """Send what changed; more than one kind of change opens anew."""
+        edits, reload = tuple(self._edits), tuple(self._reload)
+        arguments, is_whole = self._arguments_changed, self._open or self._worker.needs_reopen
+        self._forget_changes()
+        if is_whole or bool(edits) + bool(reload) + arguments != 1:
             return await self._worker.open(self._whole())
         if reload:
             overlay = self._sources.overlay()
@@ -189,6 +217,11 @@ class EditLoop:
         if arguments:
             return await self._worker.set_arguments(ArgumentsRequest(self._sources.arguments))
         return await self._worker.edit(EditRequest(edits))
+
+    def _forget_changes(self) -> None:
+        """What is sent now holds all of them."""
+        self._edits, self._reload = [], set[str]()
+        self._open = self._arguments_changed = False
 
     def _whole(self) -> OpenRequest:
         return OpenRequest(

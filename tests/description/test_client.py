@@ -21,6 +21,7 @@ from studio.description.values import (
     NoReply,
     OpenRequest,
 )
+from studio.errors import WorkerDiedError
 from tests.support.descriptions import policy_for, robot, write
 
 if TYPE_CHECKING:
@@ -89,7 +90,7 @@ def test_a_process_that_dies_must_be_opened_again(tmp_path: Path):
             os.kill(worker.pid, signal.SIGKILL)
             answer = await worker.set_arguments(ArgumentsRequest({}))
             assert isinstance(answer, Failure)
-            assert answer.problem.code in {"worker-died", "no-session"}
+            assert answer.problem.code == "worker-died"
             assert worker.needs_reopen
             assert isinstance(await worker.open(request(file)), Expansion)
         finally:
@@ -136,7 +137,7 @@ def test_whoever_asks_may_go_away_and_the_robot_stays_open(tmp_path: Path):
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGKILL")
-def test_a_question_to_a_dead_process_gets_a_sentence(tmp_path: Path):
+def test_a_question_to_a_dead_process_is_an_error_and_starts_no_other(tmp_path: Path):
     file = write(tmp_path, {"a.xacro": GOOD})
 
     async def scenario() -> None:
@@ -145,7 +146,10 @@ def test_a_question_to_a_dead_process_gets_a_sentence(tmp_path: Path):
             await worker.open(request(file))
             assert worker.pid is not None
             os.kill(worker.pid, signal.SIGKILL)
+            with pytest.raises(WorkerDiedError):
+                await worker.query(PartOriginQuery("link:a2"))
             assert isinstance(await worker.query(PartOriginQuery("link:a2")), NoReply)
+            assert worker.pid is None
             assert isinstance(await worker.open(request(file)), Expansion)
             assert isinstance(await worker.query(PartOriginQuery("link:a2")), PartOrigin)
         finally:

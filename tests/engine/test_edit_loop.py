@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import os
-import signal
-import sys
 from typing import TYPE_CHECKING
 
 import pytest
@@ -61,25 +58,6 @@ def test_a_question_asked_while_the_robot_opens_costs_no_second_run(tmp_path: Pa
             assert isinstance(await loop.ask(PartOriginQuery("link:a")), PartOrigin)
             await opening
             assert [type(one) for one in outcomes] == [Expansion]
-        finally:
-            await loop.close()
-
-    asyncio.run(run())
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGKILL")
-def test_a_question_after_a_fall_opens_the_robot_again(tmp_path: Path):
-    file = write(tmp_path, {"a.xacro": robot('<link name="a"/>')})
-
-    async def run() -> None:
-        outcomes: list[Outcome] = []
-        loop = loop_over(file, outcomes)
-        try:
-            await loop.reopen()
-            assert loop.worker_pid is not None
-            os.kill(loop.worker_pid, signal.SIGKILL)
-            await loop.ask(PartOriginQuery("link:a"))
-            assert isinstance(await loop.ask(PartOriginQuery("link:a")), PartOrigin)
         finally:
             await loop.close()
 
