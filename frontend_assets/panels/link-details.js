@@ -21,9 +21,9 @@ export function LinkDetails() {
   return html`<aside class="details" aria-label=${t("link.details", { name: link.name })}>
     <header><strong><button type="button" class="text-button" title=${`${link.name}\n${t("origin.show")}`}
         onClick=${() => explain(`link:${link.name}`)}>${link.name}</button></strong>
-      <${IconButton} icon="fit" label=${t("link.focus")} onClick=${() => focusLink(link.name)} />
+      <span class="details-buttons"><${IconButton} icon="fit" label=${t("link.focus")} onClick=${() => focusLink(link.name)} />
       <${IconButton} icon="properties" label=${t("link.values")} onClick=${showValues} />
-      <${IconButton} icon="close" label=${t("link.deselect")} onClick=${close} />
+      <${IconButton} icon="close" label=${t("link.deselect")} onClick=${close} /></span>
     </header>
     <dl>
       ${joint && html`<dt>${t("link.joint")}</dt><dd><button type="button" class="text-button" title=${t("origin.show")} onClick=${() => explain(`joint:${joint.name}`)}>${joint.name}</button> <span class="muted">${t(`joint.${joint.type}`)}</span></dd>`}
