@@ -1,0 +1,124 @@
+"""The frame of the page as a person uses it: by Tab, from tab to tab, in windows of any size."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+
+from tests.support.server import running_studio
+from tests.support.studio_page import StudioPage, studio_page, wait_until
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+    from playwright.sync_api import Browser, Locator
+
+    from tests.support.server import RunningStudio
+
+pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(240)]
+
+_TABS_ENOUGH = 80
+"""More controls than stand before the editor."""
+_CUT_TABS = """() => [...document.querySelectorAll(".dv-tabs-container")]
+  .filter((tabs) => tabs.scrollWidth > tabs.clientWidth)
+  .map((tabs) => tabs.textContent)"""
+
+
+@pytest.fixture
+def studio(tmp_path: Path) -> Iterator[RunningStudio]:
+    with running_studio(["demo"], tmp_path / "data") as running:
+        yield running
+
+
+@pytest.fixture
+def tab(browser: Browser, studio: RunningStudio) -> Iterator[StudioPage]:
+    with studio_page(browser, studio) as page:
+        wait_until("the source", lambda: page.page.locator(".cm-line").count() > 0)
+        yield page
+
+
+def panel_tab(tab: StudioPage, name: str) -> Locator:
+    return tab.page.get_by_role("tab", name=name, exact=True)
+
+
+def focus_is_in_editor(tab: StudioPage) -> bool:
+    return bool(tab.page.evaluate("() => document.activeElement.matches('.cm-content')"))
+
+
+def walk_into_editor(tab: StudioPage) -> None:
+    """Press Tab from the top of the page until the source has the focus."""
+    tab.page.get_by_role("link", name="Studio: start page").focus()
+    for _ in range(_TABS_ENOUGH):
+        tab.page.keyboard.press("Tab")
+        if focus_is_in_editor(tab):
+            return
+    pytest.fail("Tab never came to the source.")
+
+
+def first_line(tab: StudioPage) -> str:
+    return tab.page.locator(".cm-line").first.inner_text()
+
+
+def test_tab_walks_through_the_source_until_one_has_begun_to_edit(tab: StudioPage):
+    before = first_line(tab)
+    walk_into_editor(tab)
+    tab.page.keyboard.press("Tab")
+    assert not focus_is_in_editor(tab)
+    assert first_line(tab) == before
+    tab.page.keyboard.press("Shift+Tab")
+    assert focus_is_in_editor(tab)
+    tab.page.keyboard.press("End")
+    tab.page.keyboard.type(" ")
+    tab.page.keyboard.press("Tab")
+    assert focus_is_in_editor(tab)
+    assert first_line(tab) != before
+    tab.page.keyboard.press("Escape")
+    tab.page.keyboard.press("Tab")
+    assert not focus_is_in_editor(tab)
+
+
+def scroll_down(tab: StudioPage, scroller: Locator) -> float:
+    """Turn the wheel over it; where it came to."""
+    scroller.hover()
+    tab.page.mouse.wheel(0, 700)
+    wait_until("it to scroll", lambda: scroller.evaluate("one => one.scrollTop") > 300)
+    return float(scroller.evaluate("one => one.scrollTop"))
+
+
+@pytest.mark.parametrize(
+    ("panel", "other", "scroller"),
+    [
+        ("Source", "Problems", ".cm-scroller"),
+        ("Properties", "Joints", '[aria-label="Properties"] > .scroll'),
+    ],
+)
+def test_a_panel_comes_back_where_it_was_scrolled_to(
+    tab: StudioPage, panel: str, other: str, scroller: str
+):
+    place = tab.page.locator(scroller).first
+    top = scroll_down(tab, place)
+    panel_tab(tab, other).click()
+    wait_until("the other panel", lambda: not place.is_visible())
+    panel_tab(tab, panel).click()
+    wait_until("the panel again", place.is_visible)
+    assert place.evaluate("one => one.scrollTop") == pytest.approx(top, abs=1)
+
+
+def test_no_tab_is_cut_in_a_window_of_any_size(tab: StudioPage):
+    tab.page.get_by_role("button", name="Layout and settings").click()
+    tab.page.get_by_role("menuitemradio", name="Deutsch").click()
+    panel_tab(tab, "Herkunft").wait_for()
+    for width in (1600, 1280, 1024, 760):
+        tab.page.set_viewport_size({"width": width, "height": 720})
+        wait_until(f"whole tabs at {width} px", lambda: tab.page.evaluate(_CUT_TABS) == [])
+
+
+def test_every_panel_has_a_way_on_a_phone(tab: StudioPage):
+    tab.page.set_viewport_size({"width": 390, "height": 844})
+    bar = tab.page.get_by_role("navigation", name="Panels")
+    bar.get_by_role("button", name="More").click()
+    tab.page.get_by_role("menuitem", name="Source").click()
+    wait_until("the source", tab.page.locator(".cm-content").is_visible)
+    assert "Source" in bar.inner_text()
