@@ -56,6 +56,8 @@ class Session:
         self._parts: dict[str, str] = {}
         self._sites: dict[str, Site] = {}
         self._good: GoodRun | None = None
+        self._doubted: set[str] = set()
+        """Files edited or read anew since the last full run, whose sites the other side moved."""
         self._told: Expansion | None = None
         """The last good answer."""
         self._live: LiveRun | None = None
@@ -75,6 +77,7 @@ class Session:
             if patch is not None:
                 self._live = live
                 return self._patched(live, patch)
+            self._doubted |= live.texts.edited
             if isinstance(request, EditRequest) and live.has_edited:
                 return self.run()
         try:
@@ -145,9 +148,11 @@ class Session:
         match request:
             case EditRequest(edits=edits):
                 self._store.edit(edits)
+                self._doubted.update(self._store.resolve(edit.file) for edit in edits)
             case ArgumentsRequest(arguments=arguments):
                 self._arguments = dict(arguments)
             case ReloadRequest(files=files, overlay=overlay):
+                self._doubted.update(files, overlay)
                 self._store.reload(files, overlay)
             case OpenRequest() | VerifyRequest():
                 pass
@@ -192,9 +197,9 @@ class Session:
         expansion = Expansion(
             robot_name=root.attributes.get("name", ""),
             root_attributes=tuple(root.attributes.items()),
-            part_order=None if part_order == tuple(self._parts) else part_order,
+            part_order=None if self._told and part_order == tuple(self._parts) else part_order,
             changed_parts=tuple(part_of(p) for p in parts if self._parts.get(p.key) != p.xml),
-            site_order=None if site_order == tuple(self._sites) else site_order,
+            site_order=None if self._told and site_order == tuple(self._sites) else site_order,
             changed_sites=tuple(s for s in sites if self._is_new(s)),
             files=record.files,
             include_tree=record.includes,
@@ -202,6 +207,7 @@ class Session:
             evaluator="xacro" if reason else "studio",
             fallback_reason=reason,
         )
+        self._doubted.clear()
         self._parts = {part.key: part.xml for part in parts}
         self._sites = {site.id: site for site in sites}
         self._told = expansion
@@ -224,8 +230,9 @@ class Session:
         )
 
     def _is_new(self, site: Site) -> bool:
+        """Whether a site is told: it changed, or who moved it with the edits may have it wrong."""
         before = self._sites.get(site.id)
-        return before is not site and before != site
+        return site.place.file in self._doubted or (before is not site and before != site)
 
     def _record(self, evaluation: Evaluation, index: OutputIndex) -> RunRecord:
         files = tuple(self._store.asked)

@@ -2,8 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import random
+from contextlib import suppress
+from itertools import pairwise
+from pathlib import Path
 
+import pytest
+
+from studio.description.editing.splice import difference
 from studio.description.evaluator.evaluation import Evaluation
 from studio.description.faults import Unsupported
 from studio.description.session import Session, open_session
@@ -16,13 +22,11 @@ from studio.description.values import (
     OpenRequest,
     ReloadRequest,
 )
+from studio.errors import StaleEditError
 from tests.support.descriptions import policy_for, robot, write
+from tests.support.patched import SideBySide
 
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    import pytest
-
+MODELS = Path(__file__).resolve().parents[2] / "models"
 BODY = (
     '<xacro:arg name="side" default="left"/><xacro:property name="r" value="0.1"/>'
     '<xacro:macro name="wheel" params="n"><link name="${n}"><visual><geometry>'
@@ -213,3 +217,105 @@ def test_a_repeated_name_gets_a_key_of_its_own(tmp_path: Path):
     file = write(tmp_path, {"a.urdf": '<robot name="r"><link name="a"/><link name="a"/></robot>'})
     _, answer = opened(file)
     assert answer.part_order == ("link:a", "link:a#2")
+
+
+PLACES = (
+    '<xacro:macro name="ball" params="r:=1"><link name="${r}"><visual><origin xyz="1 2 3"/>'
+    '</visual></link></xacro:macro>\n<xacro:ball/>\n<xacro:property name="p" value="7"/>\n'
+    '<xacro:property name="other" value="important"/>\n<x a="${p} ${other}"/>'
+    "<y a=\"${xacro.load_yaml('l.yaml')['s']}\"/>"
+)
+
+
+PROPERTY = '<xacro:property name="p" value="7"/>\n'
+
+
+def typed(side: SideBySide, file: Path, old: str, new: str) -> None:
+    """Type until a text reads another way: the bytes that are the same at both ends stay."""
+    before = side.told.sources.text(str(file))
+    assert before.count(old.encode()) == 1
+    edit = difference(str(file), before, before.replace(old.encode(), new.encode()))
+    assert edit is not None
+    side.splice(edit)
+
+
+@pytest.mark.parametrize(
+    ("name", "texts"),
+    [
+        ("r.xacro", [PROPERTY, "<!-- cut -->", PROPERTY]),
+        ("r.xacro", ['="1 2 3"/', '="1 2 3/', '="1 2 3"/']),
+        ("r.xacro", ['="1 2 3"/', "=1 2 3/", '="1 2 3"/']),
+        ("r.xacro", ["r:=1", "r:=1 b:=2"]),
+        ("r.xacro", ["r:=1", "r:=", "r:=12 b:=3"]),
+        ("l.yaml", ["s: abc", "s: abc # it is"]),
+        ("l.yaml", ["s: abc", "s: abc #"]),
+        ("l.yaml", ["s: abc", "a: b\ns: abc"]),
+    ],
+)
+def test_after_typing_across_a_text_the_next_run_says_where_it_is(
+    tmp_path: Path, name: str, texts: list[str]
+):
+    file = write(tmp_path, {"r.xacro": robot(PLACES), "l.yaml": "s: abc\nt: 1\n"})
+    side = SideBySide(file, policy_for(tmp_path))
+    for old, new in pairwise(texts):
+        typed(side, tmp_path / name, old, new)
+    assert side.told.failure is None
+    assert side.misplaced() == []
+
+
+def test_a_line_that_was_cut_and_brought_back_by_undo_is_written_where_it_stands(tmp_path: Path):
+    file = write(tmp_path, {"r.xacro": robot(PLACES), "l.yaml": "s: abc\n"})
+    side = SideBySide(file, policy_for(tmp_path))
+    site = next(one for one in side.told.sites if side.told.site(one).name == "p")
+    typed(side, file, PROPERTY, "")
+    assert side.told.failure is not None
+    with pytest.raises(StaleEditError):
+        side.edit(site, "8")
+    side.undo()
+    side.edit(site, "8")
+    expected = file.read_bytes().replace(b'value="7"', b'value="8"')
+    assert side.told.sources.text(str(file)) == expected
+
+
+def test_a_file_read_anew_has_its_places_told(tmp_path: Path):
+    file = write(tmp_path, {"a.xacro": robot(BODY)})
+    session, first = opened(file)
+    told = session.answer(ReloadRequest((str(file),), {}))
+    assert isinstance(told, Expansion)
+    assert told.changed_sites == first.changed_sites
+
+
+def test_a_robot_that_has_become_empty_when_it_is_opened_again_says_so(tmp_path: Path):
+    _, answer = opened(write(tmp_path, {"a.xacro": robot("")}))
+    assert (answer.part_order, answer.site_order) == ((), ())
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_after_random_typing_every_text_is_where_one_who_opens_the_file_finds_it(seed: int):
+    file = MODELS / "rover_description/urdf/rover.urdf.xacro"
+    side, choose = SideBySide(file, policy_for(MODELS)), random.Random(seed)
+    looked = 0
+    while looked < 6:
+        for _ in range(choose.randint(1, 5)):
+            _one_of_many_changes(side, choose)
+        while side.told.failure is not None:
+            side.undo()
+        assert side.misplaced() == []
+        looked += 1
+
+
+def _one_of_many_changes(side: SideBySide, choose: random.Random) -> None:
+    """Drag a slider, type anywhere in the file, or take something back."""
+    file, site = side.request.entry, choose.choice(side.told.sites)
+    match choose.choice(["drag", "type", "type", "undo"]):
+        case "drag":
+            with suppress(StaleEditError):
+                side.edit(site, f"{choose.uniform(0.1, 9):.{choose.randint(0, 4)}f}")
+        case "undo" if side.told.sources.undo_labels:
+            side.undo()
+        case _:
+            text = side.told.sources.text(file)
+            start = choose.randrange(len(text))
+            end = min(len(text), start + choose.choice([0, 0, 1, 1, 2, 30]))
+            new = choose.choice([b"", b"1", b" ", b'"', b"\n", b" b:=2", text[start:end][::-1]])
+            side.splice(Edit(file, start, end, new))

@@ -8,10 +8,17 @@ from typing import TYPE_CHECKING
 
 from studio.description.editing.sources import Sources
 from studio.description.session import Session, open_session
-from studio.description.values import EditRequest, Expansion, Failure, OpenRequest
+from studio.description.values import (
+    ArgumentsRequest,
+    EditRequest,
+    Expansion,
+    Failure,
+    OpenRequest,
+)
+from studio.errors import StaleEditError
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from studio.description.session import Answer, Request
     from studio.description.values import Edit, Part, ReadPolicy, Site
@@ -50,6 +57,14 @@ class Told:
     def site(self, name: str) -> Site:
         """A site as it is now."""
         return self.sources.spans.site(name)
+
+    def place(self, name: str) -> object:
+        """Where a site is written now and what stands there; None when that is not known."""
+        try:
+            site, span = self.site(name), self.sources.spans.span(name)
+        except StaleEditError:
+            return None
+        return site.place, span, self.sources.current_text(name)
 
     def everything(self) -> dict[str, object]:
         """All of it, to be compared."""
@@ -93,6 +108,8 @@ class SideBySide:
 
     def send(self, request: Request) -> bool:
         """Ask both the same; whether the one patched."""
+        if isinstance(request, ArgumentsRequest):
+            self.request = replace(self.request, arguments=request.arguments)
         answer = self.last = self.patching.answer(request)
         self.told.take(answer)
         self.full.forget_run()
@@ -119,11 +136,27 @@ class SideBySide:
             if ours.get(key) != theirs.get(key)
         ]
 
+    def misplaced(self) -> list[str]:
+        """Sites that who opens these texts now finds elsewhere, or with another text.
 
-def _opened(request: OpenRequest) -> tuple[Session, Told]:
+        `differences` cannot tell: there both sides hear answers, and move sites between them.
+        """
+        overlay = self.told.sources.overlay()
+        anew = _opened(replace(self.request, overlay=overlay), self.told.sources.text)[1]
+        found = {name: (self.told.place(name), anew.place(name)) for name in anew.sites}
+        return [f"{name}: {ours}, anew {new}" for name, (ours, new) in found.items() if ours != new]
+
+
+def _opened(
+    request: OpenRequest, text: Callable[[str], bytes] | None = None
+) -> tuple[Session, Told]:
     session, answer = open_session(request)
     assert session is not None
     assert isinstance(answer, Expansion), answer
-    told = Told(Sources(Path.read_bytes, Path.resolve))
+
+    def read(file: Path) -> bytes:
+        return text(str(file)) if text else file.read_bytes()
+
+    told = Told(Sources(read, Path.resolve))
     told.take(answer)
     return session, told

@@ -151,6 +151,7 @@ class Sources:
         site, span = self.spans.site(site_id), self.spans.span(site_id)
         edit = edit_at(site.place.file, self.text(site.place.file), span, text)
         self.edit(edit, site.name, gesture)
+        self.spans.wrote(site_id)
         return edit
 
     def reset_site(self, site_id: str) -> Edit | None:

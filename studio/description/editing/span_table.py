@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import TYPE_CHECKING
+import re
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Final
 
 from studio.description.values import Span
 from studio.errors import StaleEditError
@@ -12,6 +13,29 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from studio.description.values import Edit, Site
+
+_QUOTES: Final = {'"': b'"', "'": b"'"}
+"""What ends an attribute; it stands just outside the span."""
+_ONE_VALUE: Final = re.compile(rb"[\w.+-]+", re.ASCII)
+"""What is one value, and the whole of it, in YAML and among the parameters of a macro."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Noted:
+    """An edit, the version that it led to, and the site that it wrote, if it was made for one."""
+
+    version: int
+    edit: Edit
+    site: str = ""
+
+    def moved(self, name: str, span: Span | None) -> Span | None:
+        """Where a site is after it; None when that is not sure."""
+        if span is None:
+            return None
+        edit = self.edit
+        if name == self.site and (edit.start, edit.end) == (span.start, span.end):
+            return replace(span, end=span.start + len(edit.new))
+        return moved(span, edit)
 
 
 class SpanTable:
@@ -24,32 +48,33 @@ class SpanTable:
     def __init__(self) -> None:
         self.version = 0
         self._sites: dict[str, Site] = {}
-        self._spans: dict[str, dict[str, Span]] = {}
-        """By file, where its sites were at the last good run."""
-        self._since: list[tuple[int, Edit]] = []
+        self._spans: dict[str, dict[str, Span | None]] = {}
+        """By file, where its sites were at the last good run; None: an edit cut across one."""
+        self._since: list[_Noted] = []
 
     def adopt(self, changed: Iterable[Site], order: Iterable[str] | None, version: int) -> None:
         """Take over a run's sites: `changed` and `order` as in `Expansion`, true at `version`.
 
         Those that are not among `changed` moved with the edits until then.
         """
-        for at, edit in self._since:
-            if at <= version:
-                self._move(edit)
+        for noted in self._since:
+            if noted.version <= version:
+                self._move(noted)
         for site in changed:
             self._sites[site.id] = site
             self._spans.setdefault(site.place.file, {})[site.id] = site.span
         if order is not None:
             self._keep_only(set(order))
-        self._since = [(at, edit) for at, edit in self._since if at > version]
+        self._since = [noted for noted in self._since if noted.version > version]
 
-    def _move(self, edit: Edit) -> None:
+    def _move(self, noted: _Noted) -> None:
         """Have the sites of a file stand where an edit left them."""
-        spans = self._spans.get(edit.file)
-        if spans and len(edit.new) != edit.end - edit.start:
-            for name, span in spans.items():
-                if span.end >= edit.start:
-                    spans[name] = moved(span, edit) or span
+        edit, spans = noted.edit, self._spans.get(noted.edit.file, {})
+        is_as_long = len(edit.new) == edit.end - edit.start
+        for name, span in spans.items():
+            if span is None or span.end < edit.start or (is_as_long and span.start > edit.end):
+                continue
+            spans[name] = noted.moved(name, span)
 
     def _keep_only(self, wanted: set[str]) -> None:
         self._sites = {one: site for one, site in self._sites.items() if one in wanted}
@@ -60,8 +85,12 @@ class SpanTable:
         """Note edits that were applied, in order; the version that they lead to."""
         for edit in edits:
             self.version += 1
-            self._since.append((self.version, edit))
+            self._since.append(_Noted(self.version, edit))
         return self.version
+
+    def wrote(self, site_id: str) -> None:
+        """Say that the edit noted last wrote a site's text as its place spells it."""
+        self._since[-1] = replace(self._since[-1], site=site_id)
 
     def site(self, site_id: str) -> Site:
         """A site as the last run had it.
@@ -73,7 +102,7 @@ class SpanTable:
         if site is None:
             raise StaleEditError(site_id)
         span = self._spans[site.place.file][site_id]
-        if span is not site.span:
+        if span is not None and span is not site.span:
             site = self._sites[site_id] = replace(site, span=span)
         return site
 
@@ -81,26 +110,37 @@ class SpanTable:
         """Where a site stands now: its own edits stretch it, those before it in its file move it.
 
         Raises:
-            StaleEditError: There is no such site, or an edit cut across its ends.
+            StaleEditError: There is no such site, or only the next run can say where it is.
         """
-        site = self.site(site_id)
-        span: Span | None = site.span
-        for _, edit in self._since:
-            if edit.file == site.place.file:
-                span = moved(span, edit)
-                if span is None:
-                    raise StaleEditError(site_id)
+        file = self.site(site_id).place.file
+        span = self._spans[file][site_id]
+        for noted in self._since:
+            if noted.edit.file == file:
+                span = noted.moved(site_id, span)
+        if span is None:
+            raise StaleEditError(site_id)
         return span
 
 
 def moved(span: Span, edit: Edit) -> Span | None:
-    """A span after an edit of its file; None when the edit cut across an end of it.
+    """A span after an edit of its file; None when another text may stand there now.
 
-    An edit of exactly the span or of a part inside it stretches it, also when the span is empty.
+    That is so when the edit touched an end of it, or what ends it, or wrote something into it that
+    may end it earlier. An edit of a part of it, or of all, otherwise stretches it.
     """
     growth = len(edit.new) - (edit.end - edit.start)
     if span.start <= edit.start and edit.end <= span.end:
-        return Span(span.start, span.end + growth, span.syntax)
-    if edit.end <= span.start:
+        is_whole = _is_one_text(span, edit)
+        return Span(span.start, span.end + growth, span.syntax) if is_whole else None
+    if edit.end < span.start:
         return Span(span.start + growth, span.end + growth, span.syntax)
-    return span if edit.start >= span.end else None
+    return span if edit.start > span.end else None
+
+
+def _is_one_text(span: Span, edit: Edit) -> bool:
+    """Whether an edit within a span leaves it what it is: one text from end to end."""
+    quote = _QUOTES.get(span.syntax)
+    if quote is not None:
+        return quote not in edit.new
+    is_all = (edit.start, edit.end) == (span.start, span.end)
+    return is_all and _ONE_VALUE.fullmatch(edit.new) is not None

@@ -81,3 +81,52 @@ def test_an_edit_across_an_end_of_a_span_makes_it_stale():
     with pytest.raises(StaleEditError):
         spans.span("a")
     assert spans.span("c") == Span(12, 13, "'")
+
+
+@pytest.mark.parametrize(
+    ("edit", "why"),
+    [
+        (Edit("f", 7, 10, b"???"), "as many bytes, across its end"),
+        (Edit("f", 8, 9, b""), "the quote behind it deleted"),
+        (Edit("f", 5, 6, b""), "the quote before it deleted"),
+        (Edit("f", 8, 8, b"'"), "a quote typed into it"),
+        (Edit("f", 6, 8, b"1' d='2"), "another attribute pasted over it"),
+    ],
+)
+def test_a_text_that_may_end_elsewhere_is_stale_until_a_run_tells_its_place(edit: Edit, why: str):
+    spans = table()
+    sent = spans.note([edit])
+    with pytest.raises(StaleEditError):
+        spans.span("a")
+    spans.adopt([], None, sent)
+    spans.note([Edit("f", 0, 0, b" ")])
+    with pytest.raises(StaleEditError):
+        spans.span("a")
+    told = replace(spans.site("a"), span=Span(40, 41, "'"))
+    spans.adopt([told], None, spans.version)
+    assert spans.span("a") == told.span, why
+
+
+def test_what_is_typed_within_the_quotes_stays_one_text():
+    spans = table()
+    spans.note([Edit("f", 7, 7, b" ${x} "), Edit("f", 6, 7, b"")])
+    assert spans.span("a") == Span(6, 13, "'")
+
+
+@pytest.mark.parametrize("syntax", ["yaml", "param"])
+def test_a_value_without_quotes_around_it_is_only_sure_as_one_whole_word(syntax: str):
+    spans = SpanTable()
+    spans.adopt([site("v", Span(3, 6, syntax))], ("v",), 0)
+    spans.note([Edit("f", 3, 6, b"1.5e3")])
+    assert spans.span("v") == Span(3, 8, syntax)
+    spans.note([Edit("f", 8, 8, b"0")])
+    with pytest.raises(StaleEditError):
+        spans.span("v")
+
+
+def test_a_text_that_was_written_as_its_place_spells_it_is_sure_whatever_it_says():
+    spans = SpanTable()
+    spans.adopt([site("v", Span(3, 6, "yaml"))], ("v",), 0)
+    spans.note([Edit("f", 3, 6, b"'a # b'")])
+    spans.wrote("v")
+    assert spans.span("v") == Span(3, 10, "yaml")

@@ -246,6 +246,7 @@ def test_a_random_sequence_of_edits_of_our_models_is_as_in_full_runs(name: str, 
             side.undo()
             assert side.differences() == []
     assert side.patched
+    assert side.misplaced() == []
 
 
 @settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.too_slow])
@@ -270,6 +271,7 @@ def test_random_edits_of_random_files_are_as_in_a_full_run(
             except EditError:
                 continue
         assert side.differences() == []
+        assert side.told.failure or side.misplaced() == []
 
 
 def _without_moments(text: str) -> str:
