@@ -17,10 +17,23 @@ export function EffectLine() {
     <span>${one ? html`<strong>${shortName(one)}</strong> ${words}` : t("effects.hint")}</span></p>`;
 }
 
-/** @param {Effects} effects @returns {string} */
-function effectWords({ counts, decisions }) {
+/** @param {Effects} known @returns {string} */
+function effectWords(known) {
+  const { counts, decisions } = known;
   const told = countedAspects(counts).map(({ aspect, count }) => t(`effects.${aspect}`, { count }));
+  const there = thereWords(known);
+  if (there) told.unshift(there);
   // A condition that is not met has nothing to show for itself, and yet is decided here.
-  if (!counts.presence && decisions > 0) told.push(t("effects.decisions", { count: decisions }));
+  else if (!counts.presence && decisions > 0)
+    told.push(t("effects.decisions", { count: decisions }));
   return told.length > 0 ? told.join(", ") : t("effects.none");
+}
+
+/** @param {Effects} effects @returns {string} what is there as a whole because of it; empty: nothing */
+function thereWords({ links_there: links, joints_there: joints }) {
+  const parts = [
+    ...(links > 0 ? [t("links.count", { count: links })] : []),
+    ...(joints > 0 ? [t("joints.count", { count: joints })] : []),
+  ];
+  return parts.length > 0 ? t("effects.there", { what: parts.join(` ${t("and")} `) }) : "";
 }

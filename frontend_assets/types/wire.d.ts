@@ -241,6 +241,8 @@ export interface Effects {
   parts: PartEffect[];
   changed_links: string[];
   moved_links: string[];
+  links_there: number;
+  joints_there: number;
   counts: Record<string, number>;
   decisions: number;
   readers: Place[];

@@ -37,8 +37,11 @@ class Effects(Message):
     """Links that look otherwise: size, mesh or colour, or that are not there at all."""
     moved_links: tuple[str, ...]
     """Links that only sit elsewhere, those below a moved joint too."""
+    links_there: int
+    """Links that are there as a whole because of the text."""
+    joints_there: int
     counts: dict[Aspect, int]
-    """Parts by aspect; of `pose` and `color` links, wherever it is written."""
+    """All other parts by aspect; of `pose` and `color` links, wherever it is written."""
     decisions: int
     """Conditions and the like that the text decides, also where nothing comes of it now."""
     readers: tuple[Place, ...]

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
     from studio.engine.commands import GetEffects, GetOrigin
     from studio.engine.document import Document
+    from studio.engine.listeners import Listener
     from studio.robot.values import Robot
 
 PARTS_KEPT: Final = 1_000
@@ -30,22 +31,23 @@ class OriginDesk:
     def __init__(self, document: Document) -> None:
         self._document = document
 
-    async def origin(self, command: GetOrigin) -> Origin:
+    async def origin(self, command: GetOrigin, asker: Listener) -> Origin:
         """Where a part comes from.
 
         Raises:
             CommandError: There is no such part, or nobody can tell.
         """
-        origin = await self._document.ask(PartOriginQuery(command.part), PartOrigin)
+        origin = await self._document.ask(PartOriginQuery(command.part), PartOrigin, asker)
         return Origin(request=command.request, origin=origin)
 
-    async def effects(self, command: GetEffects) -> Effects:
+    async def effects(self, command: GetEffects, asker: Listener) -> Effects:
         """What a text shapes.
 
         Raises:
             CommandError: There is no such text, or nobody can tell.
         """
-        found = await self._document.ask(SiteEffectsQuery(command.site), SiteEffects)
+        query = SiteEffectsQuery(command.site)
+        found = await self._document.ask(query, SiteEffects, asker)
         return effects_event(command.request, found, self._document.model.robot)
 
 
@@ -56,13 +58,13 @@ def effects_event(request: int, found: SiteEffects, robot: Robot) -> Effects:
         by_part.setdefault(effect.part, {})[effect.aspect] = None
     changed = dict.fromkeys(_changed_links(by_part, robot))
     moved = dict.fromkeys(_moved_links(by_part, robot))
-    counts = _counts(by_part)
+    there = _there(found)
+    counts = _counts({part: found for part, found in by_part.items() if part not in there})
     for aspect, links in (
         (Aspect.COLOR, _recolored_links(by_part, robot)),
         (Aspect.POSE, moved),
     ):
-        if links := dict.fromkeys(links):
-            counts[aspect] = len(links)
+        counts[aspect] = sum(f"link:{link}" not in there for link in dict.fromkeys(links))
     parts = list(by_part.items())
     return Effects(
         request=request,
@@ -72,11 +74,31 @@ def effects_event(request: int, found: SiteEffects, robot: Robot) -> Effects:
         ),
         changed_links=tuple(changed),
         moved_links=tuple(name for name in moved if name not in changed),
-        counts=counts,
+        links_there=_count_of("link", there),
+        joints_there=_count_of("joint", there),
+        counts={aspect: count for aspect, count in counts.items() if count},
         decisions=found.decisions,
         readers=found.readers,
         is_cut=found.is_cut or len(parts) > PARTS_KEPT,
     )
+
+
+def _there(found: SiteEffects) -> frozenset[str]:
+    """Links and joints that are there as a whole because of a text.
+
+    What else it does to them goes without saying.
+    """
+    return frozenset(
+        effect.part
+        for effect in found.effects
+        if effect.aspect is Aspect.PRESENCE
+        and effect.element == ""
+        and effect.part.startswith(("link:", "joint:"))
+    )
+
+
+def _count_of(kind: str, parts: Iterable[str]) -> int:
+    return sum(part.startswith(f"{kind}:") for part in parts)
 
 
 def _counts(by_part: dict[str, dict[Aspect, None]]) -> dict[Aspect, int]:

@@ -69,7 +69,8 @@ def test_who_lights_up_is_known_from_the_robot(tmp_path: Path):
             shade = await effects(document, ear, "shade")
             assert (shade["changed_links"], shade["counts"]) == (["base"], {"color": 1})
             extra = await effects(document, ear, "extra")
-            assert (extra["changed_links"], extra["counts"]) == (["more"], {"presence": 2})
+            assert (extra["changed_links"], extra["counts"]) == (["more"], {})
+            assert (extra["links_there"], extra["joints_there"]) == (1, 1)
             assert extra["decisions"] == 1
             idle = await effects(document, ear, "idle")
             assert (idle["parts"], idle["readers"]) == ([], [])
