@@ -15,6 +15,7 @@ from studio.description.evaluator.scopes import Cell, Scope, literal_value
 from studio.description.evaluator.substitution import substitute
 from studio.description.evaluator.symbols import make_symbols
 from studio.description.evaluator.yaml_values import Reader, wrap
+from studio.description.expressions.bounded_values import is_lasting
 from studio.description.expressions.expressions import HELPERS, Expression, compile_expression
 from studio.description.expressions.guarded_operations import SIZE_LIMIT, text_of
 from studio.description.faults import Fault, Refusal, hint, shorten
@@ -34,7 +35,7 @@ if TYPE_CHECKING:
 
 _ARG_COMPARED: Final = re.compile(r"""['"]?\$\(arg\s+(\w+)\)['"]?\s*[=!]=\s*['"]([^'"]*)['"]""")
 _STRUCTURE: Final = Role.STRUCTURE
-_LASTING: Final = frozenset({int, float, str, bool, list, dict, tuple, type(None)})
+_PLAIN: Final = frozenset({int, float, str, bool, type(None)})
 _LONG: Final = 1_000
 """Characters; shorter texts are bounded by their number."""
 _NOT_XML: Final = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
@@ -166,7 +167,7 @@ class Texts:
         """Give a cell the value of its evaluated text."""
         cell.record = record
         cell.value = literal_value(record.value)
-        if type(cell.value) not in _LASTING and hasattr(cell.value, "__next__"):
+        if type(cell.value) not in _PLAIN and not is_lasting(cell.value):
             self.is_pure = False  # whoever reads it uses it up
         if not at_once:
             cell.pending = None

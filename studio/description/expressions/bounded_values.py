@@ -64,6 +64,12 @@ def made(value: Any) -> Any:  # noqa: ANN401 - any value of a description
     return value
 
 
+def is_lasting(value: Any) -> bool:  # noqa: ANN401
+    """Whether each reader finds the same: no iterator, which the first uses up, is or is in it."""
+    kind = cast("type[object]", type(value))
+    return all(map(is_lasting, _items(value))) if kind in _KINDS else not hasattr(kind, "__next__")
+
+
 def weight(value: Any, left: int = ITEMS_LIMIT) -> int:  # noqa: ANN401
     """How many items a value has, itself included.
 

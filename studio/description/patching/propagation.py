@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from studio.description.evaluator.graph import Role
 from studio.description.evaluator.scopes import Cell, literal_value, truth_of
+from studio.description.expressions.bounded_values import is_lasting
 from studio.description.expressions.guarded_operations import text_of
 from studio.description.faults import Fault, Refusal
 from studio.description.patching.replay import PatchRefused, is_same
@@ -128,8 +129,3 @@ class Propagation:
             raise PatchRefused("a text comes or goes")
         record.value = node.text = text
         self.parts.update(dict.fromkeys(self._index.parts_of_text.get(node, ())))
-
-
-def is_lasting(value: object) -> bool:
-    """Whether a value is the same for each reader."""
-    return not hasattr(value, "__next__")

@@ -11,6 +11,7 @@ from studio.description.expressions.bounded_values import (
     DEPTH_LIMIT,
     ITEMS_LIMIT,
     SIZE_LIMIT,
+    is_lasting,
     made,
     weight,
 )
@@ -86,3 +87,10 @@ def test_a_list_that_holds_itself_is_refused():
     value.append(value)
     with pytest.raises(Refusal):
         made(value)
+
+
+def test_a_value_lasts_unless_an_iterator_is_in_it():
+    assert all(map(is_lasting, (1, "a", None, [1, (2, {3: {4}})], {"a": 1}.items())))
+    held = iter([1])
+    for value in (held, [held], ({"a": [held]},), {"a": held}.values(), {held}):
+        assert not is_lasting(value)

@@ -195,6 +195,26 @@ def test_values_are_told_apart_as_they_print(tmp_path: Path):
         assert edited(side, side.told.sites[0], text)
 
 
+@pytest.mark.parametrize(
+    ("held", "reader"),
+    [
+        ("[python.zip([1], [2])]", "p[0]"),
+        ("[[python.zip([1], [2])]]", "p[0][0]"),
+        ("(python.reversed([1, 2]), 1)", "p[0]"),
+        ("dict(a=map(str, [1, 2]))", "p['a']"),
+        ("dict(a=map(str, [1, 2])).values()", "list(p)[0]"),
+    ],
+)
+def test_what_holds_an_iterator_is_never_read_a_second_time(tmp_path: Path, held: str, reader: str):
+    """Its first reader uses it up: evaluated once more, that one would find it empty."""
+    body = (
+        f'<xacro:property name="p" value="${{{held}}}"/><xacro:property name="c" value="1"/>'
+        f'<link name="a"><inertial><mass value="${{len(list({reader})) + c}}"/></inertial></link>'
+    )
+    side = SideBySide(write(tmp_path, {"r.xacro": robot(body)}), policy_for(tmp_path))
+    assert not edited(side, site_of(side, "c"), "2")
+
+
 def test_choices_that_an_argument_gives_another_property_follow_it(tmp_path: Path):
     body = (
         '<xacro:arg name="t" default="left"/><xacro:property name="k" value="right"/>'
