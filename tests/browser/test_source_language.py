@@ -116,6 +116,7 @@ def test_a_word_shows_its_value_and_leads_to_its_definition_in_another_file(tab:
     assert "property" in card(tab)
     assert "0.19" in card(tab), "what the expression came to is not said"
     point_at(tab, FRONT, "front", click=True)
+    tab.page.mouse.move(5, 5)
     wait_until("the card to go", lambda: card(tab) == "")
     tab.page.keyboard.press("Alt+F12")
     wait_until("the values of all calls", lambda: "-1" in card(tab))

@@ -6,6 +6,8 @@ import time
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
+from playwright.sync_api import Error
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator
     from pathlib import Path
@@ -64,7 +66,10 @@ class StudioPage:
 
     def has_drawn_robot(self) -> bool:
         """Whether viser's scene holds the visual of some link."""
-        return bool(self.page.evaluate(_HAS_VISUALS))
+        try:
+            return bool(self.page.evaluate(_HAS_VISUALS))
+        except Error:  # on its way to another address
+            return False
 
     def seek(self, name: str) -> None:
         """Bring a property into the list's view, of which only what is seen is drawn."""

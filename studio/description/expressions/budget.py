@@ -105,7 +105,7 @@ class Budget:
         """
         began, began_working = self._began
         seconds, worked = self.limits.seconds, thread_time() - began_working
-        if worked > seconds or (worked > seconds / 4 and perf_counter() - began > seconds):
+        if worked > seconds or (worked > seconds / 2 and perf_counter() - began > seconds):
             raise Refusal(
                 "expansion-too-slow",
                 f"The expansion takes longer than {self.limits.seconds:g} s and was ended.",
