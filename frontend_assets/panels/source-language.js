@@ -20,6 +20,7 @@ import {
   showReferences,
 } from "./source-actions.js";
 import { completion } from "./source-completion.js";
+import { following } from "./source-follow.js";
 import { meaningCard } from "./source-meaning.js";
 import { PEEK } from "./source-peek.js";
 import { insertSnippet, pairedBrackets } from "./source-snippet.js";
@@ -34,6 +35,7 @@ export function languageOf(link) {
       hideOn: ({ docChanged, selection }) => docChanged || selection !== undefined,
     }),
     PEEK,
+    following(link),
     completion(link),
     EditorView.inputHandler.of(pairedBrackets),
     keymap.of([

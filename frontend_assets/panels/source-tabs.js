@@ -1,9 +1,9 @@
 /** The tabs of the source panel: a file each, what is unsaved in it, and all files of the robot. */
 
-import { html } from "vendor/preact.js";
+import { html, useComputed } from "vendor/preact.js";
 import { commandById, onMac } from "../app/commands.js";
 import { documentState, history, problems } from "../app/state/document.js";
-import { closeFile, openFile, openFiles, shownFile } from "../app/state/source.js";
+import { closeFile, litPlaces, openFile, openFiles, shownFile } from "../app/state/source.js";
 import { t } from "../lib/i18n.js";
 import { shortcutText } from "../lib/keys.js";
 import { shortPath } from "../lib/paths.js";
@@ -41,7 +41,9 @@ function FileTab({ file, name, folder }) {
     event.preventDefault();
     closeFile(file);
   };
-  return html`<div class=${`source-tab ${shown ? "shown" : ""} ${bad ? "bad" : ""}`} role="presentation" onAuxClick=${onAux}>
+  const lit = useComputed(() => litPlaces.value.some((place) => place.file === file)).value;
+  const states = [shown && "shown", bad && "bad", lit && "lit"].filter(Boolean).join(" ");
+  return html`<div class=${`source-tab ${states}`} role="presentation" onAuxClick=${onAux}>
     <button type="button" role="tab" aria-selected=${shown} tabindex=${shown ? 0 : -1}
       title=${shortPath(file, root)} data-file=${file} onClick=${() => openFile(file)}>
       ${bad && html`<${Icon} name="error" size=${12} /><span class="hidden-words">${t("severity.error")}</span>`}
