@@ -7,12 +7,14 @@ import { recall, remember } from "../lib/remembered.js";
 import { size } from "./state/view.js";
 
 const PHONE_BELOW_PX = 700;
+const LOW_BELOW_PX = 480;
 const WIDE_FROM_PX = 1000;
 const VERSION = 3;
 
-/** @param {number} width px @returns {"wide" | "medium" | "phone"} */
-export function sizeOf(width) {
-  if (width < PHONE_BELOW_PX) return "phone";
+/** @param {number} width px @param {number} height px @returns {"wide" | "medium" | "phone"} */
+export function sizeOf(width, height) {
+  // A phone may lie on its side, too: panels above one another would be slits.
+  if (width < PHONE_BELOW_PX || height < LOW_BELOW_PX) return "phone";
   return width < WIDE_FROM_PX ? "medium" : "wide";
 }
 
@@ -86,7 +88,7 @@ export function followSize(dock, element) {
     dock.arrange(modelLayout(kind, element.clientWidth, element.clientHeight), stored);
   };
   const measure = () => {
-    size.value = sizeOf(innerWidth);
+    size.value = sizeOf(innerWidth, innerHeight);
   };
   measure();
   addEventListener("resize", measure);

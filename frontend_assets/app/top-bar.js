@@ -137,7 +137,7 @@ function settingsItems() {
     run: () => commandById(`panel.${id}`)?.run(),
   }));
   return [
-    ...(phone ? [] : [{ label: t("panels"), heading: true }, ...panels]),
+    ...(phone ? [searchItem()] : [{ label: t("panels"), heading: true }, ...panels]),
     { label: t("layout"), heading: true },
     ...(phone
       ? []
@@ -166,6 +166,13 @@ function settingsItems() {
     ...themeItems(),
   ];
 }
+
+/** The bar of a phone has no room for the palette's button. @returns {MenuItem} */
+const searchItem = () => ({
+  label: t("palette.hint"),
+  icon: "search",
+  run: () => commandById("palette")?.run(),
+});
 
 /** @returns {MenuItem[]} */
 function themeItems() {

@@ -2,8 +2,13 @@
 
 const HEADERS = ".dv-tabs-and-actions-container";
 const TABS = ".dv-tabs-container";
-/** From the most words to the least: all, that of the tab in front, none. */
-const STEPS = [[], ["tight-tabs"], ["tight-tabs", "icon-tabs"]];
+/** From the most words to the least: all, all closer together, that of the tab in front, none. */
+const STEPS = [
+  [],
+  ["close-tabs"],
+  ["close-tabs", "tight-tabs"],
+  ["close-tabs", "tight-tabs", "icon-tabs"],
+];
 
 /**
  * @param {HTMLElement} dock

@@ -206,7 +206,10 @@ function wordsFor(file) {
     "unfold",
   ];
   return [
-    EditorView.contentAttributes.of({ "aria-label": t("source.text", { file: short }) }),
+    EditorView.contentAttributes.of({
+      "aria-label": t("source.text", { file: short }),
+      "aria-description": `${t("keys.leave")}: Escape, Tab`,
+    }),
     EditorState.phrases.of(
       Object.fromEntries(phrases.map((one) => [one, t(`editor.${one.replaceAll(" ", "_")}`)])),
     ),
