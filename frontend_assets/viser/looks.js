@@ -1,6 +1,6 @@
 /** @import { Door } from "./door.js" */
 /** @import { Theme } from "./theme.js" */
-/** @import { Material, Object3D } from "./viser.d.ts" */
+/** @import { Color, Material, Object3D } from "./viser.d.ts" */
 import { RobotView } from "./robot.js";
 
 const HOVER = { tint: 0.3, glow: 0.2 };
@@ -8,6 +8,8 @@ const SELECTION = { tint: 0.6, glow: 0.45 };
 const CHANGED = { tint: 0.5, glow: 0.35 };
 const MOVED = { tint: 0.22, glow: 0.14 };
 const NONE = { tint: 0, glow: 0 };
+/** How much faster than the accent comes the own hue goes. */
+const PALER = 1.5;
 
 /**
  * What this browser alone sees differently: links hidden, see-through, hovered, selected or lit.
@@ -146,11 +148,17 @@ export class Looks {
   #light(twin, shine) {
     const accent = twin.color?.clone().set(this.#theme.accent);
     if (!accent) return;
-    twin.color?.lerp(accent, shine.tint);
+    twin.color?.lerp(greyOf(twin.color), Math.min(1, PALER * shine.tint)).lerp(accent, shine.tint);
     if (!twin.emissive) return;
     twin.emissive.copy(accent);
     twin.emissiveIntensity = shine.glow;
   }
+}
+
+/** As bright, without a hue: yellow that turns blue would pass through purple. @param {Color} color @returns {Color} */
+function greyOf(color) {
+  const brightness = 0.2126 * color.r + 0.7152 * color.g + 0.0722 * color.b;
+  return Object.assign(color.clone(), { r: brightness, g: brightness, b: brightness });
 }
 
 /** @param {string} link @param {boolean} visible */

@@ -46,6 +46,9 @@ export interface Box3 {
 }
 
 export interface Color {
+  r: number;
+  g: number;
+  b: number;
   set(color: string | number): this;
   clone(): Color;
   copy(other: Color): this;
