@@ -29,6 +29,7 @@ StudioError
         NotAllowedError
     CommandError
         UnknownDocumentError
+        SupersededError
 
 Each keeps its data and says in one sentence what is wrong, where, and what to do.
 """
@@ -243,3 +244,10 @@ class UnknownDocumentError(CommandError):
     def __init__(self, document: str) -> None:
         super().__init__(f'No document "{document}" is open: open its file again.')
         self.document = document
+
+
+class SupersededError(CommandError):
+    """A question waited, and newer ones took its place."""
+
+    def __init__(self) -> None:
+        super().__init__("Newer questions came before this one was answered: ask again.")

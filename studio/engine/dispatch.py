@@ -56,17 +56,17 @@ async def carry_out(document: Document, command: m.Command, listener: Listener) 
         case m.GetText():
             tell(listener, document.texts.answer(command, listener.role))
         case m.GetOrigin():
-            tell(listener, await document.origins.origin(command))
+            tell(listener, await document.origins.origin(command, listener))
         case m.GetEffects():
-            tell(listener, await document.origins.effects(command))
+            tell(listener, await document.origins.effects(command, listener))
         case m.GetOutline():
-            tell(listener, await document.language.outline(command))
+            tell(listener, await document.language.outline(command, listener))
         case m.LookUp():
-            tell(listener, await document.language.look_up(command, listener.role))
+            tell(listener, await document.language.look_up(command, listener))
         case m.GetReferences():
-            tell(listener, await document.language.references(command, listener.role))
+            tell(listener, await document.language.references(command, listener))
         case m.Complete():
-            tell(listener, await document.language.complete(command))
+            tell(listener, await document.language.complete(command, listener))
         case m.EditText():
             await document.edit_text(command)
         case m.SaveVariant() | m.UpdateVariant():

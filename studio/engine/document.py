@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from studio.description.editing.merging import Side
     from studio.description.queries import Query
     from studio.description.values import Edit
+    from studio.engine.listeners import Listener
     from studio.engine.messages import EditText
     from studio.engine.services import Services
     from studio.packages.workspace import Location
@@ -159,13 +160,13 @@ class Document:
     async def edit_site(self, site: str, text: str, gesture: str) -> None:
         """Write a new text at a site and show what it does."""
         edit = self.sources.edit_site(site, text, gesture)
-        await self._timed(self._runs.edit((edit,)))
+        await self._timed(self._runs.edit((edit,), in_gesture=bool(gesture)))
 
     async def edit_text(self, command: EditText) -> None:
         """Write into a file's text, as an editor does, and show what it does."""
         edits = self.texts.edit(command)
         self._texts_changed()
-        await self._timed(self._run(edits))
+        await self._timed(self._run(edits, in_gesture=bool(command.gesture)))
 
     async def reset_site(self, site: str) -> None:
         """Put a site back to what the disk says."""
@@ -251,13 +252,13 @@ class Document:
             raise CommandError(f"{self.title} has not been expanded yet: mend its problems first.")
         return self.model.urdf(self.expansion.root_attributes)
 
-    async def ask(self, query: Query, reply: type[AnyReply]) -> AnyReply:
+    async def ask(self, query: Query, reply: type[AnyReply], asker: Listener) -> AnyReply:
         """Ask the worker about the last good run.
 
         Raises:
             CommandError: It has no answer; the sentence says why.
         """
-        answer = await self._runs.ask(query)
+        answer = await self._runs.ask(query, asker)
         if isinstance(answer, reply):
             return answer
         raise CommandError(
@@ -323,11 +324,11 @@ class Document:
         else:
             await self._arguments_changed()
 
-    async def _run(self, edits: Sequence[Edit]) -> None:
+    async def _run(self, edits: Sequence[Edit], *, in_gesture: bool = False) -> None:
         """Run with edits; of files that the last run did not read, the worker holds no text."""
         files = {edit.file for edit in edits}
         if files <= set(self._files):
-            await self._runs.edit(edits)
+            await self._runs.edit(edits, in_gesture=in_gesture)
         else:
             await self._runs.reload(files)
 

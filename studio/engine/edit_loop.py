@@ -18,6 +18,7 @@ from studio.description.values import (
     ReadPolicy,
     ReloadRequest,
 )
+from studio.engine.question_desk import QuestionDesk
 from studio.errors import WorkerDiedError
 
 if TYPE_CHECKING:
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
     from studio.description.client import DescriptionWorker
     from studio.description.editing.sources import Sources
     from studio.description.queries import Query, Reply
+    from studio.engine.listeners import Listener
 
 CHECK_AFTER_S: Final = 0.15
 """Quiet time after the last of some patches."""
@@ -70,6 +72,7 @@ class EditLoop:
         self._turns: asyncio.Task[None] | None = None
         self._check: asyncio.TimerHandle | None = None
         """Counts the quiet time after a patch."""
+        self._questions = QuestionDesk(self._runs_end, self._reply)
         self._is_closed = False
 
     @property
@@ -77,9 +80,14 @@ class EditLoop:
         """Process id of the worker while it runs."""
         return self._worker.pid
 
-    async def edit(self, edits: Iterable[Edit]) -> None:
-        """Run with these edits, which the sources already hold."""
+    async def edit(self, edits: Iterable[Edit], *, in_gesture: bool = False) -> None:
+        """Run with these edits, which the sources already hold.
+
+        Of a gesture more are to come: questions that take long wait until it rests.
+        """
         self._edits.extend(edits)
+        if in_gesture:
+            self._questions.hold()
         await self._next_run()
 
     async def reload(self, files: Iterable[str]) -> None:
@@ -98,11 +106,29 @@ class EditLoop:
         self._open = True
         await self._next_run()
 
-    async def ask(self, query: Query) -> Reply:
-        """Ask about the last good run, behind the run under way.
+    async def ask(self, query: Query, asker: Listener) -> Reply:
+        """Ask about the last good run, in a gap that edits leave.
 
         A worker that has no robot, for it is opening or has ended, gets one first.
+
+        Raises:
+            SupersededError: The asker has newer questions of that kind.
         """
+        return await self._questions.ask(query, asker)
+
+    async def close(self) -> None:
+        """End the worker; those who wait, and who come later, are cancelled."""
+        self._is_closed = True
+        self._keep_quiet()
+        await self._questions.close()
+        for waiter in self._waiters:
+            waiter.cancel()
+        if self._turns:
+            self._turns.cancel()
+            await asyncio.gather(self._turns, return_exceptions=True)
+        await self._worker.close()
+
+    async def _reply(self, query: Query) -> Reply:
         try:
             return await self._question(query)
         except WorkerDiedError:
@@ -113,23 +139,14 @@ class EditLoop:
             return NoReply(str(error))
 
     async def _question(self, query: Query) -> Reply:
+        await self._runs_end()
         if self._worker.needs_reopen:
-            if self._turns is None or self._turns.done():
-                await self._next_run()
-            else:
-                await asyncio.wait({self._turns})
+            await self._next_run()
         return await self._worker.query(query)
 
-    async def close(self) -> None:
-        """End the worker; those who wait, and who come later, are cancelled."""
-        self._is_closed = True
-        self._keep_quiet()
-        for waiter in self._waiters:
-            waiter.cancel()
-        if self._turns:
-            self._turns.cancel()
-            await asyncio.gather(self._turns, return_exceptions=True)
-        await self._worker.close()
+    async def _runs_end(self) -> None:
+        while self._turns is not None and not self._turns.done():
+            await asyncio.wait({self._turns})
 
     async def _next_run(self) -> None:
         if self._is_closed:  # a run would start a process that nobody ends
@@ -154,6 +171,7 @@ class EditLoop:
                 _settle(waiters, error)
             else:
                 _settle(waiters, None)
+            self._questions.run_ended()
 
     def _keep_quiet(self) -> None:
         if self._check is not None:

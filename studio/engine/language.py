@@ -20,11 +20,11 @@ from studio.engine.language_events import (
     OutlineAnswer,
     ReferencesAnswer,
 )
-from studio.engine.roles import Role
 
 if TYPE_CHECKING:
     from studio.engine.commands import Complete, GetOutline, GetReferences, LookUp
     from studio.engine.document import Document
+    from studio.engine.listeners import Listener
 
 
 class LanguageDesk:
@@ -37,27 +37,28 @@ class LanguageDesk:
     def __init__(self, document: Document) -> None:
         self._document = document
 
-    async def outline(self, command: GetOutline) -> OutlineAnswer:
+    async def outline(self, command: GetOutline, asker: Listener) -> OutlineAnswer:
         """What the files of the document hold."""
-        outline = await self._document.ask(OutlineQuery(), Outline)
+        outline = await self._document.ask(OutlineQuery(), Outline, asker)
         return OutlineAnswer(request=command.request, outline=outline)
 
-    async def look_up(self, command: LookUp, role: Role) -> MeaningAnswer:
+    async def look_up(self, command: LookUp, asker: Listener) -> MeaningAnswer:
         """What stands at a place."""
-        file, text = self._document.texts.bytes_of(command.file, role)
-        found = await self._document.ask(LookUpQuery(file, text, command.offset), LookedUp)
+        file, text = self._document.texts.bytes_of(command.file, asker.role)
+        query = LookUpQuery(file, text, command.offset)
+        found = await self._document.ask(query, LookedUp, asker)
         return MeaningAnswer(request=command.request, meaning=found.meaning)
 
-    async def references(self, command: GetReferences, role: Role) -> ReferencesAnswer:
+    async def references(self, command: GetReferences, asker: Listener) -> ReferencesAnswer:
         """All places that name what stands at a place."""
-        file, text = self._document.texts.bytes_of(command.file, role)
+        file, text = self._document.texts.bytes_of(command.file, asker.role)
         query = ReferencesQuery(file, text, command.offset)
-        references = await self._document.ask(query, References)
+        references = await self._document.ask(query, References, asker)
         return ReferencesAnswer(request=command.request, references=references)
 
-    async def complete(self, command: Complete) -> CompletionsAnswer:
+    async def complete(self, command: Complete, asker: Listener) -> CompletionsAnswer:
         """What may be typed at a place."""
-        file, text = self._document.texts.bytes_of(command.file, Role.PRESENTER)
+        file, text = self._document.texts.bytes_of(command.file, asker.role)
         query = CompletionQuery(file, text, command.offset)
-        completions = await self._document.ask(query, Completions)
+        completions = await self._document.ask(query, Completions, asker)
         return CompletionsAnswer(request=command.request, completions=completions)

@@ -1,8 +1,11 @@
-"""Questions through the loop: behind the run under way, and never without a robot to ask about."""
+"""One run at a time, never without a robot; a worker that is killed gets its own again unseen."""
 
 from __future__ import annotations
 
 import asyncio
+import os
+import signal
+import sys
 from typing import TYPE_CHECKING
 
 import pytest
@@ -14,13 +17,18 @@ from studio.description.values import Edit, Expansion
 from studio.engine.edit_loop import EditLoop, Target
 from studio.packages.roots import ServedRoots
 from tests.support.descriptions import policy_for, robot, write
+from tests.support.loop_story import AT, LoopStory, loop_story
+from tests.support.open_documents import Ear, until
 
 if TYPE_CHECKING:
+    from collections.abc import Awaitable, Callable
     from pathlib import Path
 
+    from studio.description.session import Answer
     from studio.engine.edit_loop import Outcome
 
 pytestmark = pytest.mark.timeout(60)
+kills_processes = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGSTOP")
 
 
 def loop_over(
@@ -55,7 +63,7 @@ def test_a_question_asked_while_the_robot_opens_costs_no_second_run(tmp_path: Pa
         try:
             opening = asyncio.create_task(loop.reopen())
             await asyncio.sleep(0)
-            assert isinstance(await loop.ask(PartOriginQuery("link:a")), PartOrigin)
+            assert isinstance(await loop.ask(PartOriginQuery("link:a"), Ear()), PartOrigin)
             await opening
             assert [type(one) for one in outcomes] == [Expansion]
         finally:
@@ -88,5 +96,134 @@ def test_after_a_quiet_moment_patches_are_looked_at_once_and_nothing_is_told(tmp
             assert len(patches) == 4
         finally:
             await loop.close()
+
+    asyncio.run(run())
+
+
+WAYS: list[Callable[[LoopStory], Awaitable[None]]] = [
+    LoopStory.edit,
+    LoopStory.pass_argument,
+    LoopStory.reload,
+    LoopStory.ask,
+]
+
+
+@kills_processes
+@pytest.mark.parametrize("way", WAYS)
+def test_after_a_fall_that_nobody_saw_everything_goes_on(
+    tmp_path: Path, way: Callable[[LoopStory], Awaitable[None]]
+):
+    async def run() -> None:
+        async with loop_story(tmp_path) as story:
+            await story.edit("6")
+            await story.fall()
+            await way(story)
+            await story.ask()
+            await story.edit("8")
+            story.check("16")
+
+    asyncio.run(run())
+
+
+@kills_processes
+@pytest.mark.parametrize("way", WAYS)
+def test_a_process_that_falls_in_the_midst_of_what_it_was_asked_is_asked_again(
+    tmp_path: Path, way: Callable[[LoopStory], Awaitable[None]]
+):
+    async def run() -> None:
+        async with loop_story(tmp_path) as story:
+            story.stop()  # it cannot answer before it falls
+            waiting = asyncio.ensure_future(way(story))
+            await asyncio.sleep(0.05)
+            await story.fall()
+            await waiting
+            await story.edit("8")
+            story.check("16")
+
+    asyncio.run(run())
+
+
+@kills_processes
+def test_edits_made_while_a_process_falls_are_made_once(tmp_path: Path):
+    async def run() -> None:
+        async with loop_story(tmp_path) as story:
+            story.stop()
+            first = asyncio.ensure_future(story.edit("7"))
+            await asyncio.sleep(0.05)
+            edit = Edit(str(story.file), AT, AT, b"1")
+            second = asyncio.ensure_future(story.splice(edit))
+            await story.fall()
+            await asyncio.gather(first, second)
+            story.check("34")
+
+    asyncio.run(run())
+
+
+@kills_processes
+def test_an_edit_behind_a_question_whose_process_falls_is_made(tmp_path: Path):
+    async def run() -> None:
+        async with loop_story(tmp_path) as story:
+            story.stop()
+            asking = asyncio.ensure_future(story.ask())
+            await asyncio.sleep(0.05)
+            editing = asyncio.ensure_future(story.edit("7"))
+            await asyncio.sleep(0.05)
+            await story.fall()
+            await asyncio.gather(asking, editing)
+            story.check("14")
+
+    asyncio.run(run())
+
+
+@kills_processes
+def test_a_process_that_falls_while_it_opens_is_followed_by_another(tmp_path: Path):
+    async def run() -> None:
+        async with loop_story(tmp_path) as story:
+            story.stop()
+            opening = asyncio.ensure_future(story.loop.reopen())
+            await asyncio.sleep(0.05)
+            await story.fall()
+            await opening
+            await story.edit("8")
+            story.check("16")
+
+    asyncio.run(run())
+
+
+class FallingWorker(DescriptionWorker):
+    """Falls as soon as it looks at what edits patched."""
+
+    fell = False
+
+    async def verify(self) -> Answer:
+        assert self.pid is not None
+        if not self.fell:
+            self.fell = True
+            os.kill(self.pid, signal.SIGKILL)
+        return await super().verify()
+
+
+@kills_processes
+def test_a_process_that_falls_while_it_checks_patches_is_opened_again(tmp_path: Path):
+    async def run() -> None:
+        worker = FallingWorker()
+        async with loop_story(tmp_path, worker) as story:
+            await story.edit("7")
+            await until(lambda: len(story.outcomes) == 3)
+            assert worker.fell
+            await story.edit("8")
+            story.check("16")
+
+    asyncio.run(run())
+
+
+@kills_processes
+def test_nothing_is_started_once_the_loop_is_closed(tmp_path: Path):
+    async def run() -> None:
+        async with loop_story(tmp_path) as story:
+            await story.loop.close()
+            with pytest.raises(asyncio.CancelledError):
+                await story.loop.reopen()
+            assert story.loop.worker_pid is None
 
     asyncio.run(run())
