@@ -5,6 +5,7 @@
 import { html, render, useEffect, useState } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
 import { Icon, ProgressBar } from "../lib/ui.js";
+import { heldBack } from "./state/alarm.js";
 import { changedCount, problems } from "./state/document.js";
 
 /**
@@ -63,7 +64,7 @@ function changedBadge() {
 function problemsBadge() {
   const count = problems.value.length;
   if (count === 0) return null;
-  const bad = problems.value.some(({ severity }) => severity === "error");
+  const bad = !heldBack.value && problems.value.some(({ severity }) => severity === "error");
   return {
     text: String(count),
     tone: bad ? "red" : "amber",

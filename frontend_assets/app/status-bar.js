@@ -4,6 +4,7 @@ import { html } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
 import { Icon } from "../lib/ui.js";
 import { commandById } from "./commands.js";
+import { heldBack } from "./state/alarm.js";
 import { connection, role, version } from "./state/connection.js";
 import {
   built,
@@ -62,6 +63,7 @@ function Work() {
 }
 
 function Build() {
+  if (heldBack.value) return null;
   if (showingLastGood.value)
     return html`<span class="bad"><${Icon} name="close" size=${13} />${t("build.failed")}</span>`;
   const run = built.value;
@@ -73,7 +75,7 @@ function Build() {
 
 function ProblemsLink() {
   const count = problems.value.length;
-  const bad = problems.value.some(({ severity }) => severity === "error");
+  const bad = !heldBack.value && problems.value.some(({ severity }) => severity === "error");
   return html`<button type="button" class=${`status-button ${bad ? "bad" : count > 0 ? "amber" : ""}`} onClick=${() => commandById("panel.problems")?.run()}>
     ${t("problems.count", { count })}</button>`;
 }

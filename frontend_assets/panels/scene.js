@@ -3,6 +3,7 @@
 import { html, useEffect, useRef } from "vendor/preact.js";
 import { mend, openPath, setDisplay, undo, worstProblem } from "../app/actions.js";
 import { PlaceLink } from "../app/place-link.js";
+import { heldBack } from "../app/state/alarm.js";
 import { mayEdit, role } from "../app/state/connection.js";
 import {
   displays,
@@ -143,7 +144,7 @@ function MeshProgress() {
 }
 
 function LastGoodNotice() {
-  if (!showingLastGood.value) return null;
+  if (!showingLastGood.value || heldBack.value) return null;
   const problem = worstProblem();
   return html`<div class="last-good" role="alert">
     <${Icon} name="error" size=${18} />

@@ -35,6 +35,7 @@ import {
   xml,
   yaml,
 } from "vendor/codemirror.js";
+import { noteTyping } from "../app/state/alarm.js";
 import { documentState } from "../app/state/document.js";
 import { createGesture } from "../lib/gesture.js";
 import { language, t } from "../lib/i18n.js";
@@ -168,7 +169,10 @@ function typing({ shared }) {
   return EditorView.updateListener.of((update) => {
     const own = isTyped(update);
     if (update.docChanged) {
-      if (own) shared.type(update.changes, gesture.id());
+      if (own) {
+        shared.type(update.changes, gesture.id());
+        noteTyping();
+      }
     } else if (update.selectionSet && own) {
       shared.flush();
       gesture.end();

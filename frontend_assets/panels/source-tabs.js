@@ -2,6 +2,7 @@
 
 import { html, useComputed } from "vendor/preact.js";
 import { commandById, onMac } from "../app/commands.js";
+import { heldBack } from "../app/state/alarm.js";
 import { documentState, history, problems } from "../app/state/document.js";
 import { closeFile, litPlaces, openFile, openFiles, shownFile } from "../app/state/source.js";
 import { t } from "../lib/i18n.js";
@@ -32,9 +33,9 @@ function FileTab({ file, name, folder }) {
   const unsaved = history.value.unsaved_files.includes(file);
   const locked = documentState.value?.read_only.includes(file);
   const root = documentState.value?.root ?? "";
-  const bad = problems.value.some(
-    ({ severity, place }) => severity === "error" && place?.file === file,
-  );
+  const bad =
+    !heldBack.value &&
+    problems.value.some(({ severity, place }) => severity === "error" && place?.file === file);
   /** @param {MouseEvent} event the middle button closes */
   const onAux = (event) => {
     if (event.button !== 1) return;
