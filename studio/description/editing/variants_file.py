@@ -83,14 +83,25 @@ def write_variants(path: str, entry: str, before: bytes, variants: Sequence[Vari
         variants: All of them, in order.
 
     Raises:
-        VariantsFileError: The file as it is cannot be read, or the variants are too many for one.
+        VariantsFileError: The file as it is cannot be read, or what was written could not be.
     """
     written = _woven(path, before, variants) if before.strip() else None
     if written is None or not _says(path, written, variants):
         written = _HEAD.format(entry=entry.replace("\n", " ")).encode() + _whole(variants)
     if len(written) > SIZE_LIMIT_BYTES:
         raise VariantsFileError(path, "the variants are too many for one file; delete some")
+    if not _says(path, written, variants):
+        raise VariantsFileError(path, _unwritable(path, variants))
     return written
+
+
+def _unwritable(path: str, variants: Sequence[Variant]) -> str:
+    """Why variants do not read back as they are: which one, where it is one."""
+    alone = (one for one in variants if not _says(path, _whole([one]), [one]))
+    found = next(alone, None)
+    if found is None:
+        return "a file cannot hold these variants together; delete one, or give it another name"
+    return f'"{found.name}" has a name or a text that a file cannot hold; make it shorter'
 
 
 def _says(path: str, written: bytes, variants: Sequence[Variant]) -> bool:

@@ -201,3 +201,24 @@ def test_more_than_a_file_may_hold_is_refused():
     large = [Variant(str(n), "x" * 2000, {"a": "y" * 100_000}) for n in range(12)]
     with pytest.raises(VariantsFileError, match="too many for one file"):
         write(b"", *large)
+
+
+@pytest.mark.parametrize(
+    "bad",
+    [
+        Variant("Long", arguments={"a" * 1500: "1"}),
+        Variant("Long", arguments={"": "1", "\0" * 2000: "2"}),
+        Variant("Long", note="x" * 3000),
+        Variant("Long" * 30),
+        Variant("Long", texts={TextName("f" * 5000, SiteKind.PROPERTY, "p"): "1"}),
+    ],
+)
+@pytest.mark.parametrize("before", [b"", BY_HAND])
+def test_what_could_not_be_read_again_is_not_written(before: bytes, bad: Variant):
+    with pytest.raises(VariantsFileError, match=r'"Long.* has a name or a text that a file'):
+        write(before, BIG, bad, SMALL)
+
+
+def test_two_variants_of_one_name_are_not_written():
+    with pytest.raises(VariantsFileError, match="cannot hold these variants together"):
+        write(b"", SMALL, SMALL)
