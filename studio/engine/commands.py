@@ -2,12 +2,27 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, TypeAlias
+from typing import Annotated, Final, Literal, TypeAlias
 
-from pydantic import Field, TypeAdapter
+from pydantic import AfterValidator, Field, StringConstraints, TypeAdapter
 
 from studio.engine.message import Message
 from studio.engine.variant_events import Side
+
+_OFFSET_LIMIT: Final = 1 << 32
+"""More than any file that is opened is long."""
+
+
+def _without_nul(name: str) -> str:
+    if "\0" in name:
+        raise ValueError("No name has a NUL in it.")
+    return name
+
+
+ArgumentName: TypeAlias = Annotated[
+    str, StringConstraints(min_length=1, max_length=200), AfterValidator(_without_nul)
+]
+"""Of an `xacro:arg`: what can be passed as `name:=value`, and written down in a file."""
 
 
 class CommandMessage(Message, allow_inf_nan=False):
@@ -30,7 +45,7 @@ class OpenPath(CommandMessage):
 
     type: Literal["open_path"] = "open_path"
     path: str
-    arguments: dict[str, str] = Field(default_factory=dict)
+    arguments: dict[ArgumentName, str] = Field(default_factory=dict)
 
 
 class CloseDocument(CommandMessage):
@@ -67,7 +82,7 @@ class SetArgument(CommandMessage):
     """Pass an argument as `name:=value` on the command line would; None takes it back."""
 
     type: Literal["set_argument"] = "set_argument"
-    name: str
+    name: ArgumentName
     value: str | None
 
 
@@ -121,7 +136,7 @@ class SetArguments(CommandMessage):
     """Pass several arguments at once, as one run and one undo step; None takes one back."""
 
     type: Literal["set_arguments"] = "set_arguments"
-    values: dict[str, str | None] = Field(min_length=1, max_length=1000)
+    values: dict[ArgumentName, str | None] = Field(min_length=1, max_length=1000)
 
 
 class GetLink(CommandMessage):
@@ -220,7 +235,7 @@ class PlaceCommand(CommandMessage):
     """
 
     file: str = Field(max_length=4096)
-    offset: int = Field(ge=0)
+    offset: int = Field(ge=0, le=_OFFSET_LIMIT)
 
 
 class LookUp(PlaceCommand):
@@ -248,8 +263,8 @@ class TextChange(Message):
     UTF-16 code units from 0.
     """
 
-    start: int = Field(ge=0)
-    end: int = Field(ge=0)
+    start: int = Field(ge=0, le=_OFFSET_LIMIT)
+    end: int = Field(ge=0, le=_OFFSET_LIMIT)
     text: str = Field(max_length=4_194_304)
 
 
@@ -263,7 +278,7 @@ class EditText(CommandMessage):
 
     type: Literal["edit_text"] = "edit_text"
     file: str = Field(max_length=4096)
-    version: int
+    version: int = Field(ge=0, le=_OFFSET_LIMIT)
     changes: tuple[TextChange, ...] = Field(min_length=1, max_length=5000)
     gesture: str = Field(default="", max_length=100)
     origin: str = Field(default="", max_length=100)

@@ -11,6 +11,7 @@ import base64
 import hashlib
 import json
 import zlib
+from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
 
@@ -18,6 +19,7 @@ from pydantic import Field, ValidationError
 
 from studio.description.editing.merging import hunks_between
 from studio.description.values import Edit
+from studio.engine.commands import ArgumentName
 from studio.engine.message import Message
 from studio.engine.messages import Link
 from studio.engine.texts import TEXT_LIMIT_BYTES
@@ -54,7 +56,7 @@ class SharedPath(Message):
 class SharedEdit(Message):
     """At byte `at`, `old` gives way to `new`; bytes are written as Latin-1 letters."""
 
-    at: int = Field(ge=0)
+    at: int = Field(ge=0, le=1 << 32)
     old: _Text
     new: _Text
     before: _Text = ""
@@ -73,7 +75,7 @@ class SharedRobot(Message):
     """What a link holds."""
 
     entry: SharedPath
-    arguments: dict[_Name, _Text] = Field(default_factory=dict[_Name, _Text], max_length=1000)
+    arguments: dict[ArgumentName, _Text] = Field(default_factory=dict[str, str], max_length=1000)
     files: tuple[SharedFile, ...] = Field(default=(), max_length=200)
 
 
@@ -163,6 +165,8 @@ def _edit_file(
     is_same = _digest(text) == file.digest
     places = [_place(text, edit, exact=is_same) for edit in file.edits]
     found = sorted((at, n) for n, at in enumerate(places) if at is not None)
+    if any(at + len(file.edits[n].old) > later for (at, n), (later, _) in pairwise(found)):
+        raise EditError(f"{path}: the link's edits overlap; they were left out.")
     for at, n in reversed(found):
         edit = file.edits[n]
         made = Edit(path, at, at + len(edit.old), edit.new.encode("latin-1"))

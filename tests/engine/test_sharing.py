@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import base64
+import hashlib
 import json
 import zlib
 from typing import TYPE_CHECKING, Any
@@ -103,7 +104,16 @@ def test_an_edit_finds_its_place_in_a_file_that_has_moved_on(mast: Path, tmp_pat
 
 @pytest.mark.parametrize(
     "text",
-    ["", "1", "2abc", "1!!!!", packed([]), packed({"entry": {"path": "/x"}, "more": 1})],
+    [
+        "",
+        "1",
+        "2abc",
+        "1!!!!",
+        packed([]),
+        packed({"entry": {"path": "/x"}, "more": 1}),
+        packed({"entry": {"path": "/x"}, "arguments": {"": "1"}}),
+        packed({"entry": {"path": "/x"}, "arguments": {"a" * 201: "1"}}),
+    ],
 )
 def test_what_is_no_link_is_refused_in_words(text: str):
     with pytest.raises(CommandError):
@@ -132,5 +142,29 @@ def test_a_link_reaches_no_file_outside_of_what_is_served(mast: Path, tmp_path: 
             assert "not in the opened folders" in left_out[0]
             assert not made.document(name).has_unsaved
             assert outside.read_text() == MAST
+
+    asyncio.run(run())
+
+
+def test_edits_of_a_link_that_overlap_are_left_out_together(mast: Path, tmp_path: Path):
+    data = MAST.encode()
+    at, digest = data.index(b'value="0.4"'), hashlib.sha256(data).hexdigest()[:32]
+    edits = [
+        {"at": at, "old": 'value="0.4"', "new": "v"},
+        {"at": at + 7, "old": "0.4", "new": "0.5"},
+    ]
+
+    async def run() -> None:
+        async with engine(tmp_path / "data") as made:
+            shared = {"file": {"path": str(mast)}, "digest": digest, "edits": edits}
+            robot = {"entry": {"path": str(mast)}, "files": [shared]}
+            await opened(made, mast)
+            name, left_out = await follow(made, packed(robot))
+            assert left_out == (f"{mast}: the link's edits overlap; they were left out.",)
+            assert not made.document(name).has_unsaved
+            shared["edits"] = edits[1:]
+            name, left_out = await follow(made, packed(robot))
+            assert left_out == ()
+            assert b'value="0.5"' in made.document(name).sources.text(str(mast))
 
     asyncio.run(run())
