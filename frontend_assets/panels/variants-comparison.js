@@ -2,7 +2,7 @@
 
 /** @import { Side } from "../types/wire.d.ts" */
 
-import { effect, html } from "vendor/preact.js";
+import { effect, html, useEffect, useRef } from "vendor/preact.js";
 import { ask, setDisplay } from "../app/actions.js";
 import { mayEdit } from "../app/state/connection.js";
 import { displays } from "../app/state/document.js";
@@ -24,8 +24,9 @@ import { DifferenceTable, InputTable } from "./variants-table.js";
 
 export function VariantsComparison() {
   const { sides, busy, faults } = comparison.value;
+  const section = useComesIntoView(sides !== null);
   if (!sides) return canCompare.value ? html`<${Begin} />` : null;
-  return html`<section class="comparison" aria-label=${t("compare.title")}>
+  return html`<section ref=${section} class="comparison" aria-label=${t("compare.title")}>
     <div class="comparison-bar">
       <header class="comparison-head"><h3>${t("compare.title")}</h3>
         <${IconButton} icon="close" label=${t("compare.end")} disabled=${!mayEdit.value} onClick=${end} /></header>
@@ -37,6 +38,20 @@ export function VariantsComparison() {
     <${InputTable} />
     <${DifferenceTable} />
   </section>`;
+}
+
+/** Below the list it would open out of sight. @param {boolean} open @returns {{current: HTMLElement | null}} */
+function useComesIntoView(open) {
+  const section = useRef(/** @type {HTMLElement | null} */ (null));
+  const before = useRef(open);
+  useEffect(() => {
+    const around = section.current?.closest(".scroll");
+    if (around && section.current && open && !before.current)
+      around.scrollTop +=
+        section.current.getBoundingClientRect().top - around.getBoundingClientRect().top;
+    before.current = open;
+  }, [open]);
+  return section;
 }
 
 function end() {
@@ -105,17 +120,17 @@ function GhostControls() {
     <span class="ghost-places">
       ${PLACES.map((one) => html`<button key=${one} type="button" aria-pressed=${one === place} disabled=${off} title=${t(`ghost.${one}.hint`)} onClick=${() => putGhost(one)}>${t(`ghost.${one}`)}</button>`)}
     </span>
-    ${place !== "off" && html`<${GhostLook} opacity=${Number(settings.opacity)} off=${off} />`}
-  </div>`;
+  </div>
+  ${place !== "off" && html`<${GhostLook} opacity=${Number(settings.opacity)} off=${off} />`}`;
 }
 
 /** @param {{opacity: number, off: boolean}} props which robot it is, and how clearly it is drawn */
 function GhostLook({ opacity, off }) {
   const ghost = comparison.value.ghost;
   const move = (/** @type {number} */ value) => setDisplay("ghost", "opacity", value);
-  return html`<p class="ghost-legend">${ghost && html`<i></i>${sideName(ghost)}`}</p>
+  return html`<div class="ghost-look"><p class="ghost-legend">${ghost && html`<i></i>${sideName(ghost)}`}</p>
     <${Slider} label=${t("ghost.opacity")} min=${0.05} max=${1} step=${0.05} value=${opacity}
-      text=${`${Math.round(opacity * 100)} %`} disabled=${off} onMove=${move} onEnd=${async () => {}} />`;
+      text=${`${Math.round(opacity * 100)} %`} disabled=${off} onMove=${move} onEnd=${async () => {}} /></div>`;
 }
 
 /** @param {typeof PLACES[number]} place */

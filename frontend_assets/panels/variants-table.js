@@ -82,14 +82,13 @@ export function DifferenceTable() {
       : html`<p class="nothing"><${Icon} name="check" size=${14} /> ${t("compare.same")}</p>`;
   const found = sorted(matching(rows, filter.value, labelOf), order.value);
   const shown = all.value ? found : found.slice(0, SHOWN);
-  return html`<div class="comparison-filter">
+  return html`<div class="comparison-filter"><h4 id="comparison-count">${t("compare.rows", { count })}</h4>
       <${SearchBox} label=${t("compare.filter")} value=${filter.value} onInput=${(
         /** @type {string} */ text,
       ) => {
         filter.value = text;
       }} /></div>
-    <table class="differences">
-      <caption>${t("compare.rows", { count })}</caption>
+    <table class="differences" aria-labelledby="comparison-count">
       <thead><tr>
         <${SortHead} order=${order} by="part" words=${t("compare.part")} />
         <${Heads} />
