@@ -4,6 +4,7 @@
 
 import { html, useEffect, useRef, useSignal, useState } from "vendor/preact.js";
 import { commandById, commandLabel } from "../app/commands.js";
+import { followChoices } from "../app/state/arguments.js";
 import {
   allSites,
   documentState,
@@ -35,6 +36,7 @@ export function PropertiesPanel() {
   const groups = groupSites(siteOrder.value, sites, filter);
   useSought(folded);
   useEffect(followShaping, []);
+  useEffect(followChoices, []);
   /** @param {string} key */
   const toggle = (key) => {
     const now = new Set(folded.value);

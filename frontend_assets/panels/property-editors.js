@@ -3,7 +3,8 @@
 /** @import { SiteView } from "../types/wire.d.ts" */
 /** @import { Writer } from "./property-row.js" */
 
-import { html } from "vendor/preact.js";
+import { html, useEffect, useSignal } from "vendor/preact.js";
+import { argumentChoices } from "../app/state/arguments.js";
 import { mayEdit } from "../app/state/connection.js";
 import { degrees } from "../app/state/view.js";
 import { isExpression, shownText, splitVector, writtenText } from "../lib/expressions.js";
@@ -31,13 +32,20 @@ export function Editor(props) {
 /** Characters of name and text that fit side by side. */
 const ONE_LINE = 30;
 
+/** @param {SiteView} site @returns {readonly string[]} what it can be, as far as that is known */
+function choicesOf({ kind, name, widget }) {
+  if (widget.choices.length > 0) return widget.choices;
+  return (kind === "arg" && argumentChoices.value.get(name)) || [];
+}
+
 /** @param {SiteView} site @param {string} text @returns {keyof typeof EDITORS} */
-function editorOf({ name, widget }, text) {
+function editorOf(site, text) {
+  const { name, widget } = site;
   const long = name.length + shownText(text).length > ONE_LINE;
   if (widget.kind === "vector" && splitVector(text).length > 1) return "vector";
   if (isExpression(text)) return long ? "longText" : "expression";
   if (widget.kind === "switch" && isTruthWord(text)) return "switch";
-  if (widget.kind === "choice" && widget.choices.length > 0) return "choice";
+  if (["choice", "text"].includes(widget.kind) && choicesOf(site).length > 0) return "choice";
   if (widget.kind === "slider" && parseNumber(text) !== null) return "number";
   return long ? "longText" : "text";
 }
@@ -144,13 +152,26 @@ function likeWord(text, on) {
   return /^[A-Z]/.test(word) ? (on ? "True" : "False") : String(on);
 }
 
+const OTHER = "\u0000other";
+
 /** @param {EditorProps} props */
-function ChoiceHead({ site, text, writer }) {
-  const { choices } = site.widget;
+function ChoiceHead(props) {
+  const { site, text, writer } = props;
+  const typing = useSignal(false);
+  const choices = choicesOf(site);
   const all = choices.includes(text) ? choices : [text, ...choices];
-  return html`<select class="box choice" aria-label=${site.name} value=${text} disabled=${!mayEdit.value}
-    onChange=${(/** @type {any} */ event) => write(writer, event.currentTarget.value)}>
+  /** @param {any} event */
+  const choose = ({ currentTarget: { value } }) => {
+    if (value === OTHER) typing.value = true;
+    else write(writer, value);
+  };
+  useEffect(() => {
+    typing.value = false;
+  }, [text]);
+  if (typing.value) return html`<${PlainText} ...${props} />`;
+  return html`<select class="box choice" aria-label=${site.name} value=${text} disabled=${!mayEdit.value} title=${text} onChange=${choose}>
     ${all.map((choice) => html`<option key=${choice} value=${choice}>${choice === "" ? "''" : choice}</option>`)}
+    ${site.kind === "arg" && html`<option value=${OTHER}>${t("launch.other")}</option>`}
   </select><span class="unit">${site.widget.unit}</span>`;
 }
 
