@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 from typing import TYPE_CHECKING, Final
 
-from studio.description.language.questions import CompletionQuery
+from studio.description.language.questions import CompletionQuery, LookUpQuery
 from studio.description.origins.origin_values import PartOriginQuery
 from studio.engine.roles import Role
 from studio.errors import SupersededError
@@ -16,8 +16,11 @@ if TYPE_CHECKING:
     from studio.description.queries import Query, Reply
     from studio.engine.listeners import Listener
 
-ORIGINS_KEPT: Final = 4
-"""Of one asker: a page asks for a link, its joint, and the part that its panel explains."""
+KEPT: Final = 4
+"""Of one asker and one kind in `_TOGETHER`."""
+_TOGETHER: Final = frozenset({PartOriginQuery, LookUpQuery})
+"""Kinds that a page asks together: a link, its joint and the part that a panel explains; the word
+under the pointer and the one whose definition is wanted. Of all others only the newest counts."""
 WAITING_LIMIT: Final = 64
 """Questions of viewers that wait: whoever is no browser has no number, and may ask at will."""
 
@@ -32,6 +35,7 @@ class Waiting:
     def join(self, asker: Listener) -> asyncio.Future[Reply]:
         """Have the answer go to one more."""
         answer: asyncio.Future[Reply] = asyncio.get_running_loop().create_future()
+        self._answers = {one: by for one, by in self._answers.items() if not one.done()}
         self._answers[answer] = asker
         return answer
 
@@ -69,7 +73,7 @@ class QuestionQueue:
     """The questions of one document, oldest first; one that several ask alike is in it once.
 
     Of one asker and kind only the newest are kept, for a page asks again whenever somebody looks
-    elsewhere; whoever asked those before gets a SupersededError.
+    elsewhere; those before end in a SupersededError.
     """
 
     def __init__(self) -> None:
@@ -85,7 +89,7 @@ class QuestionQueue:
             waiting = Waiting(query)
             self._waiting.append(waiting)
         answer = waiting.join(asker)
-        self._keep_newest(type(query), asker)
+        self._keep_newest(waiting, asker)
         self._keep_within_limit()
         return answer
 
@@ -106,10 +110,15 @@ class QuestionQueue:
         for one in waiting:
             one.cancel()
 
-    def _keep_newest(self, kind: type, asker: Listener) -> None:
-        own = [one for one in self._waiting if type(one.query) is kind and asker in one.askers]
-        kept = ORIGINS_KEPT if kind is PartOriginQuery else 1
-        for one in own[:-kept]:
+    def _keep_newest(self, newest: Waiting, asker: Listener) -> None:
+        kind = type(newest.query)
+        others = [
+            one
+            for one in self._waiting
+            if one is not newest and type(one.query) is kind and asker in one.askers
+        ]
+        beside = KEPT - 1 if kind in _TOGETHER else 0
+        for one in others[: max(0, len(others) - beside)]:
             one.supersede(asker)
 
     def _keep_within_limit(self) -> None:

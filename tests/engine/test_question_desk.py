@@ -102,6 +102,29 @@ def test_a_drag_whose_runs_take_longer_than_a_rest_is_no_rest(
     asyncio.run(run())
 
 
+@stops_processes
+def test_a_drag_that_begins_behind_a_run_holds_what_was_asked_before(tmp_path: Path):
+    async def run() -> None:
+        worker = NotedWorker()
+        async with loop_story(tmp_path, worker) as story:
+            story.stop()
+            editing = asyncio.ensure_future(story.edit("2"))
+            await asyncio.sleep(0.05)
+            asking = story.asked(ORIGIN)
+            await asyncio.sleep(0)
+            dragging = asyncio.ensure_future(story.drag("3"))
+            await asyncio.sleep(0)
+            story.go_on()
+            await asyncio.gather(editing, dragging)
+            await story.asked(CompletionQuery(str(story.file), b"<", 1))
+            await story.drag("4")
+            await asking
+            order = ["edit", "edit", "CompletionQuery", "edit", "PartOriginQuery"]
+            assert worker.answered == order
+
+    asyncio.run(run())
+
+
 def test_between_edits_that_are_no_drag_questions_are_answered(tmp_path: Path):
     async def run() -> None:
         worker = NotedWorker()

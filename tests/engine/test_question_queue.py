@@ -10,7 +10,7 @@ import pytest
 from studio.description.language.questions import CompletionQuery, LookUpQuery, OutlineQuery
 from studio.description.origins.origin_values import PartOriginQuery, SiteEffectsQuery
 from studio.description.values import NoReply
-from studio.engine.question_queue import ORIGINS_KEPT, WAITING_LIMIT, QuestionQueue
+from studio.engine.question_queue import KEPT, WAITING_LIMIT, QuestionQueue
 from studio.engine.roles import Role
 from studio.errors import SupersededError
 from tests.support.open_documents import Ear
@@ -25,6 +25,14 @@ OUTLINE, COMPLETION = OutlineQuery(), CompletionQuery("a.xacro", b"", 0)
 
 def effects(site: str) -> SiteEffectsQuery:
     return SiteEffectsQuery(site)
+
+
+def origin(number: int) -> PartOriginQuery:
+    return PartOriginQuery(f"link:{number}")
+
+
+def meaning(number: int) -> LookUpQuery:
+    return LookUpQuery("a.xacro", b"", number)
 
 
 def taken(queue: QuestionQueue) -> list[Query]:
@@ -60,12 +68,26 @@ def test_of_one_asker_and_kind_only_the_newest_is_kept():
     on_a_loop(story)
 
 
-def test_a_page_may_ask_for_several_parts_at_once():
+@pytest.mark.parametrize("query", [origin, meaning])
+def test_a_page_may_ask_several_together(query: Callable[[int], Query]):
     def story() -> None:
         queue, ear = QuestionQueue(), Ear()
-        asked = [queue.add(PartOriginQuery(f"link:{n}"), ear) for n in range(ORIGINS_KEPT + 1)]
+        asked = [queue.add(query(n), ear) for n in range(KEPT + 1)]
         assert isinstance(asked[0].exception(), SupersededError)
-        assert taken(queue) == [PartOriginQuery(f"link:{n}") for n in range(1, ORIGINS_KEPT + 1)]
+        assert taken(queue) == [query(n) for n in range(1, KEPT + 1)]
+
+    on_a_loop(story)
+
+
+def test_one_who_comes_back_to_a_question_that_still_waits_gets_its_answer():
+    def story() -> None:
+        queue, one, other = QuestionQueue(), Ear(), Ear()
+        queue.add(effects("a"), other)
+        left = queue.add(effects("b"), one)
+        back = queue.add(effects("a"), one)
+        assert taken(queue) == [effects("a")]
+        assert isinstance(left.exception(), SupersededError)
+        assert back.result() == NoReply(str(effects("a")))
 
     on_a_loop(story)
 
