@@ -46,10 +46,14 @@ class _Built:
 
 
 class SiteBuilder:
-    """Builds the sites of the runs of one session."""
+    """Builds the sites of the runs of one session.
 
-    def __init__(self) -> None:
-        self._files: dict[str, FileDrafts] = {}
+    Args:
+        before: Drafts of some files from before the first run: a number then is a site now.
+    """
+
+    def __init__(self, before: Mapping[str, FileDrafts] | None = None) -> None:
+        self._files = dict(before or {})
         self._built: dict[str, _Built] = {}
         self.reads: RunReads
         """What the last run says of the texts."""
