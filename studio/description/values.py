@@ -199,7 +199,8 @@ class ReloadRequest:
 class VerifyRequest:
     """Run in full, and correct what patches have made otherwise.
 
-    The answer then has a warning with the code PATCH_DIFFERED; else it `is_patch` without news.
+    The answer then has a warning with the code PATCH_DIFFERED; else it `is_patch` without news. A
+    failure says that the robot is one that only patches have made.
     """
 
 

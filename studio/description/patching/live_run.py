@@ -273,5 +273,5 @@ def _item(container: object, key: str | int) -> object:
 def _scalar(draft: Draft) -> object:
     try:
         return scalar_of(draft.text, draft.tag, pure_value)
-    except (Fault, LookupError, TypeError, ValueError):
+    except (Fault, ArithmeticError, LookupError, TypeError, ValueError):
         raise PatchRefused("it is no value by itself") from None

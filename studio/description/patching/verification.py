@@ -22,16 +22,24 @@ def verified(
 
     One that only proves the patches right is marked as they are.
     """
-    found = ["the run fails"] if isinstance(answer, Failure) else list(_corrections(answer, told))
-    if not found and isinstance(answer, Expansion):
+    if isinstance(answer, Failure):
+        return _unproven(answer, entry)
+    found = list(_corrections(answer, told))
+    if not found:
         return replace(answer, is_patch=True)
     what = f"{len(found)} of the shown values, the first {found[0]}"
     sentence = f"A quick edit was not what a full run gives; corrected: {what}. Tell us of it."
     _log.error("%s: %s", entry, sentence)
-    if isinstance(answer, Failure):
-        return answer
     problem = Problem(Severity.WARNING, PATCH_DIFFERED, sentence, Place(entry))
     return replace(answer, warnings=(*answer.warnings, problem))
+
+
+def _unproven(failure: Failure, entry: str) -> Failure:
+    """A failure that patches have hidden: the robot that is shown is none of a full run."""
+    sentence = "A quick edit hid this; the robot that is shown is of that edit. Tell us of it."
+    _log.error("%s: %s: %s", entry, sentence, failure.problem.sentence)
+    problem = replace(failure.problem, sentence=f"{failure.problem.sentence} {sentence}")
+    return replace(failure, problem=problem)
 
 
 def _corrections(answer: Expansion, told: Expansion | None) -> Iterator[str]:

@@ -68,7 +68,7 @@ def read_yaml(path: str, data: bytes, evaluate: Callable[[str], Any]) -> Any:  #
         raise _located(path, error) from None
     except UnicodeDecodeError:
         raise Fault("yaml-malformed", f"{path} is not UTF-8: save it as UTF-8.") from None
-    except (RecursionError, ValueError) as error:
+    except (OverflowError, RecursionError, ValueError) as error:
         raise Fault("yaml-malformed", f"{path} is no YAML that can be read: {error}.") from None
 
 

@@ -153,6 +153,11 @@ def test_what_changes_more_than_values_is_run_in_full(side: SideBySide, name: st
     assert edited(side, site_of(side, "size", SiteKind.ARG), "3")
 
 
+def test_an_angle_beyond_all_numbers_is_left_to_the_full_run(side: SideBySide):
+    assert not edited(side, site_of(side, "arm.upper", SiteKind.YAML), "9" * 400)
+    assert side.told.failure is not None
+
+
 def test_after_a_failure_the_next_good_run_is_patched_again(side: SideBySide):
     side.edit(site_of(side, "width"), "${nothing}")
     assert side.told.failure is not None

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from studio.description.evaluator.evaluation import Evaluation
+from studio.description.faults import Fault
 from studio.description.patching.propagation import Propagation
 from studio.description.session import Session, open_session
 from studio.description.values import (
@@ -72,6 +74,23 @@ def test_a_wrong_patch_is_corrected_told_and_logged(
     assert [(part.key, '"0.25"' in part.xml) for part in answer.changed_parts] == [("link:a", True)]
     assert [problem.code for problem in answer.warnings] == [PATCH_DIFFERED]
     assert "link:a" in caplog.text
+
+
+def test_a_failure_that_patches_hid_says_that_the_robot_shown_is_theirs(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+):
+    session, file = opened(tmp_path)
+    edit(session, file, "0.25")
+
+    def failing(_: Evaluation, entry: str) -> OutputElement:
+        raise Fault("undefined-property", f"{entry} has no robot.")
+
+    monkeypatch.setattr(Evaluation, "run", failing)
+    answer = session.answer(VerifyRequest())
+    assert isinstance(answer, Failure)
+    assert answer.problem.code == "undefined-property"
+    assert answer.problem.sentence.startswith(f"{file} has no robot. A quick edit hid this;")
+    assert "A quick edit hid this" in caplog.text
 
 
 def test_without_patches_it_is_an_ordinary_run(tmp_path: Path):
