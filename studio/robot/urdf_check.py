@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import io
+import logging
 from typing import TYPE_CHECKING
 from xml.etree.ElementTree import tostring
 
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
 _NAME = "unnamed_robot"
+logging.getLogger("yourdfpy.urdf").disabled = True
+"""It writes on the terminal of the studio; what it finds is told as problems."""
 
 
 def check_urdf(text: str) -> CheckAnswer:
