@@ -3,6 +3,7 @@
 /** @import { DockviewApi, DockviewGroupPanel, IDockviewPanel, SerializedDockview } from "vendor/dockview.js" */
 
 import { createDockview } from "vendor/dockview.js";
+import { keepInPlace } from "./frame-place.js";
 import { keepScrolled } from "./scrolled.js";
 import { keepTabsWhole } from "./tight-tabs.js";
 
@@ -125,7 +126,9 @@ function contentOf(panel, restores) {
     init({ api }) {
       const unmount = panel?.mount(element);
       const shown = api.onDidVisibilityChange(({ isVisible }) => isVisible && restore());
+      const letGo = panel?.keepsFrame ? keepInPlace(element, api) : () => {};
       end = () => {
+        letGo();
         restores.delete(restore);
         shown.dispose();
         unmount?.();
