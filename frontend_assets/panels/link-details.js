@@ -2,13 +2,14 @@
 
 import { html } from "vendor/preact.js";
 import { commandById } from "../app/commands.js";
+import { PlaceLink } from "../app/place-link.js";
 import { documentState, robot } from "../app/state/document.js";
 import { selectPart } from "../app/state/origin.js";
 import { fadeLink, linkOpacity, onlySelected, selected } from "../app/state/view.js";
 import { focusLink } from "../app/viewport.js";
 import { t } from "../lib/i18n.js";
 import { formatNumber } from "../lib/numbers.js";
-import { baseName, placeText, shortPath } from "../lib/paths.js";
+import { baseName, shortPath } from "../lib/paths.js";
 import { IconButton } from "../lib/ui.js";
 
 export function LinkDetails() {
@@ -31,7 +32,7 @@ export function LinkDetails() {
       <dt>${t("link.mass")}</dt><dd>${link.mass_kg === null ? t("link.no_inertia") : `${formatNumber(link.mass_kg, 5)} kg`}</dd>
       <dt>${t("link.shapes")}</dt><dd>${t("link.shapes.text", { visuals: link.visuals, collisions: link.collisions })}</dd>
       ${link.meshes.length > 0 && html`<dt>${t("link.meshes")}</dt><dd>${link.meshes.map((uri) => html`<span class="line" title=${uri}>${baseName(uri)}</span>`)}</dd>`}
-      ${link.file && html`<dt>${t("link.place")}</dt><dd title=${shortPath(link.file, documentState.value?.root ?? "")}>${placeText(link)}</dd>`}
+      ${link.file && html`<dt>${t("link.place")}</dt><dd title=${shortPath(link.file, documentState.value?.root ?? "")}><${PlaceLink} place=${{ file: link.file, line: link.line ?? 0, column: 1 }} /></dd>`}
       ${link.macros.length > 0 && html`<dt>${t("link.macros")}</dt><dd>${link.macros.join(" › ")}</dd>`}
       <dt>${t("link.opacity")}</dt><dd><${Opacity} link=${link.name} /></dd>
     </dl>

@@ -10,26 +10,27 @@ import { degrees } from "../app/state/view.js";
 import { WrittenText } from "../app/written-text.js";
 import { t } from "../lib/i18n.js";
 import { valueText } from "../lib/origin.js";
+import { baseName } from "../lib/paths.js";
 import { Icon } from "../lib/ui.js";
 import { PropertyRow } from "./property-row.js";
 
 /** No robot needs more; a circle is not possible, but nothing here depends on that. */
 const DEEPEST = 60;
+/** Characters of a value that fit beside a name. */
+const LONGEST = 24;
 
 /**
  * @param {object} props
  * @param {readonly number[]} props.of
  * @param {readonly OriginInput[]} props.inputs all of the part
- * @param {string} [props.site] of the text itself, when it is a property of its own
- * @param {{place: Place, text: string, label: string} | null} [props.written] the text itself otherwise
  * @param {number} [props.depth]
  */
-export function Inputs({ of, inputs, site: own = "", written = null, depth = 0 }) {
+export function Inputs({ of, inputs, depth = 0 }) {
   const open = useSignal(/** @type {number | null} */ (null));
-  if (of.length === 0 && !own && !written) return null;
+  if (of.length === 0) return null;
   const chosen = open.value;
-  const shown = chosen !== null && chosen >= 0 ? inputs[chosen] : undefined;
-  /** @param {number} at -1: the text itself */
+  const shown = chosen === null ? undefined : inputs[chosen];
+  /** @param {number} at */
   const toggle = (at) => {
     open.value = open.value === at ? null : at;
   };
@@ -42,19 +43,25 @@ export function Inputs({ of, inputs, site: own = "", written = null, depth = 0 }
           html`<${InputChip} key=${at} input=${input} open=${chosen === at} onClick=${() => toggle(at)} />`
         );
       })}
-      ${(own || written) && html`<${OwnChip} id=${own} open=${chosen === -1} onClick=${() => toggle(-1)} />`}
     </div>
-    ${chosen === -1 && (own ? html`<${SiteRow} id=${own} />` : html`<${WrittenLine} ...${written} />`)}
     ${shown && depth < DEEPEST && html`<${Opened} input=${shown} inputs=${inputs} depth=${depth} />`}
   </div>`;
 }
 
-/** @param {{id: string, open: boolean, onClick: () => void}} props the very text that stands at the attribute */
-function OwnChip({ id, open, onClick }) {
+/** @param {{id: string, open: boolean, onClick: () => void}} props opens the very text that stands at the attribute */
+export function OwnButton({ id, open, onClick }) {
   const label = t(id ? "origin.edit" : "origin.edit_text");
-  return html`<button type="button" class=${`chip input-chip ${id ? "" : "quiet"}`} aria-expanded=${open} aria-label=${label}
-    title=${label} onClick=${onClick} ...${pointing(id)}>
-    <${Icon} name="pencil" size=${12} />${id && label}</button>`;
+  return html`<button type="button" class="icon-button own-button" aria-expanded=${open} aria-label=${label}
+    title=${label} onClick=${onClick} ...${pointing(id)}><${Icon} name="pencil" size=${13} /></button>`;
+}
+
+/**
+ * @param {object} props
+ * @param {string} props.id of the text, when it is a property of its own
+ * @param {{place: Place, text: string, label: string} | null} props.written the text otherwise
+ */
+export function OwnText({ id, written }) {
+  return id ? html`<${SiteRow} id=${id} />` : html`<${WrittenLine} ...${written} />`;
 }
 
 /** @param {{input: OriginInput, open: boolean, onClick: () => void}} props */
@@ -62,15 +69,19 @@ function InputChip({ input, open, onClick }) {
   const value = shownValue(input);
   const title = `${t(`origin.kind.${input.kind}`)} ${input.name} = ${input.value}`;
   return html`<button type="button" class=${`chip input-chip`} aria-expanded=${open} title=${title}
-    onClick=${onClick} ...${pointing(input.site)}>
+    onClick=${onClick} ...${pointing(input.site, t("effects.parameter", { name: input.name }))}>
     <span class="input-name">${shortest(input.name)}</span>
     ${value && html`<span class="numbers">${value}</span>`}
     ${input.site && html`<${Icon} name="pencil" size=${11} />`}</button>`;
 }
 
-/** @param {string} id of a site; empty: none @returns {Record<string, () => void>} tells while it is pointed at */
-function pointing(id) {
-  const begin = () => hoverSite(id || null);
+/**
+ * @param {string} id of a site; empty: none
+ * @param {string} [words] that are said when there is none
+ * @returns {Record<string, () => void>} tells while it is pointed at
+ */
+function pointing(id, words = "") {
+  const begin = () => hoverSite(id || null, id ? "" : words);
   const end = () => hoverSite(null);
   return { onPointerEnter: begin, onPointerLeave: end, onFocusIn: begin, onFocusOut: end };
 }
@@ -80,7 +91,9 @@ function shownValue({ value, site: id }) {
   const live = (id && site(id)?.value) || null;
   const now = live && live.values.length === 0 ? live.value : value;
   const text = valueText(now, live?.widget.unit ?? "", degrees.value);
-  return text.length <= 24 ? text : "";
+  if (text === "") return "''";
+  if (text.length <= LONGEST) return text;
+  return /^[\w:.-]*\//.test(text) ? `…/${baseName(text)}` : "";
 }
 
 /** @param {string} name of a key path its end */

@@ -2,7 +2,7 @@
 
 /** @import { OriginAttribute, OriginCall, OriginCause, PartOrigin, Place } from "../types/wire.d.ts" */
 
-import { html, useEffect, useRef } from "vendor/preact.js";
+import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { PlaceLink } from "../app/place-link.js";
 import { documentState, robot, showingLastGood } from "../app/state/document.js";
 import {
@@ -16,10 +16,10 @@ import {
 import { degrees } from "../app/state/view.js";
 import { t } from "../lib/i18n.js";
 import { byElement, isComputed, referredPart, valueText } from "../lib/origin.js";
-import { shortPath } from "../lib/paths.js";
+import { baseName, shortPath } from "../lib/paths.js";
 import { EmptyState, Icon } from "../lib/ui.js";
 import { EffectLine } from "./effect-line.js";
-import { Inputs } from "./origin-inputs.js";
+import { Inputs, OwnButton, OwnText } from "./origin-inputs.js";
 
 export function OriginPanel() {
   useEffect(followOrigin, []);
@@ -81,7 +81,7 @@ function Choice({ part: key, on, icon, name }) {
 /** @param {{origin: PartOrigin}} props how the run came to the part */
 function Way({ origin: { place, include_chain, calls, causes, inputs } }) {
   return html`<ol class="way" aria-label=${t("origin.way")}>
-    ${include_chain.map((one) => html`<${Step} icon="includes" words=${t("origin.included")} place=${one} />`)}
+    ${include_chain.map((one, at) => html`<${Included} file=${include_chain[at + 1]?.file ?? place.file} at=${one} />`)}
     ${causes.map((cause) => html`<${Cause} cause=${cause} inputs=${inputs} />`)}
     ${calls.map((call, at) => html`<${Call} key=${at} call=${call} inputs=${inputs} />`)}
     <${Step} icon="source" words=${t("origin.written")} place=${place} />
@@ -92,6 +92,13 @@ function Way({ origin: { place, include_chain, calls, causes, inputs } }) {
 function Step({ icon, words, place }) {
   const title = shortPath(place.file, documentState.value?.root ?? "");
   return html`<li title=${title}><${Icon} name=${icon} size=${13} /><span>${words}</span><${PlaceLink} place=${place} /></li>`;
+}
+
+/** @param {{file: string, at: Place}} props a file, and where it is included */
+function Included({ file, at }) {
+  const root = documentState.value?.root ?? "";
+  return html`<li title=${`${shortPath(file, root)}\n${shortPath(at.file, root)}`}><${Icon} name="includes" size=${13} />
+    <span><${PlaceLink} place=${{ file, line: 1, column: 1 }} words=${baseName(file)} /> ${t("origin.included")}</span><${PlaceLink} place=${at} /></li>`;
 }
 
 /** @param {{cause: OriginCause, inputs: PartOrigin["inputs"]}} props */
@@ -128,6 +135,7 @@ function Element({ origin: { inputs, part: key }, path, attributes }) {
 /** @param {{of: OriginAttribute, inputs: PartOrigin["inputs"], part: string}} props */
 function Attribute({ of, inputs, part: key }) {
   const row = useRef(/** @type {HTMLElement | null} */ (null));
+  const editing = useSignal(false);
   const wanted = wantedPart.value;
   const sought =
     wanted?.part === key && wanted.element === of.element && wanted.attribute === of.attribute;
@@ -149,9 +157,11 @@ function Attribute({ of, inputs, part: key }) {
         onClick=${() => selectPart(other)}>${value}</button></span>`
           : html`<span class="origin-value numbers" title=${of.value}>${value}</span>`
       }
+      ${(of.site || written) && html`<${OwnButton} id=${of.site} open=${editing.value} onClick=${() => (editing.value = !editing.value)} />`}
       <${PlaceLink} place=${of.place} />
     </div>
     ${computed && html`<code class="origin-text">${of.text}</code>`}
-    <${Inputs} of=${of.inputs} inputs=${inputs} site=${of.site} written=${written} />
+    ${editing.value && html`<${OwnText} id=${of.site} written=${written} />`}
+    <${Inputs} of=${of.inputs} inputs=${inputs} />
   </div>`;
 }

@@ -172,13 +172,18 @@ let knownOf = built.peek();
 /** @type {ReturnType<typeof setTimeout> | undefined} */
 let asking;
 
+/** What is said of something pointed at that is no property of its own. */
+export const pointedWords = signal("");
+
 /**
  * Tell what a property shapes: its parts light up in 3D, and who reads it in the source.
  *
  * @param {string | null} id of the property under the pointer or with the focus; null: none any more
+ * @param {string} [words] what to say where there is no property
  */
-export function hoverSite(id) {
+export function hoverSite(id, words = "") {
   batch(() => {
+    pointedWords.value = words;
     pointedSite.value = id;
     pointedRun.value = built.peek();
   });
