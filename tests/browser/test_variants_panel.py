@@ -98,7 +98,7 @@ def select_wheel(tab: StudioPage) -> None:
 
 def see_ghost(tab: StudioPage, plain: bytes) -> None:
     """The ghost changes the picture, and leaves nothing behind."""
-    wait_until("the plain picture", lambda: tab.settle() == plain)
+    wait_until("the plain picture", lambda: tab.settle() == plain, _PATIENCE_S)
     panel(tab).get_by_role("button", exact=True, name="Over").click()
     wait_until("the ghost to be seen", lambda: tab.settle() != plain, _PATIENCE_S)
     panel(tab).get_by_role("button", exact=True, name="Off").click()
