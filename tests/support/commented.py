@@ -6,10 +6,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 from xml.dom import minidom
 
-from studio.description.evaluator.comments import CommentedEvaluation
 from studio.description.evaluator.output_tree import write_xml
 from studio.description.evaluator.source_store import SourceStore
 from studio.packages.roots import ServedRoots
+from tests.support.commented_evaluation import CommentedEvaluation
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -17,7 +17,7 @@ from studio.description.values import Edit, SiteKind
 from studio.errors import EditError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Mapping
 
     from studio.description.sites.drafts import Draft
 
@@ -173,11 +173,3 @@ def texts_by_file(texts: Mapping[TextName, str]) -> dict[str, dict[TextName, str
     for name, text in texts.items():
         found.setdefault(name.file, {})[name] = text
     return found
-
-
-def free_name(wanted: str, taken: Iterable[str]) -> str:
-    """A name that is not taken: the wanted one, else with a number behind it."""
-    others = set(taken)
-    if wanted not in others:
-        return wanted
-    return next(f"{wanted} {n}" for n in range(2, len(others) + 3) if f"{wanted} {n}" not in others)

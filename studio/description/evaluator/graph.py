@@ -10,8 +10,8 @@ A `Record` is one evaluation of one text. `reads` are the things that it asked f
   text was evaluated, whose `reads` lead on. `behind` walks that way.
 - From a text of the source to what it shapes: `Binding.holders` are the cells (or the argument)
   that it was bound to, once per macro call; their `readers` lead to records, a record with a cell
-  or an argument for `sink` to the readers of that. `ahead` walks that way; the records whose
-  `sink` is a list of elements are attributes that came out (`consumer[1]` is the name).
+  or an argument for `sink` to the readers of that; the records whose `sink` is a list of elements
+  are attributes that came out (`consumer[1]` is the name).
 
 A block that is evaluated again shares the records of its first evaluation, so one record may have
 made the same attribute of several elements; some of them may not have come out.
@@ -122,18 +122,6 @@ def behind(start: Record) -> Iterator[Readable]:
         seen.update(found)
         yield from found
         front = [read for one in found for read in _reads_behind(one)]
-
-
-def ahead(start: Readable) -> Iterator[Record]:
-    """All records that depend on something, the nearest first, each once."""
-    seen: set[Record] = set()
-    front = [start]
-    while front:
-        readers = dict.fromkeys(reader for one in front for reader in one.readers)
-        found = [one for one in readers if one not in seen]
-        seen.update(found)
-        yield from found
-        front = [made for one in found if (made := one.made) is not None]
 
 
 def _reads_behind(one: Readable) -> list[Readable]:

@@ -17,9 +17,6 @@ from studio.description.faults import Fault, Refusal, shorten
 if TYPE_CHECKING:
     from types import CodeType
 
-if TYPE_CHECKING:
-    from types import CodeType
-
 LENGTH_LIMIT: Final = 20_000
 """Characters of one expression."""
 

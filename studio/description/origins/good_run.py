@@ -1,7 +1,7 @@
 """The last run that gave a robot, kept so that questions about it can be answered.
 
-What feeds the view notes little, for speed. A question may cost more: it can run the same texts
-again, watched, in `store`, which nobody edits.
+The graph of that run goes on to the next edit, and tells a block that came out twice as one. So a
+question runs the same texts once more, watched, in `store`, which nobody edits.
 """
 
 from __future__ import annotations

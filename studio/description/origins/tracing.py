@@ -1,9 +1,9 @@
 """A run that notes for each thing that comes out which texts it was made of.
 
-The run that feeds the view notes readers per text, which is cheap. This one is made for questions:
-each binding of a name is told from the others of the same text (a macro called twice binds its
-parameters twice), and every output attribute keeps what it read. It sees only texts that made a
-good run before.
+The graph of the run that feeds the view belongs to the edits, which change it, and elements of a
+block that comes out twice share a record there. This run is made for questions, and stays as it
+is: of each output attribute it keeps what it read when it was made, and which conditions, calls
+and blocks it came out by. It sees only texts that made a good run before.
 """
 
 from __future__ import annotations

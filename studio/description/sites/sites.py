@@ -120,11 +120,6 @@ class SiteBuilder:
         return _Built(draft, seen, site, before.first)
 
 
-def build_sites(record: RunRecord) -> list[Site]:
-    """The sites of one run; keep a `SiteBuilder` where runs follow each other."""
-    return SiteBuilder().build(record)
-
-
 def _is_as_before(before: _Built, draft: Draft, seen: Seen) -> bool:
     """Whether a site has only moved, or got or lost readers of the same kind."""
     known = before.draft

@@ -4,17 +4,18 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from studio.description.evaluator.graph import Role, ahead, behind
+from studio.description.evaluator.graph import Role, behind
 from studio.description.evaluator.run_record import YamlScalar
 from studio.description.evaluator.scopes import Cell
 from studio.description.evaluator.texts import Argument
 from tests.support.descriptions import evaluation_of, policy_for, robot, write
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
     from pathlib import Path
 
     from studio.description.evaluator.evaluation import Evaluation
-    from studio.description.evaluator.graph import Readable
+    from studio.description.evaluator.graph import Readable, Record
     from studio.description.evaluator.output_tree import OutputElement
 
 BODY = """
@@ -48,6 +49,18 @@ def names(found: list[Readable]) -> set[str]:
             case _:
                 pass
     return said
+
+
+def ahead(start: Readable) -> Iterator[Record]:
+    """All records that depend on something, the nearest first, each once."""
+    seen: set[Record] = set()
+    front = [start]
+    while front:
+        readers = dict.fromkeys(reader for one in front for reader in one.readers)
+        found = [one for one in readers if one not in seen]
+        seen.update(found)
+        yield from found
+        front = [made for one in found if (made := one.made) is not None]
 
 
 def test_an_attribute_leads_back_through_properties_to_args_and_yaml_keys(tmp_path: Path):
