@@ -13,11 +13,11 @@ import pytest
 from studio.description.client import DescriptionWorker
 from studio.description.editing.sources import Sources
 from studio.description.origins.origin_values import PartOrigin, PartOriginQuery
-from studio.description.values import Edit, Expansion
+from studio.description.values import Edit, Expansion, NoReply
 from studio.engine.edit_loop import EditLoop, Target
 from studio.packages.roots import ServedRoots
 from tests.support.descriptions import policy_for, robot, write
-from tests.support.loop_story import AT, LoopStory, loop_story
+from tests.support.loop_story import AT, ORIGIN, LoopStory, loop_story
 from tests.support.open_documents import Ear, until
 
 if TYPE_CHECKING:
@@ -170,6 +170,20 @@ def test_an_edit_behind_a_question_whose_process_falls_is_made(tmp_path: Path):
             await asyncio.sleep(0.05)
             await story.fall()
             await asyncio.gather(asking, editing)
+            story.check("14")
+
+    asyncio.run(run())
+
+
+@kills_processes
+def test_an_edit_behind_a_question_that_took_too_long_is_made(tmp_path: Path):
+    async def run() -> None:
+        async with loop_story(tmp_path, DescriptionWorker(timeout_s=3.0)) as story:
+            story.stop()
+            asking = story.asked(ORIGIN)
+            await asyncio.sleep(0.05)
+            await story.edit("7")
+            assert isinstance(await asking, NoReply)
             story.check("14")
 
     asyncio.run(run())
