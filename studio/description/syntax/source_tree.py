@@ -12,7 +12,7 @@ import re
 from typing import TYPE_CHECKING
 from xml.parsers import expat
 
-from studio.description.syntax.xml_faults import sentence_of
+from studio.description.syntax.xml_faults import cause_of, sentence_of
 from studio.problems import Place
 from studio.settings import SOURCE_SIZE_LIMIT_BYTES
 
@@ -211,14 +211,22 @@ class _Builder:
         try:
             self._parser.Parse(self._tree.data, True)  # noqa: FBT003 - expat's own way
         except expat.ExpatError as error:
-            place = Place(self._tree.path, error.lineno, error.offset + 1)
             at = self._parser.ErrorByteIndex
             sentence = sentence_of(error, self._tree.data, at, self._open)
-            raise SourceError("xml-malformed", sentence, place) from None
+            raise SourceError("xml-malformed", sentence, self._place(error, at)) from None
         except ValueError:  # expat's word for encodings of more than one byte per character
             sentence = f"The encoding {self._tree.encoding} is not read: save the file as UTF-8."
             place = Place(self._tree.path, 1, 1)
             raise SourceError("file-encoding", sentence, place) from None
+
+    def _place(self, error: expat.ExpatError, at: int) -> Place:
+        """Where what is wrong begins; `at` is the byte where expat stopped."""
+        data, begin = self._tree.data, cause_of(error, self._tree.data, at)
+        if begin == at:
+            return Place(self._tree.path, error.lineno, error.offset + 1)
+        line = data[:begin].rpartition(b"\n")[2]
+        column = len(line.decode(self._tree.encoding, "replace")) + 1
+        return Place(self._tree.path, error.lineno - data[begin:at].count(b"\n"), column)
 
     def _start(self, tag: str, attributes: list[str]) -> None:
         parser, tree = self._parser, self._tree

@@ -58,6 +58,22 @@ def sentence_of(
     return _SENTENCES.get(reason, f"The XML is not well-formed here: {reason}.")
 
 
+def cause_of(error: ExpatError, data: bytes, byte: int) -> int:
+    """Where what is wrong begins: a tag that lacks its > or a quote ends lines above the fault.
+
+    Args:
+        error: What expat says.
+        data: The whole file.
+        byte: Where expat stopped.
+    """
+    if ErrorString(error.code) != errors.XML_ERROR_INVALID_TOKEN or data[byte : byte + 1] != b"<":
+        return byte
+    tag = _OpenTag.around(data[max(0, byte - _LOOKED_BACK) : byte])
+    if tag is None or (tag.within_quotes and b"\n" not in data[byte - tag.length : byte]):
+        return byte
+    return byte - tag.length
+
+
 def _mismatch(data: bytes, byte: int, innermost: SourceElement) -> str:
     closing = re.match(rb"(?:</)?([^\s>]{1,80})", data[byte : byte + 82])
     name = closing[1].decode("utf-8", "replace") if closing else "…"
@@ -119,14 +135,15 @@ def _attribute(before: bytes, here: bytes) -> str:
         return f'{_word(found)} has no value: write {_word(found)}="...".'
     if before.endswith((b'"', b"'")) and here[:1].isalpha():
         return "A space is missing between the value before this and the name here."
-    return f"The tag <{tag.name}> before this has no > yet." if here.startswith(b"<") else ""
+    return f"The tag <{tag.name}> has no > yet." if here.startswith(b"<") else ""
 
 
 class _OpenTag:
     """A start tag whose > has not come yet."""
 
-    def __init__(self, name: str, rest: bytes) -> None:
+    def __init__(self, name: str, rest: bytes, length: int) -> None:
         self.name = name
+        self.length = length
         self.outside_quotes = _QUOTED.sub(b'""', rest)
         self.within_quotes = bool(re.search(rb"[\"']", self.outside_quotes.replace(b'""', b"")))
 
@@ -136,7 +153,7 @@ class _OpenTag:
         found = _IN_TAG.search(before)
         if found is None:
             return None
-        tag = cls(_word(found), found[2])
+        tag = cls(_word(found), found[2], len(before) - found.start())
         return None if b">" in tag.outside_quotes and not tag.within_quotes else tag
 
 

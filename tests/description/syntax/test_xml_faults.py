@@ -23,7 +23,7 @@ def fault_of(data: bytes) -> SourceError:
         (b"<r><a b = 'c' d e='1'/></r>", 'd has no value: write d="...".'),
         (b"<r>\n<a></r>", "</r> closes nothing here: <a> of line 2 is still open."),
         (b"<r>\n<a>", "The file ends while <a> of line 2 is open: close it."),
-        (b"<r><a b='1'\n<c/></r>", "The tag <a> before this has no > yet."),
+        (b"<r><a b='1'\n<c/></r>", "The tag <a> has no > yet."),
     ],
 )
 def test_a_fault_is_told_with_the_names_of_the_file(data: bytes, sentence: str):
@@ -51,6 +51,22 @@ def test_a_fault_is_told_with_the_names_of_the_file(data: bytes, sentence: str):
 )
 def test_a_fault_comes_with_what_to_do(data: bytes, words: str):
     assert words in fault_of(data).sentence
+
+
+@pytest.mark.parametrize(
+    ("data", "line", "column"),
+    [
+        (b"<r>\n  <xacro:\n\n</r>", 2, 3),
+        (b"<r>\r\n\xc3\xbc <a b='1'\r\n<c/></r>", 2, 3),
+        (b"<r>\n<a b='1><c/>\n<d e='2'/></r>", 2, 9),
+        (b"<r>\n<a b='1>\n<c d='2'/></r>", 2, 1),
+        (b"<r>\n<a b='x<y'/></r>", 2, 8),
+        (b"<r><a>\n</r>", 2, 3),
+    ],
+)
+def test_a_tag_without_its_end_is_told_where_it_begins(data: bytes, line: int, column: int):
+    place = fault_of(data).place
+    assert (place.line, place.column) == (line, column)
 
 
 @given(st.integers(0, len(WHOLE) - 1), st.sampled_from([b"", b"<", b">", b"&", b"'", b'"', b"-"]))
