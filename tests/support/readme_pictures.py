@@ -1,0 +1,112 @@
+"""Takes the pictures of the README: `python -m tests.support.readme_pictures`."""
+
+from __future__ import annotations
+
+import tempfile
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from tests.support.browser import open_browser
+from tests.support.server import running_studio
+from tests.support.studio_page import StudioPage
+
+if TYPE_CHECKING:
+    from collections.abc import Generator
+    from typing import Literal
+
+    from playwright.sync_api import Browser
+
+    from tests.support.server import RunningStudio
+
+FOLDER = Path(__file__).resolve().parents[2] / "frontend_assets/screenshots"
+_STILL_MS = 3000
+"""After this time at rest the view has been drawn finely."""
+
+
+@contextmanager
+def tab_of(
+    browser: Browser, studio: RunningStudio, theme: Literal["dark", "light"]
+) -> Generator[StudioPage]:
+    """A tab of the README's size."""
+    context = browser.new_context(
+        viewport={"width": 1600, "height": 950}, color_scheme=theme, reduced_motion="reduce"
+    )
+    tab = StudioPage(context.new_page())
+    tab.open(studio.url)
+    yield tab
+    assert tab.errors == []
+    context.close()
+
+
+def take(tab: StudioPage, name: str) -> None:
+    """Write a picture of the whole page once it stands still."""
+    tab.page.mouse.move(2, 2)
+    tab.page.wait_for_timeout(_STILL_MS)
+    tab.page.screenshot(path=FOLDER / f"{name}.png")
+
+
+def show(tab: StudioPage, panel: str) -> None:
+    tab.page.get_by_role("tab", name=panel).click()
+
+
+def explain(tab: StudioPage) -> None:
+    """Where the upper arm comes from, and the source of it."""
+    tab.page.get_by_role("treeitem", name="upper_arm", exact=True).click()
+    show(tab, "Where from")
+    tab.page.get_by_role("button", name="arm.xacro:").first.click()
+
+
+def save_variant(tab: StudioPage, name: str, note: str) -> None:
+    show(tab, "Variants")
+    panel = tab.page.get_by_role("region", name="Variants")
+    panel.get_by_role("button", name="Save as variant").click()
+    form = panel.get_by_role("form", name="New variant")
+    form.get_by_label("Name").fill(name)
+    form.get_by_label("Note").fill(note)
+    form.get_by_role("button", name="Save").click()
+    panel.get_by_role("button", name=name, pressed=True).wait_for()
+
+
+def compare(tab: StudioPage) -> None:
+    """Two variants, the other one as a ghost."""
+    save_variant(tab, "Road", "small wheels")
+    show(tab, "Properties")
+    tab.drag_slider("wheel_radius", 0.8)
+    show(tab, "Properties")
+    tab.drag_slider("mast_height", 0.75)
+    save_variant(tab, "Tall grass", "large wheels, a high mast")
+    panel = tab.page.get_by_role("region", name="Variants")
+    panel.get_by_role("button", name="More for Road").click()
+    tab.page.get_by_role("menuitem", name="Compare with the present robot").click()
+    panel.get_by_role("row", name="wheel_radius property").wait_for()
+    panel.get_by_role("button", exact=True, name="Over").click()
+    tab.page.get_by_role("searchbox", name="Filter properties").fill("")
+    tab.page.get_by_role("button", name="Fit", exact=False).first.click()
+
+
+def main() -> None:
+    """Take them all anew."""
+    for browser in open_browser():
+        take_all(browser)
+
+
+def take_all(browser: Browser) -> None:
+    """One studio, a fresh tab for each picture."""
+    with (
+        tempfile.TemporaryDirectory() as folder,
+        running_studio(["demo"], Path(folder)) as studio,
+    ):
+        for theme in ("dark", "light"):
+            with tab_of(browser, studio, theme) as tab:
+                take(tab, f"rover-{theme}")
+        with tab_of(browser, studio, "dark") as tab:
+            explain(tab)
+            take(tab, "origin-dark")
+        with tab_of(browser, studio, "light") as tab:
+            compare(tab)
+            take(tab, "variants-light")
+
+
+if __name__ == "__main__":
+    main()
