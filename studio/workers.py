@@ -105,7 +105,8 @@ class Worker:
                 raise WorkerDiedError(self.name, await self._end())
             process = await self._ensure_process()
             try:
-                body = await asyncio.wait_for(self._exchange(process, request), timeout_s)
+                async with asyncio.timeout(timeout_s):  # wait_for would make it a task's turn later
+                    body = await self._exchange(process, request)
                 message = self._codec.unpack(body)
             except TimeoutError as error:
                 await self._end()

@@ -48,7 +48,7 @@ class DocumentScene:
         """Another robot to compare with; nothing is drawn of it until it is shown one."""
         self._settings = deepcopy(DISPLAY_DEFAULTS)
         self._height_m = 0.0
-        self._shown_anew = False
+        self._shown_anew = self._must_settle = False
         self._casts_shadow: bool | None = None
         self._last_poses: tuple[Sequence[str], NDArray[np.floating]] = ((), np.empty((0, 7)))
         self._put_grid()
@@ -89,10 +89,8 @@ class DocumentScene:
         """
         self._poses.write(link_names, wxyz_xyz, self._robot.links)
         self._last_poses = (link_names, wxyz_xyz)
-        if self._shown_anew:
-            # Only a new model moves the ground; a robot that lifts a leg does not.
-            self._shown_anew = False
-            self._settle()
+        self._must_settle |= self._shown_anew  # a robot that only lifts a leg moves no ground
+        self._shown_anew = False
 
     def set_display(self, display: str, name: str, value: Value) -> None:
         """Change a setting of a shared display; ask `missing_meshes` afterwards.
@@ -116,8 +114,15 @@ class DocumentScene:
         return deepcopy(self._settings)
 
     def flush(self) -> None:
-        """Send what is queued now instead of with the next window of 1/60 s."""
+        """Send what is queued now instead of with the next window of 1/60 s.
+
+        The ground follows: to look for it takes as long as to draw what an edit changed.
+        """
         self._server.flush()
+        if self._must_settle:
+            self._must_settle = False
+            self._settle()
+            self._server.flush()
 
     async def serve(
         self,

@@ -53,8 +53,9 @@ class Graph:
         if old.props != node.props:
             # Always all of them: viser keeps one message per set of names.
             self._tell(_messages.SceneNodeUpdateMessage(name, dict(node.props)))
-        if old.wxyz != node.wxyz or old.position != node.position:
+        if old.wxyz != node.wxyz:
             self.turn(name, node.wxyz)
+        if old.position != node.position:
             self.shift(name, node.position)
         if old.visible is not node.visible:
             self._tell(_messages.SetSceneNodeVisibilityMessage(name, node.visible))

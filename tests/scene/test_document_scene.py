@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from studio.robot.values import Box, Link, Material, Origin, Robot, Visual
+from studio.scene.naming import GRID
 from tests.support.robots import rover
 from tests.support.viser_frames import Peer, told_of, types_of
 from tests.support.watched_scene import (
@@ -53,13 +54,13 @@ def test_only_the_changed_links_are_looked_at():
     watched(scenario)
 
 
-def test_an_origin_that_moved_sends_a_pose_and_no_geometry():
+def test_an_origin_that_moved_sends_its_place_and_no_geometry():
     async def scenario(scene: DocumentScene, peer: Peer) -> None:
         mast = rover().links["mast"]
         moved = replace(mast, visuals=(replace(mast.visuals[0], origin=Origin((0, 0, 0.2))),))
         scene.show(with_link(rover(), moved), frozenset({"mast"}))
         sent = sent_by(scene, peer)
-        assert set(types_of(sent)) == {"SetOrientationMessage", "SetPositionMessage"}
+        assert set(types_of(sent)) == {"SetPositionMessage"}
         assert told_of(sent) == {"/robot/mast/visual/0"}
 
     watched(scenario)
@@ -102,6 +103,19 @@ def test_links_that_went_vanish_with_all_below_them_and_children_first():
             ("RemoveSceneNodeMessage", "/robot/lidar/visual"),
             ("RemoveSceneNodeMessage", "/robot/lidar"),
         ]
+
+    watched(scenario)
+
+
+def test_the_ground_follows_behind_the_robot_that_reaches_lower():
+    async def scenario(scene: DocumentScene, peer: Peer) -> None:
+        wheels = frozenset(name for name in rover().links if name.startswith("wheel"))
+        scene.show(rover(wheel_radius_m=0.5), wheels)
+        scene.set_poses(*poses_of(rover()))
+        *robot, ground = sent_by(scene, peer)
+        assert told_of(robot) == {f"/robot/wheel_{n}/visual/{i}" for n in range(4) for i in (0, 1)}
+        assert ground["name"] == GRID
+        assert ground["position"][2] < -0.3
 
     watched(scenario)
 

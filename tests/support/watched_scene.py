@@ -28,6 +28,7 @@ def watched(scenario: Callable[[DocumentScene, Peer], Awaitable[None]]) -> None:
         scene = DocumentScene(asyncio.get_running_loop())
         scene.show(rover(), None)
         scene.set_poses(*poses_of(rover()))
+        scene.flush()
         peer, _ = await joined(scene)
         await scenario(scene, peer)
         scene.close()

@@ -194,15 +194,19 @@ class Texts:
         self._now.reads.append(cast("YamlScalar", one))
 
     @contextmanager
-    def replayed(self, replay: Replay, noted_at: Record, file: str) -> Generator[None]:
-        """Evaluate texts once more, as from a file; what they read is noted at a record."""
+    def replayed(self, replay: Replay) -> Generator[None]:
+        """Evaluate texts once more, each behind `replay_from`."""
         before = self._now, self.files, self.at
-        self._now, self.files, self.at, self.replay = noted_at, [file], None, replay
+        self.at, self.replay = None, replay
         try:
             yield
         finally:
             self._now, self.files, self.at = before
             self.replay = None
+
+    def replay_from(self, file: str, noted_at: Record) -> None:
+        """The text replayed next stands in a file; what it reads is noted at a record."""
+        self._now, self.files = noted_at, [file]
 
     def warn(self, code: str, sentence: str, severity: Severity = Severity.WARNING) -> None:
         """Note a warning at the element being worked on, once."""

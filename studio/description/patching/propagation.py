@@ -67,12 +67,13 @@ class Propagation:
         Raises:
             PatchRefused: Only a full run can tell.
         """
-        while self._heap:
-            record = heapq.heappop(self._heap)[2]
-            try:
-                self._take(record, self._replay.again(record))
-            except (Fault, Refusal) as fault:
-                raise PatchRefused(str(fault)) from None
+        with self._replay.going_on():
+            while self._heap:
+                record = heapq.heappop(self._heap)[2]
+                try:
+                    self._take(record, self._replay.again(record))
+                except (Fault, Refusal) as fault:
+                    raise PatchRefused(str(fault)) from None
 
     def _take(self, record: Record, value: Any) -> None:  # noqa: ANN401
         match record.sink:

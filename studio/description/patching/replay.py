@@ -14,6 +14,8 @@ from studio.description.evaluator.scopes import Cell, Scope
 from studio.description.faults import Fault
 
 if TYPE_CHECKING:
+    from contextlib import AbstractContextManager
+
     from studio.description.evaluator.texts import Texts
 
 _SIMPLE: Final = frozenset({int, str, bool, type(None)})
@@ -28,7 +30,13 @@ class Replay:
 
     def __init__(self, texts: Texts) -> None:
         self._texts = texts
-        self._record = self._scratch = _scratch("", texts)
+        self._scratch = Record("", cast("Scope", texts), "", Role.NOTHING, None)
+        """What is read now."""
+        self._record = self._scratch
+
+    def going_on(self) -> AbstractContextManager[None]:
+        """Within: records may be evaluated `again`."""
+        return self._texts.replayed(self)
 
     def again(self, record: Record) -> Any:  # noqa: ANN401
         """The value of a record's text now; the record stays as it is.
@@ -38,13 +46,12 @@ class Replay:
         """
         if record.is_noisy:
             raise PatchRefused(f"{record.text!r} says more than its value")
-        texts = self._texts
-        self._record, self._scratch = record, _scratch(record.file, texts)
-        with texts.replayed(self, self._scratch, record.file):
-            try:
-                value = self._value(record)
-            except (Fault, RecursionError, MemoryError) as error:
-                raise PatchRefused(f"{record.text!r} fails: {error}") from None
+        self._record, self._scratch.reads = record, []
+        self._texts.replay_from(record.file, self._scratch)
+        try:
+            value = self._value(record)
+        except (Fault, RecursionError, MemoryError) as error:
+            raise PatchRefused(f"{record.text!r} fails: {error}") from None
         reads = self._scratch.reads
         if len(reads) != len(record.reads) or any(map(_differ, reads, record.reads)):
             raise PatchRefused(f"{record.text!r} reads other things")
@@ -77,10 +84,6 @@ class Replay:
             PatchRefused: Always.
         """
         raise PatchRefused(reason)
-
-
-def _scratch(file: str, texts: Texts) -> Record:
-    return Record("", cast("Scope", texts), file, Role.NOTHING, None)
 
 
 def _differ(one: object, other: object) -> bool:
