@@ -2,92 +2,86 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, assert_never
+from inspect import isawaitable
+from typing import TYPE_CHECKING, Any, Final, TypeAlias, TypeVar
 
 from studio.engine import messages as m
+from studio.engine.commands import CommandMessage
 from studio.engine.listeners import tell
 
 if TYPE_CHECKING:
+    from collections.abc import Awaitable, Callable
+
     from studio.engine.document import Document
     from studio.engine.listeners import Listener
 
+AnyCommand = TypeVar("AnyCommand", bound=CommandMessage)
+Answer: TypeAlias = "m.Event | None"
+"""What the asker alone is told, if anything, before it is told that all is done."""
+Work: TypeAlias = "Callable[[Document, AnyCommand, Listener], Answer | Awaitable[Answer]]"
 
-async def carry_out(document: Document, command: m.Command, listener: Listener) -> None:  # noqa: C901, PLR0912, PLR0915 - one arm a command
+
+def _row(kind: type[AnyCommand], work: Work[AnyCommand]) -> tuple[type[CommandMessage], Work[Any]]:
+    """A row of the table; here the two are seen to fit."""
+    return kind, work
+
+
+_EDITS: Final = (
+    _row(m.EditSite, lambda d, c, _: d.edit_site(c.site, c.text, c.gesture)),
+    _row(m.ResetSite, lambda d, c, _: d.reset_site(c.site)),
+    _row(m.EditText, lambda d, c, _: d.edit_text(c)),
+    _row(m.SetArgument, lambda d, c, _: d.set_argument(c.name, c.value)),
+    _row(m.SetArguments, lambda d, c, _: d.set_arguments(c.values)),
+    _row(m.Undo, lambda d, _, __: d.undo()),
+    _row(m.Redo, lambda d, _, __: d.redo()),
+)
+_FILES: Final = (
+    _row(m.GetText, lambda d, c, who: d.texts.answer(c, who.role)),
+    _row(m.GetCollisions, lambda d, c, _: d.disk.answer(c)),
+    _row(m.ResolveCollisions, lambda d, c, _: d.resolve_collisions(c.file, c.keep)),
+    _row(m.Save, lambda d, _, __: d.save()),
+    _row(m.Reload, lambda d, _, __: d.reload()),
+    _row(m.ChoosePackage, lambda d, c, _: d.choose_package(c.name, c.folder)),
+)
+_VIEW: Final = (
+    _row(m.SetJoints, lambda d, c, _: d.motion.set(c.positions)),
+    _row(m.ZeroJoints, lambda d, _, __: d.motion.zero()),
+    _row(m.RandomizeJoints, lambda d, _, __: d.motion.randomize()),
+    _row(m.AnimateJoints, lambda d, c, _: d.motion.animate(running=c.running)),
+    _row(m.SetDisplay, lambda d, c, _: d.set_display(c.display, c.name, value=c.value)),
+)
+_QUESTIONS: Final = (
+    _row(m.GetUrdf, lambda d, c, _: m.Urdf(request=c.request, text=d.urdf())),
+    _row(m.GetOrigin, lambda d, c, who: d.origins.origin(c, who)),
+    _row(m.GetEffects, lambda d, c, who: d.origins.effects(c, who)),
+    _row(m.GetOutline, lambda d, c, who: d.language.outline(c, who)),
+    _row(m.LookUp, lambda d, c, who: d.language.look_up(c, who)),
+    _row(m.GetReferences, lambda d, c, who: d.language.references(c, who)),
+    _row(m.Complete, lambda d, c, who: d.language.complete(c, who)),
+)
+_VARIANTS: Final = (
+    _row(m.SaveVariant, lambda d, c, _: d.variants.save(c)),
+    _row(m.UpdateVariant, lambda d, c, _: d.variants.save(c)),
+    _row(m.ApplyVariant, lambda d, c, _: d.variants.apply(c)),
+    _row(m.RenameVariant, lambda d, c, _: d.variants.rename(c)),
+    _row(m.DeleteVariant, lambda d, c, _: d.variants.delete(c.name)),
+    _row(m.CompareVariants, lambda d, c, _: d.variants.compare(c.sides)),
+)
+WORK: Final = dict((*_EDITS, *_FILES, *_VIEW, *_QUESTIONS, *_VARIANTS))
+"""What each command of a document does; those that are not here are the engine's own."""
+
+
+async def carry_out(document: Document, command: m.Command, listener: Listener) -> None:
     """Carry out one command of a document; returns when it is done.
 
     Raises:
         StudioError: It cannot be done; the document is as before.
     """
-    match command:
-        case m.EditSite():
-            await document.edit_site(command.site, command.text, command.gesture)
-        case m.ResetSite():
-            await document.reset_site(command.site)
-        case m.SetArgument():
-            await document.set_argument(command.name, command.value)
-        case m.SetArguments():
-            await document.set_arguments(command.values)
-        case m.GetCollisions():
-            tell(listener, document.disk.answer(command))
-        case m.ResolveCollisions():
-            await document.resolve_collisions(command.file, command.keep)
-        case m.Undo():
-            await document.undo()
-        case m.Redo():
-            await document.redo()
-        case m.Save():
-            await document.save()
-        case m.Reload():
-            await document.reload()
-        case m.ChoosePackage():
-            await document.choose_package(command.name, command.folder)
-        case m.SetJoints():
-            document.motion.set(command.positions)
-        case m.ZeroJoints():
-            document.motion.zero()
-        case m.RandomizeJoints():
-            document.motion.randomize()
-        case m.AnimateJoints():
-            document.motion.animate(running=command.running)
-        case m.SetDisplay():
-            document.set_display(command.display, command.name, value=command.value)
-        case m.GetUrdf():
-            tell(listener, m.Urdf(request=command.request, text=document.urdf()))
-        case m.GetText():
-            tell(listener, document.texts.answer(command, listener.role))
-        case m.GetOrigin():
-            tell(listener, await document.origins.origin(command, listener))
-        case m.GetEffects():
-            tell(listener, await document.origins.effects(command, listener))
-        case m.GetOutline():
-            tell(listener, await document.language.outline(command, listener))
-        case m.LookUp():
-            tell(listener, await document.language.look_up(command, listener))
-        case m.GetReferences():
-            tell(listener, await document.language.references(command, listener))
-        case m.Complete():
-            tell(listener, await document.language.complete(command, listener))
-        case m.EditText():
-            await document.edit_text(command)
-        case m.SaveVariant() | m.UpdateVariant():
-            tell(listener, document.variants.save(command))
-        case m.ApplyVariant():
-            tell(listener, await document.variants.apply(command))
-        case m.RenameVariant():
-            document.variants.rename(command)
-        case m.DeleteVariant():
-            document.variants.delete(command.name)
-        case m.CompareVariants():
-            document.variants.compare(command.sides)
-        case (
-            m.GetArguments()
-            | m.GetLink()
-            | m.OpenLink()
-            | m.OpenPath()
-            | m.CloseDocument()
-            | m.ListFolder()
-            | m.Watch()
-        ):
-            raise TypeError(f"{command.type} is the engine's own command")
-        case _:
-            assert_never(command)
+    work = WORK.get(type(command))
+    if work is None:
+        raise TypeError(f"{command.type} is the engine's own command")
+    answer = work(document, command, listener)
+    if isawaitable(answer):
+        answer = await answer
+    if answer is not None:
+        tell(listener, answer)
