@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any, Final
 
 from studio.description.evaluator.symbols import pure_names
@@ -11,6 +12,11 @@ from studio.description.faults import Fault, Refusal, shorten
 
 _PURE_LIMITS: Final = Limits(seconds=0.5)
 """Of one expression in a YAML file."""
+_TEXT_FOR_NUMBER: Final = re.compile(
+    r"multiply sequence|(unsupported operand|not supported between|bad operand).*'str'"
+    r"|must be real number, not str|can only concatenate str|must be str, not"
+)
+"""What Python says of arithmetic with a text."""
 
 
 def pure_value(text: str) -> Any:  # noqa: ANN401
@@ -33,8 +39,13 @@ def failed(text: str, error: Exception) -> Fault:
     reason = str(error.args[0]) if isinstance(error, KeyError) and error.args else str(error)
     if isinstance(error, KeyError):
         reason = f"there is no key {error}"
-    spoken = reason or type(error).__name__
-    return Fault("bad-expression", f'"{shorten(text)}" cannot be evaluated: {spoken}.')
+    if isinstance(error, TypeError) and _TEXT_FOR_NUMBER.search(reason):
+        reason = "a text stands where a number is needed; is a value in it empty or no number?"
+    spoken = (reason or type(error).__name__).rstrip(".")
+    return Fault(
+        "bad-expression",
+        f'"{shorten(text)}" cannot be evaluated: {spoken}{"" if spoken.endswith("?") else "."}',
+    )
 
 
 def out_of_bounds(error: BaseException) -> Refusal:
