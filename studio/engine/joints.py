@@ -24,11 +24,14 @@ class JointPositions:
     def __init__(self, kinematics: Kinematics) -> None:
         self._remembered: dict[str, float] = {}
         self._rng = np.random.default_rng()
+        self.kinematics = kinematics
         self.adopt(kinematics)
 
     def adopt(self, kinematics: Kinematics) -> None:
         """Go on with another model: joints of the same name stay where they are, in its limits."""
-        self.kinematics = kinematics
+        before, self.kinematics = self.kinematics, kinematics
+        if kinematics is not before and kinematics.reaches_as(before):
+            return
         at_zero = zip(kinematics.movable, kinematics.zero_positions(), strict=True)
         kept = {
             name: kinematics.clamp(name, self._remembered.get(name, float(position)))

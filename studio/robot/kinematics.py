@@ -45,6 +45,7 @@ class Kinematics:
     """
 
     def __init__(self, robot: Robot) -> None:
+        self._robot = robot
         self.link_names = tuple(robot.links)
         joints = tuple(robot.joints.values())
         moving = [joint for joint in joints if joint.type in _MOVES]
@@ -71,12 +72,26 @@ class Kinematics:
         moving = [joint for joint in joints if joint.name in self._index]
         at = [self._index[joint.name] for joint in moving]
         made._joints = self._joints | {joint.name: joint for joint in moving}
-        made.lower, made.upper = self.lower.copy(), self.upper.copy()
-        made.lower[at], made.upper[at] = _limits(moving)
+        if any(_range(self._joints[joint.name]) != _range(joint) for joint in moving):
+            made.lower, made.upper = self.lower.copy(), self.upper.copy()
+            made.lower[at], made.upper[at] = _limits(moving)
         if any(joint.mimic for joint in joints):
             made._lead_in(robot)
-        made._motion = self._motion.with_rows([self._row[one.name] for one in joints], joints)
+        rows = [self._row[one.name] for one in joints]
+        if all(_turns_as(self._robot.joints[one.name], one) for one in joints):
+            made._motion = self._motion.shifted(rows, joints)
+        else:
+            made._motion = self._motion.with_rows(rows, joints)
+        made._robot = robot
         return made
+
+    def reaches_as(self, other: Kinematics) -> bool:
+        """Whether it is one refitted from the other with the same limits and leaders."""
+        return (
+            self.lower is other.lower
+            and self.upper is other.upper
+            and self._multiplier is other._multiplier
+        )
 
     def clamp(self, name: str, value: float) -> float:
         """The nearest position within the limits of a movable joint.
@@ -267,6 +282,14 @@ class _Motion(NamedTuple):
             array[rows] = values
         return _Motion(*copies)
 
+    def shifted(self, rows: Sequence[int], joints: Sequence[Joint]) -> _Motion:
+        """The same with the origins of other joints in some rows, turned as those before."""
+        if not rows:
+            return self
+        parent_from_joint = self.parent_from_joint.copy()
+        parent_from_joint[rows, :3, 3] = [joint.origin.xyz for joint in joints]
+        return self._replace(parent_from_joint=parent_from_joint)
+
 
 def planar_motion(x_m: float, y_m: float, yaw_rad: float, axis: Floats) -> Floats:
     """Motion (4, 4) of a planar joint: x and y in the plane across `axis`, then turned about it.
@@ -305,6 +328,11 @@ def _shortest_turn_from_z(unit_axis: Floats) -> Floats:
         return np.diag([1.0, -1.0, -1.0])
     cross = cross_matrices(np.array([-unit_axis[1], unit_axis[0], 0.0]))
     return np.eye(3) + cross + cross @ cross / (1 + unit_axis[2])
+
+
+def _turns_as(one: Joint, other: Joint) -> bool:
+    """Whether two joints differ in no more than where they are and how far they go."""
+    return one.origin.rpy == other.origin.rpy and one.axis == other.axis
 
 
 def _limits(joints: list[Joint]) -> tuple[Floats, Floats]:

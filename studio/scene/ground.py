@@ -31,20 +31,17 @@ class Ground:
 
     def __init__(self) -> None:
         self._boxes: dict[str, _Boxes] = {}
+        self._noted: dict[str, tuple[Link, MeshShelf]] = {}
+        """Links that were not looked at since they were noted."""
 
     def note(self, link: Link, shelf: MeshShelf) -> None:
-        """Look at a link as it is now; meshes that have not come count for nothing."""
-        found = [box for visual in link.visuals if (box := _box_of(visual, shelf))]
-        self._boxes.pop(link.name, None)
-        if found:
-            self._boxes[link.name] = (
-                np.array([centre for centre, _ in found]),
-                np.array([edges for _, edges in found]),
-            )
+        """A link is as it is now; meshes that have not come when it matters count for nothing."""
+        self._noted[link.name] = link, shelf
 
     def forget(self, link: str) -> None:
         """A link is no more."""
         self._boxes.pop(link, None)
+        self._noted.pop(link, None)
 
     def height_m(self, link_names: Sequence[str], wxyz_xyz: NDArray[np.floating]) -> float:
         """Lowest corner in the root frame, at most 0: a robot above its origin hovers on purpose.
@@ -53,6 +50,7 @@ class Ground:
             link_names: L names.
             wxyz_xyz: Shape (L, 7), as for `DocumentScene.set_poses`.
         """
+        self._look_at_noted()
         lowest = 0.0
         for name, pose in zip(link_names, np.asarray(wxyz_xyz, dtype=np.float64), strict=True):
             boxes = self._boxes.get(name)
@@ -62,6 +60,17 @@ class Ground:
                 heights = centres @ up - np.abs(edges @ up).sum(axis=1) + pose[6]
                 lowest = min(lowest, float(heights.min()))
         return lowest if math.isfinite(lowest) else 0.0
+
+    def _look_at_noted(self) -> None:
+        noted, self._noted = self._noted, {}
+        for name, (link, shelf) in noted.items():
+            found = [box for visual in link.visuals if (box := _box_of(visual, shelf))]
+            self._boxes.pop(name, None)
+            if found:
+                self._boxes[name] = (
+                    np.array([centre for centre, _ in found]),
+                    np.array([edges for _, edges in found]),
+                )
 
 
 def _up_in_link(pose: Floats) -> Floats:

@@ -50,18 +50,21 @@ class PoseWriter:
         rows: list[int] = np.flatnonzero(far.any(axis=1)).tolist()
         if not rows:
             return
+        turned: NDArray[np.bool_] = np.logical_or.reduce(far[:, :4], axis=1)
+        shifted: NDArray[np.bool_] = np.logical_or.reduce(far[:, 4:], axis=1)
+        how = zip(turned[rows].tolist(), shifted[rows].tolist(), strict=True)
         with self._graph.atomic():
-            for row in rows:
+            for row, pose, (turns, shifts) in zip(rows, poses[rows].tolist(), how, strict=True):
                 if self._names[row] in drawn:
-                    self._send(row, poses[row], far[row])
+                    self._send(self._nodes[row], pose, turns=turns, shifts=shifts)
+                    self._sent[row] = pose
 
-    def _send(self, row: int, pose: NDArray[np.float64], far: NDArray[np.bool_]) -> None:
-        w, qx, qy, qz, x, y, z = pose.tolist()
-        if far[:4].any():
-            self._graph.turn(self._nodes[row], (w, qx, qy, qz))
-        if far[4:].any():
-            self._graph.shift(self._nodes[row], (x, y, z))
-        self._sent[row] = pose
+    def _send(self, node: str, pose: list[float], *, turns: bool, shifts: bool) -> None:
+        w, qx, qy, qz, x, y, z = pose
+        if turns:
+            self._graph.turn(node, (w, qx, qy, qz))
+        if shifts:
+            self._graph.shift(node, (x, y, z))
 
     def forget(self, link: str) -> None:
         """Send the pose of this link again next time."""

@@ -94,6 +94,21 @@ def test_refitted_kinematics_are_those_of_the_robot_with_other_numbers(
     )
 
 
+def test_kinematics_refitted_to_joints_that_only_moved_are_those_of_the_robot():
+    here = Joint("turn", REVOLUTE, "a", "b", Origin((1, 0, 0), (0.1, 0.2, 0.3)), Z, Limit(-1, 1))
+    there = replace(here, origin=Origin((0, 2, 0), here.origin.rpy))
+    turned = replace(there, axis=(1.0, 0.0, 0.0), limit=Limit(-2, 1))
+    kinematics = Kinematics(chain(here))
+    for joint in (there, turned, here):
+        fresh = Kinematics(chain(joint))
+        refitted = kinematics.refitted(chain(joint), ["turn"])
+        assert refitted.reaches_as(kinematics) is (joint is there)
+        np.testing.assert_array_equal(
+            refitted.wxyz_xyz(np.array([0.5])), fresh.wxyz_xyz(np.array([0.5]))
+        )
+        kinematics = refitted
+
+
 def test_refitted_kinematics_leave_the_old_ones_as_they_were():
     robot = chain(Joint("j", REVOLUTE, "a", "b", limit=Limit(-1, 1)))
     kinematics = Kinematics(robot)

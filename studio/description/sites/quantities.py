@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from enum import Enum, auto
+from functools import lru_cache
 
 
 class Sweep(Enum):
@@ -216,6 +217,7 @@ def _specified(quantity: Quantity, words: list[str]) -> Quantity:
     return LINEAR_SPEED if quantity is ANGULAR_SPEED and "linear" in words else quantity
 
 
+@lru_cache(maxsize=1024)
 def quantity_of(name: str, consumers: tuple[tuple[str, str], ...]) -> Quantity:
     """What a value measures: its name says it, else the most telling attribute that it shapes."""
     named = quantity_of_name(name)
