@@ -25,6 +25,8 @@ const ASKING = /[\w:.\-/<${(["'=]$/;
 const IN_TAG = /<[^<>]*\s$/;
 const LOOK_BACK = 500;
 const STILL_FITS = /^[\w:.-]*$/;
+/** Of a path beside a suggestion so much is seen. */
+const DETAIL_CHARACTERS = 32;
 const BOOST_MOST = 99;
 const GOES_ON = new Set(["command", "folder", "package"]);
 
@@ -68,11 +70,18 @@ function optionOf({ label, kind, insert, stops, detail, doc }, at, count) {
   return {
     label,
     type: kind,
-    ...(detail === "" ? {} : { detail }),
-    ...(doc === "" ? {} : { info: doc }),
+    ...(detail === "" ? {} : { detail: endOf(detail) }),
+    ...(doc === "" && endOf(detail) === detail ? {} : { info: doc || detail }),
     apply: writing(kind, insert, stops),
     boost: BOOST_MOST - Math.round((2 * BOOST_MOST * at) / Math.max(count, 1)),
   };
+}
+
+/** @param {string} detail @returns {string} of a long path its end, by which it differs from others */
+function endOf(detail) {
+  if (detail.length <= DETAIL_CHARACTERS || !detail.startsWith("/")) return detail;
+  const end = detail.slice(-DETAIL_CHARACTERS);
+  return `…${end.slice(Math.max(end.indexOf("/"), 0))}`;
 }
 
 /**

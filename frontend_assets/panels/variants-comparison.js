@@ -54,9 +54,22 @@ function useComesIntoView(open) {
   return section;
 }
 
-function end() {
-  if (displays.value.ghost?.visible) setDisplay("ghost", "visible", false);
-  ask({ type: "compare_variants", sides: null });
+async function end() {
+  const wasBeside = isBeside();
+  if (displays.value.ghost?.visible) await setDisplay("ghost", "visible", false);
+  await ask({ type: "compare_variants", sides: null });
+  if (wasBeside) fitSoon();
+}
+
+/** The view was fitted around both robots. @returns {boolean} */
+function isBeside() {
+  const settings = displays.value.ghost;
+  return settings?.visible === true && settings.beside === true;
+}
+
+/** Once what went is gone from the scene. */
+function fitSoon() {
+  setTimeout(() => viewport.value?.fit(), DRAWN_AFTER_MS);
 }
 
 function Begin() {
@@ -135,9 +148,11 @@ function GhostLook({ opacity, off }) {
 
 /** @param {typeof PLACES[number]} place */
 async function putGhost(place) {
+  const wasBeside = isBeside();
   if (place !== "off") await setDisplay("ghost", "beside", place === "beside");
   await setDisplay("ghost", "visible", place !== "off");
   if (place === "beside") whenDrawn(() => viewport.value?.fit());
+  else if (wasBeside) fitSoon();
 }
 
 /** Once the ghost stands in the scene, and viser has drawn it. @param {() => void} run */
