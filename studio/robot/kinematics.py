@@ -46,6 +46,8 @@ class Kinematics:
 
     def __init__(self, robot: Robot) -> None:
         self._robot = robot
+        self._turned: tuple[Floats, Floats] | None = None
+        """The rotations of links that were asked for last, and their quaternions."""
         self.link_names = tuple(robot.links)
         joints = tuple(robot.joints.values())
         moving = [joint for joint in joints if joint.type in _MOVES]
@@ -126,10 +128,8 @@ class Kinematics:
     def wxyz_xyz(self, positions: Floats) -> Floats:
         """Pose of every link, (..., L, 7): unit quaternion with w >= 0, then metres."""
         world_from_links = self.world_from_links(positions)
-        return np.concatenate(
-            (wxyz_from_matrices(world_from_links[..., :3, :3]), world_from_links[..., :3, 3]),
-            axis=-1,
-        )
+        wxyz = self._wxyz(world_from_links[..., :3, :3])
+        return np.concatenate((wxyz, world_from_links[..., :3, 3]), axis=-1)
 
     def joint_frames(self, positions: Floats) -> Floats:
         """Pose of each movable joint's frame before it moves, (..., J, 4, 4)."""
@@ -185,6 +185,13 @@ class Kinematics:
         lower = np.where(limited, self.lower, -self._default_half)
         upper = np.where(limited, self.upper, self._default_half)
         return (lower + upper) / 2, (upper - lower) / 2
+
+    def _wxyz(self, rotations: Floats) -> Floats:
+        """Their quaternions; what an edit moves it seldom turns, so those made last may do."""
+        turned = self._turned
+        if turned is None or not np.array_equal(turned[0], rotations):
+            turned = self._turned = rotations, wxyz_from_matrices(rotations)
+        return turned[1]
 
     def _lead_in(self, robot: Robot) -> None:
         """Find for each movable joint the free joint that leads it: q = multiplier * lead + offset.

@@ -61,20 +61,22 @@ def request_of(text: bytes) -> int:
 
 async def answer(engine: OpenDocuments, listener: Listener, text: bytes) -> None:
     """Carry out one command; whatever is wrong with it becomes an answer."""
-    request = request_of(text)
     try:
         command = parse_command(text)
         demand(listener.role, command.type)
         await engine.execute(command, listener)
     except StudioError as error:
-        tell(listener, Refused(request=request, kind=type(error).__name__, reason=str(error)))
+        tell(
+            listener,
+            Refused(request=request_of(text), kind=type(error).__name__, reason=str(error)),
+        )
     except asyncio.CancelledError:
         if (task := asyncio.current_task()) is None or task.cancelling():
             raise
         # Not we were cancelled, but what we waited for: its document was closed.
         reason = "The document was closed before this was done: open it again."
-        tell(listener, Refused(request=request, kind="ClosedError", reason=reason))
+        tell(listener, Refused(request=request_of(text), kind="ClosedError", reason=reason))
     except Exception:  # noqa: BLE001 - a bug of ours must not close the socket of a user
         _LOG.exception("A command failed")
         reason = "The studio failed at this command; its terminal says how."
-        tell(listener, Refused(request=request, kind="InternalError", reason=reason))
+        tell(listener, Refused(request=request_of(text), kind="InternalError", reason=reason))
