@@ -42,11 +42,16 @@ def scalar_of(text: str, tag: str, evaluate: Callable[[str], Any]) -> Any:  # no
 
     Raises:
         Fault: Its tag asks for a number, and it is none.
+        Refusal: It is a whole number that no file may hold.
         LookupError: The tag is none of xacro's.
     """
     if tag:
         return float(evaluate(text)) * UNITS[tag]
-    return yaml.load(text, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+    base = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+    node = yaml.compose(text, Loader=base)
+    if isinstance(node, yaml.ScalarNode):
+        _check_number(node.tag, node.value)
+    return yaml.load(text, Loader=base)
 
 
 def read_yaml(path: str, data: bytes, evaluate: Callable[[str], Any]) -> Any:  # noqa: ANN401

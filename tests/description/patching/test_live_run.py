@@ -158,6 +158,11 @@ def test_an_angle_beyond_all_numbers_is_left_to_the_full_run(side: SideBySide):
     assert side.told.failure is not None
 
 
+def test_a_whole_number_that_no_file_may_hold_is_left_to_the_full_run(side: SideBySide):
+    assert not edited(side, site_of(side, "arm.lower", SiteKind.YAML), "9" * 400)
+    assert side.told.failure is not None
+
+
 def test_after_a_failure_the_next_good_run_is_patched_again(side: SideBySide):
     side.edit(site_of(side, "width"), "${nothing}")
     assert side.told.failure is not None
