@@ -18,7 +18,6 @@ from studio.description.patching.live_run import LiveRun
 from studio.description.patching.output_index import OutputIndex
 from studio.description.patching.verification import verified
 from studio.description.replies import reply_to
-from studio.description.sites.drafts import draft_xml
 from studio.description.sites.sites import SiteBuilder
 from studio.description.syntax.source_tree import SourceElement, SourceText, parse_source
 from studio.description.values import (
@@ -35,11 +34,10 @@ from studio.packages.roots import ServedRoots
 from studio.problems import Place, Problem, Severity
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
+    from collections.abc import Mapping
 
     from studio.description.patching.live_run import Patch
     from studio.description.queries import Query, Reply
-    from studio.description.sites.drafts import FileDrafts
     from studio.description.values import ReadPolicy, Site
 
 Answer: TypeAlias = Expansion | Failure
@@ -53,9 +51,8 @@ class Session:
         self._entry = request.entry
         self._arguments = dict(request.arguments)
         self._policy: ReadPolicy = request.policy
-        roots = ServedRoots(map(Path, request.policy.roots))
-        self._store = SourceStore(roots, request.overlay)
-        self._site_builder = SiteBuilder(dict(_drafts_on_disk(roots, request.overlay)))
+        self._store = SourceStore(ServedRoots(map(Path, request.policy.roots)), request.overlay)
+        self._site_builder = SiteBuilder(request.known)
         self._parts: dict[str, str] = {}
         self._sites: dict[str, Site] = {}
         self._good: GoodRun | None = None
@@ -250,16 +247,6 @@ class Session:
             arguments=_values(evaluation),
             warnings=tuple(evaluation.texts.warnings),
         )
-
-
-def _drafts_on_disk(roots: ServedRoots, files: Iterable[str]) -> Iterator[tuple[str, FileDrafts]]:
-    """What the texts of edited XML files were before: a number is a site whatever it is now."""
-    disk = SourceStore(roots, {})
-    for file in files:
-        try:
-            yield disk.resolve(file), draft_xml(disk.tree(file))
-        except (EditError, Fault):
-            continue  # no XML, or gone: nothing was a number there
 
 
 def _values(evaluation: Evaluation) -> Mapping[str, str]:

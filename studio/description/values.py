@@ -171,6 +171,8 @@ class OpenRequest:
     arguments: dict[str, str]
     policy: ReadPolicy
     overlay: dict[str, bytes]
+    known: tuple[str, ...] = ()
+    """Ids of attributes that were sites before: they are sites again, whatever they say now."""
 
 
 @dataclass(frozen=True, slots=True)

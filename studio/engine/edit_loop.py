@@ -247,6 +247,7 @@ class EditLoop:
             arguments=self._sources.arguments,
             policy=self.target.policy,
             overlay=self._sources.overlay(),
+            known=self._sources.spans.numbers,
         )
 
 

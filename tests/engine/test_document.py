@@ -256,3 +256,23 @@ def test_closing_the_engine_ends_every_worker(arm: Path, tmp_path: Path):
     assert pid is not None
     with pytest.raises(ProcessLookupError):
         os.kill(pid, 0)
+
+
+def test_a_number_that_became_a_word_stays_in_reach_when_its_worker_falls(
+    arm: Path, tmp_path: Path
+):
+    """Also when it was saved so: nothing in the file says any more that it was a number."""
+
+    async def run() -> None:
+        async with engine(tmp_path / "data") as made:
+            document, ear = await opened(made, arm)
+            axis = next(name for name in ear.sites() if name.endswith("@xyz"))
+            await document.edit_site(axis, "upwards", "")
+            await document.save()
+            assert document.worker_pid is not None
+            os.kill(document.worker_pid, signal.SIGKILL)
+            await document.edit_site(ear.site("reach")["id"], "0.5", "")
+            await document.edit_site(axis, "0 1 0", "")
+            assert b'xyz="0 1 0"' in document.sources.text(str(arm))
+
+    asyncio.run(run())

@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Final
 
-from studio.description.values import Span
+from studio.description.values import SiteKind, Span
 from studio.errors import StaleEditError
 
 if TYPE_CHECKING:
@@ -87,6 +87,11 @@ class SpanTable:
             self.version += 1
             self._since.append(_Noted(self.version, edit))
         return self.version
+
+    @property
+    def numbers(self) -> tuple[str, ...]:
+        """Ids of the attributes of URDF elements among the sites."""
+        return tuple(name for name, one in self._sites.items() if one.kind is SiteKind.LITERAL)
 
     def wrote(self, site_id: str) -> None:
         """Say that the edit noted last wrote a site's text as its place spells it."""

@@ -28,7 +28,7 @@ from studio.description.values import SiteKind, Span
 from studio.problems import Place
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Set
 
     from studio.description.evaluator.run_record import KeyPath
     from studio.description.syntax.source_tree import SourceTree
@@ -139,12 +139,15 @@ def _yaml_remarks(document: YamlDocument) -> list[Remark]:
     return [found[index] for index in range(len(document.scalars))]
 
 
-def draft_xml(tree: SourceTree, before: FileDrafts | None = None) -> FileDrafts:
+def draft_xml(
+    tree: SourceTree, before: FileDrafts | None = None, known: Set[str] = frozenset()
+) -> FileDrafts:
     """Every arg, property, macro default and plain URDF number of an XML file.
 
-    What was a number in the drafts before stays one of them, whatever is written there now.
+    What was one of them in the drafts before, or is known by its id, stays one, whatever is
+    written there now.
     """
-    known = {one.id for one in before.drafts} if before else set[str]()
+    known = {one.id for one in before.drafts} if before else known
     remarks, shown = _xml_remarks(tree), _shown_parts(tree)
     drafts: list[Draft] = []
     for element in tree.elements:
@@ -200,7 +203,7 @@ def _macro_defaults(element: SourceElement) -> Iterator[Draft]:
 
 
 def _literals(
-    element: SourceElement, known: set[str], shown: dict[SourceElement, str]
+    element: SourceElement, known: Set[str], shown: dict[SourceElement, str]
 ) -> Iterator[Draft]:
     """The attributes of a URDF element that are plain numbers, or were."""
     start = f"{element.tree.path}#{element.ordinal}@"

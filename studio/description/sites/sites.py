@@ -16,7 +16,7 @@ from studio.description.syntax.number_text import parse_number
 from studio.description.values import Site, SiteKind
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterable, Iterator, Mapping
 
     from studio.description.evaluator.run_record import RunRecord
     from studio.description.values import Widget
@@ -49,11 +49,12 @@ class SiteBuilder:
     """Builds the sites of the runs of one session.
 
     Args:
-        before: Drafts of some files from before the first run: a number then is a site now.
+        known: Ids of attributes that were sites in a session before.
     """
 
-    def __init__(self, before: Mapping[str, FileDrafts] | None = None) -> None:
-        self._files = dict(before or {})
+    def __init__(self, known: Iterable[str] = ()) -> None:
+        self._known = frozenset(known)
+        self._files: dict[str, FileDrafts] = {}
         self._built: dict[str, _Built] = {}
         self.reads: RunReads
         """What the last run says of the texts."""
@@ -102,7 +103,7 @@ class SiteBuilder:
             if known is not None and known.data == data:
                 yield path, known
             elif tree is not None:
-                yield path, draft_xml(tree, known)
+                yield path, draft_xml(tree, known, self._known)
             elif document is not None:
                 yield path, draft_yaml(path, document.data)
 
