@@ -124,7 +124,8 @@ class Lane:
     def moving_site(self, name: str) -> Site:
         """The first site of that name, or else any, whose edit changes the 3D view."""
         named = [one for one in self.sites.values() if one["name"].endswith(name)]
-        others = [one for one in self.sites.values() if one["number"] and one["reads"]]
+        known = sorted(self.sites.values(), key=lambda one: one["id"])  # they come in any order
+        others = [one for one in known if one["number"] and one["reads"]]
         for site in (*named, *others):
             if site["number"] and self._moves(site):
                 return site
