@@ -40,11 +40,11 @@ def test_a_dragged_property_changes_the_pixels_is_undone_and_saved_byte_by_byte(
     working_copy = tmp_path / "data" / "models" / ROVER
     as_shipped = tab.settle()
     assert tab.drag_slider("wheel_radius", 0.8) != "0.105"
-    assert tab.settle() != as_shipped
+    tab.show_other_than(as_shipped)
 
     tab.page.keyboard.press("Control+z")
     wait_until("the undo", lambda: tab.box("wheel_radius").input_value() == "0.105")
-    wait_until("the pixels to come back", lambda: tab.settle() == as_shipped)
+    tab.show_again(as_shipped)
 
     value = tab.drag_slider("wheel_radius", 0.7)
     assert working_copy.read_bytes() == (models / ROVER).read_bytes()
@@ -79,7 +79,7 @@ def test_a_broken_expression_says_where_and_the_last_good_model_stays(tab: Studi
     assert tab.has_drawn_robot()
     tab.page.get_by_role("button", name="Undo edit").first.click()
     wait_until("the notice to go", lambda: not notice.is_visible())
-    wait_until("the picture to be as before", lambda: tab.settle() == before)
+    tab.show_again(before)
 
 
 def test_two_documents_in_two_tabs_are_independent(
@@ -97,7 +97,7 @@ def test_two_documents_in_two_tabs_are_independent(
     tab.page.bring_to_front()
     assert tab.drag_slider("wheel_radius", 0.9) != "0.105"
     second.page.bring_to_front()
-    assert second.settle() == before
+    second.show_again(before)
     assert second.row("wheel_radius").count() == 0
     assert not second.page.get_by_role("button", name="Save", exact=True).is_enabled()
 

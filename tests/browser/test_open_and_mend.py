@@ -33,9 +33,7 @@ def test_another_robot_is_opened_out_of_the_served_folders(browser: Browser, tmp
         tab.page.get_by_role("menuitem", name="Open a robot").click()
         dialog = tab.page.get_by_role("dialog", name="Open a robot")
         dialog.get_by_role("button", name="Open r2d2_description", exact=True).click()
-        wait_until(
-            "the r2d2 to be there", lambda: tab.page.evaluate("location.pathname") == "/d/r2d2"
-        )
+        tab.page.wait_for_url("**/d/r2d2")
         wait_until("it to be drawn", tab.has_drawn_robot)
         assert tab.errors == []
 

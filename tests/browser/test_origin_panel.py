@@ -68,7 +68,7 @@ def test_a_clicked_wheel_tells_its_radius_which_is_edited_there(tab: StudioPage)
     box.fill("0.2")
     box.press("Enter")
     wait_until("the number", lambda: "0.2  0.2  0.11429" in scale.inner_text())
-    assert tab.settle() != before
+    tab.show_other_than(before)
     panel(tab).get_by_role("button", name="wheel.xacro:", exact=False).first.click()
     line = tab.page.locator(".cm-activeLine")
     wait_until("its line", lambda: line.count() > 0 and "wheel" in line.inner_text())
@@ -83,10 +83,10 @@ def test_a_pointed_at_property_lights_up_what_it_shapes_and_says_so(tab: StudioP
     words = tab.page.get_by_role("status").filter(has_text="wheel_width")
     wait_until("the words", lambda: words.count() == 1)
     assert "resizes 5 links, moves 4 links" in words.inner_text()
-    assert tab.settle() != dark
+    tab.show_other_than(dark)
     tab.page.mouse.move(5, 5)
     wait_until("the words to go", lambda: words.count() == 0)
-    assert tab.settle() == dark
+    tab.show_again(dark)
     tab.box("wheel_width").focus()
     wait_until("the words by keyboard", lambda: words.count() == 1)
     tab.row("wheel_width").get_by_role("button", name="More").click()

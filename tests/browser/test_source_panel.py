@@ -74,14 +74,14 @@ def test_a_typed_number_moves_the_pixels_and_its_slider_and_is_undone_as_one_ste
     tab.page.keyboard.press("Shift+ArrowRight")
     tab.page.keyboard.type("55", delay=40)
     wait_until("the slider to follow", lambda: tab.box("wheel_radius").input_value() == "0.155")
-    assert tab.settle() != before
+    tab.show_other_than(before)
     dot = tab.page.get_by_role("tab", name="rover.urdf.xacro").get_by_label("unsaved")
     wait_until("the tab to be unsaved", dot.is_visible)
 
     tab.page.locator(".cm-content").press("Control+z")
     wait_until("the undo", lambda: tab.box("wheel_radius").input_value() == "0.105")
     assert 'value="0.105"' in line_of(tab)
-    wait_until("the pixels to come back", lambda: tab.settle() == before)
+    tab.show_again(before)
     assert not tab.page.get_by_role("button", name="Undo", exact=True).is_enabled()
 
     put_cursor_behind(tab, '"0.10')
@@ -105,7 +105,7 @@ def test_broken_text_is_underlined_and_the_last_good_model_stays(tab: StudioPage
     tab.page.keyboard.type("y")
     wait_until("the notice to go", lambda: not notice(tab).is_visible())
     wait_until("the underline to go", lambda: underlined.count() == 0)
-    wait_until("the picture to be as before", lambda: tab.settle() == before)
+    tab.show_again(before)
     assert tab.errors == []
 
 

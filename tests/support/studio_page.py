@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from tests.support.server import RunningStudio
 
 PATIENCE_S = 60.0
+_PICTURE_PATIENCE_S = 120.0
 _POLL_S = 0.1
 _COMPLAINTS = frozenset({"error"})
 _HAS_VISUALS = """() => {
@@ -30,6 +31,14 @@ _FIXED_PIXELS = """() => {
 }"""
 """Viser draws fewer pixels while it is slow: a picture of a busy machine would differ from one of
 an idle one."""
+
+
+_SEVERAL_FRAMES = """() => new Promise((done) => {
+  const view = document.querySelector("iframe")?.contentWindow ?? window;
+  const frame = (left) => view.requestAnimationFrame(() => (left ? frame(left - 1) : done()));
+  frame(4);
+})"""
+"""Two pictures of a busy machine may show the same frame, with the next one on its way."""
 
 
 class ConditionNotMetError(AssertionError):
@@ -114,16 +123,26 @@ class StudioPage:
         return self.page.locator("iframe").screenshot()
 
     def settle(self) -> bytes:
-        """Wait until the 3D view stands still; its picture."""
+        """Wait until the 3D view stands still, over several frames that it drew; its picture."""
         last = self.picture()
 
         def same() -> bool:
             nonlocal last
+            self.page.evaluate(_SEVERAL_FRAMES)
             before, last = last, self.picture()
             return before == last
 
         wait_until("the 3D view to stand still", same)
         return last
+
+    def show_again(self, picture: bytes) -> None:
+        """Wait until the 3D view shows what it showed then."""
+        wait_until("the picture of before", lambda: self.settle() == picture, _PICTURE_PATIENCE_S)
+
+    def show_other_than(self, picture: bytes) -> bytes:
+        """Wait until the 3D view stands still and differs from then; its picture now."""
+        wait_until("another picture", lambda: self.settle() != picture, _PICTURE_PATIENCE_S)
+        return self.settle()
 
 
 def studio_context(browser: Browser) -> BrowserContext:
