@@ -1,4 +1,4 @@
-// Written by `python -m studio.web.wire_types` from studio/engine/messages.py: do not edit.
+// Written by `python -m studio.web.wire_types` from studio/engine/messages/: do not edit.
 // A command goes to the websocket /control as JSON text; each event comes from it as JSON text.
 
 /** Swing the joints through their limits, or stop. */

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Final
 
 from studio.description.editing.variants import differing_names
 from studio.description.values import SiteKind
-from studio.engine.variant_events import DifferenceView, InputDifference, shown
+from studio.engine.messages.variants import DifferenceView, InputDifference, shown
 from studio.robot.comparison import differences
 from studio.robot.measures import measure, whole_rows
 

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 from studio.engine.comparison import ROWS_SHOWN, input_differences, robot_differences
 from studio.engine.ghost import Ghost
 from studio.engine.listeners import encode
+from studio.engine.messages.variants import Comparison, Side
 from studio.engine.second_robot import SecondRobot, SecondRobots, present_robot
-from studio.engine.variant_events import Comparison, Side
 from studio.errors import CommandError
 
 if TYPE_CHECKING:

@@ -6,8 +6,8 @@ from inspect import isawaitable
 from typing import TYPE_CHECKING, Any, Final, TypeAlias, TypeVar
 
 from studio.engine import messages as m
-from studio.engine.commands import CommandMessage
 from studio.engine.listeners import tell
+from studio.engine.messages.message import CommandMessage
 
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable

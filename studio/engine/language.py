@@ -14,7 +14,7 @@ from studio.description.language.questions import (
     References,
     ReferencesQuery,
 )
-from studio.engine.language_events import (
+from studio.engine.messages.language import (
     CompletionsAnswer,
     MeaningAnswer,
     OutlineAnswer,
@@ -22,9 +22,9 @@ from studio.engine.language_events import (
 )
 
 if TYPE_CHECKING:
-    from studio.engine.commands import Complete, GetOutline, GetReferences, LookUp
     from studio.engine.document import Document
     from studio.engine.listeners import Listener
+    from studio.engine.messages.language import Complete, GetOutline, GetReferences, LookUp
 
 
 class LanguageDesk:

@@ -11,14 +11,14 @@ from studio.description.origins.origin_values import (
     SiteEffects,
     SiteEffectsQuery,
 )
-from studio.engine.origin_events import Effects, Origin, PartEffect
+from studio.engine.messages.origins import Effects, Origin, PartEffect
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from studio.engine.commands import GetEffects, GetOrigin
     from studio.engine.document import Document
     from studio.engine.listeners import Listener
+    from studio.engine.messages.origins import GetEffects, GetOrigin
     from studio.robot.values import Robot
 
 PARTS_KEPT: Final = 1_000

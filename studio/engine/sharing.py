@@ -19,9 +19,8 @@ from pydantic import Field, ValidationError
 
 from studio.description.editing.merging import hunks_between
 from studio.description.values import Edit
-from studio.engine.commands import ArgumentName
-from studio.engine.message import Message
 from studio.engine.messages import Link
+from studio.engine.messages.message import ArgumentName, Message
 from studio.engine.texts import TEXT_LIMIT_BYTES
 from studio.errors import CommandError, EditError, PackageError
 from studio.packages.roots import package_folder_of

@@ -11,8 +11,8 @@ from studio.description.editing.variants_file import NAME_LIMIT, VARIANT_LIMIT
 from studio.engine import messages as m
 from studio.engine.comparison_desk import ComparisonDesk
 from studio.engine.listeners import encode
+from studio.engine.messages.variants import shown
 from studio.engine.recipes import Recipe, RecipeBook
-from studio.engine.variant_events import shown
 from studio.engine.variant_shelf import VariantShelf
 from studio.engine.watching import FileWatch
 from studio.errors import CommandError

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from studio.web.schema import Schema
 
 _HEADER: Final = """\
-// Written by `python -m studio.web.wire_types` from studio/engine/messages.py: do not edit.
+// Written by `python -m studio.web.wire_types` from studio/engine/messages/: do not edit.
 // A command goes to the websocket /control as JSON text; each event comes from it as JSON text.
 """
 _NAMES: Final = {

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from studio.engine import messages as m
-from studio.engine.variant_events import Side
+from studio.engine.messages.variants import Side
 from studio.errors import CommandError
 from tests.support.open_documents import until
 from tests.support.variant_desk import Desk, desk, write_mast

@@ -7,7 +7,7 @@ from typing import Final, Literal
 from pydantic import Field
 
 from studio.description.values import SiteKind
-from studio.engine.message import Message
+from studio.engine.messages.message import CommandMessage, Message
 
 TEXT_SHOWN: Final = 200
 """Letters of a text that lists show."""
@@ -120,3 +120,48 @@ class Comparison(Message):
     """Of all differences; `rows` may hold the first ones only."""
     ghost: Side | None
     """What the ghost shows."""
+
+
+class SaveVariant(CommandMessage):
+    """Keep the present arguments and values as a new variant."""
+
+    type: Literal["save_variant"] = "save_variant"
+    name: str = Field(max_length=100)
+    note: str = Field(default="", max_length=2000)
+
+
+class ApplyVariant(CommandMessage):
+    """Make the robot a variant, in one undo step; an empty name makes it as its files say."""
+
+    type: Literal["apply_variant"] = "apply_variant"
+    name: str = Field(max_length=100)
+
+
+class UpdateVariant(CommandMessage):
+    """Keep the present arguments and values in a variant that there is."""
+
+    type: Literal["update_variant"] = "update_variant"
+    name: str = Field(max_length=100)
+
+
+class RenameVariant(CommandMessage):
+    """Give a variant another name and note."""
+
+    type: Literal["rename_variant"] = "rename_variant"
+    name: str = Field(max_length=100)
+    new_name: str = Field(max_length=100)
+    note: str = Field(default="", max_length=2000)
+
+
+class DeleteVariant(CommandMessage):
+    """Forget a variant; the robot stays as it is."""
+
+    type: Literal["delete_variant"] = "delete_variant"
+    name: str = Field(max_length=100)
+
+
+class CompareVariants(CommandMessage):
+    """Compare two states for everybody from now on, and follow them; None ends it."""
+
+    type: Literal["compare_variants"] = "compare_variants"
+    sides: tuple[Side, Side] | None = None

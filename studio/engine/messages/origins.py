@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from typing import Literal
 
+from pydantic import Field
+
 from studio.description.origins.origin_values import Aspect, PartOrigin
-from studio.engine.message import Message
+from studio.engine.messages.message import CommandMessage, Message
 from studio.problems import Place
 
 
@@ -48,3 +50,17 @@ class Effects(Message):
     """Where the text is read directly."""
     is_cut: bool
     """There is more than is told."""
+
+
+class GetOrigin(CommandMessage):
+    """Where a part of the last good run comes from; `part` is `link:<name>`, `joint:<name>` ..."""
+
+    type: Literal["get_origin"] = "get_origin"
+    part: str = Field(max_length=4096)
+
+
+class GetEffects(CommandMessage):
+    """What a site shapes in the robot of the last good run."""
+
+    type: Literal["get_effects"] = "get_effects"
+    site: str = Field(max_length=8192)

@@ -8,8 +8,10 @@ from __future__ import annotations
 
 from typing import Literal
 
+from pydantic import Field
+
 from studio.description.language.questions import Completions, Meaning, Outline, References
-from studio.engine.message import Message
+from studio.engine.messages.message import OFFSET_LIMIT, CommandMessage, Message
 
 
 class OutlineAnswer(Message):
@@ -42,3 +44,37 @@ class CompletionsAnswer(Message):
     type: Literal["completions"] = "completions"
     request: int
     completions: Completions
+
+
+class PlaceCommand(CommandMessage):
+    """A question about a place of a file's text, as `get_text` and `texts_changed` tell it.
+
+    `offset` counts UTF-16 code units from 0: no byte order mark, every line break one LF.
+    """
+
+    file: str = Field(max_length=4096)
+    offset: int = Field(ge=0, le=OFFSET_LIMIT)
+
+
+class LookUp(PlaceCommand):
+    """What stands there, what it came to in the run, and where it is defined."""
+
+    type: Literal["look_up"] = "look_up"
+
+
+class GetReferences(PlaceCommand):
+    """All places that name what stands there."""
+
+    type: Literal["get_references"] = "get_references"
+
+
+class Complete(PlaceCommand):
+    """What may be typed there."""
+
+    type: Literal["complete"] = "complete"
+
+
+class GetOutline(CommandMessage):
+    """What the files of the robot hold: includes, macros, properties, args."""
+
+    type: Literal["get_outline"] = "get_outline"

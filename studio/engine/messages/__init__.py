@@ -1,0 +1,298 @@
+"""The closed unions of commands (browser to studio) and events (studio to browser).
+
+One set of models for the websocket parser, OpenAPI and `types/wire.d.ts`. A command carries
+`request`, which its `done` or `refused` repeats, and `document`, the id of the open document it
+is for.
+A file holds what is said about one subject, both ways.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, TypeAlias
+
+from pydantic import Field, TypeAdapter
+
+from studio.engine.messages.documents import (
+    ChoosePackage,
+    CloseDocument,
+    DocumentEntry,
+    Documents,
+    DocumentState,
+    Done,
+    Folder,
+    FolderEntry,
+    Gone,
+    Hello,
+    ListFolder,
+    Opened,
+    OpenPath,
+    Progress,
+    Refused,
+    Watch,
+)
+from studio.engine.messages.edits import (
+    Built,
+    EditSite,
+    History,
+    Problems,
+    Redo,
+    ResetSite,
+    Sites,
+    SiteView,
+    Undo,
+)
+from studio.engine.messages.files import (
+    Collisions,
+    CollisionView,
+    DiskMerged,
+    GetCollisions,
+    Reload,
+    ResolveCollisions,
+    Save,
+    Saved,
+)
+from studio.engine.messages.language import (
+    Complete,
+    CompletionsAnswer,
+    GetOutline,
+    GetReferences,
+    LookUp,
+    MeaningAnswer,
+    OutlineAnswer,
+    ReferencesAnswer,
+)
+from studio.engine.messages.launching import (
+    Arguments,
+    ArgumentView,
+    GetArguments,
+    SetArgument,
+    SetArguments,
+)
+from studio.engine.messages.origins import (
+    Effects,
+    GetEffects,
+    GetOrigin,
+    Origin,
+    PartEffect,
+)
+from studio.engine.messages.robot import (
+    AnimateJoints,
+    Displays,
+    JointPositions,
+    JointView,
+    LinkView,
+    RandomizeJoints,
+    RobotState,
+    SetDisplay,
+    SetJoints,
+    ZeroJoints,
+)
+from studio.engine.messages.sharing import (
+    GetLink,
+    Link,
+    LinkOpened,
+    OpenLink,
+)
+from studio.engine.messages.texts import (
+    EditText,
+    GetText,
+    GetUrdf,
+    Text,
+    TextChange,
+    TextsChanged,
+    Urdf,
+)
+from studio.engine.messages.variants import (
+    ApplyVariant,
+    CompareVariants,
+    Comparison,
+    DeleteVariant,
+    DifferenceView,
+    InputDifference,
+    RenameVariant,
+    SaveVariant,
+    Side,
+    UpdateVariant,
+    VariantApplied,
+    Variants,
+    VariantSaved,
+    VariantText,
+    VariantView,
+)
+
+Command: TypeAlias = Annotated[
+    Watch
+    | OpenPath
+    | CloseDocument
+    | ListFolder
+    | EditSite
+    | ResetSite
+    | SetArgument
+    | Undo
+    | Redo
+    | Save
+    | Reload
+    | GetCollisions
+    | ResolveCollisions
+    | GetArguments
+    | SetArguments
+    | GetLink
+    | OpenLink
+    | SetJoints
+    | ZeroJoints
+    | RandomizeJoints
+    | AnimateJoints
+    | SetDisplay
+    | ChoosePackage
+    | GetUrdf
+    | GetText
+    | GetOrigin
+    | GetEffects
+    | EditText
+    | GetOutline
+    | LookUp
+    | GetReferences
+    | Complete
+    | SaveVariant
+    | ApplyVariant
+    | UpdateVariant
+    | RenameVariant
+    | DeleteVariant
+    | CompareVariants,
+    Field(discriminator="type"),
+]
+COMMANDS: TypeAdapter[Command] = TypeAdapter(Command)
+
+Event: TypeAlias = Annotated[
+    Hello
+    | Done
+    | Refused
+    | Documents
+    | DocumentState
+    | RobotState
+    | JointPositions
+    | Sites
+    | Problems
+    | History
+    | Displays
+    | Progress
+    | Built
+    | Folder
+    | Opened
+    | Urdf
+    | Text
+    | TextsChanged
+    | OutlineAnswer
+    | MeaningAnswer
+    | ReferencesAnswer
+    | CompletionsAnswer
+    | DiskMerged
+    | Collisions
+    | Arguments
+    | Link
+    | LinkOpened
+    | Saved
+    | Origin
+    | Effects
+    | Variants
+    | VariantApplied
+    | VariantSaved
+    | Comparison
+    | Gone,
+    Field(discriminator="type"),
+]
+EVENTS: TypeAdapter[Event] = TypeAdapter(Event)
+
+__all__ = [
+    "COMMANDS",
+    "EVENTS",
+    "AnimateJoints",
+    "ApplyVariant",
+    "ArgumentView",
+    "Arguments",
+    "Built",
+    "ChoosePackage",
+    "CloseDocument",
+    "CollisionView",
+    "Collisions",
+    "Command",
+    "CompareVariants",
+    "Comparison",
+    "Complete",
+    "CompletionsAnswer",
+    "DeleteVariant",
+    "DifferenceView",
+    "DiskMerged",
+    "Displays",
+    "DocumentEntry",
+    "DocumentState",
+    "Documents",
+    "Done",
+    "EditSite",
+    "EditText",
+    "Effects",
+    "Event",
+    "Folder",
+    "FolderEntry",
+    "GetArguments",
+    "GetCollisions",
+    "GetEffects",
+    "GetLink",
+    "GetOrigin",
+    "GetOutline",
+    "GetReferences",
+    "GetText",
+    "GetUrdf",
+    "Gone",
+    "Hello",
+    "History",
+    "InputDifference",
+    "JointPositions",
+    "JointView",
+    "Link",
+    "LinkOpened",
+    "LinkView",
+    "ListFolder",
+    "LookUp",
+    "MeaningAnswer",
+    "OpenLink",
+    "OpenPath",
+    "Opened",
+    "Origin",
+    "OutlineAnswer",
+    "PartEffect",
+    "Problems",
+    "Progress",
+    "RandomizeJoints",
+    "Redo",
+    "ReferencesAnswer",
+    "Refused",
+    "Reload",
+    "RenameVariant",
+    "ResetSite",
+    "ResolveCollisions",
+    "RobotState",
+    "Save",
+    "SaveVariant",
+    "Saved",
+    "SetArgument",
+    "SetArguments",
+    "SetDisplay",
+    "SetJoints",
+    "Side",
+    "SiteView",
+    "Sites",
+    "Text",
+    "TextChange",
+    "TextsChanged",
+    "Undo",
+    "UpdateVariant",
+    "Urdf",
+    "VariantApplied",
+    "VariantSaved",
+    "VariantText",
+    "VariantView",
+    "Variants",
+    "Watch",
+    "ZeroJoints",
+]
