@@ -37,17 +37,33 @@ class MacroCall:
 
 
 @dataclass(frozen=True, slots=True)
+class Replacement:
+    """The bytes [start, end) of a file as it is edited now, which say `before`, become `text`.
+
+    Both are raw text, escaped as they stand in the file. `before` is never empty: what is only put
+    in repeats what it stands beside, so that a place that has moved is noticed.
+    """
+
+    file: str
+    start: int
+    end: int
+    before: str
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
 class Fix:
     """One click that mends a Problem: `action` names it, `target` is what it works on.
 
     Actions: `choose_package` (target: package name), `undo` (target: empty),
     `open_file` (target: path), `resolve_collisions` (target: path of the file), `give_arguments`
-    (target: empty).
+    (target: empty), `edit` (all of `edits`, as one undo step that bears the label).
     """
 
     label: str
     action: str
     target: str = ""
+    edits: tuple[Replacement, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,7 +71,8 @@ class Problem:
     """One finding. `sentence` stands alone; `code` is stable, kebab-case, for tests and tools.
 
     `include_chain` runs from the opened file down to (not including) `place`; `macro_stack` from
-    the outermost call to the innermost.
+    the outermost call to the innermost. `parts` are what is to be shown of the robot, by part key:
+    `link:<name>`, `joint:<name>`.
     """
 
     severity: Severity
@@ -65,6 +82,7 @@ class Problem:
     include_chain: tuple[Place, ...] = ()
     macro_stack: tuple[MacroCall, ...] = ()
     fix: Fix | None = None
+    parts: tuple[str, ...] = ()
 
     def __str__(self) -> str:
         """Write the sentence behind its place."""

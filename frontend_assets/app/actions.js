@@ -158,8 +158,23 @@ async function follow(id) {
   await ask({ type: "watch" });
 }
 
-/** @param {import("../types/wire.d.ts").Fix} fix */
-export function mend(fix) {
+/** Have every error and warning mended that an edit mends, in one step. */
+export async function mendAll() {
+  await allSettled();
+  return ask({ type: "mend_all" });
+}
+
+/** @param {import("../types/wire.d.ts").Problem} problem one that has a fix */
+async function applyFix({ code, sentence, fix }) {
+  await allSettled();
+  return ask({ type: "apply_fix", code, sentence, label: fix?.label ?? "" });
+}
+
+/** @param {import("../types/wire.d.ts").Problem} problem */
+export function mend(problem) {
+  const { fix } = problem;
+  if (!fix) return undefined;
+  if (fix.action === "edit") return applyFix(problem);
   if (fix.action === "undo") return undo();
   if (fix.action === "choose_package") dialog.value = { kind: "choose_package", name: fix.target };
   if (fix.action === "resolve_collisions") dialog.value = { kind: "merge", file: fix.target };

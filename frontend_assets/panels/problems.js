@@ -39,7 +39,7 @@ function ProblemRow({ problem }) {
       <p>${sentence}</p>
       ${place && html`<${PlaceLine} problem=${problem} words=${placeWords(problem, root)} />`}
     </div>
-    ${fix && mayEdit.value && html`<button type="button" class="button small" onClick=${() => mend(fix)}>${fix.label}</button>`}
+    ${fix && mayEdit.value && html`<button type="button" class="button small" onClick=${() => mend(problem)}>${fix.label}</button>`}
   </li>`;
 }
 

@@ -123,7 +123,7 @@ function Failed() {
         ${
           problem?.fix &&
           html`<button type="button" class="button primary"
-          onClick=${() => problem.fix && mend(problem.fix)}>${problem.fix.label}</button>`
+          onClick=${() => mend(problem)}>${problem.fix.label}</button>`
         }
         <button type="button" class="button" onClick=${again}><${Icon} name="reload" />${t("try_again")}</button>
         <button type="button" class="button" onClick=${open}><${Icon} name="open" />${t("open.another")}</button>
@@ -149,14 +149,15 @@ function LastGoodNotice() {
   return html`<div class="last-good" role="alert">
     <${Icon} name="error" size=${18} />
     <p><strong>${t("last_good")}</strong> ${problem?.sentence} <${PlaceLink} place=${problem?.place} /></p>
-    ${mayEdit.value && html`<${NoticeButton} fix=${problem?.fix} />`}
+    ${mayEdit.value && html`<${NoticeButton} problem=${problem} />`}
   </div>`;
 }
 
-/** @param {{fix: import("../types/wire.d.ts").Fix | null | undefined}} props */
-function NoticeButton({ fix }) {
-  if (fix && fix.action !== "undo") {
-    return html`<button type="button" class="button" onClick=${() => mend(fix)}>${fix.label}</button>`;
+/** @param {{problem: import("../types/wire.d.ts").Problem | undefined}} props */
+function NoticeButton({ problem }) {
+  const fix = problem?.fix;
+  if (problem && fix && fix.action !== "undo") {
+    return html`<button type="button" class="button" onClick=${() => mend(problem)}>${fix.label}</button>`;
   }
   if (history.value.undo.length === 0) return null;
   return html`<button type="button" class="button" onClick=${() => undo()}>${t("undo_edit")}</button>`;

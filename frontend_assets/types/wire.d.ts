@@ -9,6 +9,20 @@ export interface AnimateJoints {
   running: boolean;
 }
 
+/**
+ * Make the edits of a problem's fix as one undo step; refused when it is no longer found.
+ *
+ * The three say which problem is meant, as `problems` told it.
+ */
+export interface ApplyFix {
+  request?: number;
+  document?: string;
+  type: "apply_fix";
+  code: string;
+  sentence: string;
+  label: string;
+}
+
 /** Make the robot a variant, in one undo step; an empty name makes it as its files say. */
 export interface ApplyVariant {
   request?: number;
@@ -253,12 +267,14 @@ export interface Effects {
  * One click that mends a Problem: `action` names it, `target` is what it works on.
  *
  * Actions: `choose_package` (target: package name), `undo` (target: empty), `open_file` (target:
- * path), `resolve_collisions` (target: path of the file), `give_arguments` (target: empty).
+ * path), `resolve_collisions` (target: path of the file), `give_arguments` (target: empty), `edit`
+ * (all of `edits`, as one undo step that bears the label).
  */
 export interface Fix {
   label: string;
   action: string;
   target: string;
+  edits: Replacement[];
 }
 
 /** Answer to `list_folder`. */
@@ -485,6 +501,17 @@ export interface MeaningAnswer {
   meaning: Meaning | null;
 }
 
+/**
+ * Make the edits of every error's and every warning's fix as one undo step.
+ *
+ * Of two that want the same place, the first one's; notes (severity `info`) are left as they are.
+ */
+export interface MendAll {
+  request?: number;
+  document?: string;
+  type: "mend_all";
+}
+
 /** Open what a link holds as a document of its own; its edits are unsaved there. */
 export interface OpenLink {
   request?: number;
@@ -637,7 +664,8 @@ export interface Place {
  * One finding. `sentence` stands alone; `code` is stable, kebab-case, for tests and tools.
  *
  * `include_chain` runs from the opened file down to (not including) `place`; `macro_stack` from
- * the outermost call to the innermost.
+ * the outermost call to the innermost. `parts` are what is to be shown of the robot, by part key:
+ * `link:<name>`, `joint:<name>`.
  */
 export interface Problem {
   severity: Severity;
@@ -647,6 +675,7 @@ export interface Problem {
   include_chain: Place[];
   macro_stack: MacroCall[];
   fix: Fix | null;
+  parts: string[];
 }
 
 /** All problems of the document now. `showing_last_good`: the view is older than the text. */
@@ -725,6 +754,20 @@ export interface RenameVariant {
   name: string;
   new_name: string;
   note?: string;
+}
+
+/**
+ * The bytes [start, end) of a file as it is edited now, which say `before`, become `text`.
+ *
+ * Both are raw text, escaped as they stand in the file. `before` is never empty: what is only put
+ * in repeats what it stands beside, so that a place that has moved is noticed.
+ */
+export interface Replacement {
+  file: string;
+  start: number;
+  end: number;
+  before: string;
+  text: string;
 }
 
 /** Put a site back to what the file on disk says. */
@@ -990,6 +1033,8 @@ export type Command =
   | ListFolder
   | EditSite
   | ResetSite
+  | ApplyFix
+  | MendAll
   | SetArgument
   | Undo
   | Redo

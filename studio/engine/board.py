@@ -29,6 +29,11 @@ class Board:
         self._robot_told: m.RobotState | None = None
         self._joints_told: m.JointPositions | None = None
 
+    @property
+    def found(self) -> tuple[Problem, ...]:
+        """Every problem, as the audience was told them."""
+        return self._findings.all()
+
     def attach(self, listener: Listener) -> None:
         """Tell a newcomer the whole state, then let it hear every change."""
         for event in self._snapshot():

@@ -29,6 +29,8 @@ def _row(kind: type[AnyCommand], work: Work[AnyCommand]) -> tuple[type[CommandMe
 _EDITS: Final = (
     _row(m.EditSite, lambda d, c, _: d.edit_site(c.site, c.text, c.gesture)),
     _row(m.ResetSite, lambda d, c, _: d.reset_site(c.site)),
+    _row(m.ApplyFix, lambda d, c, _: d.mending.apply(c.code, c.sentence, c.label)),
+    _row(m.MendAll, lambda d, _, __: d.mending.apply_all()),
     _row(m.EditText, lambda d, c, _: d.edit_text(c)),
     _row(m.SetArgument, lambda d, c, _: d.set_argument(c.name, c.value)),
     _row(m.SetArguments, lambda d, c, _: d.set_arguments(c.values)),

@@ -14,6 +14,7 @@ from studio.engine.board import Board
 from studio.engine.disk import DiskDesk
 from studio.engine.edit_loop import EditLoop, Outcome, Target
 from studio.engine.language import LanguageDesk
+from studio.engine.mending import MendingDesk
 from studio.engine.mesh_desk import MeshDesk
 from studio.engine.messages import Built, Saved
 from studio.engine.model import Model
@@ -75,6 +76,7 @@ class Document:
         self.texts = TextDesk(self)
         self.origins = OriginDesk(self)
         self.language = LanguageDesk(self)
+        self.mending = MendingDesk(self)
         self.disk = DiskDesk(self.sources, served, self.board)
         self.motion = Motion(self.model, self.board)
         self._services = services

@@ -57,6 +57,8 @@ _CONTROL: Final = frozenset(
         "list_folder",
         "edit_site",
         "reset_site",
+        "apply_fix",
+        "mend_all",
         "set_argument",
         "get_arguments",
         "set_arguments",

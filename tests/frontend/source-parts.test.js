@@ -24,6 +24,7 @@ const problem = (line, column, file = "a.xacro") => ({
   include_chain: [],
   macro_stack: [],
   fix: null,
+  parts: [],
 });
 
 /** @param {Problem[]} problems */

@@ -68,6 +68,7 @@ from studio.engine.messages.launching import (
     SetArgument,
     SetArguments,
 )
+from studio.engine.messages.mending import ApplyFix, MendAll
 from studio.engine.messages.origins import (
     Effects,
     GetEffects,
@@ -127,6 +128,8 @@ Command: TypeAlias = Annotated[
     | ListFolder
     | EditSite
     | ResetSite
+    | ApplyFix
+    | MendAll
     | SetArgument
     | Undo
     | Redo
@@ -207,6 +210,7 @@ __all__ = [
     "COMMANDS",
     "EVENTS",
     "AnimateJoints",
+    "ApplyFix",
     "ApplyVariant",
     "ArgumentView",
     "Arguments",
@@ -255,6 +259,7 @@ __all__ = [
     "ListFolder",
     "LookUp",
     "MeaningAnswer",
+    "MendAll",
     "OpenLink",
     "OpenPath",
     "Opened",
