@@ -12,6 +12,7 @@ import { isStroke, onKey } from "./commands.js";
 import { mayEdit } from "./state/connection.js";
 import { movable, position, robot } from "./state/document.js";
 import { lights } from "./state/origin.js";
+import { selectLink } from "./state/selection.js";
 import {
   degrees,
   hiddenLinks,
@@ -162,9 +163,7 @@ function listen(view) {
   on("hover", ({ link }) => {
     hovered.value = link;
   });
-  on("select", ({ link }) => {
-    selected.value = link;
-  });
+  on("select", ({ link }) => selectLink(link, "scene"));
   on("connection", ({ connected }) => {
     viewportConnected.value = connected;
   });
@@ -184,6 +183,6 @@ function takeDrag({ joint, value, phase }) {
 
 /** @param {string} link bring it into view, and into the tree */
 export function focusLink(link) {
-  selected.value = link;
+  selectLink(link, "");
   viewport.value?.focus(link);
 }

@@ -6,6 +6,7 @@ import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { setDisplay } from "../app/actions.js";
 import { mayEdit } from "../app/state/connection.js";
 import { displays, links, robot } from "../app/state/document.js";
+import { selectLink } from "../app/state/selection.js";
 import { hiddenLinks, hovered, selected, showLink } from "../app/state/view.js";
 import { focusLink } from "../app/viewport.js";
 import { t } from "../lib/i18n.js";
@@ -284,7 +285,7 @@ function parentRow(rows, at) {
 
 /** @param {Row} row */
 function pick(row) {
-  if (row.link) selected.value = selected.value === row.link ? null : row.link;
+  if (row.link) selectLink(selected.value === row.link ? null : row.link, "displays");
 }
 
 /** @param {{row: Row, current: boolean, setOpen: (id: string, open: boolean) => void, onPick: () => void}} props */

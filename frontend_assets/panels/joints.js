@@ -12,7 +12,7 @@ import {
 } from "../app/actions.js";
 import { mayEdit } from "../app/state/connection.js";
 import { animating, movable, position, robot } from "../app/state/document.js";
-import { selectPart } from "../app/state/origin.js";
+import { selectPart } from "../app/state/selection.js";
 import { degrees, hovered, selected } from "../app/state/view.js";
 import { t } from "../lib/i18n.js";
 import { rangeOf, unitsOf } from "../lib/joints.js";
@@ -74,7 +74,7 @@ function JointRow({ joint }) {
     }}>
     <div class="property-head">
       <button type="button" class="property-name joint-name" title=${jointHint(joint)} aria-pressed=${chosen}
-        onClick=${() => selectPart(`joint:${joint.name}`)}>${joint.name}</button>
+        onClick=${() => selectPart(`joint:${joint.name}`, "", "", "joints")}>${joint.name}</button>
       <${JointBox} joint=${joint} />
     </div>
     <${JointSlider} joint=${joint} />

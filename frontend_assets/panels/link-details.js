@@ -4,7 +4,7 @@ import { html } from "vendor/preact.js";
 import { commandById } from "../app/commands.js";
 import { PlaceLink } from "../app/place-link.js";
 import { documentState, robot } from "../app/state/document.js";
-import { selectPart } from "../app/state/origin.js";
+import { selectPart } from "../app/state/selection.js";
 import { fadeLink, linkOpacity, onlySelected, selected } from "../app/state/view.js";
 import { focusLink } from "../app/viewport.js";
 import { t } from "../lib/i18n.js";
@@ -46,7 +46,7 @@ function showValues() {
 
 /** @param {string} part say where it comes from */
 function explain(part) {
-  selectPart(part);
+  selectPart(part, "", "", "displays");
   commandById("panel.origin")?.run();
 }
 

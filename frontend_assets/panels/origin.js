@@ -5,14 +5,8 @@
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { PlaceLink } from "../app/place-link.js";
 import { documentState, robot, showingLastGood } from "../app/state/document.js";
-import {
-  followOrigin,
-  origin,
-  part,
-  selectPart,
-  splitKey,
-  wantedPart,
-} from "../app/state/origin.js";
+import { followOrigin, origin } from "../app/state/origin.js";
+import { part, selection, selectPart, splitKey } from "../app/state/selection.js";
 import { degrees } from "../app/state/view.js";
 import { t } from "../lib/i18n.js";
 import { byElement, isComputed, referredPart, valueText } from "../lib/origin.js";
@@ -75,7 +69,7 @@ function Heading({ part: key }) {
 /** @param {{part: string, on: boolean, icon: string, name: string}} props */
 function Choice({ part: key, on, icon, name }) {
   return html`<button type="button" class="segment" aria-pressed=${on} title=${name}
-    onClick=${() => selectPart(key)}><${Icon} name=${icon} size=${13} /><span>${name}</span></button>`;
+    onClick=${() => selectPart(key, "", "", "origin")}><${Icon} name=${icon} size=${13} /><span>${name}</span></button>`;
 }
 
 /** @param {{origin: PartOrigin}} props how the run came to the part */
@@ -136,7 +130,7 @@ function Element({ origin: { inputs, part: key }, path, attributes }) {
 function Attribute({ of, inputs, part: key }) {
   const row = useRef(/** @type {HTMLElement | null} */ (null));
   const editing = useSignal(false);
-  const wanted = wantedPart.value;
+  const wanted = selection.value;
   const sought =
     wanted?.part === key && wanted.element === of.element && wanted.attribute === of.attribute;
   useEffect(() => {
@@ -154,7 +148,7 @@ function Attribute({ of, inputs, part: key }) {
       ${
         other
           ? html`<span class="origin-value"><button type="button" class="text-button" title=${t("origin.show")}
-        onClick=${() => selectPart(other)}>${value}</button></span>`
+        onClick=${() => selectPart(other, "", "", "origin")}>${value}</button></span>`
           : html`<span class="origin-value numbers" title=${of.value}>${value}</span>`
       }
       ${(of.site || written) && html`<${OwnButton} id=${of.site} open=${editing.value} onClick=${() => (editing.value = !editing.value)} />`}

@@ -4,7 +4,7 @@ import { html, useEffect, useMemo, useRef, useSignal } from "vendor/preact.js";
 import { commandById } from "../app/commands.js";
 import { connection } from "../app/state/connection.js";
 import { built, robot, title } from "../app/state/document.js";
-import { part, selectPart, wantedPart } from "../app/state/origin.js";
+import { selection, selectPart } from "../app/state/selection.js";
 import { notify } from "../app/state/view.js";
 import { send } from "../app/wire.js";
 import { copyText } from "../lib/clipboard.js";
@@ -49,7 +49,7 @@ function Lines({ lines, text }) {
     const line = Number(target?.closest("code")?.dataset.line) - 1;
     const found = elements.get(line);
     if (!found || getSelection()?.isCollapsed === false) return;
-    selectPart(found.part, found.element, attributeAt(target));
+    selectPart(found.part, found.element, attributeAt(target), "urdf");
     commandById("panel.origin")?.run();
   };
   return html`<pre ref=${pre} class="code scroll" tabindex="0" aria-label=${t("panel.urdf")} title=${t("urdf.where")}
@@ -67,8 +67,8 @@ function useChosenLine(pre, elements) {
     const entries = [...elements].map(([line, one]) => [`${one.part} ${one.element}`, line]);
     return new Map(/** @type {[string, number][]} */ (entries));
   }, [elements]);
-  const wanted = wantedPart.value?.part === part.value ? wantedPart.value : null;
-  const line = lines.get(`${part.value} ${wanted?.element ?? ""}`);
+  const { part, element } = selection.value ?? {};
+  const line = lines.get(`${part} ${element}`);
   useEffect(() => {
     const code = pre.current?.querySelector(`[data-line="${(line ?? -1) + 1}"]`);
     if (!code) return undefined;

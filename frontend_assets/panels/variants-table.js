@@ -6,6 +6,7 @@
 import { html, useSignal } from "vendor/preact.js";
 import { PlaceLink } from "../app/place-link.js";
 import { robot } from "../app/state/document.js";
+import { selectLink } from "../app/state/selection.js";
 import { comparison, sideName } from "../app/state/variants.js";
 import { degrees, hovered, selected } from "../app/state/view.js";
 import {
@@ -155,7 +156,7 @@ function PartName({ part }) {
     return html`<span class="part-name" title=${kind === "robot" ? "" : t("compare.not_here")}>${text}</span>`;
   return html`<button type="button" class="part-name" title=${t("compare.select", { name: link })} aria-pressed=${selected.value === link}
     onClick=${() => {
-      selected.value = link;
+      selectLink(link, "variants");
     }} onPointerEnter=${() => {
       hovered.value = link;
     }} onPointerLeave=${() => {

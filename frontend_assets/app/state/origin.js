@@ -3,15 +3,16 @@
  * somebody looks, true of the last good run, and asked anew when there is another one.
  */
 
-/** @import { Effects, PartOrigin, RobotState } from "../../types/wire.d.ts" */
+/** @import { Effects, PartOrigin } from "../../types/wire.d.ts" */
 /** @import { Signal } from "vendor/preact.js" */
 
 import { batch, computed, effect, signal, untracked } from "vendor/preact.js";
 import { RefusedError, send } from "../wire.js";
 import { connection } from "./connection.js";
 import { built, robot, site } from "./document.js";
+import { part } from "./selection.js";
 import { litPlaces } from "./source.js";
-import { hovered, onlySelected, selected } from "./view.js";
+import { onlySelected, selected } from "./view.js";
 
 /** The pointer rests so long before anything is asked. */
 const REST_MS = 70;
@@ -19,75 +20,6 @@ const REST_MS = 70;
 const SETTLE_MS = 250;
 /** Answers of one run that are kept. */
 const KEPT = 500;
-
-/**
- * @typedef {object} WantedPart
- * @property {string} part `link:<name>`, `joint:<name>`, `material:<name>` or `other:<n>`
- * @property {string} element path of the element that is looked for; empty: none
- * @property {string} attribute
- */
-
-/** What was chosen last, a part or one attribute of it. @type {Signal<WantedPart | null>} */
-export const wantedPart = signal(null);
-
-/** The part that is explained: the chosen one, while its link is the selected one. */
-export const part = computed(() => {
-  const wanted = wantedPart.value;
-  const link = selected.value;
-  if (wanted && (linkOf(wanted.part) ?? link) === link) return wanted.part;
-  return link ? `link:${link}` : null;
-});
-
-// What the robot has no more is not chosen any more, nor under the pointer.
-effect(() => {
-  const known = robot.value;
-  if (known) untracked(() => batch(() => forgetGone(known)));
-});
-
-/** @param {RobotState} known */
-function forgetGone({ links, joints }) {
-  const isLink = (/** @type {string | null} */ name) => links.some((link) => link.name === name);
-  if (!isLink(selected.value)) {
-    if (selected.value) onlySelected.value = false;
-    selected.value = null;
-  }
-  if (!isLink(hovered.value)) hovered.value = null;
-  const [kind, name] = splitKey(wantedPart.value?.part ?? "");
-  const isJoint = joints.some((joint) => joint.name === name);
-  if ((kind === "joint" && !isJoint) || (kind === "link" && !isLink(name))) wantedPart.value = null;
-}
-
-/** @param {string} key @returns {string | null} the link that is selected with a part, if it has one */
-function linkOf(key) {
-  const [kind, name] = splitKey(key);
-  if (kind === "link") return name;
-  if (kind !== "joint") return null;
-  return robot.value?.joints.find((joint) => joint.name === name)?.child ?? null;
-}
-
-/** @param {string} key @returns {[string, string]} kind and name of a part; `#2` at the end counts parts of one name */
-export function splitKey(key) {
-  const at = key.indexOf(":");
-  const kind = key.slice(0, at);
-  const name = key.slice(at + 1);
-  const known = (kind === "joint" ? robot.value?.joints : robot.value?.links) ?? [];
-  const isName = known.some((one) => one.name === name);
-  return [kind, isName ? name : name.replace(/#\d+$/, "")];
-}
-
-/**
- * Explain a part, and select the link that belongs to it.
- *
- * @param {string} key
- * @param {string} [element] path of an element in it
- * @param {string} [attribute]
- */
-export function selectPart(key, element = "", attribute = "") {
-  batch(() => {
-    wantedPart.value = { part: key, element, attribute };
-    selected.value = linkOf(key) ?? selected.value;
-  });
-}
 
 /** What the studio told of a part; `refused` says why it told nothing. @typedef {{part: string, origin: PartOrigin | null, refused: string}} KnownOrigin */
 /** @type {Signal<KnownOrigin | null>} */

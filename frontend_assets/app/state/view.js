@@ -4,6 +4,7 @@
 
 import { computed, signal } from "vendor/preact.js";
 import { remembered } from "../../lib/remembered.js";
+import { ofLink } from "../../lib/selection.js";
 
 /** @param {string[]} choices @returns {(value: unknown) => boolean} */
 const oneOf = (choices) => (value) => choices.includes(/** @type {string} */ (value));
@@ -38,8 +39,19 @@ export const languageChoice = remembered("language", "");
 
 /** Link under the pointer, in 3D or in the tree. @type {Signal<string | null>} */
 export const hovered = signal(null);
-/** @type {Signal<string | null>} */
-export const selected = signal(null);
+/** What this person has selected; `state/selection.js` has the words for it. @type {Signal<import("../../lib/selection.js").Selection | null>} */
+export const selection = signal(null);
+const selectedLink = computed(() => selection.value?.link ?? null);
+/** The link of the selection; one that is written here is selected as a link. */
+export const selected = {
+  get value() {
+    return selectedLink.value;
+  },
+  set value(link) {
+    selection.value = ofLink(link);
+  },
+  peek: () => selectedLink.peek(),
+};
 /** @type {Signal<ReadonlySet<string>>} */
 export const hiddenLinks = signal(new Set());
 /** Links that are not fully opaque here: 0 to 1. @type {Signal<ReadonlyMap<string, number>>} */

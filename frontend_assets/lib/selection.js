@@ -1,0 +1,108 @@
+/**
+ * What one person has selected, as a state that only these functions change: a part of the robot, the
+ * link that stands for it in 3D, perhaps one element or attribute of the part, and who selected it.
+ */
+
+/** @import { JointView, LinkView, RobotState } from "../types/wire.d.ts" */
+
+/**
+ * @typedef {object} Selection
+ * @property {string} part `link:<name>`, `joint:<name>`, `material:<name>` or `other:<n>`
+ * @property {string | null} link that is lit with it: itself, or what the joint moves
+ * @property {string} element path of the element that is looked for; empty: none
+ * @property {string} attribute
+ * @property {string} by the panel where it was made: that one has it in view already; empty: no panel
+ */
+
+/** @typedef {Pick<RobotState, "links" | "joints">} Parts */
+
+/**
+ * @param {Parts | null} robot
+ * @param {string} key of a part
+ * @returns {[string, string]} kind and name; `#2` at the end counts parts of one name
+ */
+export function splitKey(robot, key) {
+  const at = key.indexOf(":");
+  const kind = key.slice(0, at);
+  const name = key.slice(at + 1);
+  const known = (kind === "joint" ? robot?.joints : robot?.links) ?? [];
+  const isName = known.some((one) => one.name === name);
+  return [kind, isName ? name : name.replace(/#\d+$/, "")];
+}
+
+/**
+ * @param {Parts | null} robot
+ * @param {string} key
+ * @returns {string | null} the link that is lit with a part, if it has one
+ */
+export function linkOf(robot, key) {
+  const [kind, name] = splitKey(robot, key);
+  if (kind === "link") return name;
+  if (kind !== "joint") return null;
+  return robot?.joints.find((joint) => joint.name === name)?.child ?? null;
+}
+
+/**
+ * @param {string | null} link null: nothing is selected any more
+ * @param {string} [by]
+ * @returns {Selection | null}
+ */
+export function ofLink(link, by = "") {
+  return link === null ? null : { part: `link:${link}`, link, element: "", attribute: "", by };
+}
+
+/**
+ * @param {Selection | null} before a part without a link of its own leaves that one lit
+ * @param {Parts | null} robot
+ * @param {{part: string, element?: string, attribute?: string, by?: string}} chosen
+ * @returns {Selection}
+ */
+export function ofPart(before, robot, { part, element = "", attribute = "", by = "" }) {
+  return { part, link: linkOf(robot, part) ?? before?.link ?? null, element, attribute, by };
+}
+
+/**
+ * @param {Selection | null} before
+ * @param {Parts} robot as it is now
+ * @returns {Selection | null} the same object when the robot still has it all
+ */
+export function stillThere(before, robot) {
+  if (!before) return null;
+  const lit = litNow(before, robot);
+  if (lit === before.link) return before;
+  if (lit !== null) return { ...before, link: lit };
+  const outlived = before.part.startsWith("joint:") && has(robot.links, before.link);
+  return outlived ? ofLink(before.link) : null;
+}
+
+/** @param {Selection} before @param {Parts} robot @returns {string | null} the link of a part, as the robot is now */
+function litNow({ part, link }, robot) {
+  const [kind] = splitKey(robot, part);
+  const lit = kind === "link" || kind === "joint" ? linkOf(robot, part) : link;
+  return has(robot.links, lit) ? lit : null;
+}
+
+/** @param {readonly {name: string}[]} parts @param {string | null} wanted */
+const has = (parts, wanted) => parts.some(({ name }) => name === wanted);
+
+/**
+ * The part that was written at a place. One element of a macro makes several: the one that is selected
+ * already stays so.
+ *
+ * @param {Parts} robot
+ * @param {{file: string, line: number, kind: string, name: string}} element `kind` is `link` or `joint`;
+ *   `name` as it stands there, perhaps an expression; line from 1
+ * @param {string | null} present key of the part that is selected
+ * @returns {string | null} key of the part
+ */
+export function partWrittenAt({ links, joints }, { file, line, kind, name }, present) {
+  /** @type {readonly (LinkView | JointView)[]} */
+  const all = kind === "joint" ? joints : links;
+  const here = all.filter((one) => one.file === file);
+  const named = here.filter((one) => one.name === name);
+  // Lines are those of the last good run; a name that is no expression is surer.
+  const found = (named.length > 0 ? named : here.filter((one) => one.line === line)).map(
+    (one) => `${kind}:${one.name}`,
+  );
+  return found.find((key) => key === present) ?? found[0] ?? null;
+}
