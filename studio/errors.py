@@ -9,6 +9,8 @@ StudioError
         OutsideRootsError
         UnreadableFileError
         UnsafeArchiveError
+        NotMadeError
+        UploadError
     DescriptionError
         ExpansionError
             RefusedError
@@ -109,6 +111,22 @@ class UnsafeArchiveError(PackageError):
     def __init__(self, path: str, reason: str) -> None:
         super().__init__(f"{path} was not unpacked: {reason}")
         self.path, self.reason = path, reason
+
+
+class NotMadeError(PackageError):
+    """A new file or package cannot be made."""
+
+    def __init__(self, path: str, reason: str) -> None:
+        super().__init__(f"{path} was not made: {reason}")
+        self.path, self.reason = path, reason
+
+
+class UploadError(PackageError):
+    """Files that were sent to the studio cannot be taken; nothing of them is kept."""
+
+    def __init__(self, reason: str) -> None:
+        super().__init__(f"Nothing was uploaded: {reason}")
+        self.reason = reason
 
 
 class DescriptionError(StudioError):
