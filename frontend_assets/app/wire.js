@@ -3,14 +3,14 @@
  */
 
 /** @import { CompletionsAnswer, MeaningAnswer, OutlineAnswer, ReferencesAnswer } from "../types/wire.d.ts" */
-/** @import { Arguments, Collisions, Command, Done, Effects, Event, Folder, Link, LinkOpened, Opened, Origin, Refused, Text, Urdf, VariantApplied, VariantSaved } from "../types/wire.d.ts" */
+/** @import { Arguments, Collisions, Command, Done, Effects, Event, Folder, Frames, Link, LinkOpened, Masses, Opened, Origin, Refused, Text, Urdf, VariantApplied, VariantSaved } from "../types/wire.d.ts" */
 
 import { readJointFrame } from "../lib/frames.js";
 import { connection, turnedAway } from "./state/connection.js";
 import { documentId, receive, takeJointFrame } from "./state/document.js";
 
 /** @typedef {CompletionsAnswer | MeaningAnswer | OutlineAnswer | ReferencesAnswer} LanguageAnswer */
-/** @typedef {LanguageAnswer | Arguments | Collisions | Done | Effects | Folder | Link | LinkOpened | Opened | Origin | Text | Urdf | VariantApplied | VariantSaved} Answer */
+/** @typedef {LanguageAnswer | Arguments | Collisions | Done | Effects | Folder | Frames | Link | LinkOpened | Masses | Opened | Origin | Text | Urdf | VariantApplied | VariantSaved} Answer */
 /**
  * A command without what the lane adds to it.
  * @template T

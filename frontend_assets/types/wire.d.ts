@@ -94,6 +94,7 @@ export interface Collisions {
   file: string;
   places: CollisionView[];
   count: number;
+  state: string;
 }
 
 /** Compare two states for everybody from now on, and follow them; None ends it. */
@@ -295,6 +296,18 @@ export interface FolderEntry {
   reason: string;
 }
 
+/**
+ * Answer to `get_frames`, true of the robot now: ask again when something was built.
+ *
+ * By joint the frame of the joint in its parent link: x, y, z in m, then roll, pitch, yaw in rad.
+ */
+export interface Frames {
+  type: "frames";
+  request: number;
+  revision: number;
+  origins: Record<string, [number, number, number, number, number, number]>;
+}
+
 /** What a robot can be launched with: the open document's, or that of a file not yet open. */
 export interface GetArguments {
   request?: number;
@@ -319,11 +332,25 @@ export interface GetEffects {
   site: string;
 }
 
+/** Where the joints of the last good robot stand; links follow from that and the positions. */
+export interface GetFrames {
+  request?: number;
+  document?: string;
+  type: "get_frames";
+}
+
 /** A link that opens this robot with its arguments and unsaved edits. */
 export interface GetLink {
   request?: number;
   document?: string;
   type: "get_link";
+}
+
+/** What the links of the last good robot weigh, and what room their shapes take. */
+export interface GetMasses {
+  request?: number;
+  document?: string;
+  type: "get_masses";
 }
 
 /** Where a part of the last good run comes from; `part` is `link:<name>`, `joint:<name>` ... */
@@ -433,6 +460,17 @@ export interface Link {
   edits: number;
 }
 
+/** A link with an inertial; None stands for what no number can say. */
+export interface LinkMassView {
+  link: string;
+  mass_kg: number;
+  centre_m: [number, number, number];
+  moments_kg_m2: [number, number, number] | null;
+  inertia_kg_m2: [number, number, number, number, number, number];
+  visual: VolumeView | null;
+  collision: VolumeView | null;
+}
+
 /** Answer to `open_link`: go to `/d/<document>`; `left_out` says which edits found no place. */
 export interface LinkOpened {
   type: "link_opened";
@@ -474,6 +512,13 @@ export interface LookUp {
 export interface MacroCall {
   macro: string;
   called_at: Place;
+}
+
+/** Answer to `get_masses`, true of the robot now: ask again when something was built. */
+export interface Masses {
+  type: "masses";
+  request: number;
+  links: LinkMassView[];
 }
 
 /** What a word stands for; [start, end) is the word. */
@@ -778,13 +823,19 @@ export interface ResetSite {
   site: string;
 }
 
-/** Take a file's changes on disk; where they collide with unsaved edits, one side's. */
+/**
+ * Take a file's changes on disk; where they collide with unsaved edits, one side's.
+ *
+ * `each` chooses place by place for the first ones, `keep` for those beyond them.
+ */
 export interface ResolveCollisions {
   request?: number;
   document?: string;
   type: "resolve_collisions";
   file: string;
   keep: "mine" | "theirs";
+  each?: ("mine" | "theirs")[];
+  state?: string;
 }
 
 /** The robot's tree. `revision` counts structural changes; joint frames carry it. */
@@ -797,11 +848,12 @@ export interface RobotState {
   joints: JointView[];
 }
 
-/** Write the edited bytes of all changed files of the document. */
+/** Write the edited bytes of these changed files of the document, or of all. */
 export interface Save {
   request?: number;
   document?: string;
   type: "save";
+  files?: string[] | null;
 }
 
 /** Keep the present arguments and values as a new variant. */
@@ -997,6 +1049,12 @@ export interface Variants {
   trouble: string;
 }
 
+/** Of all visuals or all collisions of a link, m3; not exact: at most that. */
+export interface VolumeView {
+  volume_m3: number;
+  is_exact: boolean;
+}
+
 /** Show me this document: its whole state now, then every change. */
 export interface Watch {
   request?: number;
@@ -1056,6 +1114,8 @@ export type Command =
   | GetText
   | GetOrigin
   | GetEffects
+  | GetFrames
+  | GetMasses
   | EditText
   | GetOutline
   | LookUp
@@ -1099,6 +1159,8 @@ export type Event =
   | Saved
   | Origin
   | Effects
+  | Frames
+  | Masses
   | Variants
   | VariantApplied
   | VariantSaved

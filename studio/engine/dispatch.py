@@ -56,6 +56,8 @@ _QUESTIONS: Final = (
     _row(m.GetUrdf, lambda d, c, _: m.Urdf(request=c.request, text=d.urdf())),
     _row(m.GetOrigin, lambda d, c, who: d.origins.origin(c, who)),
     _row(m.GetEffects, lambda d, c, who: d.origins.effects(c, who)),
+    _row(m.GetFrames, lambda d, c, _: d.inspection.frames(c)),
+    _row(m.GetMasses, lambda d, c, _: d.inspection.masses(c)),
     _row(m.GetOutline, lambda d, c, who: d.language.outline(c, who)),
     _row(m.LookUp, lambda d, c, who: d.language.look_up(c, who)),
     _row(m.GetReferences, lambda d, c, who: d.language.references(c, who)),

@@ -13,6 +13,7 @@ from studio.description.values import Expansion, Failure, NoReply
 from studio.engine.board import Board
 from studio.engine.disk import DiskDesk
 from studio.engine.edit_loop import EditLoop, Outcome, Target
+from studio.engine.inspection import InspectionDesk
 from studio.engine.language import LanguageDesk
 from studio.engine.mending import MendingDesk
 from studio.engine.mesh_desk import MeshDesk
@@ -75,6 +76,7 @@ class Document:
         self.board.find("packages", location.problems)
         self.texts = TextDesk(self)
         self.origins = OriginDesk(self)
+        self.inspection = InspectionDesk(self, services.meshes)
         self.language = LanguageDesk(self)
         self.mending = MendingDesk(self)
         self.disk = DiskDesk(self.sources, served, self.board)

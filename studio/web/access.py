@@ -47,6 +47,8 @@ _LOOK: Final = frozenset(
         "look_up",
         "get_references",
         "get_effects",
+        "get_frames",
+        "get_masses",
         "viser:ViewerCameraMessage",
     }
 )

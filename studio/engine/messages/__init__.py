@@ -51,6 +51,14 @@ from studio.engine.messages.files import (
     Save,
     Saved,
 )
+from studio.engine.messages.inspection import (
+    Frames,
+    GetFrames,
+    GetMasses,
+    LinkMassView,
+    Masses,
+    VolumeView,
+)
 from studio.engine.messages.language import (
     Complete,
     CompletionsAnswer,
@@ -151,6 +159,8 @@ Command: TypeAlias = Annotated[
     | GetText
     | GetOrigin
     | GetEffects
+    | GetFrames
+    | GetMasses
     | EditText
     | GetOutline
     | LookUp
@@ -197,6 +207,8 @@ Event: TypeAlias = Annotated[
     | Saved
     | Origin
     | Effects
+    | Frames
+    | Masses
     | Variants
     | VariantApplied
     | VariantSaved
@@ -238,10 +250,13 @@ __all__ = [
     "Event",
     "Folder",
     "FolderEntry",
+    "Frames",
     "GetArguments",
     "GetCollisions",
     "GetEffects",
+    "GetFrames",
     "GetLink",
+    "GetMasses",
     "GetOrigin",
     "GetOutline",
     "GetReferences",
@@ -254,10 +269,12 @@ __all__ = [
     "JointPositions",
     "JointView",
     "Link",
+    "LinkMassView",
     "LinkOpened",
     "LinkView",
     "ListFolder",
     "LookUp",
+    "Masses",
     "MeaningAnswer",
     "MendAll",
     "OpenLink",
@@ -298,6 +315,7 @@ __all__ = [
     "VariantText",
     "VariantView",
     "Variants",
+    "VolumeView",
     "Watch",
     "ZeroJoints",
 ]

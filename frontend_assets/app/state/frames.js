@@ -1,0 +1,83 @@
+/**
+ * Where the links stand now, computed here from the frames of the joints and their positions: it
+ * follows every joint frame without a word to the studio. The frames are asked for while somebody
+ * looks, and asked anew when something was built.
+ */
+
+/** @import { Frames } from "../../types/wire.d.ts" */
+/** @import { Pose } from "../../lib/kinematics.js" */
+/** @import { Signal } from "vendor/preact.js" */
+
+import { computed, effect, signal, untracked } from "vendor/preact.js";
+import { rootFromLinks } from "../../lib/kinematics.js";
+import { send } from "../wire.js";
+import { connection } from "./connection.js";
+import { built, movable, position, robot } from "./document.js";
+
+/** @type {Signal<Frames["origins"] | null>} */
+const origins = signal(null);
+
+/** Pose of each link in the root frame, by link; null until it is known. Needs `followFrames`. @type {Signal<ReadonlyMap<string, Pose> | null>} */
+export const linkPoses = computed(() => {
+  const [known, tree] = [origins.value, robot.value];
+  if (!known || !tree) return null;
+  const moving = new Set(movable.value.map(({ name }) => name));
+  return rootFromLinks(
+    tree,
+    (joint) => known[joint],
+    (joint) => (moving.has(joint) ? position(joint).value : 0),
+  );
+});
+
+let followers = 0;
+/** @type {() => void} */
+let stop = () => {};
+
+/** Keep `linkPoses` true while somebody looks. @returns {() => void} the end of looking */
+export function followFrames() {
+  followers += 1;
+  if (followers === 1) stop = askWhenBuilt(askFrames);
+  let over = false;
+  return () => {
+    if (over) return;
+    over = true;
+    followers -= 1;
+    if (followers === 0) stop();
+  };
+}
+
+async function askFrames() {
+  const answer = await send({ type: "get_frames" }).catch(() => null);
+  if (answer?.type === "frames") origins.value = answer.origins;
+}
+
+/**
+ * Ask at once and whenever something was built: never twice at a time, and once more when more was
+ * built meanwhile.
+ *
+ * @param {() => Promise<void>} ask
+ * @returns {() => void} the end of it
+ */
+export function askWhenBuilt(ask) {
+  let asking = false;
+  let again = false;
+  let over = false;
+  const go = async () => {
+    asking = true;
+    do {
+      again = false;
+      await untracked(ask);
+    } while (again && !over);
+    asking = false;
+  };
+  const end = effect(() => {
+    built.value;
+    if (connection.value !== "connected" || robot.value === null) return;
+    if (asking) again = true;
+    else go();
+  });
+  return () => {
+    over = true;
+    end();
+  };
+}
