@@ -7,6 +7,7 @@ import { matches } from "../lib/keys.js";
 /**
  * @typedef {object} Command
  * @property {string} id its words are `command.<id>`
+ * @property {() => string} [label] other words than these
  * @property {string} icon
  * @property {string[]} [keys] the first is the one that is shown
  * @property {() => void} run
@@ -23,8 +24,13 @@ export function addCommands(added) {
   commands.value = [...commands.value, ...added];
 }
 
+/** @param {string} start of the ids of those that go @param {readonly Command[]} added in their place */
+export function replaceCommands(start, added) {
+  commands.value = [...commands.peek().filter(({ id }) => !id.startsWith(start)), ...added];
+}
+
 /** @param {Command} command @returns {string} */
-export const commandLabel = (command) => t(`command.${command.id}`);
+export const commandLabel = (command) => command.label?.() ?? t(`command.${command.id}`);
 
 /** @param {string} id */
 export const commandById = (id) => commands.value.find((command) => command.id === id);

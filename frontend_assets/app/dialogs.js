@@ -5,6 +5,7 @@ import { t } from "../lib/i18n.js";
 import { Dialog } from "../lib/ui.js";
 import { KeysDialog } from "./keys-dialog.js";
 import { LaunchDialog } from "./launch-dialog.js";
+import { LayoutsDialog } from "./layouts-dialog.js";
 import { MergeDialog } from "./merge-dialog.js";
 import { OpenDialog, PackageDialog } from "./open-dialog.js";
 import { Palette } from "./palette.js";
@@ -30,6 +31,8 @@ export function Dialogs() {
       return html`<${MergeDialog} file=${shown.file} onClose=${close} />`;
     case "share":
       return html`<${ShareDialog} link=${shown.link} onClose=${close} />`;
+    case "layouts":
+      return html`<${LayoutsDialog} onClose=${close} />`;
     case "keys":
       return html`<${KeysDialog} onClose=${close} />`;
     case "palette":

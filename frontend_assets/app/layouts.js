@@ -1,15 +1,19 @@
 /** Arrangements of the panels by the size of the window; each is remembered on its own. */
 
-/** @import { Dock, Split } from "../lib/dock.js" */
+/** @import { Arrangement, Split } from "../lib/arrangement.js" */
+/** @import { Dock } from "../lib/dock.js" */
 
-import { effect } from "vendor/preact.js";
+import { effect, signal, untracked } from "vendor/preact.js";
+import { readArrangement } from "../lib/arrangement.js";
 import { recall, remember } from "../lib/remembered.js";
+import { PANELS } from "./panels.js";
+import { layoutInUse, ownArrangement } from "./state/own-layouts.js";
 import { size } from "./state/view.js";
 
 const PHONE_BELOW_PX = 700;
 const LOW_BELOW_PX = 480;
 const WIDE_FROM_PX = 1000;
-const VERSION = 3;
+const VERSION = 4;
 
 /** @param {number} width px @param {number} height px @returns {"wide" | "medium" | "phone"} */
 export function sizeOf(width, height) {
@@ -25,24 +29,7 @@ export function sizeOf(width, height) {
  * @returns {Split[]} a row, left to right; a split in it stacks from top to bottom
  */
 export function modelLayout(kind, width, height) {
-  if (kind === "phone")
-    return [
-      {
-        tabs: [
-          "scene",
-          "properties",
-          "origin",
-          "joints",
-          "variants",
-          "displays",
-          "outline",
-          "source",
-          "problems",
-          "urdf",
-        ],
-        size: width,
-      },
-    ];
+  if (kind === "phone") return [{ tabs: Object.keys(PANELS), size: width }];
   if (kind === "medium") {
     const right = Math.round(Math.min(340, width * 0.42));
     const low = Math.round(height * 0.38);
@@ -55,7 +42,7 @@ export function modelLayout(kind, width, height) {
     ];
     return [
       { split: left, size: width - right },
-      { tabs: ["properties", "origin", "joints"], size: right },
+      { tabs: ["properties", "origin", "joints", "frames"], size: right },
     ];
   }
   const low = Math.round(Math.min(340, height * 0.36));
@@ -66,26 +53,38 @@ export function modelLayout(kind, width, height) {
   return [
     { tabs: ["displays", "outline"], size: left },
     { split: [scene, below], size: width - left - right },
-    { tabs: ["properties", "origin", "joints"], size: right },
+    { tabs: ["properties", "origin", "joints", "frames"], size: right },
   ];
 }
 
 /** @param {"wide" | "medium" | "phone"} kind */
 const storeName = (kind) => `layout.${VERSION}.${kind}`;
 
+/** @param {string} id */
+export const isPanel = (id) => Object.hasOwn(PANELS, id);
+
+/**
+ * @typedef {object} LayoutDesk
+ * @property {() => Arrangement} present how the panels stand now
+ * @property {(name: string) => void} use a layout; the empty name is the studio's own
+ * @property {() => void} reset to the layout in use as it was saved
+ */
+
+/** What arranges the dock; null until it stands. @type {import("vendor/preact.js").Signal<LayoutDesk | null>} */
+export const layoutDesk = signal(null);
+
 /**
  * Keep the dock arranged as the size of the window asks.
  *
  * @param {Dock} dock
  * @param {HTMLElement} element that holds it
- * @returns {{reset: () => void, keep: () => void}}
+ * @returns {{keep: () => void}} to be called when a person moved something
  */
 export function followSize(dock, element) {
   const arrange = () => {
     const kind = size.value;
-    const stored = kind === "phone" ? undefined : recall(storeName(kind));
     dock.setSingle(kind === "phone");
-    dock.arrange(modelLayout(kind, element.clientWidth, element.clientHeight), stored);
+    dock.arrange(untracked(() => arrangementFor(kind, element)));
   };
   const measure = () => {
     size.value = sizeOf(innerWidth, innerHeight);
@@ -93,13 +92,35 @@ export function followSize(dock, element) {
   measure();
   addEventListener("resize", measure);
   effect(arrange);
+  layoutDesk.value = deskFor(dock, arrange);
   return {
-    reset() {
-      remember(storeName(size.peek()), undefined);
-      arrange();
-    },
     keep() {
-      if (size.peek() !== "phone") remember(storeName(size.peek()), dock.layout());
+      if (size.peek() !== "phone") remember(storeName(size.peek()), dock.arrangement());
     },
+  };
+}
+
+/** @param {"wide" | "medium" | "phone"} kind @param {HTMLElement} element @returns {Arrangement} */
+function arrangementFor(kind, element) {
+  const given = { parts: modelLayout(kind, element.clientWidth, element.clientHeight) };
+  if (kind === "phone") return given;
+  const chosen = recall(storeName(kind)) ?? ownArrangement(layoutInUse.value);
+  return readArrangement(chosen, isPanel)?.arrangement ?? given;
+}
+
+/** @param {Dock} dock @param {() => void} arrange @returns {LayoutDesk} */
+function deskFor(dock, arrange) {
+  const forget = () => {
+    for (const kind of /** @type {const} */ (["wide", "medium"]))
+      remember(storeName(kind), undefined);
+    arrange();
+  };
+  return {
+    present: () => dock.arrangement(),
+    use(name) {
+      layoutInUse.value = name;
+      forget();
+    },
+    reset: forget,
   };
 }

@@ -10,33 +10,24 @@ import { iconElement } from "../lib/ui.js";
 import { clearSelection, redo, save, toggleAnimation, undo, watch, zeroJoints } from "./actions.js";
 import { addCommands, onKey } from "./commands.js";
 import { followMissing } from "./launch-dialog.js";
+import { addLayoutCommands } from "./layout-commands.js";
 import { followSize } from "./layouts.js";
 import { menuCommands } from "./menu-commands.js";
 import { followDisk } from "./merge-dialog.js";
-import { dockPanels, PANELS } from "./panels.js";
+import { dockPanels } from "./panels.js";
 import { followLink } from "./share.js";
 import { Shell } from "./shell.js";
 import { mayEdit, role } from "./state/connection.js";
 import { documentId, history, movable, title, unsaved } from "./state/document.js";
-import {
-  activePanel,
-  dialog,
-  isFree,
-  languageChoice,
-  selected,
-  size,
-  theme,
-} from "./state/view.js";
+import { activePanel, dialog, isFree, languageChoice, selected, theme } from "./state/view.js";
 import { viewport } from "./viewport.js";
 import { connect } from "./wire.js";
-
-/** @import { Dock } from "../lib/dock.js" */
 
 const EDITING = { enabled: () => mayEdit.value && isFree() };
 
 /** @param {HTMLElement} element */
 function startDock(element) {
-  /** @type {{reset: () => void, keep: () => void} | null} */
+  /** @type {{keep: () => void} | null} */
   let arrangement = null;
   const dock = createDock(element, dockPanels(), {
     maximizeLabel: () => t("maximize"),
@@ -48,30 +39,7 @@ function startDock(element) {
     },
   });
   arrangement = followSize(dock, element);
-  addCommands(panelCommands(dock, arrangement.reset));
-}
-
-/** @param {Dock} dock @param {() => void} reset */
-function panelCommands(dock, reset) {
-  const panels = Object.entries(PANELS).map(([id, { icon }]) => ({
-    id: `panel.${id}`,
-    icon,
-    run: () => dock.show(id),
-  }));
-  const wide = () => size.value !== "phone";
-  return [
-    ...panels,
-    { id: "next_panel", icon: "layout", keys: ["F6"], inText: true, run: () => dock.focusNext(1) },
-    {
-      id: "previous_panel",
-      icon: "layout",
-      keys: ["Shift+F6"],
-      inText: true,
-      run: () => dock.focusNext(-1),
-    },
-    { id: "maximize", icon: "maximize", enabled: wide, run: dock.toggleMaximized },
-    { id: "reset_layout", icon: "reset", enabled: wide, run: reset },
-  ];
+  addLayoutCommands(dock, element);
 }
 
 function addPageCommands() {

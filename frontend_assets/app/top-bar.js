@@ -147,6 +147,11 @@ function settingsItems() {
             icon: "reset",
             run: () => commandById("reset_layout")?.run(),
           },
+          {
+            label: `${t("command.layouts")}…`,
+            icon: "layout",
+            run: () => commandById("layouts")?.run(),
+          },
         ]),
     {
       label: t("command.keys"),

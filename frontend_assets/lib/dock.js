@@ -1,8 +1,12 @@
 /** The dock: panels in tabs and splits. The one place that knows dockview, so that it can be replaced. */
 
-/** @import { DockviewApi, DockviewGroupPanel, IDockviewPanel, SerializedDockview } from "vendor/dockview.js" */
+/** @import { DockviewApi, DockviewGroupPanel, IDockviewPanel } from "vendor/dockview.js" */
+/** @import { Arrangement } from "./arrangement.js" */
+/** @import { Place } from "./dock-places.js" */
 
 import { createDockview } from "vendor/dockview.js";
+import { fromDockview, toDockview } from "./arrangement.js";
+import { movePanel, placesFor } from "./dock-places.js";
 import { keepInPlace } from "./frame-place.js";
 import { keepScrolled } from "./scrolled.js";
 import { keepTabsWhole } from "./tight-tabs.js";
@@ -16,23 +20,25 @@ import { keepTabsWhole } from "./tight-tabs.js";
  */
 
 /**
- * Where panels stand: a tree of rows and columns; a leaf holds tabs, the first of which is shown.
- * @typedef {{tabs: string[], size: number} | {split: Split[], size: number}} Split
- */
-
-/**
  * @typedef {object} Dock
  * @property {(id: string) => void} show bring a panel to the front, opened where it is missing
  * @property {(id: string) => boolean} isOpen
  * @property {() => string | null} active
  * @property {(step: 1 | -1) => void} focusNext
  * @property {() => void} toggleMaximized the active panel over all others, and back
- * @property {(row: Split[], stored: unknown) => void} arrange as stored when it fits, else as given
- * @property {() => unknown} layout what `arrange` takes as stored
+ * @property {(id: string) => void} close it, which `show` opens anew
+ * @property {(id: string) => Place[]} places where else it can stand
+ * @property {(id: string, place: Place) => void} move
+ * @property {(id: string) => HTMLElement | null} tab
+ * @property {(target: EventTarget | null) => string | null} panelOfTab whose tab it lies in
+ * @property {(arrangement: Arrangement) => void} arrange
+ * @property {() => Arrangement} arrangement as it is now
  * @property {(single: boolean) => void} setSingle one panel at a time, without tabs
  * @property {() => void} relabel titles are said anew
  */
 
+/** A tab of the dock; a panel may have tabs of its own inside. */
+const TAB = '.dv-tabs-container [role="tab"]';
 const THEME = { name: "studio", className: "dockview-theme-studio", gap: 6 };
 
 /**
@@ -67,9 +73,11 @@ export function createDock(element, panels, options) {
     options.onActive(panel?.id ?? null);
   });
 
-  /** @param {SerializedDockview} layout */
-  function load(layout) {
+  /** @param {Arrangement} arrangement */
+  function arrange(arrangement) {
     quiet = true;
+    const room = { width: element.clientWidth || 1200, height: element.clientHeight || 800 };
+    const layout = toDockview(arrangement, room, (id) => described(id, panels));
     api.fromJSON(layout, { reuseExistingPanels: true });
     for (const restore of restores) restore();
     // dockview tells of changes in a later task; they are not the person's.
@@ -90,17 +98,16 @@ export function createDock(element, panels, options) {
     active: () => api.activePanel?.id ?? null,
     focusNext: (step) => focusNext(api, step),
     toggleMaximized: () => toggleMaximized(api),
-    arrange(row, stored) {
-      if (isLayout(stored, panels)) {
-        try {
-          return load(stored);
-        } catch {
-          // Stored by another version of the page: the given arrangement takes its place.
-        }
-      }
-      return load(serialized(row, element, panels));
+    close: (id) => api.getPanel(id)?.api.close(),
+    places: (id) => placesFor(api, id),
+    move: (id, place) => {
+      movePanel(api, id, place);
+      tabOfPanel(api, id)?.focus();
     },
-    layout: () => api.toJSON(),
+    tab: (id) => tabOfPanel(api, id),
+    panelOfTab: (target) => panelOfTab(api, target),
+    arrange,
+    arrangement: () => fromDockview(api.toJSON()),
     setSingle(on) {
       single = on;
       applySingle();
@@ -212,16 +219,18 @@ function focusNext(api, step) {
   const group = groups[(from + step + groups.length) % groups.length];
   group?.activePanel?.api.setActive();
   /** @type {HTMLElement | null | undefined} */
-  const tab = group?.element.querySelector('[role="tab"][aria-selected="true"], [role="tab"]');
+  const tab =
+    group?.element.querySelector(`${TAB}[aria-selected="true"]`) ??
+    group?.element.querySelector(TAB);
   tab?.focus();
 }
 
 /** Arrow keys move along the tabs of a group, as people expect of tabs. @param {DockviewApi} api @param {KeyboardEvent} event */
 function onTabKey(api, event) {
-  const tab = event.target instanceof Element ? event.target.closest('[role="tab"]') : null;
+  const tab = event.target instanceof Element ? event.target.closest(TAB) : null;
   const group = api.groups.find((one) => tab && one.element.contains(tab));
   if (!tab || !group) return;
-  const tabs = [...group.element.querySelectorAll('[role="tab"]')];
+  const tabs = [...group.element.querySelectorAll(TAB)];
   const at = tabs.indexOf(tab);
   /** @type {Record<string, number>} */
   const targets = {
@@ -246,49 +255,22 @@ function toggleMaximized(api) {
   else api.activePanel?.api.maximize();
 }
 
-/** @param {unknown} stored @param {Record<string, Panel>} panels @returns {stored is SerializedDockview} */
-function isLayout(stored, panels) {
-  if (typeof stored !== "object" || stored === null || !("grid" in stored) || !("panels" in stored))
-    return false;
-  const ids = Object.keys(/** @type {object} */ (stored.panels));
-  const framed = Object.keys(panels).filter((id) => panels[id]?.keepsFrame);
-  return ids.every((id) => id in panels) && framed.every((id) => ids.includes(id));
-}
-
-/**
- * @param {Split[]} row
- * @param {HTMLElement} element
- * @param {Record<string, Panel>} panels
- * @returns {SerializedDockview} the arrangement in dockview's own words
- */
-function serialized(row, element, panels) {
-  const width = element.clientWidth || 1200;
-  const height = element.clientHeight || 800;
-  let count = 0;
-  /** @param {Split} part @returns {object} */
-  const node = (part) => {
-    if ("split" in part) return { type: "branch", size: part.size, data: part.split.map(node) };
-    count += 1;
-    const data = { id: String(count), views: part.tabs, activeView: part.tabs[0] };
-    return { type: "leaf", size: part.size, data };
-  };
-  const root = { type: "branch", size: height, data: row.map(node) };
-  const used = row.flatMap(tabsOf);
-  const layout = {
-    grid: { root, width, height, orientation: "HORIZONTAL" },
-    panels: Object.fromEntries(used.map((id) => [id, described(id, panels)])),
-    activeGroup: "1",
-  };
-  return /** @type {SerializedDockview} */ (/** @type {unknown} */ (layout));
-}
-
 /** @param {string} id @param {Record<string, Panel>} panels */
 function described(id, panels) {
   const renderer = panels[id]?.keepsFrame ? "always" : "onlyWhenVisible";
   return { id, contentComponent: id, tabComponent: id, title: panels[id]?.title() ?? id, renderer };
 }
 
-/** @param {Split} part @returns {string[]} */
-function tabsOf(part) {
-  return "split" in part ? part.split.flatMap(tabsOf) : part.tabs;
+/** @param {DockviewApi} api @param {string} id @returns {HTMLElement | null} the tab of a panel */
+function tabOfPanel(api, id) {
+  const group = api.getPanel(id)?.group;
+  const at = group?.panels.findIndex((panel) => panel.id === id) ?? -1;
+  const tabs = group?.element.querySelectorAll(TAB);
+  return /** @type {HTMLElement | null} */ (tabs?.[at] ?? null);
+}
+
+/** @param {DockviewApi} api @param {EventTarget | null} target @returns {string | null} */
+function panelOfTab(api, target) {
+  const tab = target instanceof Element ? target.closest(TAB) : null;
+  return (tab && api.panels.find(({ id }) => tabOfPanel(api, id) === tab)?.id) ?? null;
 }

@@ -251,10 +251,12 @@ export function Dialog({ title, closeLabel, class: names, onClose, children }) {
   const heading = useId();
   // Before the next key press: what is typed right after a shortcut belongs to the dialog.
   useLayoutEffect(() => {
+    const before = document.activeElement;
     element.current?.showModal();
     /** @type {HTMLElement | null | undefined} */ (
       element.current?.querySelector("[data-first]")
     )?.focus();
+    return () => giveFocusBack(before);
   }, []);
   /** @param {MouseEvent} event */
   const closeBeside = (event) => {
@@ -268,4 +270,12 @@ export function Dialog({ title, closeLabel, class: names, onClose, children }) {
       ${children}
     </div>
   </dialog>`;
+}
+
+/** @param {Element | null} before had the focus; what a closing window began may have taken it since */
+function giveFocusBack(before) {
+  setTimeout(() => {
+    const nobody = document.activeElement === document.body || document.activeElement === null;
+    if (nobody && before instanceof HTMLElement && before.isConnected) before.focus();
+  });
 }

@@ -1,0 +1,152 @@
+/** What is done with panels and their layouts by a name or a key: next, move, close, switch. */
+
+/** @import { Dock } from "../lib/dock.js" */
+/** @import { Place } from "../lib/dock-places.js" */
+/** @import { MenuItem } from "../lib/ui.js" */
+/** @import { Command } from "./commands.js" */
+
+import { effect } from "vendor/preact.js";
+import { t } from "../lib/i18n.js";
+import { openMenu } from "../lib/ui.js";
+import { addCommands, replaceCommands } from "./commands.js";
+import { layoutDesk } from "./layouts.js";
+import { PANELS, panelTitle } from "./panels.js";
+import { layoutInUse, ownLayouts } from "./state/own-layouts.js";
+import { dialog, isFree, size } from "./state/view.js";
+
+/** So many layouts have a key of their own. */
+const KEYS_MOST = 9;
+const NAMES_SHOWN = 3;
+
+/** @param {Dock} dock @param {HTMLElement} element that holds it */
+export function addLayoutCommands(dock, element) {
+  addCommands([...showCommands(dock), ...focusCommands(dock), ...placeCommands(dock)]);
+  effect(() => replaceCommands("layout.", layoutCommands()));
+  element.addEventListener("contextmenu", (event) => {
+    const id = dock.panelOfTab(event.target);
+    if (!id || size.value === "phone") return;
+    event.preventDefault();
+    openPanelMenu(dock, id);
+  });
+}
+
+/** @param {Dock} dock @returns {Command[]} */
+function showCommands(dock) {
+  return Object.entries(PANELS).map(([id, { icon }]) => ({
+    id: `panel.${id}`,
+    icon,
+    run: () => dock.show(id),
+  }));
+}
+
+/** @param {Dock} dock @returns {Command[]} */
+function focusCommands(dock) {
+  return [
+    { id: "next_panel", icon: "layout", keys: ["F6"], inText: true, run: () => dock.focusNext(1) },
+    {
+      id: "previous_panel",
+      icon: "layout",
+      keys: ["Shift+F6"],
+      inText: true,
+      run: () => dock.focusNext(-1),
+    },
+  ];
+}
+
+/** @param {Dock} dock @returns {Command[]} */
+function placeCommands(dock) {
+  const wide = () => size.value !== "phone";
+  const shown = () => wide() && isFree() && dock.active() !== null;
+  return [
+    {
+      id: "maximize",
+      icon: "maximize",
+      keys: ["Mod+Enter"],
+      enabled: wide,
+      run: dock.toggleMaximized,
+    },
+    {
+      id: "move_panel",
+      icon: "jump",
+      keys: ["Mod+Shift+M"],
+      inText: true,
+      enabled: shown,
+      run: () => openPanelMenu(dock, dock.active() ?? ""),
+    },
+    {
+      id: "close_panel",
+      icon: "close",
+      enabled: shown,
+      run: () => dock.close(dock.active() ?? ""),
+    },
+    { id: "reset_layout", icon: "reset", enabled: wide, run: () => layoutDesk.value?.reset() },
+    {
+      id: "layouts",
+      icon: "layout",
+      enabled: wide,
+      run: () => {
+        dialog.value = { kind: "layouts" };
+      },
+    },
+  ];
+}
+
+/** @returns {Command[]} the studio's own layout and each that was saved */
+function layoutCommands() {
+  const names = ["", ...ownLayouts.value.map(({ name }) => name)];
+  return names.map((name, at) => ({
+    id: `layout.${at}`,
+    icon: "layout",
+    label: () => t("layouts.use", { name: layoutName(name) }),
+    ...(at < KEYS_MOST ? { keys: [`Mod+${at + 1}`], inText: true } : {}),
+    enabled: () => size.value !== "phone",
+    run: () => layoutDesk.value?.use(name),
+  }));
+}
+
+/** @param {string} name @returns {string} */
+export const layoutName = (name) => name || t("layouts.model");
+
+/** @returns {MenuItem[]} for a menu, with the one in use ticked */
+export function layoutItems() {
+  return ["", ...ownLayouts.value.map(({ name }) => name)].map((name) => ({
+    label: layoutName(name),
+    checked: layoutInUse.value === name,
+    run: () => layoutDesk.value?.use(name),
+  }));
+}
+
+/** @param {Dock} dock @param {string} id what can be done with a panel, under its tab */
+function openPanelMenu(dock, id) {
+  const tab = dock.tab(id);
+  if (!tab) return;
+  /** @type {MenuItem[]} */
+  const moves = dock.places(id).map((place) => ({
+    label: placeName(place),
+    icon: place.kind === "beside" ? "layout" : "jump",
+    run: () => dock.move(id, place),
+  }));
+  openMenu(tab, t("panel.menu", { panel: panelTitle(id) }), [
+    ...(moves.length > 0
+      ? [{ label: t("panel.move", { panel: panelTitle(id) }), heading: true }]
+      : []),
+    ...moves,
+    { label: panelTitle(id), heading: true },
+    {
+      label: t("maximize"),
+      icon: "maximize",
+      run: () => {
+        dock.show(id);
+        dock.toggleMaximized();
+      },
+    },
+    { label: t("panel.close"), icon: "close", run: () => dock.close(id) },
+  ]);
+}
+
+/** @param {Place} place @returns {string} */
+function placeName(place) {
+  if (place.kind !== "beside") return t(`place.${place.kind}.${place.edge}`);
+  const names = place.names.slice(0, NAMES_SHOWN).map(panelTitle).join(", ");
+  return t("place.beside", { names: place.names.length > NAMES_SHOWN ? `${names} …` : names });
+}

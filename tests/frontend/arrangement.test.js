@@ -1,0 +1,105 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import {
+  fromDockview,
+  readArrangement,
+  tabsOf,
+  toDockview,
+} from "../../frontend_assets/lib/arrangement.js";
+
+/** @import { Arrangement } from "../../frontend_assets/lib/arrangement.js" */
+
+/** @type {Arrangement} */
+const MODEL = {
+  upright: false,
+  parts: [
+    { tabs: ["displays", "outline"], size: 300, shown: "outline" },
+    {
+      split: [
+        { tabs: ["scene"], size: 500 },
+        { tabs: ["source"], size: 300 },
+      ],
+      size: 700,
+    },
+  ],
+};
+const ROOM = { width: 2000, height: 1600 };
+const KNOWN = new Set(["displays", "outline", "scene", "source"]);
+
+/** @param {string} id */
+const isKnown = (id) => KNOWN.has(id);
+
+test("an arrangement fills the room that there is, and comes back from the dock as it was", () => {
+  const dock = toDockview(MODEL, ROOM, (id) => ({ id }));
+  const back = fromDockview(dock);
+  assert.deepEqual(back.parts.flatMap(tabsOf), MODEL.parts.flatMap(tabsOf));
+  assert.deepEqual(
+    back.parts.map(({ size }) => size),
+    [600, 1400],
+  );
+  const [, right] = back.parts;
+  assert.ok(right && "split" in right);
+  assert.deepEqual(
+    right.split.map(({ size }) => size),
+    [1000, 600],
+  );
+  assert.equal(Object.keys(dock.panels).length, 4);
+});
+
+test("parts may stand above one another at the outermost, too", () => {
+  const dock = toDockview({ ...MODEL, upright: true }, ROOM, (id) => ({ id }));
+  assert.equal(dock.grid.orientation, "VERTICAL");
+  assert.equal(fromDockview(dock).upright, true);
+});
+
+test("what was stored is read as it is", () => {
+  assert.deepEqual(readArrangement(JSON.parse(JSON.stringify(MODEL)), isKnown), {
+    arrangement: MODEL,
+    dropped: [],
+  });
+});
+
+test("panels that are not known, or there twice, are left out, and so are places left empty", () => {
+  const stored = {
+    parts: [
+      { tabs: ["plot"], size: 1 },
+      {
+        split: [
+          { tabs: ["scene", "tf", "scene"], size: 2 },
+          { tabs: ["scene"], size: 3 },
+        ],
+        size: 4,
+      },
+    ],
+  };
+  assert.deepEqual(readArrangement(stored, isKnown), {
+    arrangement: { upright: false, parts: [{ split: [{ tabs: ["scene"], size: 2 }], size: 4 }] },
+    dropped: ["plot", "tf"],
+  });
+});
+
+test("what is no arrangement is not taken for one", () => {
+  for (const wrong of [null, 7, "x", [], {}, { parts: 3 }, { parts: [] }, { parts: [null, 4, {}] }])
+    assert.equal(readArrangement(wrong, isKnown), null);
+  assert.equal(readArrangement({ parts: [{ tabs: ["plot"], size: 1 }] }, isKnown), null);
+});
+
+test("sizes that are none, and a front that is not there, do no harm", () => {
+  const stored = {
+    parts: [
+      { tabs: ["scene", 3, {}], size: -5, shown: "source" },
+      { tabs: ["source"], size: "wide" },
+    ],
+  };
+  assert.deepEqual(readArrangement(stored, isKnown)?.arrangement.parts, [
+    { tabs: ["scene"], size: 1 },
+    { tabs: ["source"], size: 1 },
+  ]);
+});
+
+test("a tree without an end is cut", () => {
+  /** @type {{split: object[], size: number} | {tabs: string[], size: number}} */
+  let deep = { tabs: ["scene"], size: 1 };
+  for (let n = 0; n < 5000; n += 1) deep = { split: [deep], size: 1 };
+  assert.equal(readArrangement({ parts: [deep] }, isKnown), null);
+});
