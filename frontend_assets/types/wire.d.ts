@@ -62,6 +62,14 @@ export interface Built {
   duration_ms: number;
 }
 
+/** Answer to `get_changes`. */
+export interface Changes {
+  type: "changes";
+  request: number;
+  files: FileChanges[];
+  copies: string;
+}
+
 /** Use this folder for a package that was not found; remembered for the workspace. */
 export interface ChoosePackage {
   request?: number;
@@ -159,6 +167,14 @@ export interface DeleteVariant {
   name: string;
 }
 
+/** A line with its numbers from 1 in the file and in the edited text, where it is in them. */
+export interface DiffLineView {
+  kind: "same" | "old" | "new";
+  before: number | null;
+  after: number | null;
+  text: string;
+}
+
 /** One thing that two robots do not have alike; None where one of them has none. */
 export interface DifferenceView {
   part: string;
@@ -169,6 +185,13 @@ export interface DifferenceView {
   unit: string;
   delta: number | null;
   percent: number | null;
+}
+
+/** Give up what was restored at the opening; undo brings it back. */
+export interface DiscardRestored {
+  request?: number;
+  document?: string;
+  type: "discard_restored";
 }
 
 /** Another program wrote a file; its changes are taken, and so many edits are kept unsaved. */
@@ -264,6 +287,40 @@ export interface Effects {
   is_cut: boolean;
 }
 
+/** One shipped model; `text` says what it shows. */
+export interface ExampleEntry {
+  name: string;
+  robot: string;
+  text: string;
+}
+
+/** Answer to `list_examples`. */
+export interface Examples {
+  type: "examples";
+  request: number;
+  examples: ExampleEntry[];
+}
+
+/** One file that has unsaved edits. */
+export interface FileChanges {
+  file: string;
+  added: number;
+  removed: number;
+  hunks: DiffLineView[][];
+  left_out: number;
+  hindrance: string;
+}
+
+/** Where some words stand in the files of the robot. */
+export interface FindTexts {
+  request?: number;
+  document?: string;
+  text: string;
+  match_case?: boolean;
+  whole_word?: boolean;
+  type: "find_texts";
+}
+
 /**
  * One click that mends a Problem: `action` names it, `target` is what it works on.
  *
@@ -296,6 +353,22 @@ export interface FolderEntry {
   reason: string;
 }
 
+/** Take a file out of that list; the file stays. */
+export interface ForgetRecent {
+  request?: number;
+  document?: string;
+  type: "forget_recent";
+  path: string;
+}
+
+/** A place, and what stands in its line from `line_column` (from 1) on. */
+export interface FoundText {
+  place: TextPlace;
+  line: string;
+  line_column: number;
+  in_run: boolean;
+}
+
 /**
  * Answer to `get_frames`, true of the robot now: ask again when something was built.
  *
@@ -314,6 +387,13 @@ export interface GetArguments {
   document?: string;
   type: "get_arguments";
   path?: string;
+}
+
+/** What saving would change, file by file. */
+export interface GetChanges {
+  request?: number;
+  document?: string;
+  type: "get_changes";
 }
 
 /** Where a file's unsaved edits collide with what another program wrote. */
@@ -377,6 +457,16 @@ export interface GetReferences {
   type: "get_references";
 }
 
+/** What would change if what stands there were called `name`. */
+export interface GetRenaming {
+  request?: number;
+  document?: string;
+  file: string;
+  offset: number;
+  type: "get_renaming";
+  name: string;
+}
+
 /** The text of a file as it is edited; `texts_changed` tells from then on what happens to it. */
 export interface GetText {
   request?: number;
@@ -390,6 +480,13 @@ export interface GetUrdf {
   request?: number;
   document?: string;
   type: "get_urdf";
+}
+
+/** What of the URDF is otherwise than the files on disk make it, opened as the document was. */
+export interface GetUrdfChanges {
+  request?: number;
+  document?: string;
+  type: "get_urdf_changes";
 }
 
 /** The document was closed. */
@@ -491,12 +588,33 @@ export interface LinkView {
   macros: string[];
 }
 
+/** The models that the studio ships. */
+export interface ListExamples {
+  request?: number;
+  document?: string;
+  type: "list_examples";
+}
+
 /** What a served folder holds; an empty path lists the served roots. */
 export interface ListFolder {
   request?: number;
   document?: string;
   type: "list_folder";
   path?: string;
+}
+
+/** The folders in which something new can be made. */
+export interface ListPlaces {
+  request?: number;
+  document?: string;
+  type: "list_places";
+}
+
+/** The files that were opened last. */
+export interface ListRecent {
+  request?: number;
+  document?: string;
+  type: "list_recent";
 }
 
 /** What stands there, what it came to in the run, and where it is defined. */
@@ -557,6 +675,32 @@ export interface MendAll {
   type: "mend_all";
 }
 
+/** Make a package `folder/name` out of a template, and open its robot. */
+export interface NewRobot {
+  request?: number;
+  document?: string;
+  type: "new_robot";
+  template: "blank" | "rover" | "arm";
+  name: string;
+  folder?: string;
+}
+
+/** Open a text that has no file yet. */
+export interface NewUntitled {
+  request?: number;
+  document?: string;
+  type: "new_untitled";
+  text: string;
+}
+
+/** Open the working copy of a shipped model. */
+export interface OpenExample {
+  request?: number;
+  document?: string;
+  type: "open_example";
+  name: string;
+}
+
 /** Open what a link holds as a document of its own; its edits are unsaved there. */
 export interface OpenLink {
   request?: number;
@@ -572,6 +716,14 @@ export interface OpenPath {
   type: "open_path";
   path: string;
   arguments?: Record<string, string>;
+}
+
+/** Open a file of that list again, with the arguments that it had. */
+export interface OpenRecent {
+  request?: number;
+  document?: string;
+  type: "open_recent";
+  path: string;
 }
 
 /** Answer to `open_path`: go to `/d/<document>`. */
@@ -705,6 +857,13 @@ export interface Place {
   column: number;
 }
 
+/** Answer to `list_places`: the data folder's own first. */
+export interface Places {
+  type: "places";
+  request: number;
+  folders: string[];
+}
+
 /**
  * One finding. `sentence` stands alone; `code` is stable, kebab-case, for tests and tools.
  *
@@ -744,6 +903,22 @@ export interface RandomizeJoints {
   request?: number;
   document?: string;
   type: "randomize_joints";
+}
+
+/** Answer to `list_recent` and `forget_recent`: newest first. */
+export interface Recent {
+  type: "recent";
+  request: number;
+  files: RecentEntry[];
+}
+
+/** One file of the list; `is_there` false: it is gone. */
+export interface RecentEntry {
+  path: string;
+  title: string;
+  time_s: number;
+  origin: "file" | "example" | "upload" | "untitled";
+  is_there: boolean;
 }
 
 /** Do again what was taken back. */
@@ -791,6 +966,21 @@ export interface Reload {
   type: "reload";
 }
 
+/**
+ * Call what stands there `name`, wherever it is named, as one undo step.
+ *
+ * Refused when `count`, the number of places that `renaming` told, is another one by now.
+ */
+export interface Rename {
+  request?: number;
+  document?: string;
+  file: string;
+  offset: number;
+  type: "rename";
+  name: string;
+  count: number;
+}
+
 /** Give a variant another name and note. */
 export interface RenameVariant {
   request?: number;
@@ -799,6 +989,34 @@ export interface RenameVariant {
   name: string;
   new_name: string;
   note?: string;
+}
+
+/** Answer to `get_renaming`: the first of `count` places, in `files` files. */
+export interface RenamingAnswer {
+  type: "renaming";
+  request: number;
+  kind: SubjectKind;
+  old: string;
+  new: string;
+  places: FoundText[];
+  count: number;
+  files: number;
+}
+
+/**
+ * Write `replacement` wherever the words are found, as one undo step.
+ *
+ * Refused when `count`, the number of places that `texts_found` told, is another one by now.
+ */
+export interface ReplaceTexts {
+  request?: number;
+  document?: string;
+  text: string;
+  match_case?: boolean;
+  whole_word?: boolean;
+  type: "replace_texts";
+  replacement: string;
+  count: number;
 }
 
 /**
@@ -838,6 +1056,13 @@ export interface ResolveCollisions {
   state?: string;
 }
 
+/** Edits of an earlier run were brought back; `at` empty: that is no longer worth a word. */
+export interface Restored {
+  type: "restored";
+  at: string;
+  files: string[];
+}
+
 /** The robot's tree. `revision` counts structural changes; joint frames carry it. */
 export interface RobotState {
   type: "robot";
@@ -854,6 +1079,25 @@ export interface Save {
   document?: string;
   type: "save";
   files?: string[] | null;
+}
+
+/** Write the document's robot to a new place, and go on there. */
+export interface SaveAs {
+  request?: number;
+  document?: string;
+  type: "save_as";
+  name: string;
+  folder?: string;
+  as_package?: boolean;
+}
+
+/** Write a file's edited text to a path below the opened folders at which nothing is yet. */
+export interface SaveCopy {
+  request?: number;
+  document?: string;
+  type: "save_copy";
+  file: string;
+  path: string;
 }
 
 /** Keep the present arguments and values as a new variant. */
@@ -987,11 +1231,29 @@ export interface TextsChanged {
   origin: string;
 }
 
+/** Answer to `find_texts`: the first of `count` places, in `files` files. */
+export interface TextsFound {
+  type: "texts_found";
+  request: number;
+  places: FoundText[];
+  count: number;
+  files: number;
+}
+
 /** Take back the last step. */
 export interface Undo {
   request?: number;
   document?: string;
   type: "undo";
+}
+
+/** Undo, or redo, until this many steps are done; refused when the list is no longer `of`. */
+export interface UndoTo {
+  request?: number;
+  document?: string;
+  type: "undo_to";
+  position: number;
+  of: number;
 }
 
 /** Keep the present arguments and values in a variant that there is. */
@@ -1006,6 +1268,25 @@ export interface UpdateVariant {
 export interface Urdf {
   type: "urdf";
   request: number;
+  text: string;
+}
+
+/** Answer to `get_urdf_changes`: stretches of lines with a few around each. */
+export interface UrdfChanges {
+  type: "urdf_changes";
+  request: number;
+  added: number;
+  removed: number;
+  hunks: UrdfLine[][];
+  left_out: number;
+  fault: string;
+}
+
+/** A line with its numbers from 1 in the URDF of the disk and in the one of now. */
+export interface UrdfLine {
+  kind: "same" | "old" | "new";
+  before: number | null;
+  after: number | null;
   text: string;
 }
 
@@ -1096,6 +1377,10 @@ export type Command =
   | SetArgument
   | Undo
   | Redo
+  | UndoTo
+  | GetChanges
+  | SaveCopy
+  | DiscardRestored
   | Save
   | Reload
   | GetCollisions
@@ -1111,6 +1396,11 @@ export type Command =
   | SetDisplay
   | ChoosePackage
   | GetUrdf
+  | GetUrdfChanges
+  | GetRenaming
+  | Rename
+  | FindTexts
+  | ReplaceTexts
   | GetText
   | GetOrigin
   | GetEffects
@@ -1126,7 +1416,16 @@ export type Command =
   | UpdateVariant
   | RenameVariant
   | DeleteVariant
-  | CompareVariants;
+  | CompareVariants
+  | ListRecent
+  | OpenRecent
+  | ForgetRecent
+  | ListExamples
+  | OpenExample
+  | ListPlaces
+  | NewRobot
+  | NewUntitled
+  | SaveAs;
 
 export type Event =
   | Hello
@@ -1145,6 +1444,9 @@ export type Event =
   | Folder
   | Opened
   | Urdf
+  | UrdfChanges
+  | RenamingAnswer
+  | TextsFound
   | Text
   | TextsChanged
   | OutlineAnswer
@@ -1157,6 +1459,8 @@ export type Event =
   | Link
   | LinkOpened
   | Saved
+  | Changes
+  | Restored
   | Origin
   | Effects
   | Frames
@@ -1165,4 +1469,7 @@ export type Event =
   | VariantApplied
   | VariantSaved
   | Comparison
+  | Recent
+  | Examples
+  | Places
   | Gone;

@@ -12,7 +12,10 @@ from studio.description.editing.sources import Change, Sources
 from studio.description.values import Expansion, Failure, NoReply
 from studio.engine.board import Board
 from studio.engine.disk import DiskDesk
+from studio.engine.drafts import DraftDesk
 from studio.engine.edit_loop import EditLoop, Outcome, Target
+from studio.engine.expanded import ExpandedDesk
+from studio.engine.history import HistoryDesk
 from studio.engine.inspection import InspectionDesk
 from studio.engine.language import LanguageDesk
 from studio.engine.mending import MendingDesk
@@ -23,6 +26,8 @@ from studio.engine.motion import Motion
 from studio.engine.origins import OriginDesk
 from studio.engine.packages_used import PackagesUsed
 from studio.engine.policy import target_of
+from studio.engine.rewriting import RewritingDesk
+from studio.engine.saving import SaveDesk
 from studio.engine.sharing import SharedFile, place_edits
 from studio.engine.texts import TextDesk
 from studio.engine.variants import VariantDesk
@@ -33,9 +38,8 @@ from studio.scene import DocumentScene
 from studio.settings import LOOPBACK_HOSTS
 
 if TYPE_CHECKING:
-    from collections.abc import Awaitable, Callable, Mapping, Sequence
+    from collections.abc import Awaitable, Callable, Collection, Mapping, Sequence
 
-    from studio.description.editing.merging import Side
     from studio.description.queries import Query
     from studio.description.values import Edit
     from studio.engine.listeners import Listener
@@ -68,6 +72,8 @@ class Document:
         """The last good run."""
         self.failed = False
         """Whether the last run failed: the view is older than the texts."""
+        self.failure = ""
+        """What the last run that failed said."""
         self.on_unsaved: Callable[[], None] = lambda: None
         """Called when the document comes to have unsaved edits, or no longer has any."""
         served = location.served
@@ -78,8 +84,12 @@ class Document:
         self.origins = OriginDesk(self)
         self.inspection = InspectionDesk(self, services.meshes)
         self.language = LanguageDesk(self)
+        self.rewriting = RewritingDesk(self)
+        self.expanded = ExpandedDesk(self, services.description_worker)
         self.mending = MendingDesk(self)
         self.disk = DiskDesk(self.sources, served, self.board)
+        self.history, self.saving = HistoryDesk(self), SaveDesk(self)
+        self.drafts = DraftDesk(self, services.settings.data_folder)
         self.motion = Motion(self.model, self.board)
         self._services = services
         self._runs = EditLoop(services.description_worker(), self.sources, self.target, self._take)
@@ -94,8 +104,8 @@ class Document:
 
     @property
     def title(self) -> str:
-        """The entry file's name."""
-        return self.entry.name
+        """The entry file's name, or which untitled text it is."""
+        return self.location.title
 
     @property
     def path(self) -> str:
@@ -137,6 +147,7 @@ class Document:
     def start(self) -> None:
         """Begin the first run; the audience hears how it goes."""
         self.sources.track([self.path])
+        self.drafts.restore()
         self._spawn("opening", self._open())
 
     async def _open(self) -> None:
@@ -158,7 +169,7 @@ class Document:
             task.cancel()
         await asyncio.gather(*background, return_exceptions=True)
         await asyncio.gather(self._watch.close(), self._meshes.close(), self._runs.close())
-        await self.variants.close()
+        await asyncio.gather(self.variants.close(), self.drafts.close())
         self.scene.close()
 
     async def edit_site(self, site: str, text: str, gesture: str) -> None:
@@ -195,14 +206,6 @@ class Document:
             await self._timed(self._run(edits))
         return left_out
 
-    async def resolve_collisions(self, file: str, keep: Side) -> None:
-        """Let one side win where edits collide with a change on disk."""
-        edits = self.disk.resolve(file, keep)
-        self.board.book.doubt_all()
-        self._texts_changed()
-        if edits:
-            await self._timed(self._run(edits))
-
     async def undo(self) -> None:
         """Take the last step back."""
         await self.follow(self.sources.undo())
@@ -211,20 +214,13 @@ class Document:
         """Do the step last taken back again."""
         await self.follow(self.sources.redo())
 
-    async def save(self) -> None:
-        """Write all changed files."""
+    async def save(self, files: Collection[str] | None = None) -> None:
+        """Write these changed files, or all."""
         await self._changed_on_disk(set(self.sources.unsaved_files))
-        written = self.sources.save()
+        written = self.sources.save(files)
         self.board.book.doubt_all()
         self._texts_changed()
         self.board.audience.tell(Saved(files=written))
-
-    async def reload(self) -> None:
-        """Take the disk's text of every file; undo brings unsaved edits back."""
-        edits = [edit for file in self.sources.files if (edit := self.sources.reload(file))]
-        self.board.find("disk", ())
-        self.board.book.doubt_all()
-        await self._timed(self._runs.edit(edits) if edits else self._runs.reopen())
 
     async def choose_package(self, name: str, folder: str) -> None:
         """Use a folder for a package from now on, read-only.
@@ -286,7 +282,7 @@ class Document:
             self._spawn("disk", self._changed_on_disk(set(self.sources.conflicts)))
 
     def _take_failure(self, failure: Failure) -> None:
-        self.failed = True
+        self.failed, self.failure = True, failure.problem.sentence
         self._files = tuple(dict.fromkeys((*self._files, *failure.files)))
         self.sources.track(failure.files)
         self.board.book.take_failure(self.sources)
@@ -374,6 +370,7 @@ class Document:
     def _texts_changed(self) -> None:
         self.board.texts()
         self.texts.follow()
+        self.drafts.note()
         self.variants.doubt()
         if self.has_unsaved != self._was_unsaved:
             self._was_unsaved = self.has_unsaved

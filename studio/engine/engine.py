@@ -13,6 +13,7 @@ from studio.engine import messages as m
 from studio.engine.dispatch import carry_out
 from studio.engine.document import Document
 from studio.engine.launching import form_at, form_of
+from studio.engine.library import Library
 from studio.engine.listeners import Audience, tell
 from studio.engine.services import Services
 from studio.engine.sharing import found_again, link_to, read_link
@@ -22,6 +23,8 @@ from studio.packages.roots import ServedRoots
 from studio.packages.workspace import Location, open_location
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from studio.engine.listeners import Listener
     from studio.packages.workspace import Progress
     from studio.settings import Settings
@@ -39,7 +42,9 @@ class Engine:
         self._services = Services(settings)
         self._lobby = Audience()
         self._watching: dict[Listener, Document] = {}
-        self._served = ServedRoots(())
+        self.library = Library(settings, self)
+        self.served = ServedRoots((self.library.robots_folder,))
+        """What can be listed and opened out of the page."""
 
     async def start(self) -> None:
         """Warm the workers in the background; pages are served meanwhile."""
@@ -95,6 +100,8 @@ class Engine:
                 tell(listener, await self._open_link(command))
             case m.ListFolder():
                 tell(listener, await self._list_folder(command))
+            case _ if isinstance(command, m.LibraryCommand):
+                tell(listener, await self.library.carry_out(command))
             case _:
                 await carry_out(self.document(command.document), command, listener)
         tell(listener, m.Done(request=command.request))
@@ -114,23 +121,43 @@ class Engine:
         """
         return self._open(await self._locate(path, progress), arguments)
 
+    def find_open(self, path: Path) -> Document | None:
+        """The document whose entry file this is."""
+        return next((one for one in self.documents.values() if one.entry == path), None)
+
+    async def open_at(
+        self, path: Path, arguments: Mapping[str, str], within: ServedRoots | None
+    ) -> str:
+        """Open for the library, which saw to it that the path may be opened.
+
+        Raises:
+            StudioError: Nothing there can be opened.
+        """
+        location = await self._locate(path, within=within)
+        known = location.entry and not arguments and self.find_open(location.entry)
+        return known.id if known else self._open(location, dict(arguments))
+
+    async def close_saved(self, document: Document) -> None:
+        """Close a document whose text was saved elsewhere."""
+        await self._close(document, discard=True)
+
     async def _open_served(self, command: m.OpenPath) -> str:
         """Open out of the page: nothing is served then that was not before, but a zip's folder."""
-        path = self._served.resolve(Path(command.path))
-        return self._open(await self._locate(path, within=self._served), command.arguments)
+        path = self.served.resolve(Path(command.path))
+        return self._open(await self._locate(path, within=self.served), command.arguments)
 
     async def _launch_form(self, command: m.GetArguments) -> m.Arguments:
         """The form of an open document, or of a file below the served folders."""
         if not command.path:
             return await form_of(self.document(command.document), command.request)
-        path = self._served.resolve(Path(command.path))
-        return await form_at(await self._locate(path, within=self._served), command.request)
+        path = self.served.resolve(Path(command.path))
+        return await form_at(await self._locate(path, within=self.served), command.request)
 
     async def _open_link(self, command: m.OpenLink) -> m.LinkOpened:
         """Open what a link holds by the ordinary way, then make its edits."""
         shared = read_link(command.link)
         locations = [one.location for one in self.documents.values()]
-        path = found_again(shared.entry, self._served, locations)
+        path = found_again(shared.entry, self.served, locations)
         opening = m.OpenPath(path=str(path), arguments=shared.arguments)
         name = await self._open_served(opening)
         left_out = await self.document(name).take_shared(shared.files)
@@ -145,7 +172,7 @@ class Engine:
 
     def _open(self, location: Location, arguments: dict[str, str]) -> str:
         served = location.served
-        self._served = self._served.with_roots(served.writable, served.read_only)
+        self.served = self.served.with_roots(served.writable, served.read_only)
         if len(self.documents) >= _DOCUMENT_LIMIT:
             raise CommandError(f"{_DOCUMENT_LIMIT} documents are open: close one first.")
         document = Document(self._free_id(location), location, arguments, self._services)
@@ -153,6 +180,7 @@ class Engine:
         self.documents[document.id] = document
         self.default_document = self.default_document or document.id
         document.start()
+        self.library.note(document)
         self._tell_list()
         return document.id
 
@@ -176,11 +204,12 @@ class Engine:
         if self.default_document == document.id:
             self.default_document = next(iter(self.documents), None)
         document.board.audience.tell(m.Gone(document=document.id))
+        document.drafts.forget()
         await document.close()
         self._tell_list()
 
     async def _list_folder(self, command: m.ListFolder) -> m.Folder:
-        listed = await asyncio.to_thread(list_folder, command.path, self._served)
+        listed = await asyncio.to_thread(list_folder, command.path, self.served)
         return m.Folder(
             request=command.request,
             path=listed.path,

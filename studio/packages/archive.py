@@ -138,7 +138,7 @@ class _Unpacking:
             raise self._unsafe(f'"{entry.filename}" is {what}, which is never unpacked.')
         name = entry.orig_filename.replace("\\", "/")  # some programs of Windows write these
         steps = PurePosixPath(name).parts
-        if not steps or name.startswith("/") or not all(map(_is_plain, steps)):
+        if not steps or name.startswith("/") or not all(map(is_plain_step, steps)):
             raise self._unsafe(f'the name "{name}" leads outside or is no file name.')
         return self._into.joinpath(*steps)
 
@@ -178,7 +178,7 @@ def _is_system(entry: zipfile.ZipInfo) -> bool:
     return PurePosixPath(entry.filename).parts[:1] in {(name,) for name in _SYSTEM_FOLDERS}
 
 
-def _is_plain(step: str) -> bool:
+def is_plain_step(step: str) -> bool:
     """Whether one step of a name stays a name: no `..`, drive, stream or control character."""
     forbidden = ':<>"|?*' if os.name == "nt" else ""
     return step != ".." and step.isprintable() and not any(one in step for one in forbidden)

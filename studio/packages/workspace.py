@@ -26,6 +26,8 @@ from studio.packages.roots import (
     package_folder_of,
     served_roots_for,
 )
+from studio.packages.untitled import FOLDER as UNTITLED
+from studio.packages.untitled import untitled_number
 from studio.problems import Place, Problem, Severity
 from studio.settings import UPLOADS_QUOTA_BYTES, ZIP_SIZE_LIMIT_BYTES
 
@@ -55,8 +57,16 @@ class Location:
 
     @property
     def is_unpacked(self) -> bool:
-        """Whether it came in an archive: somebody else's, most likely."""
-        return self.root.is_relative_to(self.data_folder / UPLOADS)
+        """Whether it was sent, unpacked or pasted: somebody else's, most likely."""
+        return any(self.root.is_relative_to(self.data_folder / one) for one in (UPLOADS, UNTITLED))
+
+    @property
+    def title(self) -> str:
+        """The entry file's name, or which untitled text it is."""
+        if self.entry is None:
+            return ""
+        number = untitled_number(self.entry, self.data_folder)
+        return self.entry.name if number is None else f"Untitled {number}"
 
     def choose_package(self, name: str, folder: Path) -> Location:
         """Use a folder for a package from now on, serve it, and remember it.
@@ -267,7 +277,7 @@ def _unpacked(zip_path: Path, data_folder: Path, tell: Progress) -> Path:
     uploads = data_folder / UPLOADS
     if is_folder(uploads / digest):
         return folder_to_open(uploads / digest)
-    left = UPLOADS_QUOTA_BYTES - _size_bytes(uploads)
+    left = UPLOADS_QUOTA_BYTES - folder_bytes(uploads)
     if left <= 0:
         reason = f"{uploads} is full: delete folders there that you need no more."
         raise UnsafeArchiveError(str(zip_path), reason)
@@ -278,7 +288,8 @@ def _unpacked(zip_path: Path, data_folder: Path, tell: Progress) -> Path:
     )
 
 
-def _size_bytes(folder: Path) -> int:
+def folder_bytes(folder: Path) -> int:
+    """What all files below a folder take; 0 when it is not there."""
     sizes = 0
     for path, _, names in os.walk(folder):
         for name in names:

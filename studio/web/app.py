@@ -22,6 +22,7 @@ from studio.web.pages import not_found_page, trouble_page
 from studio.web.schema import openapi
 from studio.web.site import Site
 from studio.web.surface import OpenDocuments
+from studio.web.uploads import Uploads
 
 _STATUS: Final = (
     (AccessError, HTTPStatus.FORBIDDEN),
@@ -55,6 +56,7 @@ def make_app(
     app.add_exception_handler(HTTPException, _say_http)
     Site(engine, assets, session).add_to(app)
     app.include_router(Api(engine, session).router())
+    app.include_router(Uploads(engine).router())
     document = openapi(app.routes)
 
     async def openapi_document() -> dict[str, Any]:

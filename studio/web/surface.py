@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
-    from collections.abc import Awaitable, Callable, Mapping
+    from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
 
     from studio.engine.listeners import Listener
     from studio.engine.messages import Command
@@ -31,8 +31,25 @@ class OpenDocument(Protocol):
         ...
 
 
+class TakesUploads(Protocol):
+    """What keeps and opens the files that are sent."""
+
+    async def take_upload(self, manifest: bytes, chunks: AsyncIterator[bytes], /) -> str:
+        """Keep and open them; gives the document's id.
+
+        Raises:
+            StudioError: They cannot be kept, or are no robot.
+        """
+        ...
+
+
 class OpenDocuments(Protocol):
     """The engine."""
+
+    @property
+    def library(self) -> TakesUploads:
+        """Takes what is dropped on the page."""
+        ...
 
     @property
     def default_document(self) -> str | None:

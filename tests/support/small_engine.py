@@ -22,11 +22,11 @@ from studio.engine.messages import (
     Urdf,
     ZeroJoints,
 )
-from studio.errors import SaveConflictError, UnknownDocumentError
+from studio.errors import SaveConflictError, UnknownDocumentError, UploadError
 from studio.scene.connection import SUBPROTOCOL
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import AsyncIterator, Callable
 
     from studio.engine.listeners import Listener
     from studio.scene import Connection
@@ -56,12 +56,26 @@ class SmallDocument:
         self.scene = SmallScene()
 
 
+class SmallLibrary:
+    """Keeps what is sent in memory, and opens it as the small document."""
+
+    def __init__(self) -> None:
+        self.uploads: list[tuple[bytes, bytes]] = []
+
+    async def take_upload(self, manifest: bytes, chunks: AsyncIterator[bytes], /) -> str:
+        if manifest == b"refuse":
+            raise UploadError("the small engine is in no mood.")
+        self.uploads.append((manifest, b"".join([chunk async for chunk in chunks])))
+        return "small"
+
+
 class SmallEngine:
     """Saving conflicts, undo has a bug, redo waits until `go_on`, closing cancels
     what it waits for; all else is done at once."""
 
     def __init__(self) -> None:
         self.documents = {"small": SmallDocument()}
+        self.library = SmallLibrary()
         self.default_document: str | None = "small"
         self.executed: list[Command] = []
         self.listeners: list[Listener] = []

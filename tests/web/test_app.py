@@ -14,6 +14,7 @@ from studio.web.access import PUBLIC_ROUTES, ROUTE_DEEDS, may
 from studio.web.api import Api
 from studio.web.assets import Assets
 from studio.web.site import Site
+from studio.web.uploads import Uploads
 from tests.support.small_engine import URDF, SmallEngine
 
 if TYPE_CHECKING:
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     from tests.support.web_server import RunningWeb
 
 SOCKETS = {"/control", "/d/{document}/viser"}
+POSTS = {"/api/commands", "/api/uploads"}
 
 
 def test_every_route_is_in_the_table_and_the_table_names_no_other(assets_folder: Path):
@@ -31,6 +33,7 @@ def test_every_route_is_in_the_table_and_the_table_names_no_other(assets_folder:
     engine = SmallEngine()
     Site(engine, Assets(assets_folder), "session").add_to(app)
     app.include_router(Api(engine, "session").router())
+    app.include_router(Uploads(engine).router())
     found = {path for route in app.routes for path in _paths(route)}
     assert found | {"/api/openapi.json"} == ROUTE_DEEDS.keys() | PUBLIC_ROUTES
 
@@ -41,7 +44,7 @@ def _paths(route: object) -> set[str]:
     return {getattr(one, "path", "") for one in (router.routes if router else [route])}
 
 
-@pytest.mark.parametrize("path", sorted(ROUTE_DEEDS.keys() - SOCKETS - {"/api/commands"}))
+@pytest.mark.parametrize("path", sorted(ROUTE_DEEDS.keys() - SOCKETS - POSTS))
 def test_every_route_answers_each_role_as_the_table_says(web: RunningWeb, path: str):
     for role in Role:
         with web.client(role) as client:
@@ -65,12 +68,17 @@ FIELDS: dict[str, object] = {
     **dict.fromkeys(("file", "link", "new_name", "code", "sentence", "label"), "x"),
     "values": {"x": "1"},
     "keep": "mine",
+    "position": 0,
+    "of": 0,
     "version": 0,
     "offset": 0,
+    "count": 1,
+    "replacement": "x",
     "changes": [{"start": 0, "end": 0, "text": "x"}],
     "positions": {},
     "running": True,
     "display": "grid",
+    "template": "rover",
 }
 """A value for each field that a command needs."""
 

@@ -41,6 +41,7 @@ from studio.engine.messages.edits import (
     SiteView,
     Undo,
 )
+from studio.engine.messages.expanded import GetUrdfChanges, UrdfChanges, UrdfLine
 from studio.engine.messages.files import (
     Collisions,
     CollisionView,
@@ -58,6 +59,16 @@ from studio.engine.messages.inspection import (
     LinkMassView,
     Masses,
     VolumeView,
+)
+from studio.engine.messages.keeping import (
+    Changes,
+    DiffLineView,
+    DiscardRestored,
+    FileChanges,
+    GetChanges,
+    Restored,
+    SaveCopy,
+    UndoTo,
 )
 from studio.engine.messages.language import (
     Complete,
@@ -77,12 +88,38 @@ from studio.engine.messages.launching import (
     SetArguments,
 )
 from studio.engine.messages.mending import ApplyFix, MendAll
+from studio.engine.messages.opening import (
+    ExampleEntry,
+    Examples,
+    ForgetRecent,
+    LibraryCommand,
+    ListExamples,
+    ListPlaces,
+    ListRecent,
+    NewRobot,
+    NewUntitled,
+    OpenExample,
+    OpenRecent,
+    Places,
+    Recent,
+    RecentEntry,
+    SaveAs,
+)
 from studio.engine.messages.origins import (
     Effects,
     GetEffects,
     GetOrigin,
     Origin,
     PartEffect,
+)
+from studio.engine.messages.rewriting import (
+    FindTexts,
+    FoundText,
+    GetRenaming,
+    Rename,
+    RenamingAnswer,
+    ReplaceTexts,
+    TextsFound,
 )
 from studio.engine.messages.robot import (
     AnimateJoints,
@@ -141,6 +178,10 @@ Command: TypeAlias = Annotated[
     | SetArgument
     | Undo
     | Redo
+    | UndoTo
+    | GetChanges
+    | SaveCopy
+    | DiscardRestored
     | Save
     | Reload
     | GetCollisions
@@ -156,6 +197,11 @@ Command: TypeAlias = Annotated[
     | SetDisplay
     | ChoosePackage
     | GetUrdf
+    | GetUrdfChanges
+    | GetRenaming
+    | Rename
+    | FindTexts
+    | ReplaceTexts
     | GetText
     | GetOrigin
     | GetEffects
@@ -171,7 +217,16 @@ Command: TypeAlias = Annotated[
     | UpdateVariant
     | RenameVariant
     | DeleteVariant
-    | CompareVariants,
+    | CompareVariants
+    | ListRecent
+    | OpenRecent
+    | ForgetRecent
+    | ListExamples
+    | OpenExample
+    | ListPlaces
+    | NewRobot
+    | NewUntitled
+    | SaveAs,
     Field(discriminator="type"),
 ]
 COMMANDS: TypeAdapter[Command] = TypeAdapter(Command)
@@ -193,6 +248,9 @@ Event: TypeAlias = Annotated[
     | Folder
     | Opened
     | Urdf
+    | UrdfChanges
+    | RenamingAnswer
+    | TextsFound
     | Text
     | TextsChanged
     | OutlineAnswer
@@ -205,6 +263,8 @@ Event: TypeAlias = Annotated[
     | Link
     | LinkOpened
     | Saved
+    | Changes
+    | Restored
     | Origin
     | Effects
     | Frames
@@ -213,6 +273,9 @@ Event: TypeAlias = Annotated[
     | VariantApplied
     | VariantSaved
     | Comparison
+    | Recent
+    | Examples
+    | Places
     | Gone,
     Field(discriminator="type"),
 ]
@@ -227,6 +290,7 @@ __all__ = [
     "ArgumentView",
     "Arguments",
     "Built",
+    "Changes",
     "ChoosePackage",
     "CloseDocument",
     "CollisionView",
@@ -237,7 +301,9 @@ __all__ = [
     "Complete",
     "CompletionsAnswer",
     "DeleteVariant",
+    "DiffLineView",
     "DifferenceView",
+    "DiscardRestored",
     "DiskMerged",
     "Displays",
     "DocumentEntry",
@@ -248,10 +314,17 @@ __all__ = [
     "EditText",
     "Effects",
     "Event",
+    "ExampleEntry",
+    "Examples",
+    "FileChanges",
+    "FindTexts",
     "Folder",
     "FolderEntry",
+    "ForgetRecent",
+    "FoundText",
     "Frames",
     "GetArguments",
+    "GetChanges",
     "GetCollisions",
     "GetEffects",
     "GetFrames",
@@ -260,41 +333,60 @@ __all__ = [
     "GetOrigin",
     "GetOutline",
     "GetReferences",
+    "GetRenaming",
     "GetText",
     "GetUrdf",
+    "GetUrdfChanges",
     "Gone",
     "Hello",
     "History",
     "InputDifference",
     "JointPositions",
     "JointView",
+    "LibraryCommand",
     "Link",
     "LinkMassView",
     "LinkOpened",
     "LinkView",
+    "ListExamples",
     "ListFolder",
+    "ListPlaces",
+    "ListRecent",
     "LookUp",
     "Masses",
     "MeaningAnswer",
     "MendAll",
+    "NewRobot",
+    "NewUntitled",
+    "OpenExample",
     "OpenLink",
     "OpenPath",
+    "OpenRecent",
     "Opened",
     "Origin",
     "OutlineAnswer",
     "PartEffect",
+    "Places",
     "Problems",
     "Progress",
     "RandomizeJoints",
+    "Recent",
+    "RecentEntry",
     "Redo",
     "ReferencesAnswer",
     "Refused",
     "Reload",
+    "Rename",
     "RenameVariant",
+    "RenamingAnswer",
+    "ReplaceTexts",
     "ResetSite",
     "ResolveCollisions",
+    "Restored",
     "RobotState",
     "Save",
+    "SaveAs",
+    "SaveCopy",
     "SaveVariant",
     "Saved",
     "SetArgument",
@@ -307,9 +399,13 @@ __all__ = [
     "Text",
     "TextChange",
     "TextsChanged",
+    "TextsFound",
     "Undo",
+    "UndoTo",
     "UpdateVariant",
     "Urdf",
+    "UrdfChanges",
+    "UrdfLine",
     "VariantApplied",
     "VariantSaved",
     "VariantText",

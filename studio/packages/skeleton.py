@@ -1,0 +1,110 @@
+"""New packages: a robot out of a template, or of a text that somebody wrote, with all around it."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+from pathlib import Path
+from typing import Final, Literal, TypeAlias
+
+from studio.errors import NotMadeError
+from studio.packages.naming import name_fault, robot_of
+from studio.packages.presence import is_there
+
+ROBOTS: Final = "robots"
+"""Folder of the data folder where new robots go unless another one is named."""
+Template: TypeAlias = Literal["blank", "rover", "arm"]
+
+_TEMPLATES: Final = Path(__file__).parent / "templates"
+_SUFFIX: Final = ".urdf.xacro"
+_FIRST_LINK: Final = re.compile(rb"""<link\s[^>]*?name\s*=\s*["']([\w-]+)["']""")
+
+
+def template_text(template: Template, robot: str) -> bytes:
+    """The text of a template for a robot of that name."""
+    return _filled(f"{template}{_SUFFIX}", {"ROBOT": robot})
+
+
+def make_package(folder: Path, package: str, text: bytes) -> Path:
+    """Write a whole package `folder/package` around a robot's text; the robot's file is returned.
+
+    It appears at once or not at all.
+
+    Raises:
+        NotMadeError: The name is none for a package, something bears it there, or the system
+            refused.
+    """
+    target = folder / package
+    if fault := name_fault(package):
+        raise NotMadeError(package, fault)
+    if is_there(target):
+        raise NotMadeError(str(target), "there is something of that name: choose another one.")
+    partial = folder / f".{package}.{os.getpid()}"
+    file = f"{robot_of(package)}{_SUFFIX}"
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        _write_all(partial, package, file, text)
+        partial.rename(target)
+    except OSError as error:
+        shutil.rmtree(partial, ignore_errors=True)
+        raise NotMadeError(str(target), _reason(error)) from error
+    return target / "urdf" / file
+
+
+def make_file(folder: Path, package: str, text: bytes) -> Path:
+    """Write a robot's text as the only file, and return it.
+
+    Raises:
+        NotMadeError: The name is none, the file is there already, or the system refused.
+    """
+    if fault := name_fault(package):
+        raise NotMadeError(package, fault)
+    file = folder / f"{robot_of(package)}{_SUFFIX}"
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        _write_new(file, text)
+    except FileExistsError as error:
+        raise NotMadeError(str(file), "it is there already: choose another name.") from error
+    except OSError as error:
+        raise NotMadeError(str(file), _reason(error)) from error
+    return file
+
+
+def _write_all(folder: Path, package: str, file: str, text: bytes) -> None:
+    words = {"PACKAGE": package, "ROBOT": robot_of(package), "FILE": file, "ROOT": _root_of(text)}
+    shutil.rmtree(folder, ignore_errors=True)
+    for inner in ("urdf", "launch"):
+        (folder / inner).mkdir(parents=True)
+    _write_new(folder / "urdf" / file, text)
+    for path in ("package.xml", "CMakeLists.txt", "README.md", "launch/display.launch.py"):
+        _write_new(folder / path, _filled(f"{Path(path).name}.in", words))
+
+
+def _write_new(file: Path, text: bytes) -> None:
+    """Write a file that must not be there yet; half a file is taken away again."""
+    with file.open("xb") as opened:
+        try:
+            opened.write(text)
+            opened.flush()
+            os.fsync(opened.fileno())
+        except OSError:
+            file.unlink(missing_ok=True)
+            raise
+
+
+def _filled(template: str, words: dict[str, str]) -> bytes:
+    text = (_TEMPLATES / template).read_text(encoding="utf-8")
+    for name, word in words.items():
+        text = text.replace(f"@{name}@", word)
+    return text.encode()
+
+
+def _root_of(text: bytes) -> str:
+    """The frame that RViz holds still: the first link, which is the root in most files."""
+    found = _FIRST_LINK.search(text)
+    return found[1].decode() if found else "base_link"
+
+
+def _reason(error: OSError) -> str:
+    return f"the system refused ({error.strerror or type(error).__name__})."
