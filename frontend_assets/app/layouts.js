@@ -36,7 +36,7 @@ export function modelLayout(kind, width, height) {
     const left = [
       { tabs: ["scene"], size: height - low },
       {
-        tabs: ["source", "outline", "displays", "variants", "problems", "urdf"],
+        tabs: ["source", "outline", "displays", "variants", "problems", "masses", "urdf"],
         size: low,
       },
     ];
@@ -47,7 +47,7 @@ export function modelLayout(kind, width, height) {
   }
   const low = Math.round(Math.min(340, height * 0.36));
   const scene = { tabs: ["scene"], size: height - low };
-  const below = { tabs: ["source", "variants", "problems", "urdf"], size: low };
+  const below = { tabs: ["source", "variants", "problems", "masses", "urdf"], size: low };
   const left = Math.round(Math.min(300, width * 0.22));
   const right = Math.round(Math.min(390, width * 0.28));
   return [

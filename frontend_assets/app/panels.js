@@ -48,6 +48,10 @@ export const PANELS = {
     icon: "origin",
     load: async () => (await import("../panels/origin.js")).OriginPanel,
   },
+  masses: {
+    icon: "masses",
+    load: async () => (await import("../panels/masses.js")).MassesPanel,
+  },
   urdf: { icon: "urdf", load: async () => (await import("../panels/urdf.js")).UrdfPanel },
 };
 

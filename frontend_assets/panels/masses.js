@@ -1,0 +1,203 @@
+/** What the robot weighs: its links in a table, their sum, and where its centre of mass is now. */
+
+/** @import { MassOrder, MassRow } from "../lib/masses.js" */
+/** @import { Signal } from "vendor/preact.js" */
+
+import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
+import { commandById } from "../app/commands.js";
+import { PlaceLink } from "../app/place-link.js";
+import { robot } from "../app/state/document.js";
+import { followFrames, linkPoses } from "../app/state/frames.js";
+import { followMasses, masses } from "../app/state/masses.js";
+import { selection, selectPart } from "../app/state/selection.js";
+import { hovered, notify, selected } from "../app/state/view.js";
+import { copyText } from "../lib/clipboard.js";
+import { t } from "../lib/i18n.js";
+import {
+  centreOfMass,
+  isOddDensity,
+  isPossible,
+  massRows,
+  massText,
+  matchingMasses,
+  sortedMasses,
+  sumOf,
+} from "../lib/masses.js";
+import { formatNumber } from "../lib/numbers.js";
+import { EmptyState, Icon, MenuButton, ProgressBar, SearchBox } from "../lib/ui.js";
+
+const SHOWN = 300;
+
+export function MassesPanel() {
+  const filter = useSignal("");
+  const order = useSignal(/** @type {MassOrder} */ ("link"));
+  useEffect(followFrames, []);
+  useEffect(followMasses, []);
+  const found = masses.value;
+  const body = found
+    ? html`<${Weighed} masses=${found} filter=${filter} order=${order} />`
+    : html`<${Waiting} />`;
+  return html`<section class="panel-body masses" aria-label=${t("panel.masses")}>${body}</section>`;
+}
+
+function Waiting() {
+  if (!robot.value) return html`<${EmptyState} icon="masses" title=${t("urdf.none")} />`;
+  return html`<${ProgressBar} label=${t("loading")} done=${0} total=${0} />`;
+}
+
+/** @param {{masses: NonNullable<typeof masses.value>, filter: Signal<string>, order: Signal<MassOrder>}} props */
+function Weighed({ masses: found, filter, order }) {
+  if (found.length === 0)
+    return html`<${EmptyState} icon="masses" title=${t("masses.none")}><p>${t("masses.none.hint")}</p><//>`;
+  const rows = massRows(found, robot.value?.links ?? []);
+  const shown = sortedMasses(matchingMasses(rows, filter.value), order.value);
+  return html`<div class="panel-bar masses-bar">
+      <${SearchBox} label=${t("masses.filter")} value=${filter.value} onInput=${(
+        /** @type {string} */ text,
+      ) => {
+        filter.value = text;
+      }} />
+      <${MenuButton} label=${t("masses.copy")} items=${() => copyItems(shown)}><${Icon} name="copy" /><${Icon} name="chevronDown" size=${12} /><//>
+    </div>
+    <${Sum} masses=${found} />
+    <${Table} rows=${shown} order=${order} />
+    ${shown.length === 0 && html`<p class="nothing">${t("filter.nothing", { words: filter.value })}</p>`}`;
+}
+
+/** @param {readonly MassRow[]} rows */
+const copyItems = (rows) =>
+  /** @type {const} */ (["tsv", "csv"]).map((form) => ({
+    label: t(`masses.copy.${form}`),
+    run: async () => {
+      const done = await copyText(massText(rows, form));
+      notify(done ? t("masses.copied", { count: rows.length }) : t("copy.failed"), { bad: !done });
+    },
+  }));
+
+/** @param {{masses: NonNullable<typeof masses.value>}} props the centre follows the joints */
+function Sum({ masses: found }) {
+  const without = (robot.value?.links.length ?? 0) - found.length;
+  const centre = linkPoses.value && centreOfMass(found, linkPoses.value);
+  return html`<dl class="masses-sum">
+    <div><dt>${t("masses.sum")}</dt><dd><strong>${formatNumber(sumOf(found), 6)}</strong> kg</dd></div>
+    <div><dt title=${t("masses.centre.hint")}>${t("masses.centre", { frame: robot.value?.root ?? "" })}</dt>
+      <dd class="masses-centre">${centre ? html`${centre.map((value) => html`<span>${value.toFixed(4)}</span>`)} m` : "–"}</dd></div>
+    <div><dt>${t("masses.links")}</dt><dd>${t("masses.links.count", { count: found.length })}${
+      without > 0 &&
+      html` <span class="muted" title=${t("masses.without.hint")}>${t("masses.without", { count: without })}</span>`
+    }</dd></div>
+  </dl>`;
+}
+
+/** @param {{rows: readonly MassRow[], order: Signal<MassOrder>}} props */
+function Table({ rows, order }) {
+  const all = useSignal(false);
+  const element = useRef(/** @type {HTMLElement | null} */ (null));
+  useShowSelected(element);
+  const shown = all.value ? rows : rows.slice(0, SHOWN);
+  return html`<div class="scroll" ref=${element} onPointerLeave=${() => {
+    hovered.value = null;
+  }}><table class="masses-table">
+    <thead><tr>
+      <${SortHead} order=${order} by="link" words=${t("masses.link")} />
+      <${SortHead} order=${order} by="mass" words=${t("masses.mass")} unit="kg" class="number" />
+      <th scope="col">${t("masses.share")}</th>
+      <th scope="col" class="number" title=${t("masses.com.hint")}>${t("masses.com")} <small>m</small></th>
+      <${SortHead} order=${order} by="moment" words=${t("masses.moments")} unit="kg m²" class="number" />
+      <${SortHead} order=${order} by="density" words=${t("masses.density")} unit="kg/m³" class="number" />
+      <th scope="col">${t("masses.place")}</th>
+    </tr></thead>
+    <tbody>${shown.map((row) => html`<${Row} key=${row.mass.link} row=${row} />`)}</tbody>
+  </table>
+  ${
+    rows.length > shown.length &&
+    html`<button type="button" class="button small more" onClick=${() => {
+      all.value = true;
+    }}>${t("masses.all", { count: rows.length })}</button>`
+  }</div>`;
+}
+
+/** What was selected elsewhere comes into view. @param {{current: HTMLElement | null}} element */
+function useShowSelected(element) {
+  const chosen = selection.value;
+  useEffect(() => {
+    if (!chosen || chosen.by === "masses") return;
+    element.current?.querySelector("tr.chosen")?.scrollIntoView({ block: "nearest" });
+  }, [chosen]);
+}
+
+/** @param {{order: Signal<MassOrder>, by: MassOrder, words: string, unit?: string, class?: string}} props */
+function SortHead({ order, by, words, unit, class: name }) {
+  const on = order.value === by;
+  const how = by === "link" ? "ascending" : "descending";
+  return html`<th scope="col" class=${name ?? ""} aria-sort=${on ? how : "none"}>
+    <button type="button" class="sort" title=${t(`masses.sort.${by}`)} onClick=${() => {
+      order.value = by;
+    }}>${words}${unit && html` <small>${unit}</small>`}${on && html`<${Icon} name="chevronDown" size=${12} />`}</button></th>`;
+}
+
+/** @param {{row: MassRow}} props */
+function Row({ row }) {
+  const { mass, share, link } = row;
+  const chosen = selected.value === mass.link;
+  const pick = () => selectPart(`link:${mass.link}`, "", "", "masses");
+  const states = [chosen && "chosen", hovered.value === mass.link && "hovered"];
+  return html`<tr class=${states.filter(Boolean).join(" ")} onClick=${pick} onDblClick=${() => explain(mass.link)}
+    onPointerEnter=${() => {
+      hovered.value = mass.link;
+    }}>
+    <th scope="row"><button type="button" class="link-name" title=${mass.link} aria-pressed=${chosen}>${mass.link}</button></th>
+    <td class="number">${formatNumber(mass.mass_kg, 5)}</td>
+    <td class="share"><span class="share-bar" style=${`--share:${(100 * share).toFixed(2)}%`}></span><span class="share-text">${(100 * share).toFixed(1)} %</span></td>
+    <td class="number three">${mass.centre_m.map((value) => html`<span>${value.toFixed(4)}</span>`)}</td>
+    <${Moments} mass=${mass} />
+    <${DensityCell} row=${row} />
+    <td>${link && html`<${PlaceLink} place=${{ file: link.file, line: link.line, column: 1 }} />`}
+      <button type="button" class="text-button muted" title=${t("origin.show")} onClick=${() => explain(mass.link)}>${t("masses.why")}</button></td>
+  </tr>`;
+}
+
+/** @param {string} link say where its inertial comes from */
+function explain(link) {
+  selectPart(`link:${link}`, "inertial/mass", "value", "masses");
+  commandById("panel.origin")?.run();
+}
+
+/** @param {{mass: MassRow["mass"]}} props */
+function Moments({ mass }) {
+  const [ixx, ixy, ixz, iyy, iyz, izz] = mass.inertia_kg_m2;
+  const written = Object.entries({ ixx, ixy, ixz, iyy, iyz, izz }).map(
+    ([name, value]) => `${name} ${formatNumber(value, 6)}`,
+  );
+  const possible = isPossible(mass);
+  const hint = [...written, ...(possible ? [] : [t("masses.impossible")])].join("\n");
+  return html`<td class=${`number three ${possible ? "" : "odd"}`} title=${hint}>
+    ${mass.moments_kg_m2 ? mass.moments_kg_m2.map((value) => html`<span>${shortNumber(value)}</span>`) : "–"}
+    ${!possible && html`<${Icon} name="alert" size=${13} /><span class="hidden-words">${t("masses.impossible")}</span>`}</td>`;
+}
+
+/** @param {number} value @returns {string} three digits, and small ones as powers */
+function shortNumber(value) {
+  const size = Math.abs(value);
+  return size === 0 || (size >= 1e-4 && size < 1e6)
+    ? formatNumber(value, 3)
+    : value.toExponential(1);
+}
+
+/** @param {{row: MassRow}} props held against the room that the shapes take */
+function DensityCell({ row: { mass, density } }) {
+  const hint = /** @type {const} */ (["collision", "visual"])
+    .map((of) => `${t(`masses.volume.${of}`)}: ${volumeText(mass[of])}`)
+    .join("\n");
+  if (!density) return html`<td class="number muted" title=${hint}>–</td>`;
+  const odd = isOddDensity(density);
+  const words = `${density.isExact ? "" : "≥ "}${formatNumber(density.kg_m3, 3)}`;
+  return html`<td class=${`number ${odd ? "odd" : ""}`} title=${odd ? `${hint}\n${t("masses.odd")}` : hint}>${words}
+    ${odd && html`<${Icon} name="alert" size=${13} /><span class="hidden-words">${t("masses.odd")}</span>`}</td>`;
+}
+
+/** @param {MassRow["mass"]["visual"]} volume @returns {string} in litres */
+function volumeText(volume) {
+  if (!volume) return t("masses.volume.unknown");
+  return `${volume.is_exact ? "" : "≤ "}${formatNumber(1000 * volume.volume_m3, 4)} dm³`;
+}
