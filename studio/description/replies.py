@@ -10,6 +10,7 @@ from studio.description.language.questions import (
     LookUpQuery,
     OutlineQuery,
     ReferencesQuery,
+    RenamingQuery,
 )
 from studio.description.origins.effects import site_effects
 from studio.description.origins.origin_values import PartOriginQuery, SiteEffectsQuery
@@ -41,7 +42,9 @@ def _reply(query: Query, run: GoodRun) -> Reply:
             return part_origin(run, part)
         case SiteEffectsQuery(site=site):
             return site_effects(run, site)
-        case OutlineQuery() | LookUpQuery() | ReferencesQuery() | CompletionQuery():
+        case (
+            OutlineQuery() | LookUpQuery() | ReferencesQuery() | CompletionQuery() | RenamingQuery()
+        ):
             raise TypeError("the language desk answers what is asked about texts")
         case _:
             assert_never(query)

@@ -32,17 +32,23 @@ _EDITS: Final = (
     _row(m.ApplyFix, lambda d, c, _: d.mending.apply(c.code, c.sentence, c.label)),
     _row(m.MendAll, lambda d, _, __: d.mending.apply_all()),
     _row(m.EditText, lambda d, c, _: d.edit_text(c)),
-    _row(m.SetArgument, lambda d, c, _: d.set_argument(c.name, c.value)),
-    _row(m.SetArguments, lambda d, c, _: d.set_arguments(c.values)),
+    _row(m.Rename, lambda d, c, who: d.rewriting.rename(c, who)),
+    _row(m.ReplaceTexts, lambda d, c, who: d.rewriting.replace(c, who)),
+    _row(m.SetArgument, lambda d, c, _: d.history.pass_arguments({c.name: c.value})),
+    _row(m.SetArguments, lambda d, c, _: d.history.pass_arguments(c.values)),
     _row(m.Undo, lambda d, _, __: d.undo()),
     _row(m.Redo, lambda d, _, __: d.redo()),
+    _row(m.UndoTo, lambda d, c, _: d.history.go_to(c)),
 )
 _FILES: Final = (
     _row(m.GetText, lambda d, c, who: d.texts.answer(c, who.role)),
     _row(m.GetCollisions, lambda d, c, _: d.disk.answer(c)),
-    _row(m.ResolveCollisions, lambda d, c, _: d.resolve_collisions(c.file, c.keep)),
-    _row(m.Save, lambda d, _, __: d.save()),
-    _row(m.Reload, lambda d, _, __: d.reload()),
+    _row(m.ResolveCollisions, lambda d, c, _: d.saving.resolve(c)),
+    _row(m.GetChanges, lambda d, c, _: d.saving.changes(c)),
+    _row(m.Save, lambda d, c, _: d.save(c.files)),
+    _row(m.SaveCopy, lambda d, c, _: d.saving.save_copy(c)),
+    _row(m.DiscardRestored, lambda d, _, __: d.drafts.discard()),
+    _row(m.Reload, lambda d, _, __: d.saving.reload()),
     _row(m.ChoosePackage, lambda d, c, _: d.choose_package(c.name, c.folder)),
 )
 _VIEW: Final = (
@@ -54,6 +60,7 @@ _VIEW: Final = (
 )
 _QUESTIONS: Final = (
     _row(m.GetUrdf, lambda d, c, _: m.Urdf(request=c.request, text=d.urdf())),
+    _row(m.GetUrdfChanges, lambda d, c, _: d.expanded.changes(c)),
     _row(m.GetOrigin, lambda d, c, who: d.origins.origin(c, who)),
     _row(m.GetEffects, lambda d, c, who: d.origins.effects(c, who)),
     _row(m.GetFrames, lambda d, c, _: d.inspection.frames(c)),
@@ -61,6 +68,8 @@ _QUESTIONS: Final = (
     _row(m.GetOutline, lambda d, c, who: d.language.outline(c, who)),
     _row(m.LookUp, lambda d, c, who: d.language.look_up(c, who)),
     _row(m.GetReferences, lambda d, c, who: d.language.references(c, who)),
+    _row(m.GetRenaming, lambda d, c, who: d.rewriting.renaming(c, who)),
+    _row(m.FindTexts, lambda d, c, who: d.rewriting.find(c, who)),
     _row(m.Complete, lambda d, c, who: d.language.complete(c, who)),
 )
 _VARIANTS: Final = (

@@ -96,6 +96,10 @@ class Definitions:
         texts = (one.attributes.get(attribute) for one in outputs)
         return tuple(dict.fromkeys(text for text in texts if text is not None))
 
+    def namespaces_of(self, file: str) -> frozenset[str]:
+        """The prefixes under which a file's names are read; the entry's and most others': ``."""
+        return frozenset(self._namespaces.get(file) or {"": None})
+
     @cached_property
     def _namespaces(self) -> dict[str, dict[str, None]]:
         """The prefixes that the names of each included file have: `a.b.`, or nothing."""
@@ -147,17 +151,22 @@ def place_of(reading: Reading, element: SourceElement, attribute: str = "name") 
 
 def parameter_place(reading: Reading, macro: SourceElement, name: str) -> TextPlace:
     """Where a macro names its parameter."""
+    named = parameter_bytes(macro, name)
+    return reading.place(macro.tree.path, *named) if named else place_of(reading, macro)
+
+
+def parameter_bytes(macro: SourceElement, name: str) -> tuple[int, int] | None:
+    """The bytes with which a macro names its parameter, stars left out; None: it has none."""
     tree = macro.tree
     try:
         span = attribute_spans(tree.data, macro.offset)["params"]
         text, offsets = character_offsets(tree.data[span.start : span.end], tree.encoding)
     except (EditError, KeyError):
-        return place_of(reading, macro)
+        return None
     at = name_in_params(text, name)
     if at < 0:
-        return place_of(reading, macro)
-    start, end = span.start + offsets[at], span.start + offsets[at + len(name)]
-    return reading.place(tree.path, start, end)
+        return None
+    return span.start + offsets[at], span.start + offsets[at + len(name)]
 
 
 def name_in_params(text: str, name: str) -> int:

@@ -17,9 +17,11 @@ from studio.description.language.questions import (
     OutlineQuery,
     References,
     ReferencesQuery,
+    RenamingQuery,
 )
 from studio.description.language.reading import Reading
 from studio.description.language.references import UsesBook, references_to
+from studio.description.language.renaming import renaming_of
 from studio.description.language.subject_at import subject_at, yaml_subject_at
 from studio.description.values import NoReply
 from studio.errors import EditError
@@ -75,6 +77,8 @@ class LanguageDesk:
         if isinstance(query, CompletionQuery):
             return _NOTHING_TO_TYPE if cursor.is_yaml else completions_at(cursor)
         subject = yaml_subject_at(cursor) if cursor.is_yaml else subject_at(cursor)
+        if isinstance(query, RenamingQuery):
+            return renaming_of(subject, query.name, self._reading, self._uses)
         if isinstance(query, ReferencesQuery):
             return references_to(subject, self._reading, self._uses) if subject else _NAMED_NOWHERE
         return LookedUp(meaning_of(subject, cursor) if subject else None)

@@ -233,8 +233,48 @@ class CompletionQuery:
     offset: int
 
 
-LanguageQuery: TypeAlias = OutlineQuery | LookUpQuery | ReferencesQuery | CompletionQuery
-LanguageReply: TypeAlias = Outline | LookedUp | References | Completions
+@dataclass(frozen=True, slots=True)
+class RenamingQuery:
+    """What has to change for what stands at this place to be called `name`?"""
 
-LANGUAGE_QUERIES: Final = (OutlineQuery, LookUpQuery, ReferencesQuery, CompletionQuery)
-LANGUAGE_REPLIES: Final = (Outline, LookedUp, References, Completions)
+    file: str
+    text: bytes
+    offset: int
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class RenamedPlace:
+    """One place of a renaming; the bytes [start, end) of its file say the old name."""
+
+    place: TextPlace
+    line: str
+    in_run: bool
+    """The run came by; else it is told from the text alone."""
+    start: int
+    end: int
+
+
+@dataclass(frozen=True, slots=True)
+class Renaming:
+    """All places that change with a name, file by file, top to bottom."""
+
+    kind: SubjectKind
+    old: str
+    new: str
+    places: tuple[RenamedPlace, ...]
+
+
+LanguageQuery: TypeAlias = (
+    OutlineQuery | LookUpQuery | ReferencesQuery | CompletionQuery | RenamingQuery
+)
+LanguageReply: TypeAlias = Outline | LookedUp | References | Completions | Renaming
+
+LANGUAGE_QUERIES: Final = (
+    OutlineQuery,
+    LookUpQuery,
+    ReferencesQuery,
+    CompletionQuery,
+    RenamingQuery,
+)
+LANGUAGE_REPLIES: Final = (Outline, LookedUp, References, Completions, Renaming)

@@ -123,6 +123,25 @@ class Reading:
         self._run_good(good)
         self._failed = failed
 
+    def tried(
+        self, texts: Mapping[str, bytes], arguments: Mapping[str, str] | None = None
+    ) -> Trace | None:
+        """A run with other texts or arguments; what is known stays. None: they do not run."""
+        instead = self._mirror.instead
+        self._mirror.use({**instead, **texts})
+        given = self._arguments if arguments is None else arguments
+        try:
+            return WatchedRun(self._mirror, self.policy, given).trace(self._entry)
+        except Fault:
+            return None
+        finally:
+            self._mirror.use(instead)
+
+    @property
+    def arguments(self) -> Mapping[str, str]:
+        """The arguments of the question."""
+        return self._arguments
+
     def _run_good(self, good: GoodRun) -> None:
         """Run the texts of a good run."""
         instead = self._mirror.instead

@@ -31,7 +31,7 @@ _SCOPED: Final = frozenset({Kind.PROPERTY, Kind.PARAMETER, Kind.NAMESPACE, Kind.
 
 
 @dataclass(frozen=True, slots=True)
-class _Spot:
+class Spot:
     """Bytes of a file of the run that name the thing."""
 
     file: str
@@ -57,7 +57,7 @@ class UsesBook:
 def references_to(subject: Subject, reading: Reading, book: UsesBook) -> References:
     """Where a subject is named; definitions count too."""
     definitions = reading.definitions
-    spots = list(_spots(subject, definitions, reading, book)) if definitions else []
+    spots = list(spots_of(subject, definitions, reading, book)) if definitions else []
     defined = places_of(subject, reading)
     found = {place: _reference(place, reading, is_definition=True) for place in defined}
     for spot in spots:
@@ -78,9 +78,10 @@ def _reference(
     return Reference(place, reading.places(place.file).line(place.line), is_definition, in_run)
 
 
-def _spots(
+def spots_of(
     subject: Subject, definitions: Definitions, reading: Reading, book: UsesBook
-) -> Iterator[_Spot]:
+) -> Iterator[Spot]:
+    """The places that name a subject beside those that define it; one may come twice."""
     trees = definitions.trace.trees.values()
     if subject.kind in _SCOPED:
         yield from _reads(subject, definitions, book)
@@ -102,14 +103,14 @@ def _spots(
 
 def _commands(
     trees: Iterable[SourceTree], book: UsesBook, name: str, commands: tuple[str, ...]
-) -> Iterator[_Spot]:
+) -> Iterator[Spot]:
     for tree in trees:
         for use in book.of(tree):
             if use.name == name and use.command in commands:
-                yield _Spot(tree.path, use.starts[0], use.ends[0])
+                yield Spot(tree.path, use.starts[0], use.ends[0])
 
 
-def _reads(subject: Subject, definitions: Definitions, book: UsesBook) -> Iterator[_Spot]:
+def _reads(subject: Subject, definitions: Definitions, book: UsesBook) -> Iterator[Spot]:
     """Expressions that read a property, parameter, namespace or YAML key."""
     for tree in definitions.trace.trees.values():
         for use in book.of(tree):
@@ -121,24 +122,24 @@ def _reads(subject: Subject, definitions: Definitions, book: UsesBook) -> Iterat
                 read = Chain(use.chain.steps[:step])
                 in_run = _is_read(subject, use, read, definitions)
                 if in_run is not None:
-                    yield _Spot(tree.path, use.starts[step - 1], use.ends[step - 1], in_run)
+                    yield Spot(tree.path, use.starts[step - 1], use.ends[step - 1], in_run)
 
 
 def _is_read(subject: Subject, use: Use, chain: Chain, definitions: Definitions) -> bool | None:
     """Whether a chain means it; None: it does not; False: it may, but the run never came by."""
-    found = _evaluated(use, chain, definitions)
+    found = meant_by(use, chain, definitions)
     if found:
         return True if any(_means(one, subject, definitions) for one in found) else None
     if len(chain.steps) > 1 or subject.kind is Kind.YAML:
         return None
-    macro = _macro_around(use.element)
+    macro = macro_around(use.element)
     names = read_parameters(macro.attributes.get("params", ""))[0] if macro else ()
     if subject.kind in {Kind.PARAMETER, Kind.BLOCK}:
         return False if macro in subject.elements else None
     return None if chain.base in names else False
 
 
-def _evaluated(use: Use, chain: Chain, definitions: Definitions) -> list[Found]:
+def meant_by(use: Use, chain: Chain, definitions: Definitions) -> list[Found]:
     """What the chain meant, each time that its text was evaluated."""
     seen = definitions.trace.seen
     places = [use.element]
@@ -163,29 +164,30 @@ def _means(found: Found, subject: Subject, definitions: Definitions) -> bool:
     return not defined.isdisjoint(subject.elements)
 
 
-def _macro_around(element: SourceElement) -> SourceElement | None:
+def macro_around(element: SourceElement) -> SourceElement | None:
+    """The macro that an element stands in or is."""
     above: SourceElement | None = element
     while above is not None and above.tag != "xacro:macro":
         above = above.parent
     return above
 
 
-def _given(subject: Subject, definitions: Definitions) -> Iterator[_Spot]:
+def _given(subject: Subject, definitions: Definitions) -> Iterator[Spot]:
     """Calls that give a parameter, and `insert_block` of a block."""
-    for element in _callers(subject, definitions):
+    for element in callers_of(subject, definitions):
         if subject.name in element.attributes:
             in_run = element in definitions.called
-            yield from _attribute_name(element, subject.name, in_run=in_run)
+            yield from attribute_name(element, subject.name, in_run=in_run)
     for tree in definitions.trace.trees.values():
         for element in tree.elements:
             is_insert = element.tag == "xacro:insert_block"
             if is_insert and element.attributes.get("name") == subject.name:
-                macro = _macro_around(element)
+                macro = macro_around(element)
                 if macro in subject.elements or _is_block_property(subject):
-                    yield from _attribute(element, "name")
+                    yield from attribute_value(element, "name")
 
 
-def _callers(subject: Subject, definitions: Definitions) -> Iterator[SourceElement]:
+def callers_of(subject: Subject, definitions: Definitions) -> Iterator[SourceElement]:
     """Elements that call a macro of the subject, or would if the run came by."""
     names = {macro.attributes.get("name", "") for macro in subject.elements}
     for tree in definitions.trace.trees.values():
@@ -204,56 +206,56 @@ def _is_block_property(subject: Subject) -> bool:
     return any(one.tag == "xacro:property" for one in subject.elements)
 
 
-def _calls(subject: Subject, definitions: Definitions) -> Iterator[_Spot]:
+def _calls(subject: Subject, definitions: Definitions) -> Iterator[Spot]:
     """Calls of a macro: the names of their tags, or what `xacro:call` says."""
-    for element in _callers(subject, definitions):
+    for element in callers_of(subject, definitions):
         if element.tag == "xacro:call":
-            yield from _attribute(element, "macro")
+            yield from attribute_value(element, "macro")
             continue
         start = element.offset + 1
         end = start + len(element.tag.encode())
-        yield _Spot(element.tree.path, start, end, element in definitions.called)
+        yield Spot(element.tree.path, start, end, element in definitions.called)
 
 
-def _parts(subject: Subject, definitions: Definitions) -> Iterator[_Spot]:
+def _parts(subject: Subject, definitions: Definitions) -> Iterator[Spot]:
     """Attributes that come out as the name of a link or joint."""
     for element in definitions.outputs:
         for (tag, attribute), kind in PART_REFERENCES.items():
             if element.tag != tag or kind != subject.kind.value:
                 continue
             if subject.name in definitions.written_out(element, attribute):
-                yield from _attribute(element, attribute)
+                yield from attribute_value(element, attribute)
 
 
-def _files(subject: Subject, definitions: Definitions, reading: Reading) -> Iterator[_Spot]:
+def _files(subject: Subject, definitions: Definitions, reading: Reading) -> Iterator[Spot]:
     """Includes that brought a file in, and meshes and textures that it is."""
     for one in definitions.trace.seen.includes:
         if one.file == subject.target:
-            yield from _attribute(one.element, "filename")
+            yield from attribute_value(one.element, "filename")
     for element in definitions.outputs:
         for tag, attribute in FILE_ATTRIBUTES:
             if element.tag != tag:
                 continue
             texts = definitions.written_out(element, attribute)
             if any(existing(reading, text, element.tree.path) == subject.target for text in texts):
-                yield from _attribute(element, attribute)
+                yield from attribute_value(element, attribute)
 
 
-def _attribute(element: SourceElement, attribute: str) -> Iterator[_Spot]:
+def attribute_value(element: SourceElement, attribute: str) -> Iterator[Spot]:
     """The value of an attribute."""
     try:
         span = attribute_spans(element.tree.data, element.offset)[attribute]
     except (EditError, KeyError):
         return
-    yield _Spot(element.tree.path, span.start, span.end)
+    yield Spot(element.tree.path, span.start, span.end)
 
 
-def _attribute_name(
+def attribute_name(
     element: SourceElement, attribute: str, *, in_run: bool = True
-) -> Iterator[_Spot]:
+) -> Iterator[Spot]:
     """The name of an attribute: it stands before its value, its `=` and its quote."""
     tree = element.tree
-    for spot in _attribute(element, attribute):
+    for spot in attribute_value(element, attribute):
         start = tree.data.rfind(attribute.encode(tree.encoding), element.offset, spot.start)
         if start >= 0:
-            yield _Spot(tree.path, start, start + len(attribute.encode(tree.encoding)), in_run)
+            yield Spot(tree.path, start, start + len(attribute.encode(tree.encoding)), in_run)

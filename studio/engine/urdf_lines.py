@@ -1,0 +1,158 @@
+"""A URDF as lines, part by part, and what differs between two: fast also for large robots."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from difflib import SequenceMatcher
+from typing import TYPE_CHECKING, Final, Literal
+from xml.etree import ElementTree
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Sequence
+
+    from studio.description.values import Part
+
+LINES_SHOWN: Final = 4_000
+_AROUND: Final = 3
+_PART_LINES: Final = 2_000
+"""A part of more lines that differ is shown whole, old and new."""
+
+
+@dataclass(frozen=True, slots=True)
+class PartLines:
+    """The lines of one part, indented as in the whole."""
+
+    key: str
+    lines: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """A line with its numbers from 1 in the text before and after; None: it is not in that one."""
+
+    kind: Literal["same", "old", "new"]
+    before: int | None
+    after: int | None
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Difference:
+    """Stretches of lines, each with a few around it; `left_out`: lines of further ones."""
+
+    added: int
+    removed: int
+    hunks: tuple[tuple[Line, ...], ...]
+    left_out: int
+
+
+def part_lines(
+    root_attributes: Iterable[tuple[str, str]], parts: Iterable[Part]
+) -> list[PartLines]:
+    """A robot's lines as `Model.urdf` writes them; the first and the last part are its own tags."""
+    root = ElementTree.Element("robot", dict(root_attributes))
+    root.text = "\n"
+    opening, _, _ = ElementTree.tostring(root, encoding="unicode").partition("\n")
+    return [
+        PartLines("<robot>", ('<?xml version="1.0" ?>', opening)),
+        *(PartLines(part.key, _lines(part.xml)) for part in parts),
+        PartLines("</robot>", ("</robot>",)),
+    ]
+
+
+def _lines(xml: str) -> tuple[str, ...]:
+    element = ElementTree.fromstring(xml)
+    ElementTree.indent(element)
+    text = ElementTree.tostring(element, encoding="unicode").rstrip()
+    return tuple(f"  {line}" for line in text.split("\n"))
+
+
+def difference(before: Sequence[PartLines], after: Sequence[PartLines]) -> Difference:
+    """Compare two robots."""
+    lines = list(_compared(before, after))
+    kinds = [line.kind for line in lines]
+    hunks = list(_hunks(lines))
+    shown = tuple(_cut(hunks))
+    return Difference(
+        added=kinds.count("new"),
+        removed=kinds.count("old"),
+        hunks=shown,
+        left_out=sum(map(len, hunks)) - sum(map(len, shown)),
+    )
+
+
+def _compared(before: Sequence[PartLines], after: Sequence[PartLines]) -> Iterator[Line]:
+    """All lines of both; parts are told by their keys, then line by line."""
+    keys = [part.key for part in before], [part.key for part in after]
+    numbers = _Numbers()
+    for tag, i, j, k, m in SequenceMatcher(None, *keys, autojunk=False).get_opcodes():
+        if tag == "equal":
+            for old, new in zip(before[i:j], after[k:m], strict=True):
+                yield from numbers.part(old.lines, new.lines)
+        else:
+            yield from numbers.gone(line for part in before[i:j] for line in part.lines)
+            yield from numbers.come(line for part in after[k:m] for line in part.lines)
+
+
+class _Numbers:
+    """Counts the lines of both texts."""
+
+    def __init__(self) -> None:
+        self._before = self._after = 0
+
+    def part(self, old: Sequence[str], new: Sequence[str]) -> Iterator[Line]:
+        """The lines of a part that both have."""
+        if old == new:
+            yield from self.same(new)
+            return
+        if max(len(old), len(new)) > _PART_LINES:
+            yield from (*self.gone(old), *self.come(new))
+            return
+        for tag, i, j, k, m in SequenceMatcher(None, old, new, autojunk=False).get_opcodes():
+            if tag == "equal":
+                yield from self.same(new[k:m])
+            else:
+                yield from (*self.gone(old[i:j]), *self.come(new[k:m]))
+
+    def same(self, lines: Iterable[str]) -> Iterator[Line]:
+        """Lines of both."""
+        for text in lines:
+            self._before += 1
+            self._after += 1
+            yield Line("same", self._before, self._after, text)
+
+    def gone(self, lines: Iterable[str]) -> Iterator[Line]:
+        """Lines of the text before only."""
+        for text in lines:
+            self._before += 1
+            yield Line("old", self._before, None, text)
+
+    def come(self, lines: Iterable[str]) -> Iterator[Line]:
+        """Lines of the text after only."""
+        for text in lines:
+            self._after += 1
+            yield Line("new", None, self._after, text)
+
+
+def _hunks(lines: Sequence[Line]) -> Iterator[tuple[Line, ...]]:
+    """The lines that differ with those around them, what nearly touches in one."""
+    differing = [at for at, line in enumerate(lines) if line.kind != "same"]
+    start = end = -1
+    for at in differing:
+        if start >= 0 and at - _AROUND > end:
+            yield tuple(lines[start:end])
+            start = -1
+        if start < 0:
+            start = max(0, at - _AROUND)
+        end = at + _AROUND + 1
+    if start >= 0:
+        yield tuple(lines[start:end])
+
+
+def _cut(hunks: Iterable[tuple[Line, ...]]) -> Iterator[tuple[Line, ...]]:
+    left = LINES_SHOWN
+    for hunk in hunks:
+        if left <= 0:
+            return
+        yield hunk[:left]
+        left -= len(hunk)
