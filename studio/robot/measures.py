@@ -134,7 +134,7 @@ def _link_corners(link: Link, mesh_bounds: Callable[[str], Bounds | None]) -> Fl
     """Corners of the boxes around the visuals, (8 N, 3), in the link's frame, m."""
     found = [np.empty((0, 3))]
     for visual in link.visuals:
-        bounds = _bounds(visual.geometry, mesh_bounds)
+        bounds = geometry_bounds(visual.geometry, mesh_bounds)
         if bounds is None:
             return None
         low, high = np.array(bounds[0]), np.array(bounds[1])
@@ -144,7 +144,10 @@ def _link_corners(link: Link, mesh_bounds: Callable[[str], Bounds | None]) -> Fl
     return np.concatenate(found)
 
 
-def _bounds(geometry: Geometry, mesh_bounds: Callable[[str], Bounds | None]) -> Bounds | None:
+def geometry_bounds(
+    geometry: Geometry, mesh_bounds: Callable[[str], Bounds | None]
+) -> Bounds | None:
+    """The box around a geometry in its own frame; None while its mesh is not known."""
     match geometry:
         case Box((x, y, z)):
             half = (x / 2, y / 2, z / 2)

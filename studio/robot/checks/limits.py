@@ -1,0 +1,118 @@
+"""Checks of joints: whether their limits leave them a way to go, and their axes a way to turn."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+from studio.errors import RobotError
+from studio.problems import Severity
+from studio.robot.checks.finding import AddChild, Finding, SetAttributes, SwapAttributes
+from studio.robot.values import JointType
+from studio.robot.xml_tree import parse_tree
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+    from xml.etree.ElementTree import Element
+
+    from studio.robot.values import Joint, Limit, Robot
+
+_NEEDS_LIMIT: Final = {
+    JointType.REVOLUTE: '<limit lower="-1.57" upper="1.57" effort="10" velocity="1"/>',
+    JointType.PRISMATIC: '<limit lower="0" upper="0.1" effort="10" velocity="0.1"/>',
+}
+"""And what to begin with."""
+_MOST: Final = {
+    "effort": ("10", "the most that it pushes, in N m or N"),
+    "velocity": ("1", "the fastest that it goes, in rad/s or m/s"),
+}
+_HAS_AXIS: Final = frozenset(
+    {JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC, JointType.PLANAR}
+)
+
+
+def limit_findings(robot: Robot, xml_of: Callable[[str], str]) -> Iterator[Finding]:
+    """What is wrong with the limits and axes of the joints.
+
+    Args:
+        robot: As it is drawn.
+        xml_of: The element of a part as URDF text, by its key; empty when it is not known. Only
+            that tells an effort that is not written from one of 0.
+    """
+    for joint in robot.joints.values():
+        if joint.limit is None:
+            if joint.type in _NEEDS_LIMIT and "<limit" not in xml_of(_key(joint)):
+                yield _missing_limit(joint)
+        else:
+            yield from _range_findings(joint, joint.limit)
+            if not (joint.limit.effort and joint.limit.velocity):
+                yield from _unwritten(joint, xml_of(_key(joint)))
+        if joint.type in _HAS_AXIS and not any(joint.axis):
+            yield _zero_axis(joint)
+
+
+def _missing_limit(joint: Joint) -> Finding:
+    element = _NEEDS_LIMIT[joint.type]
+    sentence = (
+        f'Joint "{joint.name}" is {joint.type} and has no <limit>, so that ROS rejects the robot: '
+        f"say how far it goes, or make it {_without_limit(joint)}."
+    )
+    mend = AddChild(f"Add {element}", element)
+    return Finding(Severity.ERROR, "missing-limit", sentence, _key(joint), mend)
+
+
+def _without_limit(joint: Joint) -> str:
+    return "continuous" if joint.type is JointType.REVOLUTE else "fixed"
+
+
+def _range_findings(joint: Joint, limit: Limit) -> Iterator[Finding]:
+    if joint.type not in _NEEDS_LIMIT:
+        return
+    lower, upper = f"{limit.lower:.6g}", f"{limit.upper:.6g}"
+    if limit.lower > limit.upper:
+        sentence = (
+            f'Joint "{joint.name}" has a lower limit of {lower} above its upper one of {upper}: '
+            "no position lies between them, swap them."
+        )
+        mend = SwapAttributes("Swap the limits", "limit", "lower", "upper")
+        yield Finding(Severity.ERROR, "reversed-limits", sentence, _key(joint), mend)
+    elif limit.lower == limit.upper:
+        sentence = (
+            f'Joint "{joint.name}" is {joint.type} and cannot move, since both of its limits are '
+            f"{lower}: widen them, or make it fixed."
+        )
+        yield Finding(Severity.WARNING, "equal-limits", sentence, _key(joint))
+
+
+def _unwritten(joint: Joint, xml: str) -> Iterator[Finding]:
+    """An effort or velocity that the limit does not say: urdfdom needs both."""
+    limit = _limit_element(xml)
+    if limit is None:
+        return
+    for name, (text, meaning) in _MOST.items():
+        if limit.get(name) is None:
+            sentence = (
+                f'The <limit> of joint "{joint.name}" has no {name}, so that ROS rejects the '
+                f"robot: write {meaning}."
+            )
+            mend = SetAttributes(f'Add {name}="{text}"', ("limit",), ((name, text),))
+            yield Finding(Severity.ERROR, f"limit-without-{name}", sentence, _key(joint), mend)
+
+
+def _limit_element(xml: str) -> Element | None:
+    try:
+        return parse_tree(xml).find("limit") if xml else None
+    except RobotError:
+        return None
+
+
+def _zero_axis(joint: Joint) -> Finding:
+    sentence = (
+        f'Joint "{joint.name}" is {joint.type} and its axis is 0 0 0, which points nowhere: '
+        "write the direction that it turns about or slides along."
+    )
+    mend = SetAttributes('Write xyz="0 0 1"', ("axis",), (("xyz", "0 0 1"),))
+    return Finding(Severity.WARNING, "zero-axis", sentence, _key(joint), mend)
+
+
+def _key(joint: Joint) -> str:
+    return f"joint:{joint.name}"

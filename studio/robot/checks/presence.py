@@ -1,0 +1,88 @@
+"""Checks of what links lack: a mass, something to touch with, or a root that has none."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from studio.problems import Severity
+from studio.robot.checks.bodies import rigid_bodies
+from studio.robot.checks.finding import Finding
+from studio.robot.values import Mesh
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from studio.robot.checks.bodies import Body
+    from studio.robot.values import Joint, Link, Robot
+
+
+def presence_findings(robot: Robot) -> Iterator[Finding]:
+    """Moving bodies without mass or collision, and a root link with a mass.
+
+    Of a robot that has no mass, or no collision, at all that is said once: it is made to be seen.
+    """
+    bodies = rigid_bodies(robot)
+    links = robot.links.values()
+    moving = [(body, body.mover) for body in bodies if body.mover is not None]
+    if any(link.inertial for link in links):
+        yield from _massless(moving)
+        yield from _heavy_roots(bodies)
+    elif any(link.visuals or link.collisions for link in links):
+        sentence = (
+            "No link has an <inertial>: the robot can be shown, and a simulator needs the masses."
+        )
+        yield Finding(Severity.INFO, "no-inertials", sentence, "")
+    if any(link.collisions for link in links):
+        yield from _untouchable(moving)
+    elif any(link.visuals for link in links):
+        sentence = (
+            "No link has a <collision>: the robot can be shown, and falls through the floor of "
+            "a simulator."
+        )
+        yield Finding(Severity.INFO, "no-collisions", sentence, "")
+
+
+def _massless(moving: list[tuple[Body, Joint]]) -> Iterator[Finding]:
+    for body, mover in moving:
+        solid = [link for link in body.links if link.visuals or link.collisions]
+        if not solid or any(link.inertial for link in body.links):
+            continue
+        link = solid[0]
+        sentence = (
+            f'Link "{link.name}" is moved by joint "{mover.name}" and has no <inertial>: '
+            "simulators leave such a link out, say what it weighs."
+        )
+        yield _at(link, Severity.WARNING, "missing-inertial", sentence, mover)
+
+
+def _untouchable(moving: list[tuple[Body, Joint]]) -> Iterator[Finding]:
+    for body, mover in moving:
+        seen = [link for link in body.links if _looks_like_a_mesh(link)]
+        if not seen or any(link.collisions for link in body.links):
+            continue
+        link = seen[0]
+        sentence = (
+            f'Link "{link.name}" is moved by joint "{mover.name}" and has no <collision>: it goes '
+            "through other things, add a simple shape."
+        )
+        yield _at(link, Severity.INFO, "missing-collision", sentence, mover)
+
+
+def _looks_like_a_mesh(link: Link) -> bool:
+    return any(isinstance(visual.geometry, Mesh) for visual in link.visuals)
+
+
+def _heavy_roots(bodies: list[Body]) -> Iterator[Finding]:
+    for body in bodies:
+        root = body.links[0]
+        if body.mover is None and root.inertial is not None and root.inertial.mass_kg > 0:
+            sentence = (
+                f'The root link "{root.name}" has an <inertial>, which KDL ignores with a warning: '
+                "put an empty link such as base_footprint above it, on a fixed joint."
+            )
+            yield Finding(Severity.INFO, "root-inertial", sentence, f"link:{root.name}")
+
+
+def _at(link: Link, severity: Severity, code: str, sentence: str, mover: Joint) -> Finding:
+    others = (f"joint:{mover.name}",)
+    return Finding(severity, code, sentence, f"link:{link.name}", others=others)
