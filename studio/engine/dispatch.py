@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Final, TypeAlias, TypeVar
 
 from studio.engine import messages as m
 from studio.engine.listeners import tell
+from studio.engine.messages import rewriting as r
 from studio.engine.messages.message import CommandMessage
 
 if TYPE_CHECKING:
@@ -32,8 +33,8 @@ _EDITS: Final = (
     _row(m.ApplyFix, lambda d, c, _: d.mending.apply(c.code, c.sentence, c.label)),
     _row(m.MendAll, lambda d, _, __: d.mending.apply_all()),
     _row(m.EditText, lambda d, c, _: d.edit_text(c)),
-    _row(m.Rename, lambda d, c, who: d.rewriting.rename(c, who)),
-    _row(m.ReplaceTexts, lambda d, c, who: d.rewriting.replace(c, who)),
+    _row(r.Rename, lambda d, c, who: d.rewriting.rename(c, who)),
+    _row(r.ReplaceTexts, lambda d, c, who: d.rewriting.replace(c, who)),
     _row(m.SetArgument, lambda d, c, _: d.history.pass_arguments({c.name: c.value})),
     _row(m.SetArguments, lambda d, c, _: d.history.pass_arguments(c.values)),
     _row(m.Undo, lambda d, _, __: d.undo()),
@@ -68,8 +69,8 @@ _QUESTIONS: Final = (
     _row(m.GetOutline, lambda d, c, who: d.language.outline(c, who)),
     _row(m.LookUp, lambda d, c, who: d.language.look_up(c, who)),
     _row(m.GetReferences, lambda d, c, who: d.language.references(c, who)),
-    _row(m.GetRenaming, lambda d, c, who: d.rewriting.renaming(c, who)),
-    _row(m.FindTexts, lambda d, c, who: d.rewriting.find(c, who)),
+    _row(r.GetRenaming, lambda d, c, who: d.rewriting.renaming(c, who)),
+    _row(r.FindTexts, lambda d, c, who: d.rewriting.find(c, who)),
     _row(m.Complete, lambda d, c, who: d.language.complete(c, who)),
 )
 _VARIANTS: Final = (

@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING
 
 from studio.description.values import Expansion, OpenRequest
-from studio.engine import messages as m
+from studio.engine.messages import expanded as m
 from studio.engine.urdf_lines import Difference, PartLines, difference, part_lines
 from studio.errors import CommandError
 

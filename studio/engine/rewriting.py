@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Final
 from studio.description.editing.sources import Change
 from studio.description.language.questions import Renaming, RenamingQuery, SubjectKind
 from studio.description.values import Edit
-from studio.engine import messages as m
+from studio.engine.messages import rewriting as r
 from studio.engine.text_search import Matches, Words, matches_in, replacements_in
 from studio.engine.texts import TEXT_LIMIT_BYTES
 from studio.errors import CommandError, EditError, PackageError, ReadOnlyTextError, StaleTextError
@@ -19,7 +19,6 @@ if TYPE_CHECKING:
 
     from studio.engine.document import Document
     from studio.engine.listeners import Listener
-    from studio.engine.messages.rewriting import WordsCommand
 
 PLACES_SHOWN: Final = 1_000
 REPLACED_LIMIT: Final = 5_000
@@ -33,7 +32,7 @@ class RewritingDesk:
         self._document = document
         self._steps = count(1)
 
-    async def renaming(self, command: m.GetRenaming, asker: Listener) -> m.RenamingAnswer:
+    async def renaming(self, command: r.GetRenaming, asker: Listener) -> r.RenamingAnswer:
         """What a renaming would change.
 
         Raises:
@@ -41,10 +40,10 @@ class RewritingDesk:
         """
         found = await self._ask(command, asker)
         places = [
-            m.FoundText(place=one.place, line=one.line, in_run=one.in_run)
+            r.FoundText(place=one.place, line=one.line, in_run=one.in_run)
             for one in found.places[:PLACES_SHOWN]
         ]
-        return m.RenamingAnswer(
+        return r.RenamingAnswer(
             request=command.request,
             kind=found.kind,
             old=found.old,
@@ -54,7 +53,7 @@ class RewritingDesk:
             files=len({one.place.file for one in found.places}),
         )
 
-    async def rename(self, command: m.Rename, asker: Listener) -> None:
+    async def rename(self, command: r.Rename, asker: Listener) -> None:
         """Rename what stands at a place, and show what that does.
 
         Raises:
@@ -73,13 +72,13 @@ class RewritingDesk:
         edits = [Edit(p.place.file, p.start, p.end, name) for p in reversed(renaming.places)]
         await self._write(edits, f"Rename {renaming.old} → {renaming.new}", renaming)
 
-    async def find(self, command: m.FindTexts, asker: Listener) -> m.TextsFound:
+    async def find(self, command: r.FindTexts, asker: Listener) -> r.TextsFound:
         """Where words stand in the files of the robot."""
         texts = self._texts(asker)
         found = await asyncio.to_thread(matches_in, texts, _words(command), PLACES_SHOWN)
         return _texts_found(command.request, found)
 
-    async def replace(self, command: m.ReplaceTexts, asker: Listener) -> None:
+    async def replace(self, command: r.ReplaceTexts, asker: Listener) -> None:
         """Replace words in the files of the robot, and show what that does.
 
         Raises:
@@ -101,7 +100,7 @@ class RewritingDesk:
             )
         await self._write(edits, f"Replace {_short(command.text)} → {_short(command.replacement)}")
 
-    async def _ask(self, command: m.GetRenaming | m.Rename, asker: Listener) -> Renaming:
+    async def _ask(self, command: r.GetRenaming | r.Rename, asker: Listener) -> Renaming:
         file, text = self._document.texts.bytes_of(command.file, asker.role)
         query = RenamingQuery(file, text, command.offset, command.name)
         return await self._document.ask(query, Renaming, asker)
@@ -143,16 +142,16 @@ class RewritingDesk:
                 raise EditError(f"{file} would grow too large: write less.")
 
 
-def _words(command: WordsCommand) -> Words:
+def _words(command: r.WordsCommand) -> Words:
     return Words(command.text, command.match_case, command.whole_word)
 
 
-def _texts_found(request: int, found: Matches) -> m.TextsFound:
+def _texts_found(request: int, found: Matches) -> r.TextsFound:
     places = [
-        m.FoundText(place=one.place, line=one.line, line_column=one.line_column)
+        r.FoundText(place=one.place, line=one.line, line_column=one.line_column)
         for one in found.shown
     ]
-    return m.TextsFound(request=request, places=tuple(places), count=found.count, files=found.files)
+    return r.TextsFound(request=request, places=tuple(places), count=found.count, files=found.files)
 
 
 def _short(text: str) -> str:

@@ -41,7 +41,7 @@ from studio.engine.messages.edits import (
     SiteView,
     Undo,
 )
-from studio.engine.messages.expanded import GetUrdfChanges, UrdfChanges, UrdfLine
+from studio.engine.messages.expanded import GetUrdfChanges, UrdfChanges
 from studio.engine.messages.files import (
     Collisions,
     CollisionView,
@@ -112,15 +112,7 @@ from studio.engine.messages.origins import (
     Origin,
     PartEffect,
 )
-from studio.engine.messages.rewriting import (
-    FindTexts,
-    FoundText,
-    GetRenaming,
-    Rename,
-    RenamingAnswer,
-    ReplaceTexts,
-    TextsFound,
-)
+from studio.engine.messages.rewriting import RewritingCommand, RewritingEvent
 from studio.engine.messages.robot import (
     AnimateJoints,
     Displays,
@@ -198,10 +190,7 @@ Command: TypeAlias = Annotated[
     | ChoosePackage
     | GetUrdf
     | GetUrdfChanges
-    | GetRenaming
-    | Rename
-    | FindTexts
-    | ReplaceTexts
+    | RewritingCommand
     | GetText
     | GetOrigin
     | GetEffects
@@ -249,8 +238,7 @@ Event: TypeAlias = Annotated[
     | Opened
     | Urdf
     | UrdfChanges
-    | RenamingAnswer
-    | TextsFound
+    | RewritingEvent
     | Text
     | TextsChanged
     | OutlineAnswer
@@ -317,11 +305,9 @@ __all__ = [
     "ExampleEntry",
     "Examples",
     "FileChanges",
-    "FindTexts",
     "Folder",
     "FolderEntry",
     "ForgetRecent",
-    "FoundText",
     "Frames",
     "GetArguments",
     "GetChanges",
@@ -333,7 +319,6 @@ __all__ = [
     "GetOrigin",
     "GetOutline",
     "GetReferences",
-    "GetRenaming",
     "GetText",
     "GetUrdf",
     "GetUrdfChanges",
@@ -376,10 +361,7 @@ __all__ = [
     "ReferencesAnswer",
     "Refused",
     "Reload",
-    "Rename",
     "RenameVariant",
-    "RenamingAnswer",
-    "ReplaceTexts",
     "ResetSite",
     "ResolveCollisions",
     "Restored",
@@ -399,13 +381,11 @@ __all__ = [
     "Text",
     "TextChange",
     "TextsChanged",
-    "TextsFound",
     "Undo",
     "UndoTo",
     "UpdateVariant",
     "Urdf",
     "UrdfChanges",
-    "UrdfLine",
     "VariantApplied",
     "VariantSaved",
     "VariantText",

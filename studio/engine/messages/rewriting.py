@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Literal, TypeAlias
 
 from pydantic import Field
 
@@ -85,3 +85,7 @@ class ReplaceTexts(WordsCommand):
     type: Literal["replace_texts"] = "replace_texts"
     replacement: str = Field(max_length=1000)
     count: int = Field(ge=1, le=1 << 20)
+
+
+RewritingCommand: TypeAlias = GetRenaming | Rename | FindTexts | ReplaceTexts
+RewritingEvent: TypeAlias = RenamingAnswer | TextsFound
