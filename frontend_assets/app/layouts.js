@@ -47,13 +47,13 @@ export function modelLayout(kind, width, height) {
   }
   const low = Math.round(Math.min(340, height * 0.36));
   const scene = { tabs: ["scene"], size: height - low };
-  const below = { tabs: ["source", "variants", "problems", "masses", "urdf"], size: low };
+  const below = { tabs: ["source", "variants", "problems", "frames", "masses", "urdf"], size: low };
   const left = Math.round(Math.min(300, width * 0.22));
   const right = Math.round(Math.min(390, width * 0.28));
   return [
     { tabs: ["displays", "outline"], size: left },
     { split: [scene, below], size: width - left - right },
-    { tabs: ["properties", "origin", "joints", "frames"], size: right },
+    { tabs: ["properties", "origin", "joints"], size: right },
   ];
 }
 

@@ -52,6 +52,7 @@ export const PANELS = {
     icon: "masses",
     load: async () => (await import("../panels/masses.js")).MassesPanel,
   },
+  frames: { icon: "frames", load: async () => (await import("../panels/frames.js")).FramesPanel },
   urdf: { icon: "urdf", load: async () => (await import("../panels/urdf.js")).UrdfPanel },
 };
 

@@ -11,8 +11,9 @@ import { moveJoint } from "./actions.js";
 import { isStroke, onKey } from "./commands.js";
 import { mayEdit } from "./state/connection.js";
 import { movable, position, robot } from "./state/document.js";
+import { comparedFrames } from "./state/frame-pair.js";
 import { lights } from "./state/origin.js";
-import { selectLink } from "./state/selection.js";
+import { selectedJoint, selectLink } from "./state/selection.js";
 import {
   degrees,
   hiddenLinks,
@@ -38,6 +39,8 @@ import {
  * @property {(link: string, opacity: number) => void} setLinkOpacity
  * @property {(link: string | null) => void} setHover
  * @property {(link: string | null) => void} setSelection
+ * @property {(joint: string | null) => void} setAxis of the selected joint
+ * @property {(links: readonly string[]) => void} setFrames that are compared
  * @property {(changed: readonly string[], moved: readonly string[]) => void} setLit what a property shapes
  * @property {(can: boolean) => void} setCanDrag
  * @property {(unit: "deg" | "rad") => void} setAngleUnit of the value at the cursor
@@ -119,6 +122,11 @@ function tell(view) {
     effect(() => view.setMouse(mouseMode.value)),
     effect(() => view.setHover(hovered.value)),
     effect(() => view.setSelection(selected.value)),
+    effect(() => {
+      robot.value; // told before: its axes may be others now
+      view.setAxis(selectedJoint.value);
+    }),
+    effect(() => view.setFrames(comparedFrames.value)),
     effect(() => {
       const { changed_links: changed = [], moved_links: moved = [] } = lights.value ?? {};
       view.setLit(changed, moved);

@@ -4,6 +4,7 @@ import { html } from "vendor/preact.js";
 import { commandById } from "../app/commands.js";
 import { PlaceLink } from "../app/place-link.js";
 import { documentState, robot } from "../app/state/document.js";
+import { tellIn } from "../app/state/frame-pair.js";
 import { selectPart } from "../app/state/selection.js";
 import { fadeLink, linkOpacity, onlySelected, selected } from "../app/state/view.js";
 import { focusLink } from "../app/viewport.js";
@@ -24,6 +25,7 @@ export function LinkDetails() {
         onClick=${() => explain(`link:${link.name}`)}>${link.name}</button></strong>
       <span class="details-buttons"><${IconButton} icon="fit" label=${t("link.focus")} onClick=${() => focusLink(link.name)} />
       <${IconButton} icon="properties" label=${t("link.values")} onClick=${showValues} />
+      <${IconButton} icon="frames" label=${t("link.tell_in")} onClick=${() => tellIn(link.name)} />
       <${IconButton} icon="close" label=${t("link.deselect")} onClick=${close} /></span>
     </header>
     <dl>

@@ -30,6 +30,11 @@ export class RobotView {
     this.#jointOfChild = new Map(state.joints.map((joint) => [joint.child, joint]));
   }
 
+  /** @param {string} name @returns {JointView | null} */
+  joint(name) {
+    return this.#joints.get(name) ?? null;
+  }
+
   /** @param {string} link */
   static nodeName(link) {
     return `${ROOT}/${encodeURIComponent(link)}`;

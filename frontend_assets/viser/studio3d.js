@@ -4,6 +4,7 @@ import { Door } from "./door.js";
 import { forwardKeys } from "./keys.js";
 import { Light } from "./light.js";
 import { Looks } from "./looks.js";
+import { Marks } from "./marks.js";
 import { pick } from "./picking.js";
 import { Pointer } from "./pointer.js";
 import { RobotView } from "./robot.js";
@@ -26,6 +27,7 @@ class Studio3d {
   #still = new Still(this.#door);
   #theme = new Theme(this.#door, () => this.#camera.distance());
   #looks = new Looks(this.#door, this.#robot, this.#theme);
+  #marks = new Marks(this.#door, this.#robot);
   #pointer = new Pointer(this.#door, this.#robot, this.#looks, this.#camera, (type, detail) =>
     this.#tell(type, detail),
   );
@@ -115,6 +117,16 @@ class Studio3d {
   /** @param {string | null} link */
   setSelection(link) {
     this.#looks.setSelected(link);
+  }
+
+  /** The axis of a joint is seen, over everything. @param {string | null} joint */
+  setAxis(joint) {
+    this.#marks.setAxis(joint === null ? null : this.#robot.joint(joint));
+  }
+
+  /** The frames of these links are seen, over everything. @param {readonly string[]} links */
+  setFrames(links) {
+    this.#marks.setFrames(links);
   }
 
   /** What a property shapes: links that look otherwise for it, and links that only sit elsewhere.

@@ -59,6 +59,7 @@ export interface Material {
   isShaderMaterial?: boolean;
   transparent: boolean;
   opacity: number;
+  depthTest: boolean;
   depthWrite: boolean;
   needsUpdate: boolean;
   color?: Color;
@@ -96,6 +97,7 @@ export interface Object3D {
   /** Of a light that casts shadows. */
   shadow?: { normalBias: number; radius: number };
   intensity: number;
+  renderOrder: number;
   visible: boolean;
   parent: Object3D | null;
   children: Object3D[];

@@ -1,0 +1,139 @@
+/** @import { Door } from "./door.js" */
+/** @import { JointView, Material, Message, Object3D } from "./viser.d.ts" */
+import { RobotView } from "./robot.js";
+
+/** Of the robot's size. */
+const FRAME_SHARE = 0.11;
+const AXIS_SHARE = 0.16;
+/** How far the axis reaches to the other side. */
+const BACK = 0.55;
+const SMALLEST_M = 0.01;
+const AXIS_RGB = [255, 176, 46];
+const MOVES = new Set(["revolute", "continuous", "prismatic"]);
+
+/**
+ * Frames of links and the axis of a joint, drawn over everything and in this browser only. They hang
+ * on the links' own nodes, so that they move with them.
+ */
+export class Marks {
+  /** Names of nodes and what makes each, as they stand in the scene. @type {Map<string, Message>} */
+  #shown = new Map();
+  /** @type {Map<string, Message>} */
+  #frames = new Map();
+  /** @type {Map<string, Message>} */
+  #axes = new Map();
+  /** @type {WeakSet<Material>} */
+  #raised = new WeakSet();
+  #door;
+  #robot;
+
+  /** @param {Door} door @param {RobotView} robot */
+  constructor(door, robot) {
+    this.#door = door;
+    this.#robot = robot;
+    door.onMessage((message) => this.#standAnew(message));
+    door.onPicture(() => this.#raise());
+  }
+
+  /** @param {readonly string[]} links whose frames are seen */
+  setFrames(links) {
+    if (links.length + this.#frames.size === 0) return;
+    const length = FRAME_SHARE * this.#size();
+    this.#frames = new Map(links.map((link) => named(link, "studio_frame", frame(length))));
+    this.#show();
+  }
+
+  /** The axis that a joint turns about or slides along. @param {JointView | null} joint null: none */
+  setAxis(joint) {
+    const before = this.#axes;
+    this.#axes = new Map();
+    if (joint && MOVES.has(joint.type) && joint.axis.some((part) => part !== 0)) {
+      const drawn = axis(joint.axis, AXIS_SHARE * this.#size());
+      this.#axes.set(...named(joint.child, "studio_axis", drawn));
+    }
+    if (before.size + this.#axes.size > 0) this.#show();
+  }
+
+  #show() {
+    const wanted = new Map([...this.#frames, ...this.#axes]);
+    /** @type {Message[]} */
+    const messages = [];
+    for (const name of this.#shown.keys())
+      if (!wanted.has(name)) messages.push({ type: "RemoveSceneNodeMessage", name, owner: "" });
+    for (const [name, message] of wanted)
+      if (this.#standsOn(name) && !same(this.#shown.get(name), message)) messages.push(message);
+    this.#shown = wanted;
+    this.#door.inject(...messages);
+  }
+
+  /** @param {string} name @returns {boolean} its link is there; else it comes with it */
+  #standsOn(name) {
+    return this.#door.node(name.slice(0, name.lastIndexOf("/"))) !== undefined;
+  }
+
+  /** With a link that is made anew its marks are gone. @param {Message} message */
+  #standAnew(message) {
+    if (message.type !== "FrameMessage") return;
+    const below = `${message.name}/`;
+    const lost = [...this.#shown].filter(([name]) => name.startsWith(below));
+    // After what the server says of it in this same batch.
+    if (lost.length > 0)
+      queueMicrotask(() => this.#door.inject(...lost.map(([, mark]) => mark)));
+  }
+
+  /** Over everything, or the body that a frame lies in would hide it. */
+  #raise() {
+    for (const name of this.#shown.keys())
+      this.#door.node(name)?.traverse((object) => this.#raiseObject(object));
+  }
+
+  /** @param {Object3D} object */
+  #raiseObject(object) {
+    for (const material of [object.material ?? []].flat()) {
+      if (this.#raised.has(material)) continue;
+      this.#raised.add(material);
+      Object.assign(material, { depthTest: false, transparent: true, needsUpdate: true });
+      object.renderOrder = 10;
+    }
+  }
+
+  /** How far the robot reaches, m, in steps: one that grows a little keeps its marks. */
+  #size() {
+    const corners = this.#robot.corners(this.#robot.drawn);
+    const [first] = corners;
+    if (!first) return 1;
+    let reach = SMALLEST_M;
+    for (const corner of corners) reach = Math.max(reach, corner.distanceTo(first));
+    return 2 ** (Math.round(2 * Math.log2(reach)) / 2);
+  }
+}
+
+/** @param {string} link @param {string} below @param {Message} message @returns {[string, Message]} */
+function named(link, below, message) {
+  const name = `${RobotView.nodeName(link)}/${below}`;
+  return [name, { ...message, name, owner: "" }];
+}
+
+/** @param {number} length m @returns {Message} */
+function frame(length) {
+  const props = {
+    ...{ show_axes: true, axes_length: length, axes_radius: length / 26 },
+    ...{ origin_radius: length / 14, origin_color: [255, 255, 255], scale: 1 },
+  };
+  return { type: "FrameMessage", virtual: false, props };
+}
+
+/** @param {readonly [number, number, number]} direction of length 1 @param {number} length m @returns {Message} */
+function axis(direction, length) {
+  const tail = direction.map((part) => -BACK * length * part);
+  const tip = direction.map((part) => length * part);
+  const props = {
+    points: new Float32Array([...tail, ...tip]),
+    colors: new Uint8Array(AXIS_RGB),
+    ...{ shaft_radius: length / 55, head_radius: length / 16, head_length: length / 4, scale: 1 },
+  };
+  return { type: "ArrowMessage", virtual: false, props };
+}
+
+/** @param {Message | undefined} one @param {Message} other */
+const same = (one, other) => JSON.stringify(one) === JSON.stringify(other);
