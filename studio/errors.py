@@ -20,6 +20,7 @@ StudioError
             ReadOnlyTextError
             SaveConflictError
             NotSavedError
+            DraftError
         VariantsFileError
     RobotError
         MeshError
@@ -191,6 +192,16 @@ class NotSavedError(EditError):
 
     def __init__(self, path: str, reason: str) -> None:
         super().__init__(f"{path} was not saved: {reason}.")
+        self.path, self.reason = path, reason
+
+
+class DraftError(EditError):
+    """Unsaved edits cannot be kept against the end of the studio, or not be taken up again."""
+
+    def __init__(self, path: str, reason: str) -> None:
+        super().__init__(
+            f"Unsaved edits in {path} cannot be kept or brought back: {reason}; save what matters."
+        )
         self.path, self.reason = path, reason
 
 

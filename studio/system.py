@@ -7,6 +7,10 @@ import os
 import sys
 import threading
 import time
+from typing import IO, TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 _WATCH_INTERVAL_S = 0.2
 
@@ -34,6 +38,34 @@ def _watch_memory(limit_bytes: int) -> None:
     while resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit < limit_bytes:
         time.sleep(_WATCH_INTERVAL_S)
     os._exit(137)
+
+
+def hold_file(path: Path) -> IO[bytes] | None:
+    """Open a file and hold it until it is closed or this process ends; None: another holds it.
+
+    Raises:
+        OSError: It cannot be made or opened.
+    """
+    stream = path.open("ab")
+    try:
+        _lock(stream)
+    except OSError:
+        stream.close()
+        return None
+    return stream
+
+
+def _lock(stream: IO[bytes]) -> None:
+    """Raises OSError when another one, in this process or elsewhere, has it."""
+    try:
+        import fcntl  # noqa: PLC0415 - Unix only
+    except ImportError:
+        import msvcrt  # noqa: PLC0415 - Windows only
+
+        stream.seek(0)
+        msvcrt.locking(stream.fileno(), msvcrt.LK_NBLCK, 1)  # pyright: ignore
+        return
+    fcntl.flock(stream.fileno(), fcntl.LOCK_EX | fcntl.LOCK_NB)
 
 
 def ignore_interrupt() -> None:

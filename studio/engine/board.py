@@ -99,6 +99,7 @@ class Board:
         yield self._history()
         yield self._problems()
         yield from self._document.variants.events()
+        yield from self._document.drafts.events()
 
     def _state(self) -> m.DocumentState:
         document = self._document

@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
+import hashlib
 from typing import TYPE_CHECKING, Final
 
 from studio.description.editing.disk_news import FileChange
 from studio.engine.disk_problems import changed_on_disk, file_gone
 from studio.engine.messages import Collisions, CollisionView, DiskMerged
+from studio.errors import EditError
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from studio.description.editing.disk_news import DiskNews
-    from studio.description.editing.merging import Merge, Place, Side
+    from studio.description.editing.merging import Merge, Place
     from studio.description.editing.sources import Sources
     from studio.description.values import Edit
     from studio.engine.board import Board
-    from studio.engine.messages import GetCollisions
+    from studio.engine.messages import GetCollisions, ResolveCollisions
     from studio.packages.roots import ServedRoots
 
 _SHOWN: Final = 50
@@ -39,13 +41,16 @@ class DiskDesk:
         self._tell(found)
         return tuple(edit for news in found.values() for edit in news.edits)
 
-    def resolve(self, file: str, wins: Side) -> tuple[Edit, ...]:
+    def resolve(self, command: ResolveCollisions) -> tuple[Edit, ...]:
         """Let one side win where both collide; the edits that did it, in order.
 
         Raises:
-            EditError: They do not collide.
+            EditError: They do not collide, or elsewhere than where it was looked.
         """
-        edits = self._sources.resolve(self._name(file), wins)
+        file = self._name(command.file)
+        if command.state and command.state != _state(self._sources.collisions(file)):
+            raise EditError(f"{command.file} was changed meanwhile: compare it again.")
+        edits = self._sources.resolve(file, command.keep, command.each)
         self.tell_problems()
         return edits
 
@@ -59,7 +64,9 @@ class DiskDesk:
         merged = self._sources.collisions(file)
         views = tuple(_view(merged, place) for place in merged.collisions[:_SHOWN])
         count = len(merged.collisions)
-        return Collisions(request=command.request, file=file, places=views, count=count)
+        return Collisions(
+            request=command.request, file=file, places=views, count=count, state=_state(merged)
+        )
 
     def tell_problems(self) -> None:
         """Tell which files are gone, and which wait for a choice."""
@@ -75,6 +82,11 @@ class DiskDesk:
 
     def _name(self, file: str) -> str:
         return str(self._served.resolve(file))
+
+
+def _state(merged: Merge) -> str:
+    """Other collisions, another name."""
+    return hashlib.sha256(repr(merged.collisions).encode()).hexdigest()[:20]
 
 
 def _view(merged: Merge, place: Place) -> CollisionView:

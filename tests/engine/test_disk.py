@@ -127,13 +127,13 @@ def test_a_collision_is_shown_overwrites_nothing_and_is_chosen(
                 True,
             )
             side = m.ResolveCollisions.model_validate({"file": str(mast), "keep": keep}).keep
-            await document.resolve_collisions(str(mast), side)
+            await document.saving.resolve(m.ResolveCollisions(file=str(mast), keep=side))
             assert tip_of(document) == [0.3, 2.0, reach]
             assert "changed-on-disk" not in codes(ear)
             await document.save()
             assert f'value="{reach}"' in mast.read_text()
             with pytest.raises(EditError):
-                await document.resolve_collisions(str(mast), side)
+                await document.saving.resolve(m.ResolveCollisions(file=str(mast), keep=side))
 
     asyncio.run(run())
 

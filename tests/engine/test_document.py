@@ -126,7 +126,7 @@ def test_an_argument_adds_links_and_keeps_the_joints(arm: Path, tmp_path: Path):
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, arm)
             document.motion.set({"turn": 0.5})
-            await document.set_argument("gripper", "true")
+            await document.history.pass_arguments({"gripper": "true"})
             assert [link["name"] for link in ear.last("robot")["links"]][-1] == "gripper"
             assert ear.last("joints")["positions"] == {"turn": 0.5}
             assert ear.site("gripper")["argument"] == "true"

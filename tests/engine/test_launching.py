@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.engine import messages as m
-from studio.errors import OutsideRootsError
+from studio.errors import CommandError, OutsideRootsError
 from tests.support.open_documents import Ear, engine, opened
 from tests.support.packages import write_package
 
@@ -62,13 +62,19 @@ def test_what_is_missing_is_asked_for_and_all_is_passed_in_one_step(mast: Path, 
     asyncio.run(run())
 
 
-def test_wrong_values_keep_the_last_good_model(mast: Path, tmp_path: Path):
+def test_wrong_values_are_refused_and_leave_no_step(mast: Path, tmp_path: Path):
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, _ = await opened(made, mast, side="left")
-            await document.set_arguments({"side": "right", "reach": "high"})
-            assert document.failed
+            await document.history.pass_arguments({"reach": "2"})
+            await document.undo()
+            with pytest.raises(CommandError, match="high.*as they were"):
+                await document.history.pass_arguments({"side": "right", "reach": "high"})
+            assert not document.failed
             assert list(document.model.robot.links) == ["left_base"]
+            assert document.sources.arguments == {"side": "left"}
+            assert document.sources.undo_labels == ()
+            assert document.sources.redo_labels == ("reach (empty) → 2",)
 
     asyncio.run(run())
 

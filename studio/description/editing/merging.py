@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 from studio.description.editing.splice import common_start
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable, Iterator, Sequence
 
 Side: TypeAlias = Literal["mine", "theirs"]
 
@@ -54,9 +54,14 @@ class Merge:
     kept: int
     """How many places hold a change of mine alone."""
 
-    def text(self, wins: Side = "mine") -> bytes:
-        """Both sides' changes; at a collision those of the winner."""
-        return patched(self.base, (self._chosen(place, wins) for place in self.places))
+    def text(self, wins: Side = "mine", each: Sequence[Side] = ()) -> bytes:
+        """Both sides' changes; at a collision those of the winner.
+
+        `each` names the winners of the first collisions, in their order; `wins` has the others.
+        """
+        winners = dict(zip(self.collisions, each, strict=False))
+        chosen = (self._chosen(place, winners.get(place, wins)) for place in self.places)
+        return patched(self.base, chosen)
 
     def _chosen(self, place: Place, wins: Side) -> Hunk:
         base = self.base[place.start : place.end]

@@ -12,9 +12,9 @@ import stat
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import IO, TYPE_CHECKING
 
-from studio.errors import NotSavedError, SaveConflictError
+from studio.errors import NotSavedError, PackageError, SaveConflictError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -71,6 +71,43 @@ def save_files(
             temporary.unlink(missing_ok=True)
 
 
+def hindrance(
+    file: str, read: bytes, resolve: Callable[[Path], Path], may_write: Callable[[Path], bool]
+) -> str:
+    """Why a file cannot be saved now, in a sentence; empty: it can, as far as is known before."""
+    try:
+        _check(FileToSave(file, read, read), resolve, may_write)
+    except (NotSavedError, SaveConflictError, PackageError) as error:
+        return str(error)
+    return ""
+
+
+def write_copy(target: Path, data: bytes) -> None:
+    """Write a file that is not there yet, down to the disk.
+
+    Raises:
+        NotSavedError: It is there, or the disk refused it; then nothing of it is left.
+    """
+    try:
+        with target.open("xb") as stream:
+            _fill(stream, target, data)
+    except FileExistsError as error:
+        raise NotSavedError(str(target), "such a file is there already; name another") from error
+    except OSError as error:
+        raise NotSavedError(str(target), error.strerror or "the disk refused it") from error
+    _flush_folder(target.parent)
+
+
+def _fill(stream: IO[bytes], target: Path, data: bytes) -> None:
+    try:
+        stream.write(data)
+        stream.flush()
+        os.fsync(stream.fileno())
+    except OSError:
+        target.unlink(missing_ok=True)
+        raise
+
+
 def _check(
     wanted: FileToSave, resolve: Callable[[Path], Path], may_write: Callable[[Path], bool]
 ) -> _Checked:
@@ -79,7 +116,9 @@ def _check(
         status = target.stat()
         is_same = stat.S_ISREG(status.st_mode) and target.read_bytes() == wanted.read
     except FileNotFoundError as error:
-        raise NotSavedError(wanted.file, "it was deleted on disk; put it back first") from error
+        raise NotSavedError(
+            wanted.file, "it was deleted on disk; put it back or save a copy"
+        ) from error
     except OSError as error:
         raise NotSavedError(wanted.file, error.strerror or "it cannot be read") from error
     if not is_same:

@@ -6,34 +6,26 @@ it reads and writes files when asked, and waits for nothing.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from studio.description.editing.disk_news import DiskNews, FileChange
 from studio.description.editing.held_text import HeldText, edits_between
+from studio.description.editing.kept_sources import KeptSources, KeptText
 from studio.description.editing.merging import merge
 from studio.description.editing.saving import FileToSave, save_files
 from studio.description.editing.span_table import SpanTable
 from studio.description.editing.splice import decode, difference, edit_at, inverse
-from studio.description.editing.undo import ArgumentChange, Splice, Step, UndoStack
+from studio.description.editing.undo import ArgumentChange, Change, Splice, Step, UndoStack
 from studio.description.values import Edit
 from studio.errors import EditError, PackageError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
+    from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 
     from studio.description.editing.merging import Merge, Side
     from studio.description.values import Expansion
-
-
-@dataclass(frozen=True, slots=True)
-class Change:
-    """What an undo or redo did: send it on. `arguments` are all of them, None when unchanged."""
-
-    label: str
-    edits: tuple[Edit, ...] = ()
-    arguments: dict[str, str] | None = None
 
 
 class Sources:
@@ -227,8 +219,48 @@ class Sources:
         edits = tuple(splice.forward() for splice in step.splices)
         return self._carry_out(step, edits, {one.name: one.new for one in step.arguments})
 
-    def save(self) -> tuple[str, ...]:
-        """Write every changed file, all or none; the files written.
+    def undo_to(self, count: int) -> Change | None:
+        """Take steps back, or do them again, until `count` of them are done."""
+        change: Change | None = None
+        while len(self._steps.done) != count:
+            one = self.undo() if len(self._steps.done) > count else self.redo()
+            if one is None:
+                break
+            change = change.then(one) if change else one
+        return change
+
+    def kept(self) -> KeptSources:
+        """What is lost with this process: edits that are not saved, and the undo list."""
+        named = self._steps.files()
+        texts = (
+            KeptText(file, text.disk, text.now)
+            for file, text in self._texts.items()
+            if text.now != text.disk or file in named
+        )
+        steps = self._steps
+        return KeptSources(tuple(texts), self.arguments, tuple(steps.done), tuple(steps.undone))
+
+    def put(self, kept: KeptSources) -> None:
+        """Be as it was kept; `refresh` then takes what the disk changed since."""
+        for one in kept.texts:
+            self._texts[one.file] = HeldText(one.file, one.now).rebased(one.disk)
+        self._arguments = dict(kept.arguments)
+        self._steps = UndoStack([*kept.done], [*kept.undone])
+
+    def give_up(self, before: KeptSources) -> Change | None:
+        """Take the newest step back as if it had never been; None when it is not the only new one.
+
+        Args:
+            before: What `kept` gave before that step.
+        """
+        if tuple(self._steps.done[:-1]) != before.done or not self._steps.done:
+            return None
+        change = self.undo()
+        self._steps = UndoStack([*before.done], [*before.undone])
+        return change
+
+    def save(self, files: Collection[str] | None = None) -> tuple[str, ...]:
+        """Write these changed files, or every one, all or none; the files written.
 
         Raises:
             SaveConflictError: A file on disk is no longer the one that was read.
@@ -238,6 +270,7 @@ class Sources:
         changed = [
             FileToSave(file, self._texts[file].disk, self._texts[file].now)
             for file in self.unsaved_files
+            if files is None or file in files
         ]
         self._steps.end_gesture()
         save_files(changed, self._resolve, self._may_write, self._saved)
@@ -281,10 +314,10 @@ class Sources:
             raise EditError(f"{file}: its edits collide with no change on disk any more.")
         return merge(text.disk, text.now, disk)
 
-    def resolve(self, file: str, wins: Side) -> tuple[Edit, ...]:
+    def resolve(self, file: str, wins: Side, each: Sequence[Side] = ()) -> tuple[Edit, ...]:
         """Take the disk's changes; where they collide with unsaved edits, the winner's.
 
-        Undo brings back the other one's, and then the text before.
+        Undo brings back the other one's, and then the text before. `each`: as `Merge.text`.
 
         Raises:
             EditError: They do not collide.
@@ -292,9 +325,8 @@ class Sources:
         merged, name = self.collisions(file), Path(file).name
         taken = Step(f"Take the changes on disk: {name}", is_value=False)
         edits = self._become(file, merged.text("theirs"), taken)
-        if wins == "mine":
-            kept = Step(f"Keep the edits: {name}", is_value=False)
-            edits += self._become(file, merged.text("mine"), kept)
+        kept = Step(f"Keep the edits: {name}", is_value=False)
+        edits += self._become(file, merged.text(wins, each), kept)
         self._texts[file] = self._held(file).rebased(self._conflicts.pop(file))
         return edits
 

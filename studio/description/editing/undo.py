@@ -109,6 +109,20 @@ def _joined(
     return tuple(known.values())
 
 
+@dataclass(frozen=True, slots=True)
+class Change:
+    """What an undo or redo did: send it on. `arguments` are all of them, None when unchanged."""
+
+    label: str
+    edits: tuple[Edit, ...] = ()
+    arguments: dict[str, str] | None = None
+
+    def then(self, later: Change) -> Change:
+        """Both as one, under the later one's name."""
+        arguments = self.arguments if later.arguments is None else later.arguments
+        return Change(later.label, self.edits + later.edits, arguments)
+
+
 @dataclass(slots=True)
 class UndoStack:
     """The steps done and those taken back, newest last in both."""
@@ -148,6 +162,11 @@ class UndoStack:
             return None
         self.done.append(self.undone.pop())
         return self.done[-1]
+
+    def files(self) -> frozenset[str]:
+        """Every file that a step changed or would change."""
+        steps = (*self.done, *self.undone)
+        return frozenset(splice.file for step in steps for splice in step.splices)
 
     def end_gesture(self) -> None:
         """What comes next is a new step, also from the same gesture."""

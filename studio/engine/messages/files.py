@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
@@ -10,9 +10,12 @@ from studio.engine.messages.message import CommandMessage, Message
 
 
 class Save(CommandMessage):
-    """Write the edited bytes of all changed files of the document."""
+    """Write the edited bytes of these changed files of the document, or of all."""
 
     type: Literal["save"] = "save"
+    files: tuple[Annotated[str, Field(max_length=4096)], ...] | None = Field(
+        default=None, max_length=10_000
+    )
 
 
 class Reload(CommandMessage):
@@ -29,11 +32,17 @@ class GetCollisions(CommandMessage):
 
 
 class ResolveCollisions(CommandMessage):
-    """Take a file's changes on disk; where they collide with unsaved edits, one side's."""
+    """Take a file's changes on disk; where they collide with unsaved edits, one side's.
+
+    `each` chooses place by place for the first ones, `keep` for those beyond them.
+    """
 
     type: Literal["resolve_collisions"] = "resolve_collisions"
     file: str = Field(max_length=4096)
     keep: Literal["mine", "theirs"]
+    each: tuple[Literal["mine", "theirs"], ...] = Field(default=(), max_length=1000)
+    state: str = Field(default="", max_length=100)
+    """Of the `collisions` that were looked at; refused when they are others now."""
 
 
 class DiskMerged(Message):
@@ -61,6 +70,8 @@ class Collisions(Message):
     file: str
     places: tuple[CollisionView, ...]
     count: int
+    state: str
+    """Changes with what collides."""
 
 
 class Saved(Message):

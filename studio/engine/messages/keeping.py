@@ -1,0 +1,79 @@
+"""Messages about what becomes of edits: gone through, looked at before saving, kept, restored."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import Field
+
+from studio.engine.messages.message import CommandMessage, Message
+
+
+class UndoTo(CommandMessage):
+    """Undo, or redo, until this many steps are done; refused when the list is no longer `of`."""
+
+    type: Literal["undo_to"] = "undo_to"
+    position: int = Field(ge=0, le=1 << 20)
+    of: int = Field(ge=0, le=1 << 20)
+    """How many steps there are in all, done and undone, where the wish was made."""
+
+
+class GetChanges(CommandMessage):
+    """What saving would change, file by file."""
+
+    type: Literal["get_changes"] = "get_changes"
+
+
+class DiffLineView(Message):
+    """A line with its numbers from 1 in the file and in the edited text, where it is in them."""
+
+    kind: Literal["same", "old", "new"]
+    before: int | None
+    after: int | None
+    text: str
+
+
+class FileChanges(Message):
+    """One file that has unsaved edits."""
+
+    file: str
+    added: int
+    removed: int
+    hunks: tuple[tuple[DiffLineView, ...], ...]
+    left_out: int
+    """Lines that differ, too, and are not among the hunks."""
+    hindrance: str
+    """Why it cannot be saved, a sentence; empty: it can."""
+
+
+class Changes(Message):
+    """Answer to `get_changes`."""
+
+    type: Literal["changes"] = "changes"
+    request: int
+    files: tuple[FileChanges, ...]
+    copies: str
+    """A folder that copies can be saved in; empty: there is none."""
+
+
+class SaveCopy(CommandMessage):
+    """Write a file's edited text to a path below the opened folders at which nothing is yet."""
+
+    type: Literal["save_copy"] = "save_copy"
+    file: str = Field(max_length=4096)
+    path: str = Field(max_length=4096)
+
+
+class DiscardRestored(CommandMessage):
+    """Give up what was restored at the opening; undo brings it back."""
+
+    type: Literal["discard_restored"] = "discard_restored"
+
+
+class Restored(Message):
+    """Edits of an earlier run were brought back; `at` empty: that is no longer worth a word."""
+
+    type: Literal["restored"] = "restored"
+    at: str
+    """When they were kept: UTC, as ISO 8601."""
+    files: tuple[str, ...]

@@ -1,0 +1,186 @@
+"""Unsaved work comes back at the next opening: as it was, or merged with what the disk changed."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import TYPE_CHECKING
+
+import pytest
+
+from studio.engine import messages as m
+from tests.support.open_documents import engine, opened, until
+from tests.support.packages import write_package
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from studio.engine.document import Document
+
+pytestmark = pytest.mark.timeout(120)
+
+MAST = """<robot name="mast" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:arg name="side" default="left"/>
+  <xacro:property name="reach" value="0.4"/>
+  <xacro:property name="width" value="0.1"/>
+  <link name="$(arg side)"/>
+  <link name="tip"/>
+  <joint name="hold" type="fixed">
+    <parent link="$(arg side)"/><child link="tip"/><origin xyz="${width} 0 ${reach}"/>
+  </joint>
+</robot>
+"""
+
+
+@pytest.fixture
+def mast(tmp_path: Path) -> Path:
+    files = {"urdf/mast.urdf.xacro": MAST}
+    return write_package(tmp_path / "mast_description", files=files) / "urdf/mast.urdf.xacro"
+
+
+def tip_of(document: Document) -> list[float]:
+    """Where the tip stands, x y z in m."""
+    joint = document.model.robot.joints["hold"]
+    return [round(float(one), 6) for one in joint.origin.xyz]
+
+
+async def work(mast: Path, data: Path) -> None:
+    """Edit and end the studio without saving."""
+    async with engine(data) as made:
+        document, ear = await opened(made, mast)
+        await document.edit_site(ear.site("reach")["id"], "0.5", "")
+        await document.history.pass_arguments({"side": "right"})
+        await document.edit_site(ear.site("width")["id"], "0.2", "")
+        await document.undo()
+
+
+def test_edits_arguments_and_both_sides_of_the_undo_list_come_back(mast: Path, tmp_path: Path):
+    async def run() -> None:
+        await work(mast, tmp_path / "data")
+        assert mast.read_text() == MAST
+        async with engine(tmp_path / "data") as made:
+            document, ear = await opened(made, mast)
+            assert tip_of(document) == [0.1, 0, 0.5]
+            assert next(iter(document.model.robot.links)) == "right"
+            told = ear.last("restored")
+            assert (bool(told["at"]), told["files"]) == (True, [str(mast)])
+            assert ear.last("history")["undo"] == ["reach 0.4 → 0.5", "side (empty) → right"]
+            await document.redo()
+            assert tip_of(document) == [0.2, 0, 0.5]
+            await made.execute(m.UndoTo(document=document.id, position=0, of=3), ear)
+            assert tip_of(document) == [0.1, 0, 0.4]
+            assert document.sources.text(str(mast)) == MAST.encode()
+            assert ear.last("restored")["at"] == ""
+
+    asyncio.run(run())
+
+
+def test_what_the_disk_changed_meanwhile_is_merged(mast: Path, tmp_path: Path):
+    async def run() -> None:
+        await work(mast, tmp_path / "data")
+        mast.write_text(MAST.replace('value="0.1"', 'value="0.3"'))
+        async with engine(tmp_path / "data") as made:
+            document, ear = await opened(made, mast)
+            assert tip_of(document) == [0.3, 0, 0.5]
+            await document.save()
+            text = MAST.replace('value="0.1"', 'value="0.3"').replace('"0.4"', '"0.5"')
+            assert mast.read_text() == text
+            await document.history.pass_arguments({"side": None})
+            assert ear.last("restored")["at"] == ""
+
+    asyncio.run(run())
+
+
+def test_where_both_changed_one_place_somebody_chooses(mast: Path, tmp_path: Path):
+    async def run() -> None:
+        await work(mast, tmp_path / "data")
+        mast.write_text(MAST.replace('value="0.4"', 'value="0.9"'))
+        async with engine(tmp_path / "data") as made:
+            document, ear = await opened(made, mast)
+            assert tip_of(document) == [0.1, 0, 0.5]
+            codes = [one["code"] for one in ear.last("problems")["problems"]]
+            assert codes == ["changed-on-disk"]
+            choice = m.ResolveCollisions(document=document.id, file=str(mast), keep="theirs")
+            await made.execute(choice, ear)
+            assert tip_of(document) == [0.1, 0, 0.9]
+
+    asyncio.run(run())
+
+
+def test_what_was_restored_is_discarded_and_undo_brings_it_back(mast: Path, tmp_path: Path):
+    async def run() -> None:
+        await work(mast, tmp_path / "data")
+        async with engine(tmp_path / "data") as made:
+            document, ear = await opened(made, mast)
+            await made.execute(m.DiscardRestored(document=document.id), ear)
+            assert (tip_of(document), document.has_unsaved) == ([0.1, 0, 0.4], False)
+            assert (document.sources.arguments, ear.last("restored")["at"]) == ({}, "")
+            await document.undo()
+            assert tip_of(document) == [0.1, 0, 0.5]
+
+    asyncio.run(run())
+
+
+def test_a_document_closed_by_its_user_leaves_nothing(mast: Path, tmp_path: Path):
+    async def run() -> None:
+        async with engine(tmp_path / "data") as made:
+            document, ear = await opened(made, mast)
+            await document.edit_site(ear.site("reach")["id"], "0.5", "")
+            await until(lambda: any((tmp_path / "data/drafts").glob("*.json")))
+            await made.execute(m.CloseDocument(document=document.id, discard=True), ear)
+            document, _ = await opened(made, mast)
+            assert (tip_of(document), document.sources.undo_labels) == ([0.1, 0, 0.4], ())
+
+    asyncio.run(run())
+
+
+def test_a_draft_is_written_soon_and_goes_when_nothing_is_left_of_it(mast: Path, tmp_path: Path):
+    async def run() -> None:
+        async with engine(tmp_path / "data") as made:
+            document, ear = await opened(made, mast)
+            await document.edit_site(ear.site("reach")["id"], "0.5", "drag")
+            await until(lambda: any((tmp_path / "data/drafts").glob("*.json")))
+            await document.edit_site(ear.site("reach")["id"], "0.4", "drag")
+            await until(lambda: not any((tmp_path / "data/drafts").glob("*.json")))
+
+    asyncio.run(run())
+
+
+def test_arguments_that_are_named_at_the_opening_win(mast: Path, tmp_path: Path):
+    async def run() -> None:
+        await work(mast, tmp_path / "data")
+        async with engine(tmp_path / "data") as made:
+            document, _ = await opened(made, mast, side="middle")
+            assert document.sources.arguments == {"side": "middle"}
+            assert tip_of(document) == [0.1, 0, 0.5]
+
+    asyncio.run(run())
+
+
+def test_a_broken_draft_is_a_problem_and_the_robot_opens(mast: Path, tmp_path: Path):
+    async def run() -> None:
+        await work(mast, tmp_path / "data")
+        (draft,) = (tmp_path / "data/drafts").glob("*.json")
+        draft.write_bytes(draft.read_bytes()[:-30])
+        async with engine(tmp_path / "data") as made:
+            document, ear = await opened(made, mast)
+            assert tip_of(document) == [0.1, 0, 0.4]
+            (problem,) = ear.last("problems")["problems"]
+            assert problem["code"] == "draft-not-kept"
+            assert f"broken/{draft.name}" in problem["sentence"]
+
+    asyncio.run(run())
+
+
+def test_files_outside_the_opened_folders_are_not_brought_back(mast: Path, tmp_path: Path):
+    async def run() -> None:
+        await work(mast, tmp_path / "data")
+        (draft,) = (tmp_path / "data/drafts").glob("*.json")
+        outside = tmp_path / "outside.xacro"
+        outside.write_text("secret")
+        text = draft.read_text().replace('"texts":[{"file":"' + str(mast), '"texts":[{"file":"/x')
+        draft.write_text(text)
+        async with engine(tmp_path / "data") as made:
+            document, _ = await opened(made, mast)
+            assert (tip_of(document), document.sources.undo_labels) == ([0.1, 0, 0.4], ())
+
+    asyncio.run(run())
