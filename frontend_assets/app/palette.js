@@ -1,175 +1,181 @@
-/** The palette: every command, panel, property, link and file by its name. */
+/** The palette: every command, panel, link, joint, property, file and problem by its name. */
 
-import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
-import { shownText } from "../lib/expressions.js";
+/** @import { Section } from "../lib/palette-search.js" */
+/** @import { Span } from "../lib/ranking.js" */
+/** @import { Choice } from "./palette-choices.js" */
+
+import { html, useEffect, useMemo, useRef, useSignal } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
-import { shortcutText } from "../lib/keys.js";
-import { placeText, shortPath } from "../lib/paths.js";
-import { ranked } from "../lib/ranking.js";
+import { fitting, readSearch, SIGNS, sectionsOf } from "../lib/palette-search.js";
+import { marksOf } from "../lib/ranking.js";
+import { recall, remember } from "../lib/remembered.js";
 import { Dialog, Icon } from "../lib/ui.js";
-import { commandById, commandLabel, commands, onMac } from "./commands.js";
-import { compareWith } from "./menu-commands.js";
-import { mayEdit } from "./state/connection.js";
-import { allSites, documentState, robot, siteOrder } from "./state/document.js";
-import { showFile } from "./state/source.js";
-import { variants } from "./state/variants.js";
-import { propertyFilter, soughtSite } from "./state/view.js";
-import { applyVariant } from "./variants.js";
-import { focusLink } from "./viewport.js";
+import { allChoices, commandChoices, fileChoices, lineChoices } from "./palette-choices.js";
 
-/** @typedef {import("../lib/ranking.js").Ranked & {key: string, icon: string, hint: string, run: () => void}} Choice */
-
-const SHOWN = 40;
+const RECENT = "palette.recent";
+const RECENT_MOST = 5;
+/** Of each kind, where several kinds are shown and where only one is. */
+const EACH_MOST = 7;
+const ONE_MOST = 60;
 
 /** @param {{onClose: () => void}} props */
 export function Palette({ onClose }) {
-  const words = useSignal("");
+  const typed = useSignal("");
   const at = useSignal(0);
   const list = useRef(/** @type {HTMLElement | null} */ (null));
-  const choices = found(words.value);
+  const all = useMemo(allChoices, []);
+  const search = readSearch(typed.value);
+  const sections = useMemo(() => found(all, typed.value), [typed.value]);
+  const choices = sections.flatMap((section) => section.choices);
   const active = Math.min(at.value, choices.length - 1);
   useEffect(() => {
     list.current?.querySelector('[aria-selected="true"]')?.scrollIntoView({ block: "nearest" });
-  }, [active]);
+  }, [active, typed.value]);
   /** @param {Choice | undefined} choice */
   const run = (choice) => {
     if (!choice) return;
+    keepRecent(choice.key);
     onClose();
-    choice.run();
+    // The window is gone by then, so that what was found may take the focus.
+    setTimeout(choice.run);
   };
   /** @param {KeyboardEvent} event */
   const onKeyDown = (event) => {
-    const step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
-    if (step) at.value = (active + step + choices.length) % Math.max(choices.length, 1);
+    const to = movedTo(event.key, active, choices.length);
+    if (to !== null) at.value = to;
     else if (event.key === "Enter") run(choices[active]);
     else return;
     event.preventDefault();
   };
+  /** @param {any} event */
+  const onInput = (event) => {
+    typed.value = event.currentTarget.value;
+    at.value = 0;
+  };
   return html`<${Dialog} title=${t("command.palette")} closeLabel=${t("close")} class="palette" onClose=${onClose}>
     <input type="text" class="palette-input" role="combobox" aria-expanded="true" aria-controls="palette-list" data-first
       aria-activedescendant=${choices[active] ? `palette-${active}` : null} aria-label=${t("palette.hint")} placeholder=${t("palette.hint")}
-      value=${words.value} spellcheck=${false} onKeyDown=${onKeyDown} onInput=${(
-        /** @type {any} */ event,
-      ) => {
-        words.value = event.currentTarget.value;
-        at.value = 0;
-      }} />
+      value=${typed.value} spellcheck=${false} autocomplete="off" onKeyDown=${onKeyDown} onInput=${onInput} />
     <div class="palette-list" id="palette-list" role="listbox" aria-label=${t("command.palette")} ref=${list}>
-      ${choices.map(
-        (
-          choice,
-          n,
-        ) => html`<div key=${choice.key} id=${`palette-${n}`} role="option" class="palette-item"
-        aria-selected=${n === active} onClick=${() => run(choice)} onPointerMove=${() => {
+      ${sections.map((section) => {
+        const from = choices.indexOf(/** @type {Choice} */ (section.choices[0]));
+        return html`<${Part} key=${section.heading} section=${section} from=${from} active=${active} words=${search.words} onRun=${run} onPoint=${(
+          /** @type {number} */ n,
+        ) => {
           at.value = n;
-        }}><${Icon} name=${choice.icon} /><span class="palette-label">${choice.label}</span><kbd>${choice.hint}</kbd></div>`,
-      )}
-      ${choices.length === 0 && html`<p class="nothing">${t("filter.nothing", { words: words.value })}</p>`}
+        }} />`;
+      })}
+      ${choices.length === 0 && html`<p class="nothing">${t("filter.nothing", { words: typed.value })}</p>`}
     </div>
+    <${Foot} choice=${choices[active]} />
   <//>`;
 }
 
-/** @param {string} text @returns {Choice[]} */
-function found(text) {
-  if (text.trim() === "") return commandChoices();
-  const all = [
-    ...commandChoices(),
-    ...linkChoices(),
-    ...variantChoices(),
-    ...propertyChoices(),
-    ...fileChoices(),
-  ];
-  return ranked(all, text).slice(0, SHOWN);
+/** @param {string} key @param {number} at @param {number} count @returns {number | null} null: the key moves nothing */
+function movedTo(key, at, count) {
+  const last = Math.max(count - 1, 0);
+  switch (key) {
+    case "ArrowDown":
+      return at >= last ? 0 : at + 1;
+    case "ArrowUp":
+      return at <= 0 ? last : at - 1;
+    case "PageDown":
+      return Math.min(at + EACH_MOST, last);
+    case "PageUp":
+      return Math.max(at - EACH_MOST, 0);
+    default:
+      return null;
+  }
 }
 
-/** @returns {Choice[]} */
-function commandChoices() {
-  return commands.value
-    .filter(({ id, enabled }) => id !== "palette" && (enabled?.() ?? true))
-    .map((command) => {
-      const key = command.keys?.[0];
-      return {
-        rank: "command",
-        key: command.id,
-        icon: command.icon,
-        label: commandLabel(command),
-        hint: key ? shortcutText(key, onMac) : "",
-        run: command.run,
-      };
-    });
+/**
+ * @param {{section: Section<Choice>, from: number, active: number, words: string,
+ *   onRun: (choice: Choice) => void, onPoint: (n: number) => void}} props `from`: number of its first one
+ */
+function Part({ section, from, active, words, onRun, onPoint }) {
+  const heading = t(`palette.kind.${section.heading}`);
+  return html`<div role="group" aria-label=${heading}>
+    <div class="palette-heading" aria-hidden="true">${heading}</div>
+    ${section.choices.map(
+      (
+        choice,
+        n,
+      ) => html`<div key=${choice.key} id=${`palette-${from + n}`} role="option" class="palette-item"
+      aria-selected=${from + n === active} onClick=${() => onRun(choice)} onPointerMove=${() => onPoint(from + n)}>
+      <${Icon} name=${choice.icon} /><span class="palette-label"><${Marked} text=${choice.label} words=${words} /></span>
+      ${choice.hint && html`<kbd>${choice.hint}</kbd>`}</div>`,
+    )}
+    ${section.more > 0 && html`<div class="palette-more">${t("palette.more", { count: section.more })}</div>`}
+  </div>`;
 }
 
-/** @returns {Choice[]} */
-function propertyChoices() {
-  const sites = allSites();
-  return siteOrder.value.flatMap((id) => {
-    const site = sites.get(id);
-    return site ? [propertyChoice(site)] : [];
+/** @param {{text: string, words: string}} props with the letters that were found marked */
+function Marked({ text, words }) {
+  let end = 0;
+  const parts = marksOf(text, words).flatMap((/** @type {Span} */ [from, to]) => {
+    const part = [text.slice(end, from), html`<mark>${text.slice(from, to)}</mark>`];
+    end = to;
+    return part;
   });
+  return html`${parts}${text.slice(end)}`;
 }
 
-/** @param {import("../types/wire.d.ts").SiteView} site @returns {Choice} texts without a name are told apart by their places */
-function propertyChoice(site) {
-  const unnamed = site.kind === "literal";
-  const text = shownText(site.argument ?? site.text);
-  return {
-    rank: unnamed ? "literal" : "property",
-    key: site.id,
-    icon: "properties",
-    label: t("palette.property", { name: site.name }),
-    hint: unnamed ? `${text} · ${placeText(site)}` : text,
-    run: () => {
-      propertyFilter.value = "";
-      commandById("panel.properties")?.run();
-      soughtSite.value = site.id;
-    },
-  };
+/** @param {{choice: Choice | undefined}} props what Enter does now, and the signs that ask for one kind */
+function Foot({ choice }) {
+  return html`<footer class="palette-foot">
+    <span class="palette-does">${choice && html`<kbd>Enter</kbd> ${choice.does}`}</span>
+    <span class="palette-signs">${Object.keys(SIGNS).map(
+      (sign) =>
+        html`<span key=${sign}><kbd>${sign}</kbd> ${t(`palette.sign.${nameOfSign(sign)}`)}</span>`,
+    )}</span>
+  </footer>`;
 }
 
-/** @returns {Choice[]} */
-function linkChoices() {
-  return (robot.value?.links ?? []).map(({ name }) => ({
-    rank: "link",
-    key: `link ${name}`,
-    icon: "box",
-    label: t("palette.link", { name }),
-    hint: "",
-    run: () => focusLink(name),
+/** @param {string} sign @returns {string} the first kind that it asks for */
+const nameOfSign = (sign) => SIGNS[sign]?.[0] ?? "";
+
+/** @param {readonly Choice[]} all @param {string} text @returns {Section<Choice>[]} */
+function found(all, text) {
+  if (text.trim() === "") return atFirst(all);
+  const search = readSearch(text);
+  if (search.line > 0) {
+    const places = atLine(search);
+    if (places.length > 0) return sectionsOf(places, ONE_MOST);
+  }
+  const whole = search.line > 0 ? { ...search, words: text.trim() } : search;
+  const fit = fitting(all, whole);
+  const kinds = new Set(fit.map(({ rank }) => rank));
+  return sectionsOf(fit, kinds.size > 1 ? EACH_MOST : ONE_MOST);
+}
+
+/** @param {import("../lib/palette-search.js").Search} search with a line @returns {Choice[]} */
+function atLine({ words, line, column }) {
+  if (words === "") return lineChoices(line, column);
+  return fitting(fileChoices(line), { kinds: null, words, line, column });
+}
+
+/** @param {readonly Choice[]} all @returns {Section<Choice>[]} what was used last, and all that can be done */
+function atFirst(all) {
+  const recent = recentKeys().flatMap((key) => all.find((one) => one.key === key) ?? []);
+  const commands = sectionsOf(commandChoices(), ONE_MOST);
+  if (recent.length === 0) return commands;
+  const others = commands.map((section) => ({
+    ...section,
+    choices: section.choices.filter(({ key }) => !recent.some((one) => one.key === key)),
   }));
+  return [
+    { heading: "recent", choices: recent, more: 0 },
+    ...others.filter(({ choices }) => choices.length > 0),
+  ];
 }
 
-/** @returns {Choice[]} */
-function variantChoices() {
-  if (!mayEdit.value) return [];
-  return variants.value.variants.flatMap(({ name, note }) => [
-    {
-      rank: "variant",
-      key: `variant ${name}`,
-      icon: "variants",
-      label: t("palette.variant", { name }),
-      hint: shownText(note),
-      run: () => void applyVariant(name),
-    },
-    {
-      rank: "variant",
-      key: `compare ${name}`,
-      icon: "compare",
-      label: t("palette.compare", { name }),
-      hint: "",
-      run: () => compareWith({ kind: "variant", name }),
-    },
-  ]);
+/** @returns {string[]} newest first */
+function recentKeys() {
+  const stored = recall(RECENT);
+  return Array.isArray(stored) ? stored.filter((key) => typeof key === "string") : [];
 }
 
-/** @returns {Choice[]} */
-function fileChoices() {
-  const state = documentState.value;
-  return (state?.files ?? []).map((file) => ({
-    rank: "file",
-    key: `file ${file}`,
-    icon: "fileCode",
-    label: t("palette.file", { name: shortPath(file, state?.root ?? "") }),
-    hint: "",
-    run: () => showFile(file),
-  }));
+/** @param {string} key */
+function keepRecent(key) {
+  remember(RECENT, [key, ...recentKeys().filter((one) => one !== key)].slice(0, RECENT_MOST));
 }

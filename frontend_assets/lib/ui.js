@@ -274,7 +274,7 @@ export function Dialog({ title, closeLabel, class: names, onClose, children }) {
 
 /** @param {Element | null} before had the focus; what a closing window began may have taken it since */
 function giveFocusBack(before) {
-  setTimeout(() => {
+  queueMicrotask(() => {
     const nobody = document.activeElement === document.body || document.activeElement === null;
     if (nobody && before instanceof HTMLElement && before.isConnected) before.focus();
   });

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { ranked } from "../../frontend_assets/lib/ranking.js";
+import { marksOf, ranked } from "../../frontend_assets/lib/ranking.js";
 
 /** @import { Ranked } from "../../frontend_assets/lib/ranking.js" */
 
@@ -54,4 +54,38 @@ test("signs of patterns are only signs, and umlauts are letters", () => {
 test("nothing asked leaves the order as it is", () => {
   const all = [one("file", "b"), one("command", "a")];
   assert.deepEqual(labels(all, "  "), ["b", "a"]);
+});
+
+test("letters in order are found when no word is, and come last", () => {
+  const all = [
+    one("property", "wheel_radius"),
+    one("link", "rear_wheel_rad"),
+    one("file", "whrad.xacro"),
+    one("link", "the wheel of another radius, far away"),
+  ];
+  assert.deepEqual(labels(all, "whrad"), ["whrad.xacro", "rear_wheel_rad", "wheel_radius"]);
+  assert.deepEqual(labels(all, "xq"), []);
+});
+
+test("what begins with the word comes before what has it further on, and the shorter before the longer", () => {
+  const all = [
+    one("link", "rear_wheel"),
+    one("property", "wheel_radius"),
+    one("property", "wheels"),
+  ];
+  assert.deepEqual(labels(all, "wheel"), ["wheels", "wheel_radius", "rear_wheel"]);
+});
+
+test("the letters that were found are marked, each once", () => {
+  assert.deepEqual(marksOf("wheel_radius", "rad wh"), [
+    [0, 2],
+    [6, 9],
+  ]);
+  assert.deepEqual(marksOf("wheel_radius", "whe wheel"), [[0, 5]]);
+  assert.deepEqual(marksOf("wheel_radius", "whrad"), [
+    [0, 2],
+    [6, 9],
+  ]);
+  assert.deepEqual(marksOf("<b>&", "b"), [[1, 2]]);
+  assert.deepEqual(marksOf("wheel", ""), []);
 });
