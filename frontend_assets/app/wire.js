@@ -2,15 +2,13 @@
  * The control lane: one websocket for commands and events, opened again by itself whenever it is lost.
  */
 
-/** @import { CompletionsAnswer, MeaningAnswer, OutlineAnswer, ReferencesAnswer } from "../types/wire.d.ts" */
-/** @import { Arguments, Collisions, Command, Done, Effects, Event, Folder, Frames, Link, LinkOpened, Masses, Opened, Origin, Refused, Text, Urdf, VariantApplied, VariantSaved } from "../types/wire.d.ts" */
+/** @import { Command, Event, Refused } from "../types/wire.d.ts" */
 
 import { readJointFrame } from "../lib/frames.js";
 import { connection, turnedAway } from "./state/connection.js";
 import { documentId, receive, takeJointFrame } from "./state/document.js";
 
-/** @typedef {CompletionsAnswer | MeaningAnswer | OutlineAnswer | ReferencesAnswer} LanguageAnswer */
-/** @typedef {LanguageAnswer | Arguments | Collisions | Done | Effects | Folder | Frames | Link | LinkOpened | Masses | Opened | Origin | Text | Urdf | VariantApplied | VariantSaved} Answer */
+/** @typedef {Exclude<Extract<Event, {request: number}>, Refused>} Answer what comes back to one command */
 /**
  * A command without what the lane adds to it.
  * @template T
