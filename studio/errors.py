@@ -22,6 +22,7 @@ StudioError
             NotSavedError
             DraftError
         VariantsFileError
+        PosesFileError
     RobotError
         MeshError
     SceneError
@@ -210,6 +211,14 @@ class VariantsFileError(DescriptionError):
 
     def __init__(self, path: str, reason: str) -> None:
         super().__init__(f"The variants in {path} cannot be used: {reason}.")
+        self.path, self.reason = path, reason
+
+
+class PosesFileError(DescriptionError):
+    """The file of a robot's named poses cannot be read, or not hold what is to be written."""
+
+    def __init__(self, path: str, reason: str) -> None:
+        super().__init__(f"The poses in {path} cannot be used: {reason}.")
         self.path, self.reason = path, reason
 
 

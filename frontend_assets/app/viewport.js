@@ -4,7 +4,7 @@
  * each other directly.
  */
 
-/** @import { RobotState } from "../types/wire.d.ts" */
+/** @import { JointView, RobotState } from "../types/wire.d.ts" */
 
 import { effect, signal } from "vendor/preact.js";
 import { moveJoint } from "./actions.js";
@@ -39,11 +39,14 @@ import {
  * @property {(link: string, opacity: number) => void} setLinkOpacity
  * @property {(link: string | null) => void} setHover
  * @property {(link: string | null) => void} setSelection
- * @property {(joint: string | null) => void} setAxis of the selected joint
+ * @property {(joint: JointView | null) => void} setAxis of the selected joint
  * @property {(links: readonly string[]) => void} setFrames that are compared
  * @property {(changed: readonly string[], moved: readonly string[]) => void} setLit what a property shapes
  * @property {(can: boolean) => void} setCanDrag
  * @property {(unit: "deg" | "rad") => void} setAngleUnit of the value at the cursor
+ * @property {(mode: "all" | "points" | "frames" | "axes" | null) => void} setMeasuring what a click aims at
+ * @property {(measures: readonly {ends: readonly import("../lib/measuring.js").Anchor[], label: string}[]) => void} setMeasures
+ * @property {(centre: {at: readonly [number, number, number], label: string} | null) => void} setCentre of mass, root frame
  * @property {boolean} connected
  */
 
@@ -123,8 +126,8 @@ function tell(view) {
     effect(() => view.setHover(hovered.value)),
     effect(() => view.setSelection(selected.value)),
     effect(() => {
-      robot.value; // told before: its axes may be others now
-      view.setAxis(selectedJoint.value);
+      const name = selectedJoint.value;
+      view.setAxis(robot.value?.joints.find((joint) => joint.name === name) ?? null);
     }),
     effect(() => view.setFrames(comparedFrames.value)),
     effect(() => {

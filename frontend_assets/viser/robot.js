@@ -30,9 +30,9 @@ export class RobotView {
     this.#jointOfChild = new Map(state.joints.map((joint) => [joint.child, joint]));
   }
 
-  /** @param {string} name @returns {JointView | null} */
-  joint(name) {
-    return this.#joints.get(name) ?? null;
+  /** By name. @returns {ReadonlyMap<string, JointView>} */
+  get joints() {
+    return this.#joints;
   }
 
   /** @param {string} link */

@@ -1,12 +1,15 @@
-/** @import { CameraPose, RobotState } from "./viser.d.ts" */
+/** @import { CameraPose, JointView, RobotState } from "./viser.d.ts" */
+import { Aim } from "./aim.js";
 import { CameraView } from "./camera.js";
 import { Door } from "./door.js";
 import { forwardKeys } from "./keys.js";
 import { Light } from "./light.js";
 import { Looks } from "./looks.js";
 import { Marks } from "./marks.js";
+import { Measuring } from "./measuring.js";
 import { pick } from "./picking.js";
 import { Pointer } from "./pointer.js";
+import { Quality } from "./quality.js";
 import { RobotView } from "./robot.js";
 import { Still } from "./still.js";
 import { Theme } from "./theme.js";
@@ -15,21 +18,32 @@ import { Theme } from "./theme.js";
  * The 3D view as the page around it uses it: `iframe.contentWindow.studio3d`.
  *
  * Events on `events`, all with a `detail`: `hover {link}`, `select {link}` (null: empty space),
- * `focus {link}`, `drag {joint, value, phase, x, y}`, `connection {connected}`, and `key {key, code,
+ * `focus {link}`, `measure {anchor}`, `drag {joint, value, phase, x, y}`, `connection {connected}`, and `key {key, code,
  * ctrlKey, metaKey, shiftKey, altKey, repeat}`, which may be prevented.
  */
 class Studio3d {
   events = new EventTarget();
   #door = new Door();
   #robot = new RobotView(this.#door);
+  #quality = new Quality(this.#door, (hz) => this.#tell("slow", { hz }));
   #camera = new CameraView(this.#door, this.#robot);
   #light = new Light(this.#door);
   #still = new Still(this.#door);
   #theme = new Theme(this.#door, () => this.#camera.distance());
   #looks = new Looks(this.#door, this.#robot, this.#theme);
   #marks = new Marks(this.#door, this.#robot);
-  #pointer = new Pointer(this.#door, this.#robot, this.#looks, this.#camera, (type, detail) =>
-    this.#tell(type, detail),
+  #measuring = new Measuring(
+    this.#door,
+    this.#robot,
+    new Aim(this.#door, this.#robot, () => this.#camera.distance()),
+  );
+  #pointer = new Pointer(
+    this.#door,
+    this.#robot,
+    this.#looks,
+    this.#camera,
+    this.#measuring,
+    (type, detail) => this.#tell(type, detail),
   );
 
   constructor() {
@@ -68,6 +82,17 @@ class Studio3d {
   /** @param {string} link */
   focus(link) {
     this.#camera.focus(link);
+  }
+
+  /** Whether this browser draws lightly, by software, and with what. */
+  graphics() {
+    return this.#quality.state();
+  }
+
+  /** Draw lightly from now on. */
+  lighten() {
+    this.#quality.lighten();
+    this.#theme.set(this.#theme.name);
   }
 
   getCamera() {
@@ -119,9 +144,9 @@ class Studio3d {
     this.#looks.setSelected(link);
   }
 
-  /** The axis of a joint is seen, over everything. @param {string | null} joint */
+  /** The axis of a joint is seen, over everything. @param {JointView | null} joint */
   setAxis(joint) {
-    this.#marks.setAxis(joint === null ? null : this.#robot.joint(joint));
+    this.#marks.setAxis(joint);
   }
 
   /** The frames of these links are seen, over everything. @param {readonly string[]} links */
@@ -133,6 +158,22 @@ class Studio3d {
    * @param {readonly string[]} changed @param {readonly string[]} moved */
   setLit(changed, moved) {
     this.#looks.setLit(changed, moved);
+  }
+
+  /** Aim at what is measured; null: nothing is. @param {import("./aim.js").AimMode | null} mode */
+  setMeasuring(mode) {
+    this.#measuring.setMode(mode);
+  }
+
+  /** What was measured, and the label of each. @param {readonly import("./measuring.js").DrawnMeasure[]} measures */
+  setMeasures(measures) {
+    this.#measuring.setMeasures(measures);
+  }
+
+  /** The robot's centre of mass in the root frame, m; null: it is not shown.
+   * @param {import("./measuring.js").Centre | null} centre */
+  setCentre(centre) {
+    this.#measuring.setCentre(centre);
   }
 
   /** The link at a place of this window, or null. @param {number} x @param {number} y */

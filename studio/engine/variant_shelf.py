@@ -2,31 +2,27 @@
 
 from __future__ import annotations
 
-import contextlib
-import os
-import tempfile
-from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
 from studio.description.editing.variants_file import SIZE_LIMIT_BYTES, read_variants, write_variants
-from studio.errors import NotSavedError, PackageError, VariantsFileError
-from studio.packages.presence import is_there
+from studio.engine.side_file import SideFile
+from studio.errors import PackageError, VariantsFileError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+    from pathlib import Path
 
     from studio.description.editing.variants import Variant
     from studio.packages.roots import ServedRoots
-
-_ENDINGS: Final = (".urdf.xacro", ".xacro", ".urdf", ".xml")
 
 
 class VariantShelf:
     """Reads and writes one file of variants; what cannot be written is kept for the session."""
 
     def __init__(self, entry: Path, served: ServedRoots) -> None:
-        self.path = entry.with_name(f"{_stem(entry.name)}.variants.yaml")
-        self._entry, self._served = entry, served
+        self._entry = entry
+        self._file = SideFile(entry, "variants", served)
+        self.path = self._file.path
         self._data = b""
         self._here: tuple[Variant, ...] | None = None
         """The variants of this session, once they could not be written."""
@@ -37,9 +33,7 @@ class VariantShelf:
     @property
     def only_here(self) -> str:
         """Why variants are kept for this session only; empty: they are saved."""
-        if self._served.may_write(self.path):
-            return ""
-        return f"the folder {self.path.parent} may only be read here."
+        return self._file.only_here
 
     @property
     def trouble(self) -> str:
@@ -51,7 +45,7 @@ class VariantShelf:
         before = self.variants, self.trouble
         if self._here is None:
             try:
-                data = self._read()
+                data = self._file.read(SIZE_LIMIT_BYTES)
                 if data != self._data or self._fault is not None:
                     self._data = data
                     self.variants, self._fault = read_variants(str(self.path), data), None
@@ -74,34 +68,5 @@ class VariantShelf:
             self._here = self.variants = tuple(variants)
             return
         data = write_variants(str(self.path), self._entry.name, self._data, variants)
-        self._write(data)
+        self._file.write(data)
         self._data, self.variants = data, tuple(variants)
-
-    def _read(self) -> bytes:
-        if not is_there(self.path):
-            return b""
-        return self._served.read(self.path, SIZE_LIMIT_BYTES)
-
-    def _write(self, data: bytes) -> None:
-        """Whole or not at all: beside it, then renamed over it. A symlink stays."""
-        target = self._served.resolve(self.path)
-        temporary: Path | None = None
-        try:
-            handle, name = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)
-            temporary = Path(name)
-            with os.fdopen(handle, "wb") as stream:
-                stream.write(data)
-                stream.flush()
-                os.fsync(stream.fileno())
-            temporary.chmod(target.stat().st_mode & 0o777 if is_there(target) else 0o644)
-            temporary.replace(target)
-        except OSError as error:
-            if temporary is not None:
-                with contextlib.suppress(OSError):
-                    temporary.unlink(missing_ok=True)
-            reason = error.strerror or "the disk refused it"
-            raise NotSavedError(str(self.path), reason) from error
-
-
-def _stem(name: str) -> str:
-    return next((name.removesuffix(end) for end in _ENDINGS if name.endswith(end)), name)
