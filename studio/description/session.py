@@ -8,6 +8,11 @@ from typing import TYPE_CHECKING, TypeAlias
 from studio.description.evaluator.evaluation import Evaluation
 from studio.description.evaluator.output_tree import OutputElement
 from studio.description.evaluator.parts import part_of, write_part, write_parts
+from studio.description.evaluator.recovering import (
+    RecoveredRun,
+    problems_of_text,
+    recovered_run,
+)
 from studio.description.evaluator.run_record import RunRecord
 from studio.description.evaluator.source_store import SourceStore
 from studio.description.faults import Fault, Refusal, Unsupported, problem_of
@@ -19,6 +24,7 @@ from studio.description.patching.output_index import OutputIndex
 from studio.description.patching.verification import verified
 from studio.description.replies import reply_to
 from studio.description.sites.sites import SiteBuilder
+from studio.description.syntax.recovery import RECOVERABLE
 from studio.description.syntax.source_tree import SourceElement, SourceText, parse_source
 from studio.description.values import (
     ArgumentsRequest,
@@ -174,9 +180,44 @@ class Session:
             fault = Refusal("output-too-large", "The robot comes to more text than can be shown.")
             return Failure(problem_of(fault, self._entry), tuple(self._store.asked))
         except Fault as fault:
-            return Failure(problem_of(fault, self._entry), tuple(self._store.asked))
+            return self._failed(fault)
         except DescriptionError as error:
             return Failure(_problem_of_error(error, self._entry), tuple(self._store.asked))
+
+    def _failed(self, fault: Fault) -> Answer:
+        """Say all that is wrong; of a first robot whose texts are broken, draw what can be read."""
+        problem, files = problem_of(fault, self._entry), tuple(self._store.asked)
+        if fault.code not in RECOVERABLE or fault.place is None:
+            return Failure(problem, files)
+        if self._good is None:
+            run = recovered_run(self._store, self._policy, self._arguments, self._entry)
+            if run.root is not None and run.problems:
+                return self._recovered(run, run.root)
+            return Failure(problem, files, run.problems)
+        path, data = self._store.read(fault.place.file)
+        return Failure(problem, files, problems_of_text(path, data, fault.include_chain))
+
+    def _recovered(self, run: RecoveredRun, root: OutputElement) -> Expansion:
+        """Answer the robot that broken texts come to."""
+        parts = write_parts(root)
+        part_order, files = tuple(part.key for part in parts), tuple(run.store.asked)
+        is_same = self._told is not None and part_order == tuple(self._parts)
+        expansion = Expansion(
+            robot_name=root.attributes.get("name", ""),
+            root_attributes=tuple(root.attributes.items()),
+            part_order=None if is_same else part_order,
+            changed_parts=tuple(part_of(p) for p in parts if self._parts.get(p.key) != p.xml),
+            site_order=None if self._told else (),
+            changed_sites=(),
+            files=tuple(dict.fromkeys((*self._store.asked, *files))),
+            include_tree=tuple(run.evaluation.includes),
+            warnings=run.problems,
+            evaluator="studio",
+            is_recovered=True,
+        )
+        self._parts = {part.key: part.xml for part in parts}
+        self._told = expansion
+        return expansion
 
     def _fall_back(self) -> tuple[Evaluation, OutputElement]:
         """Let stock xacro expand; its elements all seem to stand at the entry's first line."""

@@ -138,6 +138,9 @@ class Expansion:
     is_patch: bool = False
     """Only what depends on the edits was looked at. Sites that merely moved with an edit before
     them in their file are not among `changed_sites`."""
+    is_recovered: bool = False
+    """The texts are broken, and never gave a robot before: this is what could be read. Nothing can
+    be edited but texts; `warnings` has what is wrong, as errors."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -147,6 +150,8 @@ class Failure:
     problem: Problem
     files: tuple[str, ...]
     """What was read before it failed, so that a change on disk of any of them tries again."""
+    problems: tuple[Problem, ...] = ()
+    """All that is wrong, where more than `problem` is known; else empty."""
 
 
 @dataclass(frozen=True, slots=True)

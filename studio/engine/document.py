@@ -286,7 +286,8 @@ class Document:
         self._files = tuple(dict.fromkeys((*self._files, *failure.files)))
         self.sources.track(failure.files)
         self.board.book.take_failure(self.sources)
-        self.board.find("expansion", (self._with_undo(failure.problem),))
+        first, *others = failure.problems or (failure.problem,)
+        self.board.find("expansion", (self._with_undo(first), *others))
 
     def _take_expansion(self, expansion: Expansion, version: int) -> None:
         is_first = self.expansion is None

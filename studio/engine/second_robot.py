@@ -106,6 +106,8 @@ def _assembled(recipe: Recipe, expansion: Expansion) -> SecondRobot:
     fault = ""
     if change.kept_last_good:
         fault = str(change.problems[0]) if change.problems else "It describes no robot."
+    elif expansion.is_recovered:
+        fault = str(expansion.warnings[0])
     return SecondRobot(
         recipe,
         change.robot,

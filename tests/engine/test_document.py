@@ -199,6 +199,7 @@ def test_a_missing_package_is_chosen_and_the_robot_opens(tmp_path: Path):
                 "label": "Choose its folder",
                 "action": "choose_package",
                 "target": "parts",
+                "edits": [],
             }
             await document.choose_package("parts", str(elsewhere))
             assert [link["name"] for link in ear.last("robot")["links"]] == ["base"]

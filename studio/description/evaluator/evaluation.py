@@ -96,11 +96,12 @@ class Evaluation:
         """Give a fault the place, include chain and macro stack of this moment."""
         self.texts.locate(fault)
         if fault.place is not None:
-            fault.include_chain = self._chain_to(fault.place.file)
+            fault.include_chain = self.chain_to(fault.place.file)
         fault.macro_stack = macro_calls(self.frame)
         return fault
 
-    def _chain_to(self, file: str) -> tuple[Place, ...]:
+    def chain_to(self, file: str) -> tuple[Place, ...]:
+        """Where a file was included, and the files that include it, the outermost first."""
         chain: list[Place] = []
         while file in self.included_at and len(chain) < 100:
             chain.append(self.included_at[file])

@@ -26,7 +26,8 @@ DEPTH_LIMIT = 256
 
 _UTF16_MARKS = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE, b"<\0", b"\0<")
 _DECLARATION = re.compile(rb"<\?xml\s")
-_OUTSIDE_XML = re.compile(rb"[\0-\x08\x0b\x0c\x0e-\x1f]")
+OUTSIDE_XML = re.compile(rb"[\0-\x08\x0b\x0c\x0e-\x1f]")
+"""Bytes that no XML holds."""
 _IMPLIED_PREFIXES = frozenset({"xml", "xmlns"})
 
 
@@ -136,9 +137,18 @@ def parse_source(path: str, data: bytes) -> SourceTree:
         SourceError: Empty, too large, binary, UTF-16, not well-formed, or it declares entities.
     """
     _refuse_what_is_no_text(path, data)
-    tree = SourceTree(path, data, _encoding_of(path, data))
+    tree = blank_tree(path, data)
     _Builder(tree).parse()
     return tree
+
+
+def blank_tree(path: str, data: bytes) -> SourceTree:
+    """A tree without elements, for whoever reads the bytes in a way of its own.
+
+    Raises:
+        SourceError: They are not of the encoding that they declare.
+    """
+    return SourceTree(path, data, _encoding_of(path, data))
 
 
 def _refuse_what_is_no_text(path: str, data: bytes) -> None:
@@ -152,7 +162,7 @@ def _refuse_what_is_no_text(path: str, data: bytes) -> None:
         raise refuse("file-empty", "The file is empty: a robot description starts with <robot>.")
     if data.startswith(_UTF16_MARKS):
         raise refuse("file-utf16", "The file is UTF-16: save it as UTF-8.")
-    if _OUTSIDE_XML.search(data, 0, 1 << 16):
+    if OUTSIDE_XML.search(data, 0, 1 << 16):
         raise refuse("file-binary", "The file is binary, not XML: choose a .xacro or .urdf file.")
     declared = _DECLARATION.search(data)
     start = len(codecs.BOM_UTF8) if data.startswith(codecs.BOM_UTF8) else 0
@@ -256,7 +266,7 @@ class _Builder:
         for name in (element.tag, *element.attributes):
             prefix, colon, _ = name.partition(":")
             if colon and prefix not in declared:
-                raise SourceError("xml-unbound-prefix", _unbound(prefix), element.place)
+                raise SourceError("xml-unbound-prefix", unbound_sentence(prefix), element.place)
 
     def _end(self, _tag: str) -> None:
         self._open.pop()
@@ -290,7 +300,8 @@ class _Builder:
         )
 
 
-def _unbound(prefix: str) -> str:
+def unbound_sentence(prefix: str) -> str:
+    """What to do about a prefix that nobody declares."""
     if prefix == "xacro":
         declaration = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
         return f"xacro: is used but not declared: add {declaration} to the root element."
