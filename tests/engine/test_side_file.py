@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 import pytest
@@ -10,8 +9,7 @@ import pytest
 from studio.engine.side_file import SideFile
 from studio.errors import NotSavedError, OutsideRootsError, UnreadableFileError
 from studio.packages.roots import ServedRoots
-
-needs_permissions = pytest.mark.skipif(os.geteuid() == 0, reason="root may write everything")
+from tests.support.permissions import open_folder, unprivileged
 
 
 @pytest.mark.parametrize(
@@ -59,14 +57,10 @@ def test_a_link_out_of_the_folders_is_neither_read_nor_written(tmp_path: Path):
     assert side.only_here
 
 
-@needs_permissions
-def test_a_folder_that_cannot_be_written_leaves_nothing(tmp_path: Path):
-    side = SideFile(tmp_path / "arm.urdf", "poses", ServedRoots([tmp_path]))
-    tmp_path.chmod(0o500)
-    try:
+def test_a_folder_that_cannot_be_written_leaves_nothing():
+    with open_folder() as folder, unprivileged():
+        side = SideFile(folder / "arm.urdf", "poses", ServedRoots([folder]))
         assert side.only_here
         with pytest.raises(NotSavedError):
             side.write(b"x")
-        assert list(tmp_path.iterdir()) == []
-    finally:
-        tmp_path.chmod(0o700)
+        assert list(folder.iterdir()) == []
