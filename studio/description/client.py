@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import asyncio
+from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from studio.description.codec import CODEC
+from studio.description.expressions.budget import reading_time_s
 from studio.description.queries import REPLIES
 from studio.description.values import (
     ArgumentsRequest,
@@ -44,6 +46,8 @@ class DescriptionWorker:
         self._timeout_s = timeout_s
         self._entry = ""
         self._files: tuple[str, ...] = ()
+        self._reading_s = 0.0
+        """What these files add to the time of a run."""
         self.needs_reopen = True
         self._turn = asyncio.Lock()
         """Held by whoever has the process: requests are answered in the order they were made."""
@@ -66,8 +70,8 @@ class DescriptionWorker:
         self.needs_reopen = False
         async with self._turn:
             failure = await self._start()
-            self._files = (request.entry,)
-            return failure or await self._exchange(request, self._timeout_s)
+            self._read((request.entry,))
+            return failure or await self._exchange(request, self._run_time_s)
 
     async def edit(self, request: EditRequest) -> Answer:
         """Change texts and run; what changed is in the answer."""
@@ -120,7 +124,7 @@ class DescriptionWorker:
             async with self._turn:
                 if self.needs_reopen:
                     return NoReply("The robot is not open: open it again.")
-                reply = await self._worker.ask(query, object, self._timeout_s, starts=False)
+                reply = await self._worker.ask(query, object, self._run_time_s, starts=False)
         except WorkerTimeoutError as error:
             self.needs_reopen = True
             return NoReply(str(error))
@@ -134,7 +138,17 @@ class DescriptionWorker:
 
     async def _ask(self, request: Request) -> Answer:
         async with self._turn:
-            return await self._exchange(request, self._timeout_s)
+            return await self._exchange(request, self._run_time_s)
+
+    @property
+    def _run_time_s(self) -> float:
+        return self._timeout_s + self._reading_s
+
+    def _read(self, files: tuple[str, ...]) -> None:
+        """Note the files of a run; long ones take long to read, and nobody is to blame for it."""
+        if files != self._files:
+            self._files = files
+            self._reading_s = reading_time_s(sum(map(_size_bytes, files)))
 
     async def _exchange(self, request: Request, timeout_s: float) -> Answer:
         if self.needs_reopen:
@@ -153,9 +167,16 @@ class DescriptionWorker:
         if not isinstance(answer, Expansion | Failure):
             self.needs_reopen = True
             return self._failure("worker-died", "The worker gave an answer of the wrong kind.")
-        self._files = answer.files
+        self._read(answer.files)
         return answer
 
     def _failure(self, code: str, sentence: str) -> Failure:
         place = Place(self._entry) if self._entry else None
         return Failure(Problem(Severity.ERROR, code, sentence, place), self._files)
+
+
+def _size_bytes(file: str) -> int:
+    try:
+        return Path(file).stat().st_size
+    except (OSError, ValueError):
+        return 0

@@ -138,9 +138,6 @@ TREES: dict[str, dict[str, str]] = {
     "blocks that double": {
         "a.xacro": robot(DOUBLING + "<xacro:m>" * 30 + "<x/>" + "</xacro:m>" * 30)
     },
-    "more links than any robot": {
-        "a.xacro": robot("".join(f'<link name="l{n}"/>' for n in range(60_000)))
-    },
     "a pattern of many folders": {
         "a.xacro": robot(f'<xacro:include filename="{"*/" * 30}*.xacro"/>')
     },

@@ -110,7 +110,7 @@ class Evaluation:
 
     def _root(self, entry: str) -> OutputElement:
         self.texts.files.append(entry)
-        root = self.store.tree(entry).root
+        root = self.source(entry)
         scope, macros = Scope(self.texts, None), MacroTable()
         self.texts.at = root
         out = OutputElement(root.tag, root, None)
@@ -120,6 +120,16 @@ class Evaluation:
         self.attributes(root, out, scope)
         self.children(root, out, macros, scope)
         return out
+
+    def source(self, path: str) -> SourceElement:
+        """The root of a file; what is written there gives the run its time and room.
+
+        Raises:
+            Fault: It cannot be read.
+        """
+        tree = self.store.tree(path)
+        self.budget.source(tree.path, len(tree.data))
+        return tree.root
 
     # What every kind of element needs
 

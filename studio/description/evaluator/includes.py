@@ -98,7 +98,7 @@ def _root_of(run: Evaluation, node: Node, path: str) -> SourceElement:
     if len(run.texts.files) > DEPTH_LIMIT:
         sentence = f"Files include each other more than {DEPTH_LIMIT} deep: one includes itself."
         raise Refusal("include-recursion", sentence)
-    root = run.store.tree(path).root
+    root = run.source(path)
     run.texts.asked_for(root.tree.path)
     run.includes[node.origin.tree.path, root.tree.path] = None
     run.included_at.setdefault(root.tree.path, node.origin.place)

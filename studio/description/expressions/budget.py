@@ -11,6 +11,8 @@ from studio.description.faults import Refusal
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
+_BYTES_A_SECOND: Final = 300_000
+_MOST_READING_S: Final = 20.0
 _CLOCK_EVERY: Final = 16
 """Steps between two looks at the clock; one may take a tenth of a second."""
 
@@ -25,21 +27,43 @@ class Limits:
     text: int = 20_000_000
     """Characters of all long texts that expressions make."""
     seconds: float = 2.0
+    bytes_an_element: int = 16
+    """Fewer than the shortest element of a robot has: of what is written all may come out."""
+
+
+def reading_time_s(size_bytes: int) -> float:
+    """What a run has more for so much source text: who writes at length has made no bomb."""
+    return min(size_bytes / _BYTES_A_SECOND, _MOST_READING_S)
 
 
 class Budget:
     """Counts one run. Every step is an evaluated text, an element, or one turn of a loop."""
 
-    __slots__ = ("_began", "_characters", "_elements", "_evaluations", "limits")
+    __slots__ = ("_began", "_characters", "_elements", "_evaluations", "_sources", "limits")
 
     def __init__(self, limits: Limits) -> None:
         self.limits = limits
+        self._sources: dict[str, int] = {}
         self.restart()
 
     def restart(self) -> None:
         """Count anew, for an edit of what came out."""
         self._elements = self._evaluations = self._characters = 0
         self._began = perf_counter(), thread_time()
+
+    def source(self, path: str, size_bytes: int) -> None:
+        """A file is read: once, however often it is included."""
+        self._sources[path] = size_bytes
+
+    @property
+    def elements(self) -> int:
+        """How many may come out of what has been read so far."""
+        return self.limits.elements + sum(self._sources.values()) // self.limits.bytes_an_element
+
+    @property
+    def seconds(self) -> float:
+        """How long a run of what has been read so far may take."""
+        return self.limits.seconds + reading_time_s(sum(self._sources.values()))
 
     def element(self) -> None:
         """One element came out.
@@ -48,10 +72,8 @@ class Budget:
             Refusal: There are too many, or the time is over.
         """
         self._elements += 1
-        if self._elements > self.limits.elements:
-            raise Refusal(
-                "too-many-elements", f"It makes more than {self.limits.elements:,} elements."
-            )
+        if self._elements > self.limits.elements and self._elements > self.elements:
+            raise Refusal("too-many-elements", f"It makes more than {self.elements:,} elements.")
         if not self._elements % _CLOCK_EVERY:
             self._look_at_clock()
 
@@ -104,9 +126,9 @@ class Budget:
             Refusal: It is: of the processor, or of the clock and no small part of the processor.
         """
         began, began_working = self._began
-        seconds, worked = self.limits.seconds, thread_time() - began_working
+        seconds, worked = self.seconds, thread_time() - began_working
         if worked > seconds or (worked > seconds / 2 and perf_counter() - began > seconds):
             raise Refusal(
                 "expansion-too-slow",
-                f"The expansion takes longer than {self.limits.seconds:g} s and was ended.",
+                f"The expansion takes longer than {seconds:.2g} s and was ended.",
             )

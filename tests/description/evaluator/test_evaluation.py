@@ -319,10 +319,10 @@ def test_two_runs_of_one_store_are_independent(tmp_path: Path):
 @pytest.mark.parametrize(
     ("body", "limits", "code"),
     [
-        ("<x/>" * 30, Limits(elements=20), "too-many-elements"),
+        ("<x/>" * 300, Limits(elements=20), "too-many-elements"),
         ('<x v="${1}"/>' * 600, Limits(evaluations=100), "too-many-evaluations"),
         ('<x v="${[i for i in range(1000)]}"/>', Limits(evaluations=100), "too-many-evaluations"),
-        ('<x v="${1}"/>' * 600, Limits(seconds=0), "expansion-too-slow"),
+        ('<x v="${[i for i in range(100000)]}"/>', Limits(seconds=0), "expansion-too-slow"),
         (
             '<xacro:macro name="m"><xacro:m/></xacro:macro><xacro:m/>',
             Limits(macro_depth=10),

@@ -75,3 +75,24 @@ def test_calls_may_be_as_deep_as_the_bound():
     budget.depth(5, "m")
     with pytest.raises(Refusal, match="calls itself"):
         budget.depth(6, "m")
+
+
+def test_who_writes_at_length_may_have_all_of_it_made():
+    budget = Budget(Limits(elements=3, seconds=1))
+    budget.source("/a.urdf", 1_600)
+    budget.source("/a.urdf", 1_600)  # included twice, read once
+    assert budget.elements == 103
+    assert budget.seconds == pytest.approx(1 + 1_600 / 300_000)
+    with pytest.raises(Refusal, match="more than 103 elements"):
+        exhaust_elements(budget, 104)
+
+
+def test_no_file_is_so_long_that_its_run_may_last_for_minutes():
+    budget = Budget(Limits(seconds=2))
+    budget.source("/a.urdf", 1 << 40)
+    assert budget.seconds == 22
+
+
+def exhaust_elements(budget: Budget, count: int) -> None:
+    for _ in range(count):
+        budget.element()
