@@ -16,7 +16,7 @@ LOOPBACK_HOSTS = frozenset({"127.0.0.1", "localhost", "::1"})
 XACRO_MEMORY_BYTES = 1 << 30
 ROBOT_MEMORY_BYTES = 4 << 30
 EXPANSION_TIMEOUT_S = 2.8
-"""The parent's budget for a run of short files; the evaluator's own (2 s of evaluation) ends sooner."""
+"""The parent's time for a run of short files; the evaluator's own of 2 s ends sooner."""
 MESH_TIMEOUT_S = 60.0
 XACRO_ENVIRONMENT = frozenset({"ROS_DISTRO", "ROS_VERSION", "ROS_PYTHON_VERSION", "ROS_DOMAIN_ID"})
 """What `$(env)` and `$(optenv)` of a file that is not trusted may see."""
