@@ -43,12 +43,12 @@ export const onMac = /Mac|iPhone|iPad/.test(navigator.platform);
  * @returns {boolean} a command took it
  */
 export function onKey(stroke, { inText = false } = {}) {
-  const command = commands.value.find(
+  const meant = commands.value.filter(
     (one) => (one.inText || !inText) && one.keys?.some((key) => matches(key, stroke)),
   );
-  if (!command) return false;
-  if (command.enabled?.() ?? true) command.run();
-  return true;
+  // A key may have another meaning where its first one is off.
+  meant.find(({ enabled }) => enabled?.() ?? true)?.run();
+  return meant.length > 0;
 }
 
 /** @param {unknown} detail @returns {detail is Stroke} */

@@ -14,6 +14,7 @@ import { addLayoutCommands } from "./layout-commands.js";
 import { followSize } from "./layouts.js";
 import { menuCommands } from "./menu-commands.js";
 import { followDisk } from "./merge-dialog.js";
+import { addMeasuring } from "./measuring.js";
 import { dockPanels } from "./panels.js";
 import { followLink } from "./share.js";
 import { Shell } from "./shell.js";
@@ -158,6 +159,7 @@ effect(() => {
 });
 addPageCommands();
 followState();
+addMeasuring();
 listenToKeys();
 const root = document.getElementById("app");
 if (root) render(html`<${Shell} onDock=${startDock} />`, root);

@@ -2,6 +2,7 @@
 
 import { html, useEffect, useRef } from "vendor/preact.js";
 import { mend, openPath, setDisplay, undo, worstProblem } from "../app/actions.js";
+import { commandById } from "../app/commands.js";
 import { PlaceLink } from "../app/place-link.js";
 import { heldBack } from "../app/state/alarm.js";
 import { mayEdit, role } from "../app/state/connection.js";
@@ -14,10 +15,12 @@ import {
   robot,
   showingLastGood,
 } from "../app/state/document.js";
+import { measuring } from "../app/state/measuring.js";
 import { dialog, mouseMode, theme } from "../app/state/view.js";
 import { attachViewport, VIEWS, viewport } from "../app/viewport.js";
 import { t } from "../lib/i18n.js";
 import { Icon, IconButton, MenuButton, ProgressBar } from "../lib/ui.js";
+import { MeasureCard } from "./measure-card.js";
 
 export function ScenePanel() {
   const frame = useRef(/** @type {HTMLIFrameElement | null} */ (null));
@@ -27,6 +30,7 @@ export function ScenePanel() {
     <iframe ref=${frame} title=${t("panel.scene")} class=${theme.value}
       src=${id ? `/d/${encodeURIComponent(id)}/viser/` : "about:blank"}></iframe>
     <${Tools} />
+    <${MeasureCard} />
     <${Cover} />
     <${MeshProgress} />
     <${LastGoodNotice} />
@@ -46,6 +50,9 @@ function Tools() {
     <${LayerToggle} name="names" icon="frames" />
     <span class="divider"></span>
     <${MenuButton} label=${t("scene.mouse")} disabled=${off} items=${mouseItems}>
+    <${IconButton} icon="measure" label=${t("command.measure")} hint=${`${t("command.measure")} (M)`} disabled=${off || !robot.value}
+      pressed=${measuring.value} onClick=${() => commandById("measure")?.run()} />
+    <span class="divider"></span>
       <${Icon} name="mouse" /><${Icon} name="chevronDown" size=${12} />
     <//>
   </div>`;

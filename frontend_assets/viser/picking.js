@@ -20,6 +20,47 @@ export function rayThrough(door, x, y) {
 /** The link under a place of the window, or null. @param {Door} door @param {RobotView} robot
  * @param {number} x @param {number} y @returns {Pick | null} */
 export function pick(door, robot, x, y) {
+  const found = nearestHit(door, robot, x, y);
+  return found && { link: found.link, point: found.hit.point };
+}
+
+/**
+ * The surface under a place of the window: the point, the way it faces and the corners of the triangle
+ * there, all in the scene. Null: there is none.
+ * @param {Door} door @param {RobotView} robot @param {number} x @param {number} y
+ * @returns {{ link: string, point: Vector3, normal: Vector3 | null, corners: Vector3[] } | null}
+ */
+export function pickSurface(door, robot, x, y) {
+  const found = nearestHit(door, robot, x, y);
+  if (!found) return null;
+  const { link, hit } = found;
+  return { link, point: hit.point, normal: normalOf(hit), corners: cornersOf(hit) };
+}
+
+/** @param {Hit} hit @returns {Vector3 | null} of length 1, in the scene; scaled meshes too */
+function normalOf({ face, object }) {
+  if (!face) return null;
+  const { x, y, z } = face.normal;
+  const e = object.matrixWorld.clone().invert().elements;
+  const row = (/** @type {number} */ at) =>
+    (e[at] ?? 0) * x + (e[at + 1] ?? 0) * y + (e[at + 2] ?? 0) * z;
+  return face.normal.clone().set(row(0), row(4), row(8)).normalize();
+}
+
+/** @param {Hit} hit @returns {Vector3[]} */
+function cornersOf({ face, object, point }) {
+  const places = object.geometry?.attributes?.position;
+  if (!face || !places || object.isInstancedMesh) return [];
+  return [face.a, face.b, face.c].map((at) =>
+    point
+      .clone()
+      .set(places.getX(at), places.getY(at), places.getZ(at))
+      .applyMatrix4(object.matrixWorld),
+  );
+}
+
+/** @param {Door} door @param {RobotView} robot @param {number} x @param {number} y @returns {{ link: string, hit: Hit } | null} */
+function nearestHit(door, robot, x, y) {
   const ray = rayThrough(door, x, y);
   const camera = door.mutable?.camera;
   if (!ray || !camera) return null;
@@ -37,6 +78,5 @@ export function pick(door, robot, x, y) {
         if (!nearest || hit.distance < nearest.hit.distance) nearest = { link, hit };
     });
   }
-  const found = /** @type {{ link: string, hit: Hit } | null} */ (nearest);
-  return found && { link: found.link, point: found.hit.point };
+  return /** @type {{ link: string, hit: Hit } | null} */ (nearest);
 }

@@ -1,6 +1,7 @@
 /** @import { CameraView } from "./camera.js" */
 /** @import { Door } from "./door.js" */
 /** @import { Looks } from "./looks.js" */
+/** @import { Measuring } from "./measuring.js" */
 /** @import { RobotView } from "./robot.js" */
 import { JointDrag } from "./joint-drag.js";
 import { pick } from "./picking.js";
@@ -10,7 +11,8 @@ const STILL_PX = 4;
 
 /**
  * The mouse over the robot. Pressing on a link that a joint moves and drawing the mouse moves the
- * joint; anywhere else, or with Alt held, it moves the camera. A press without a way is a click.
+ * joint; anywhere else, or with Alt held, it moves the camera. A press without a way is a click. While
+ * something is measured no joint is dragged, and a click takes what it is aimed at.
  */
 export class Pointer {
   /** Whether links may be dragged: one who only looks may not. */
@@ -21,22 +23,24 @@ export class Pointer {
   #pressed = null;
   /** @type {JointDrag | null} */
   #drag = null;
-  /** @type {{ x: number, y: number } | null} */
+  /** `free`: nothing is snapped to. @type {{ x: number, y: number, free: boolean } | null} */
   #newest = null;
   #door;
   #robot;
   #looks;
   #camera;
+  #measuring;
   #tell;
   #label = document.createElement("output");
 
   /** @param {Door} door @param {RobotView} robot @param {Looks} looks @param {CameraView} camera
-   * @param {(type: string, detail: object) => void} tell */
-  constructor(door, robot, looks, camera, tell) {
+   * @param {Measuring} measuring @param {(type: string, detail: object) => void} tell */
+  constructor(door, robot, looks, camera, measuring, tell) {
     this.#door = door;
     this.#robot = robot;
     this.#looks = looks;
     this.#camera = camera;
+    this.#measuring = measuring;
     this.#tell = tell;
     this.#label.className = "studio-drag-label";
     this.#label.hidden = true;
@@ -68,7 +72,10 @@ export class Pointer {
       capture: true,
       passive: true,
     });
-    document.addEventListener("pointerleave", () => this.#hover(null));
+    document.addEventListener("pointerleave", () => {
+      this.#hover(null);
+      this.#measuring.hover(null);
+    });
     window.addEventListener("dblclick", (event) => this.#doubleClick(event), options);
     window.addEventListener("contextmenu", (event) => event.preventDefault(), options);
     this.#everyPicture();
@@ -100,7 +107,7 @@ export class Pointer {
   #move(event) {
     const pressed = this.#pressed;
     if (event.buttons === 0 || pressed?.grip) {
-      this.#newest = { x: event.clientX, y: event.clientY };
+      this.#newest = placeOf(event);
       this.#door.redraw();
     }
     if (!pressed?.grip || event.pointerId !== pressed.id) return;
@@ -116,23 +123,36 @@ export class Pointer {
     if (pressed.grip) event.stopImmediatePropagation();
     if (this.#drag) {
       this.#drag.follow(event.clientX, event.clientY);
-      this.#newest = { x: event.clientX, y: event.clientY };
+      this.#newest = placeOf(event);
       this.#tellDrag("end");
       this.#endDrag();
     } else if (!far(event, pressed)) {
-      this.#looks.setSelected(pressed.link);
-      this.#tell("select", { link: pressed.link });
+      this.#click(event, pressed.link);
+    }
+  }
+
+  /** @param {PointerEvent} event @param {string | null} link */
+  #click(event, link) {
+    if (this.#measuring.on) {
+      const anchor = this.#measuring.take(placeOf(event));
+      if (anchor) this.#tell("measure", { anchor });
+    } else {
+      this.#looks.setSelected(link);
+      this.#tell("select", { link });
     }
   }
 
   /** @param {MouseEvent} event */
   #doubleClick(event) {
     if (event.target !== this.#door.mutable?.canvas) return;
+    // Two clicks near to each other measure something short.
+    if (this.#measuring.on) return event.stopImmediatePropagation();
     const found = pick(this.#door, this.#robot, event.clientX, event.clientY);
-    if (!found) return;
+    if (!found) return undefined;
     event.stopImmediatePropagation();
     this.#camera.focus(found.link);
     this.#tell("focus", { link: found.link });
+    return undefined;
   }
 
   /** At most once for each picture, however often the mouse reports. */
@@ -145,9 +165,18 @@ export class Pointer {
       const changed = this.#drag.follow(place.x, place.y);
       this.#placeLabel(place);
       if (changed) this.#tellDrag("move", place);
+    } else if (this.#measuring.on) {
+      this.#aimAt(place);
     } else if (!this.#pressed) {
       this.#hover(pick(this.#door, this.#robot, place.x, place.y)?.link ?? null);
     }
+  }
+
+  /** @param {{ x: number, y: number, free: boolean }} place */
+  #aimAt(place) {
+    this.#hover(null);
+    document.documentElement.dataset.cursor = "crosshair";
+    if (!this.#pressed) this.#measuring.hover(place);
   }
 
   /** @param {{ x: number, y: number, grip: import("./picking.js").Pick | null }} pressed */
@@ -202,11 +231,16 @@ export class Pointer {
 
   /** @param {string} link */
   #movable(link) {
-    return this.canDrag && this.#robot.jointThatMoves(link) !== null;
+    return this.canDrag && !this.#measuring.on && this.#robot.jointThatMoves(link) !== null;
   }
 }
 
 /** @param {PointerEvent} event @param {{ x: number, y: number }} from */
 function far(event, from) {
   return Math.hypot(event.clientX - from.x, event.clientY - from.y) >= STILL_PX;
+}
+
+/** @param {MouseEvent} event */
+function placeOf({ clientX: x, clientY: y, altKey: free }) {
+  return { x, y, free };
 }

@@ -74,6 +74,9 @@ export interface Material {
 }
 
 export interface Geometry {
+  attributes?: {
+    position?: { getX(at: number): number; getY(at: number): number; getZ(at: number): number };
+  };
   boundingBox: Box3 | null;
   computeBoundingBox(): void;
 }
@@ -82,6 +85,8 @@ export interface Hit {
   distance: number;
   point: Vector3;
   object: Object3D;
+  /** Its corners by their numbers, and where it faces in the mesh's own axes. */
+  face?: { a: number; b: number; c: number; normal: Vector3 } | null;
 }
 
 export interface Pointing {
@@ -94,6 +99,7 @@ export interface Pointing {
 
 export interface Object3D {
   isMesh?: boolean;
+  isInstancedMesh?: boolean;
   /** Of a light that casts shadows. */
   shadow?: { normalBias: number; radius: number };
   intensity: number;

@@ -1,0 +1,164 @@
+/** The card of the measuring tool over the 3D view: what to click next, and what was measured. */
+
+/** @import { Anchor, Measured, Placed, Units } from "../lib/measuring.js" */
+/** @import { Measure } from "../app/state/measuring.js" */
+
+import { html, useSignal } from "vendor/preact.js";
+import { robot } from "../app/state/document.js";
+import { millimetres } from "../app/state/frame-pair.js";
+import {
+  addEnd,
+  deleteMeasure,
+  deleteMeasures,
+  endsWanted,
+  MODES,
+  measuredNow,
+  measureMode,
+  measures,
+  measuring,
+  pending,
+  startMeasuring,
+  stopMeasuring,
+  wantEnds,
+} from "../app/state/measuring.js";
+import { degrees, hovered, notify } from "../app/state/view.js";
+import { copyText } from "../lib/clipboard.js";
+import { t } from "../lib/i18n.js";
+import { LinkPicker } from "../lib/link-picker.js";
+import { anchorName, anchorOfPart, angleText, lengthNumber, lengthText } from "../lib/measuring.js";
+import { Icon, IconButton } from "../lib/ui.js";
+
+export function MeasureCard() {
+  if (!measuring.value && measures.value.length === 0) return null;
+  return html`<aside class="measure-card" aria-label=${t("measure.title")}>
+    <header><h3><${Icon} name="measure" size=${15} />${t("measure.title")}</h3>
+      <${UnitButtons} />
+      ${
+        measures.value.length > 0 &&
+        html`<${IconButton} icon="trash" label=${t("measure.delete_all")} onClick=${deleteMeasures} />`
+      }
+      ${
+        measuring.value
+          ? html`<${IconButton} icon="close" label=${t("measure.end")} hint=${`${t("measure.end")} (Esc)`} onClick=${stopMeasuring} />`
+          : html`<${IconButton} icon="plus" label=${t("measure.more")} hint=${`${t("measure.more")} (M)`} onClick=${startMeasuring} />`
+      }
+    </header>
+    ${measuring.value && html`<${Making} />`}
+    <${Found} />
+  </aside>`;
+}
+
+function UnitButtons() {
+  const toMillimetres = t(millimetres.value ? "measure.to_m" : "measure.to_mm");
+  const toDegrees = t(degrees.value ? "angles.to_radians" : "angles.to_degrees");
+  return html`<button type="button" class="unit unit-button" aria-label=${toMillimetres} title=${toMillimetres} onClick=${() => {
+    millimetres.value = !millimetres.value;
+  }}>${millimetres.value ? "mm" : "m"}</button>
+    <button type="button" class="unit unit-button" aria-label=${toDegrees} title=${toDegrees} onClick=${() => {
+      degrees.value = !degrees.value;
+    }}>${degrees.value ? "°" : "rad"}</button>`;
+}
+
+/** What a click means, and what to click next. */
+function Making() {
+  const step = `measure.next.${pending.value.length + 1}`;
+  return html`<div class="measure-making">
+    <div class="chips" role="group" aria-label=${t("measure.aim")}>${MODES.map(
+      (
+        mode,
+      ) => html`<button key=${mode} type="button" class="chip" aria-pressed=${measureMode.value === mode}
+        title=${t(`measure.aim.${mode}.hint`)} onClick=${() => {
+          measureMode.value = mode;
+        }}>${t(`measure.aim.${mode}`)}</button>`,
+    )}
+      <button type="button" class="chip" aria-pressed=${endsWanted.value === 3} title=${t("measure.corner.hint")}
+        onClick=${() => wantEnds(endsWanted.value === 3 ? 2 : 3)}>${t("measure.corner.switch")}</button></div>
+    <p role="status">${t(step)}</p>
+    ${pending.value.length > 0 && html`<p class="measure-ends">${pending.value.map((end) => html`<${End} end=${end} />`)}</p>`}
+    <${ByName} />
+  </div>`;
+}
+
+/** Links and joints by their names, for those who use no mouse. */
+function ByName() {
+  const turn = useSignal(0);
+  const { links = [], joints = [] } = robot.value ?? {};
+  /** @type {Map<string, string>} */
+  const parts = new Map();
+  for (const { name } of links) parts.set(name, `link:${name}`);
+  for (const { name } of joints) parts.set(t("measure.joint", { name }), `joint:${name}`);
+  /** @param {string} name */
+  const onPick = (name) => {
+    const anchor = anchorOfPart(joints, parts.get(name) ?? "");
+    if (anchor) addEnd(anchor);
+    turn.value += 1;
+  };
+  return html`<${LinkPicker} label=${t("measure.by_name")} placeholder=${t("measure.by_name")} value=${null}
+    links=${[...parts.keys()]} onPick=${onPick} />`;
+}
+
+/** @param {{end: Anchor}} props */
+function End({ end }) {
+  const icon = { point: "zero", frame: "frames", axis: "joints" }[end.kind];
+  return html`<span class="measure-end" title=${t(`measure.kind.${end.kind}`, { name: anchorName(end) })}
+    onPointerEnter=${() => {
+      hovered.value = end.link;
+    }} onPointerLeave=${() => {
+      hovered.value = null;
+    }}><${Icon} name=${icon} size=${13} /><span>${anchorName(end)}</span></span>`;
+}
+
+function Found() {
+  if (measures.value.length === 0) return null;
+  return html`<ol class="measure-list">${measuredNow.value.map(
+    ({ measure, found }) => html`<${Row} key=${measure.id} measure=${measure} found=${found} />`,
+  )}</ol>`;
+}
+
+/** @param {{measure: Measure, found: Measured | null}} props */
+function Row({ measure, found }) {
+  const units = { millimetres: millimetres.value, degrees: degrees.value };
+  const facts = found ? factsOf(found, units) : [];
+  const [main, ...others] = facts;
+  const copy = async () => {
+    const lines = facts.map(([words, text]) => `${words}: ${text}`);
+    const names = measure.ends.map(anchorName).join(" – ");
+    const done = await copyText([names, ...lines].join("\n"));
+    notify(t(done ? "copied" : "copy.failed"), { bad: !done });
+  };
+  return html`<li>
+    <div class="measure-head"><p class="measure-ends">${measure.ends.map((end) => html`<${End} end=${end} />`)}</p>
+      <${IconButton} icon="copy" label=${t("measure.copy")} size=${14} onClick=${copy} />
+      <${IconButton} icon="trash" label=${t("measure.delete")} size=${14} onClick=${() => deleteMeasure(measure.id)} /></div>
+    ${!found && html`<p class="muted">${t("measure.gone")}</p>`}
+    ${main && html`<p class="measure-main" title=${main[0]}><output aria-label=${main[0]}>${main[1]}</output></p>`}
+    <dl>${others.map(([words, text]) => html`<div><dt>${words}</dt><dd>${text}</dd></div>`)}</dl>
+  </li>`;
+}
+
+/** @param {Measured} found @param {Units} units @returns {[string, string][]} words and numbers, the chief one first */
+function factsOf({ ends, distance, inRoot, inFirst, toAxis, angle, corner }, units) {
+  const [first, second] = /** @type {[Placed, Placed]} */ (/** @type {unknown} */ (ends));
+  const three = (/** @type {readonly number[]} */ values) =>
+    values.map((value) => lengthNumber(value, units)).join("  ");
+  const unit = units.millimetres ? "mm" : "m";
+  /** @type {[string, string][]} */
+  const facts = [];
+  if (ends.length > 2) {
+    const middle = { name: anchorName(second.anchor) };
+    facts.push([t("measure.corner", middle), corner === null ? "–" : angleText(corner, units)]);
+  }
+  facts.push([t("measure.distance"), lengthText(distance, units)]);
+  if (toAxis !== null) facts.push([t("measure.to_axis"), lengthText(toAxis, units)]);
+  facts.push([t("measure.in", { frame: robot.value?.root ?? "" }), `${three(inRoot)} ${unit}`]);
+  if (first.anchor.link !== robot.value?.root)
+    facts.push([t("measure.in", { frame: first.anchor.link }), `${three(inFirst)} ${unit}`]);
+  if (angle !== null) {
+    const [one, other] = [first, second].map(({ anchor }) => t(`measure.direction.${anchor.kind}`));
+    facts.push([
+      t("measure.angle", { one: one ?? "", other: other ?? "" }),
+      angleText(angle, units),
+    ]);
+  }
+  return facts;
+}

@@ -1,0 +1,159 @@
+/** @import { Aim, AimMode, Anchor } from "./aim.js" */
+/** @import { Door } from "./door.js" */
+/** @import { Dot, Label, Line } from "./drawn-lines.js" */
+/** @import { RobotView } from "./robot.js" */
+/** @import { Place } from "./screen.js" */
+/** @import { Matrix4, Vector3 } from "./viser.d.ts" */
+import { DrawnLines } from "./drawn-lines.js";
+import { placeOf } from "./screen.js";
+
+/** @typedef {{ ends: Anchor[], label: string }} DrawnMeasure */
+/** @typedef {{ at: [number, number, number], label: string }} Centre */
+
+/**
+ * What is measured in this browser: the aim of the mouse while it is on, and the lines of what was
+ * measured, which move with the links. The page keeps the measures and knows their numbers.
+ */
+export class Measuring {
+  /** What may be aimed at; null: nothing is measured. @type {AimMode | null} */
+  #mode = null;
+  /** @type {readonly DrawnMeasure[]} */
+  #measures = [];
+  /** @type {Centre | null} */
+  #centre = null;
+  /** @type {Anchor | null} */
+  #aimed = null;
+  #lines = new DrawnLines();
+  #door;
+  #robot;
+  #aim;
+
+  /** @param {Door} door @param {RobotView} robot @param {Aim} aim */
+  constructor(door, robot, aim) {
+    this.#door = door;
+    this.#robot = robot;
+    this.#aim = aim;
+    door.onPicture(
+      () => {},
+      () => this.#draw(),
+    );
+  }
+
+  get on() {
+    return this.#mode !== null;
+  }
+
+  /** @param {AimMode | null} mode */
+  setMode(mode) {
+    this.#mode = mode;
+    this.#aimed = null;
+    delete document.documentElement.dataset.cursor;
+    this.#door.redraw();
+  }
+
+  /** @param {readonly DrawnMeasure[]} measures the last may lack an end */
+  setMeasures(measures) {
+    this.#measures = measures;
+    this.#door.redraw();
+  }
+
+  /** The robot's centre of mass in the root frame, m. @param {Centre | null} centre */
+  setCentre(centre) {
+    this.#centre = centre;
+    this.#door.redraw();
+  }
+
+  /** Show what a click here would take; null: the mouse is away. @param {{ x: number, y: number, free: boolean } | null} place */
+  hover(place) {
+    const aimed = place && this.take(place);
+    if (JSON.stringify(aimed) === JSON.stringify(this.#aimed)) return;
+    this.#aimed = aimed;
+    this.#door.redraw();
+  }
+
+  /** What a click here takes. @param {{ x: number, y: number, free: boolean }} place @returns {Anchor | null} */
+  take({ x, y, free }) {
+    return this.#mode && this.#aim.at(x, y, this.#mode, free);
+  }
+
+  #draw() {
+    /** @type {{ lines: Line[], dots: Dot[], labels: Label[] }} */
+    const all = { lines: [], dots: [], labels: [] };
+    for (const measure of this.#measures) this.#addMeasure(all, measure);
+    if (this.#mode === "axes")
+      for (const name of this.#robot.joints.keys()) this.#addAxis(all.lines, name);
+    if (this.#mode === "frames")
+      for (const link of this.#robot.drawn) this.#addDot(all.dots, { kind: "frame", link });
+    if (this.#aimed) this.#addAim(all, this.#aimed);
+    if (this.#centre) this.#addCentre(all, this.#centre);
+    this.#lines.draw(all);
+  }
+
+  /** @param {{ lines: Line[], dots: Dot[], labels: Label[] }} all @param {DrawnMeasure} measure */
+  #addMeasure({ lines, dots, labels }, { ends, label }) {
+    const places = ends.map((end) => this.#placeOf(end));
+    const seen = places.filter((place) => place !== null);
+    if (seen.length === places.length && seen.length > 1) lines.push({ places: seen, kind: "line" });
+    for (const end of ends) {
+      if (end.kind === "axis") this.#addAxis(lines, end.joint);
+      this.#addDot(dots, end);
+    }
+    const [first, second] = seen;
+    if (!label || !first || !second) return;
+    // Beside an angle its corner is meant, else the line.
+    const place = /** @type {Place} */ (ends.length > 2 ? aside(second) : between(first, second));
+    labels.push({ place, text: label, kind: "measure" });
+  }
+
+  /** @param {{ lines: Line[], dots: Dot[], labels: Label[] }} all @param {Anchor} aimed */
+  #addAim({ lines, dots, labels }, aimed) {
+    const place = this.#placeOf(aimed);
+    if (!place) return;
+    if (aimed.kind === "axis") this.#addAxis(lines, aimed.joint, "aim");
+    dots.push({ place, kind: "aim" });
+    labels.push({ place, text: aimed.kind === "axis" ? aimed.joint : aimed.link, kind: "aim" });
+  }
+
+  /** @param {{ dots: Dot[], labels: Label[] }} all @param {Centre} centre */
+  #addCentre({ dots, labels }, { at, label }) {
+    const root = this.#door.node("")?.matrixWorld;
+    const place = root && this.#seen(root, at);
+    if (!place) return;
+    dots.push({ place, kind: "centre" });
+    labels.push({ place: [place[0], place[1] - 20], text: label, kind: "centre" });
+  }
+
+  /** @param {Line[]} lines @param {string} name @param {"axis" | "aim"} [kind] */
+  #addAxis(lines, name, kind = "axis") {
+    const joint = this.#robot.joints.get(name);
+    const ends = joint && this.#aim.axisLine(joint);
+    if (!ends) return;
+    const [begin, end] = ends.map((one) => placeOf(this.#door, one));
+    if (begin && end) lines.push({ places: [begin, end], kind });
+  }
+
+  /** @param {Dot[]} dots @param {Anchor} anchor */
+  #addDot(dots, anchor) {
+    const place = this.#placeOf(anchor);
+    if (place) dots.push({ place, kind: anchor.kind });
+  }
+
+  /** @param {Anchor} anchor @returns {Place | null} */
+  #placeOf(anchor) {
+    const node = this.#robot.node(anchor.link);
+    return node ? this.#seen(node.matrixWorld, anchor.kind === "point" ? anchor.at : [0, 0, 0]) : null;
+  }
+
+  /** @param {Matrix4} matrix @param {[number, number, number]} point @returns {Place | null} */
+  #seen(matrix, point) {
+    /** @type {Vector3 | undefined} */
+    const vector = this.#door.mutable?.camera?.position.clone();
+    return vector ? placeOf(this.#door, vector.set(...point).applyMatrix4(matrix)) : null;
+  }
+}
+
+/** @param {Place} a @param {Place} b @returns {Place} */
+const between = (a, b) => [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2];
+
+/** @param {Place} place @returns {Place} */
+const aside = ([x, y]) => [x, y - 22];
