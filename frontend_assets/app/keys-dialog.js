@@ -27,7 +27,7 @@ const IN_SOURCE = [
   ["command.meaning", ["Alt+F12"]],
   ["keys.back", ["Alt+←"]],
   ["source.find", ["Mod+F"]],
-  ["editor.Go_to_line", ["Mod+Alt+G"]],
+  ["editor.Go_to_line", ["Ctrl+G"]],
 ];
 
 /** @param {{onClose: () => void}} props */

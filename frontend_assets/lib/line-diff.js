@@ -9,13 +9,7 @@ const TABLE_LIMIT = 400_000;
 
 /** @param {readonly string[]} before @param {readonly string[]} now @returns {LineMark[]} in order, one a line */
 export function changedLines(before, now) {
-  const shorter = Math.min(before.length, now.length);
-  let start = 0;
-  while (start < shorter && before[start] === now[start]) start += 1;
-  let end = 0;
-  while (end < shorter - start && before.at(-1 - end) === now.at(-1 - end)) end += 1;
-  const old = before.slice(start, before.length - end);
-  const fresh = now.slice(start, now.length - end);
+  const { start, old, fresh } = middles(before, now);
   const kept = keptPairs(old, fresh);
   /** @type {LineMark[]} */
   const marks = [];
@@ -28,6 +22,70 @@ export function changedLines(before, now) {
     [from, to] = [there + 1, here + 1];
   }
   return marks.map((mark) => ({ ...mark, line: Math.min(mark.line, Math.max(now.length, 1)) }));
+}
+
+/**
+ * @typedef {object} Hunk lines, from 1; each end is behind the last
+ * @property {number} from
+ * @property {number} to in the text as it is
+ * @property {number} oldFrom
+ * @property {number} oldTo in the text as it was
+ */
+
+/**
+ * @param {readonly string[]} before
+ * @param {readonly string[]} now
+ * @param {number} line from 1 in the text as it is, one that `changedLines` names
+ * @returns {Hunk | null} the whole stretch of changed lines that it belongs to
+ */
+export function hunkAt(before, now, line) {
+  const hunks = hunksOf(before, now);
+  return (
+    hunks.find(({ from, to }) => line >= from && line < to) ??
+    hunks.find(({ from, to }) => from === to && Math.min(from, Math.max(now.length, 1)) === line) ??
+    null
+  );
+}
+
+/** @param {readonly string[]} before @param {readonly string[]} now @returns {Hunk[]} */
+function hunksOf(before, now) {
+  const { start, old, fresh } = middles(before, now);
+  /** @type {Hunk[]} */
+  const hunks = [];
+  let [oldAt, at] = [0, 0];
+  for (const [there, here] of [...keptPairs(old, fresh), [old.length, fresh.length]]) {
+    const [oldTo, to] = [there ?? 0, here ?? 0];
+    if (oldTo > oldAt || to > at)
+      hunks.push({
+        from: start + at + 1,
+        to: start + to + 1,
+        oldFrom: start + oldAt + 1,
+        oldTo: start + oldTo + 1,
+      });
+    [oldAt, at] = [oldTo + 1, to + 1];
+  }
+  return hunks;
+}
+
+/** @param {readonly string[]} before @param {readonly string[]} now what lies between the lines that both begin and end with */
+function middles(before, now) {
+  const shorter = Math.min(before.length, now.length);
+  let start = 0;
+  while (start < shorter && before[start] === now[start]) start += 1;
+  let end = 0;
+  while (end < shorter - start && before.at(-1 - end) === now.at(-1 - end)) end += 1;
+  const old = before.slice(start, before.length - end);
+  return { start, old, fresh: now.slice(start, now.length - end) };
+}
+
+/** @param {string} before @param {string} now @returns {{from: number, to: number, insert: string}} the one change that makes it so */
+export function oneChange(before, now) {
+  const shorter = Math.min(before.length, now.length);
+  let from = 0;
+  while (from < shorter && before[from] === now[from]) from += 1;
+  let end = 0;
+  while (end < shorter - from && before.at(-1 - end) === now.at(-1 - end)) end += 1;
+  return { from, to: before.length - end, insert: now.slice(from, now.length - end) };
 }
 
 /** @param {number} gone lines that stood there @param {number} came @param {number} line the first @returns {LineMark[]} */

@@ -1,77 +1,131 @@
 /** What is wrong: how bad, in one sentence, where, and one click that mends it when there is one. */
 
-/** @import { Problem } from "../types/wire.d.ts" */
+/**
+ * @import { Problem } from "../types/wire.d.ts"
+ * @import { FileProblems, Severity } from "../lib/problem-list.js"
+ */
 
-import { html } from "vendor/preact.js";
-import { mend } from "../app/actions.js";
-import { commandById } from "../app/commands.js";
-import { PlaceLink } from "../app/place-link.js";
+import { html, useSignal } from "vendor/preact.js";
+import { mendAll } from "../app/actions.js";
 import { mayEdit } from "../app/state/connection.js";
-import { allSites, documentState, problems, sitesRevision } from "../app/state/document.js";
-import { propertyFilter, soughtSite } from "../app/state/view.js";
+import { documentState, problems } from "../app/state/document.js";
+import { notify } from "../app/state/view.js";
+import { copyText } from "../lib/clipboard.js";
 import { t } from "../lib/i18n.js";
-import { placeText, shortPath } from "../lib/paths.js";
-import { EmptyState, Icon } from "../lib/ui.js";
-
-const ICONS = { error: "error", warning: "alert", info: "info" };
-const ORDER = ["error", "warning", "info"];
+import { shortPath } from "../lib/paths.js";
+import {
+  asText,
+  byFile,
+  counts,
+  filtered,
+  keyOf,
+  mendable,
+  SEVERITIES,
+} from "../lib/problem-list.js";
+import { EmptyState, Icon, IconButton, SearchBox } from "../lib/ui.js";
+import { ProblemRow, SEVERITY_ICONS } from "./problem-row.js";
 
 export function ProblemsPanel() {
-  const sorted = [...problems.value].sort(
-    (a, b) => ORDER.indexOf(a.severity) - ORDER.indexOf(b.severity),
-  );
-  if (sorted.length === 0) {
+  const words = useSignal("");
+  const hidden = useSignal(/** @type {ReadonlySet<Severity>} */ (new Set()));
+  const all = problems.value;
+  if (all.length === 0) {
     return html`<section class="panel-body" aria-label=${t("panel.problems")}>
       <${EmptyState} icon="check" title=${t("problems.none")} /></section>`;
   }
-  return html`<section class="panel-body" aria-label=${t("panel.problems")}>
-    <ul class="problems scroll">${sorted.map((problem, at) => html`<${ProblemRow} key=${`${problem.code}${at}`} problem=${problem} />`)}</ul>
+  const files = byFile(filtered(all, words.value, hidden.value));
+  const clear = () => {
+    words.value = "";
+    hidden.value = new Set();
+  };
+  return html`<section class="panel-body problems-panel" aria-label=${t("panel.problems")}>
+    <${Bar} all=${all} files=${files} words=${words} hidden=${hidden} />
+    ${
+      files.length === 0
+        ? html`<${EmptyState} icon="filter" title=${t("problems.no_match")}>
+          <button type="button" class="button" onClick=${clear}>${t("problems.show_all")}</button><//>`
+        : html`<${List} files=${files} />`
+    }
   </section>`;
 }
 
-/** @param {{problem: Problem}} props */
-function ProblemRow({ problem }) {
-  const { severity, sentence, place, fix } = problem;
-  const root = documentState.value?.root ?? "";
-  return html`<li class=${`problem ${severity}`}>
-    <span class="problem-icon" title=${t(`severity.${severity}`)}><${Icon} name=${ICONS[severity]} /><span class="hidden-words">${t(`severity.${severity}`)}</span></span>
-    <div class="problem-text">
-      <p>${sentence}</p>
-      ${place && html`<${PlaceLine} problem=${problem} words=${placeWords(problem, root)} />`}
-    </div>
-    ${fix && mayEdit.value && html`<button type="button" class="button small" onClick=${() => mend(problem)}>${fix.label}</button>`}
-  </li>`;
-}
-
-/** Leads to the line; where that is a property's own, to the property as well. @param {{problem: Problem, words: string}} props */
-function PlaceLine({ problem: { place }, words }) {
-  return html`<p class="place"><${PlaceLink} place=${place} words=${words} />
-    ${place?.line ? html`<${PropertyLink} file=${place.file} line=${place.line} />` : null}</p>`;
-}
-
-/** @param {{file: string, line: number}} props */
-function PropertyLink({ file, line }) {
-  sitesRevision.value;
-  const there = [...allSites().values()].find((one) => one.file === file && one.line === line);
-  if (!there) return null;
-  const go = () => {
-    commandById("panel.properties")?.run();
-    propertyFilter.value = "";
-    soughtSite.value = there.id;
+/**
+ * @param {{all: readonly Problem[], files: readonly FileProblems[], words: {value: string},
+ *   hidden: {value: ReadonlySet<Severity>}}} props
+ */
+function Bar({ all, files, words, hidden }) {
+  const count = mendable(all);
+  const copy = async () => {
+    if (await copyText(asText(files, (one) => t(`severity.${one}`)))) notify(t("copied"));
   };
-  return html` · <button type="button" class="text-button" onClick=${go}>${t("palette.property", { name: there.name })}</button>`;
+  return html`<div class="panel-bar row problems-bar">
+    <${SearchBox} label=${t("problems.filter")} value=${words.value}
+      onInput=${(/** @type {string} */ text) => {
+        words.value = text;
+      }} />
+    ${SEVERITIES.map((one) => html`<${SeverityChip} key=${one} severity=${one} count=${counts(all)[one]} hidden=${hidden} />`)}
+    <span class="push"></span>
+    ${
+      count > 0 &&
+      mayEdit.value &&
+      html`<button type="button" class="button small primary" title=${t("problems.mend_all_hint")}
+      onClick=${() => mendAll()}><${Icon} name="wand" size=${14} />${t("problems.mend_all", { count })}</button>`
+    }
+    <${IconButton} icon="copy" label=${t("problems.copy")} onClick=${copy} />
+  </div>`;
 }
 
-/** @param {Problem} problem @param {string} root @returns {string} the place, and the way that led to it */
-function placeWords({ place, macro_stack: calls, include_chain: includes }, root) {
-  if (!place) return "";
-  const where = shortPath(place.file, root) + (place.line ? `:${place.line}` : "");
-  const macros = calls.map(({ macro, called_at: at }) =>
-    t("problem.macro", { macro, place: placeText(at) }),
-  );
-  const via =
-    includes.length > 0
-      ? [t("problem.included", { place: placeText(includes.at(-1) ?? null) })]
-      : [];
-  return [where, ...macros.reverse(), ...via].join(" · ");
+/** @param {{severity: Severity, count: number, hidden: {value: ReadonlySet<Severity>}}} props shows or hides its kind */
+function SeverityChip({ severity, count, hidden }) {
+  if (count === 0) return null;
+  const off = hidden.value.has(severity);
+  const toggle = () => {
+    const now = new Set(hidden.value);
+    if (off) now.delete(severity);
+    else now.add(severity);
+    hidden.value = now;
+  };
+  const label = `${t(`problems.severity.${severity}`)}: ${count}`;
+  return html`<button type="button" class=${`problem-chip ${severity}`} aria-pressed=${!off}
+    aria-label=${label} title=${label} onClick=${toggle}>
+    <${Icon} name=${SEVERITY_ICONS[severity]} size=${13} />${count}</button>`;
+}
+
+/** @param {{files: readonly FileProblems[]}} props arrow keys move from row to row */
+function List({ files }) {
+  const root = documentState.value?.root ?? "";
+  return html`<div class="problems scroll" role="region" aria-label=${t("problems.list")} onKeyDown=${onArrow}>
+    ${files.map(
+      ({ file, problems: those }) => html`<section key=${file} class="problem-file">
+      <h3 title=${file}><${Icon} name=${file ? "fileCode" : "robot"} size=${13} />
+        <span>${file ? shortPath(file, root) : t("problems.nowhere")}</span>
+        <span class="muted numbers">${those.length}</span></h3>
+      <ul>${rows(those)}</ul></section>`,
+    )}
+  </div>`;
+}
+
+/** @param {readonly Problem[]} those two that say the same are told apart by their order */
+function rows(those) {
+  /** @type {Map<string, number>} */
+  const seen = new Map();
+  return those.map((problem) => {
+    const own = keyOf(problem);
+    const number = (seen.get(own) ?? 0) + 1;
+    seen.set(own, number);
+    return html`<${ProblemRow} key=${`${own}#${number}`} problem=${problem} />`;
+  });
+}
+
+/** @param {KeyboardEvent} event */
+function onArrow(event) {
+  const list = /** @type {HTMLElement} */ (event.currentTarget);
+  const all = /** @type {HTMLElement[]} */ ([...list.querySelectorAll(".problem-main")]);
+  const at = all.indexOf(/** @type {HTMLElement} */ (document.activeElement));
+  /** @type {Record<string, number>} */
+  const moves = { ArrowDown: at + 1, ArrowUp: at - 1, Home: 0, End: all.length - 1 };
+  const to = moves[event.key];
+  if (to === undefined || at < 0) return;
+  event.preventDefault();
+  all[Math.min(Math.max(to, 0), all.length - 1)]?.focus();
 }

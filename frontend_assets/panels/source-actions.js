@@ -15,6 +15,7 @@ import { t } from "../lib/i18n.js";
 import { placeText } from "../lib/paths.js";
 import { goTo, made, meaningCard, placeButton } from "./source-meaning.js";
 import { closePeek, peek } from "./source-peek.js";
+import { renameAt } from "./source-rename.js";
 
 const STEPS_KEPT = 50;
 /** Where one was before each jump. @type {{file: string, line: number, column: number}[]} */
@@ -49,6 +50,7 @@ export const ACTIONS = [
   { id: "meaning", icon: "info", key: "Alt+F12", run: atCursor(showMeaning) },
   { id: "definition", icon: "definition", key: "F12", run: atCursor(goToDefinition) },
   { id: "references", icon: "search", key: "Shift+F12", run: atCursor(showReferences) },
+  { id: "rename", icon: "pencil", key: "F2", run: atCursor(renameAt) },
 ];
 
 addCommands(

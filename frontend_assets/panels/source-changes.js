@@ -12,7 +12,10 @@ import {
   ViewPlugin,
 } from "vendor/codemirror.js";
 import { t } from "../lib/i18n.js";
-import { changedLines } from "../lib/line-diff.js";
+import { changedLines, hunkAt, oneChange } from "../lib/line-diff.js";
+import { iconElement } from "../lib/ui.js";
+import { made } from "./source-meaning.js";
+import { closePeek, peek } from "./source-peek.js";
 
 const SETTLE_MS = 150;
 
@@ -57,7 +60,13 @@ export function changeMarks(saved) {
   return [
     disk,
     marks,
-    gutter({ class: "source-changes", markers: (view) => view.state.field(marks) }),
+    gutter({
+      class: "source-changes",
+      markers: (view) => view.state.field(marks),
+      domEventHandlers: {
+        click: (view, { from }) => showOld(view, from, view.state.field(disk)),
+      },
+    }),
     ViewPlugin.define((view) => comparing(view, () => view.state.field(disk))),
   ];
 }
@@ -79,6 +88,40 @@ function comparing(view, saved) {
     },
     destroy: () => clearTimeout(timer),
   };
+}
+
+/** What stood there on disk, and a button that puts it back. @param {EditorView} view @param {number} at @param {Text} saved @returns {boolean} */
+function showOld(view, at, saved) {
+  const { doc } = view.state;
+  const hunk = hunkAt(linesOf(saved), linesOf(doc), doc.lineAt(at).number);
+  if (!hunk || closePeek(view)) return hunk !== null;
+  const old = linesOf(saved).slice(hunk.oldFrom - 1, hunk.oldTo - 1);
+  const head = made("div", "meaning-head", t("source.was"));
+  if (!view.state.readOnly) head.append(backButton(() => putBack(view, hunk, old)));
+  const text = made("pre", "source-old", old.join("\n"));
+  const nothing = made("div", "muted", t("source.was_empty"));
+  const card = made("div", "meaning source-was", head, old.length > 0 ? text : nothing);
+  card.setAttribute("role", "dialog");
+  card.setAttribute("aria-label", t("source.was"));
+  peek(view, at, card);
+  return true;
+}
+
+/** @param {() => void} run */
+function backButton(run) {
+  const button = made("button", "button small", iconElement("undo"), t("source.put_back"));
+  button.type = "button";
+  button.addEventListener("click", run);
+  return button;
+}
+
+/** @param {EditorView} view @param {import("../lib/line-diff.js").Hunk} hunk @param {readonly string[]} old as if it were typed */
+function putBack(view, { from, to }, old) {
+  const now = linesOf(view.state.doc);
+  const lines = [...now.slice(0, from - 1), ...old, ...now.slice(to - 1)];
+  const changes = oneChange(now.join("\n"), lines.join("\n"));
+  view.dispatch({ changes, userEvent: "input" });
+  view.focus();
 }
 
 /** @param {Text} saved @param {EditorState} state @returns {RangeSet<GutterMarker>} */

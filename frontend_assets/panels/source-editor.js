@@ -18,6 +18,7 @@ import {
   EditorView,
   foldGutter,
   foldKeymap,
+  gotoLine,
   highlightActiveLine,
   highlightActiveLineGutter,
   highlightSelectionMatches,
@@ -29,6 +30,7 @@ import {
   lineNumbers,
   lintGutter,
   lintKeymap,
+  openSearchPanel,
   rectangularSelection,
   search,
   searchKeymap,
@@ -78,6 +80,10 @@ export function commonExtensions(events) {
     closeBrackets(),
     indentOnInput(),
     search({ top: true }),
+    keymap.of([
+      { key: "Ctrl-g", run: gotoLine, preventDefault: true },
+      { key: "Ctrl-h", mac: "Mod-Alt-f", run: openReplace, preventDefault: true },
+    ]),
     historyKeys(events),
     tabPassesThrough(isTyped),
     keymap.of([
@@ -94,6 +100,14 @@ export function commonExtensions(events) {
       if (docChanged || selectionSet) tellCursor(state, events);
     }),
   ];
+}
+
+/** The search with its second field in front. @param {EditorView} view @returns {boolean} */
+export function openReplace(view) {
+  openSearchPanel(view);
+  const field = view.dom.querySelector('.cm-search input[name="replace"]');
+  if (field instanceof HTMLInputElement) field.select();
+  return true;
 }
 
 /** @param {boolean} open @returns {HTMLElement} */

@@ -23,6 +23,8 @@ import { completion } from "./source-completion.js";
 import { following } from "./source-follow.js";
 import { meaningCard } from "./source-meaning.js";
 import { PEEK } from "./source-peek.js";
+import { renameAt } from "./source-rename.js";
+import { findInFiles } from "./source-search.js";
 import { insertSnippet, pairedBrackets } from "./source-snippet.js";
 
 const HOVER_MS = 350;
@@ -42,6 +44,8 @@ export function languageOf(link) {
       { key: "F12", run: (view) => goToDefinition(link, view, cursorOf(view)) },
       { key: "Shift-F12", run: (view) => showReferences(link, view, cursorOf(view)) },
       { key: "Alt-F12", run: (view) => showMeaning(link, view, cursorOf(view)) },
+      { key: "Mod-Shift-f", run: () => findInFiles(), preventDefault: true },
+      { key: "F2", run: (view) => renameAt(link, view, cursorOf(view)) },
       { key: "Alt-ArrowLeft", run: goBack, preventDefault: true },
     ]),
     EditorView.domEventHandlers({ mousedown: (event, view) => onPress(link, event, view) }),

@@ -11,9 +11,10 @@ import { shortPath } from "../lib/paths.js";
 import { tabNames } from "../lib/tab-names.js";
 import { Icon, IconButton, MenuButton } from "../lib/ui.js";
 import { ACTIONS } from "./source-actions.js";
+import { findInFiles } from "./source-search.js";
 
-/** @param {{find: () => void, goToLine: () => void}} props what the menu offers for the text in front */
-export function SourceTabs({ find, goToLine }) {
+/** @param {{find: () => void, goToLine: () => void, fold: () => void, unfold: () => void}} props what the menu offers for the text in front */
+export function SourceTabs({ find, ...more }) {
   const names = tabNames(openFiles.value);
   const ready = shownFile.value !== "";
   return html`<div class="source-bar">
@@ -23,7 +24,7 @@ export function SourceTabs({ find, goToLine }) {
     <${MenuButton} label=${t("source.all_files")} items=${fileItems}><${Icon} name="chevronDown" /><//>
     <${IconButton} icon="search" label=${t("source.find")} disabled=${!ready} onClick=${find}
       hint=${`${t("source.find")} (${shortcutText("Mod+F", onMac)})`} />
-    <${MenuButton} label=${t("source.menu")} items=${() => menuItems(goToLine)}><${Icon} name="dots" /><//>
+    <${MenuButton} label=${t("source.menu")} items=${() => menuItems(more)}><${Icon} name="dots" /><//>
   </div>`;
 }
 
@@ -94,8 +95,8 @@ function fileItems() {
   ];
 }
 
-/** @param {() => void} goToLine @returns {import("../lib/ui.js").MenuItem[]} */
-function menuItems(goToLine) {
+/** @param {{goToLine: () => void, fold: () => void, unfold: () => void}} runs @returns {import("../lib/ui.js").MenuItem[]} */
+function menuItems({ goToLine, fold, unfold }) {
   const file = shownFile.value;
   const others = openFiles.value.filter((one) => one !== file);
   const closeOthers = () => {
@@ -110,10 +111,18 @@ function menuItems(goToLine) {
       run,
     })),
     {
+      label: t("command.find_in_files"),
+      icon: "search",
+      hint: shortcutText("Mod+Shift+F", onMac),
+      run: findInFiles,
+    },
+    { label: t("command.fold_all"), icon: "collapse", disabled: file === "", run: fold },
+    { label: t("command.unfold_all"), icon: "expand", disabled: file === "", run: unfold },
+    {
       label: t("source.go_to_line"),
       icon: "jump",
       disabled: file === "",
-      hint: shortcutText("Mod+Alt+G", onMac),
+      hint: shortcutText("Ctrl+G", false),
       run: goToLine,
     },
     {

@@ -3,9 +3,11 @@
 import {
   EditorState,
   EditorView,
+  foldAll,
   gotoLine,
   openSearchPanel,
   setDiagnostics,
+  unfoldAll,
 } from "vendor/codemirror.js";
 import { html, useEffect, useMemo, useRef } from "vendor/preact.js";
 import { connection, mayEdit } from "../app/state/connection.js";
@@ -27,6 +29,7 @@ import { EmptyState, Icon, ProgressBar } from "../lib/ui.js";
 import { setSaved } from "./source-changes.js";
 import { adjust, goToPlace } from "./source-editor.js";
 import { setLit } from "./source-lights.js";
+import { SourceSearch } from "./source-search.js";
 import { SourceTabs } from "./source-tabs.js";
 import { SourceTexts } from "./source-texts.js";
 
@@ -41,7 +44,8 @@ export function SourcePanel() {
     if (texts.view) run(texts.view);
   };
   return html`<section class="panel-body source" aria-label=${t("panel.source")}>
-    <${SourceTabs} find=${onView(openSearchPanel)} goToLine=${onView(gotoLine)} />
+    <${SourceTabs} find=${onView(openSearchPanel)} goToLine=${onView(gotoLine)} fold=${onView(foldAll)} unfold=${onView(unfoldAll)} />
+    <${SourceSearch} />
     ${shown?.link?.readOnly && html`<p class="source-note"><${Icon} name="lock" size=${13} />${shown.link.readOnly}</p>`}
     <div class="source-editor" ref=${host} hidden=${!shown?.link} role="tabpanel" aria-label=${baseName(file)}></div>
     ${!shown?.link && html`<${Waiting} file=${file} reason=${shown?.reason ?? ""} />`}

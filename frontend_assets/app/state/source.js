@@ -29,6 +29,9 @@ export const cursorPlace = signal(null);
 /** Lines that light up in the source, for instance those of the property under the pointer. @type {Signal<readonly {file: string, line: number}[]>} */
 export const litPlaces = signal([]);
 
+/** The search in all files, and the words that it begins with; null: it is closed. @type {Signal<{text: string, turn: number} | null>} */
+export const filesSearch = signal(null);
+
 /** A text that another panel wants written at the cursor of the source. @type {Signal<{text: string, stops: readonly (readonly number[])[]} | null>} */
 export const wantedSnippet = signal(null);
 
