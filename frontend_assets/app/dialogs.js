@@ -3,6 +3,7 @@
 import { html } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
 import { Dialog } from "../lib/ui.js";
+import { GraphicsDialog } from "./graphics.js";
 import { KeysDialog } from "./keys-dialog.js";
 import { LaunchDialog } from "./launch-dialog.js";
 import { LayoutsDialog } from "./layouts-dialog.js";
@@ -37,6 +38,8 @@ export function Dialogs() {
       return html`<${KeysDialog} onClose=${close} />`;
     case "palette":
       return html`<${Palette} onClose=${close} />`;
+    case "graphics":
+      return html`<${GraphicsDialog} onClose=${close} />`;
     case "confirm":
       return html`<${ConfirmDialog} ...${shown} />`;
     default:

@@ -9,6 +9,8 @@ import { documentOf } from "../lib/paths.js";
 import { iconElement } from "../lib/ui.js";
 import { clearSelection, redo, save, toggleAnimation, undo, watch, zeroJoints } from "./actions.js";
 import { addCommands, onKey } from "./commands.js";
+import { listenToDrops } from "./drop.js";
+import { followGraphics } from "./graphics.js";
 import { followMissing } from "./launch-dialog.js";
 import { addLayoutCommands } from "./layout-commands.js";
 import { followSize } from "./layouts.js";
@@ -165,6 +167,8 @@ const root = document.getElementById("app");
 if (root) render(html`<${Shell} onDock=${startDock} />`, root);
 followMissing();
 followDisk();
+followGraphics();
+listenToDrops();
 connect(async () => {
   await watch();
   followLink();

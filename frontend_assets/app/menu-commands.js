@@ -5,9 +5,10 @@
 import { LANGUAGES, language } from "../lib/i18n.js";
 import { closeDocument, reload } from "./actions.js";
 import { commandById } from "./commands.js";
+import { graphicsCommands } from "./graphics.js";
 import { copyLink } from "./share.js";
 import { mayEdit } from "./state/connection.js";
-import { documentId } from "./state/document.js";
+import { documentId, unsaved } from "./state/document.js";
 import { canCompare } from "./state/variants.js";
 import { dialog, isFree, languageChoice, themeChoice } from "./state/view.js";
 import { compareSides } from "./variants.js";
@@ -16,14 +17,23 @@ const onDocument = () => mayEdit.value && isFree() && documentId.value !== "";
 
 /** @returns {Command[]} */
 export function menuCommands() {
-  return [...documentCommands(), ...themeCommands(), ...languageCommands()];
+  return [...documentCommands(), ...themeCommands(), ...graphicsCommands(), ...languageCommands()];
 }
 
 /** @returns {Command[]} */
 function documentCommands() {
   return [
+    ...openingCommands(),
     { id: "arguments", icon: "properties", enabled: onDocument, run: showArguments },
     { id: "copy_link", icon: "link", enabled: onDocument, run: () => void copyLink() },
+    {
+      id: "show_changes",
+      icon: "disk",
+      enabled: () => onDocument() && unsaved.value,
+      run: () => {
+        dialog.value = { kind: "save" };
+      },
+    },
     { id: "reload", icon: "reload", enabled: onDocument, run: () => void reload() },
     {
       id: "compare",
@@ -32,6 +42,29 @@ function documentCommands() {
       run: () => compareWith({ kind: "saved", name: "" }),
     },
     { id: "close_document", icon: "close", enabled: onDocument, run: () => void closeDocument() },
+  ];
+}
+
+/** @returns {Command[]} */
+function openingCommands() {
+  const mayOpen = () => mayEdit.value && isFree();
+  /** @param {import("./open-dialog.js").OpenTab} tab */
+  const show = (tab) => () => {
+    dialog.value = { kind: "open", tab };
+  };
+  return [
+    { id: "new_robot", icon: "filePlus", enabled: mayOpen, run: show("new") },
+    { id: "new_pasted", icon: "clipboard", enabled: mayOpen, run: show("paste") },
+    { id: "open_recent", icon: "history", enabled: mayOpen, run: show("recent") },
+    { id: "open_example", icon: "robot", enabled: mayOpen, run: show("examples") },
+    {
+      id: "save_as",
+      icon: "disk",
+      enabled: onDocument,
+      run: () => {
+        dialog.value = { kind: "save_as" };
+      },
+    },
   ];
 }
 

@@ -47,6 +47,9 @@ import {
  * @property {(mode: "all" | "points" | "frames" | "axes" | null) => void} setMeasuring what a click aims at
  * @property {(measures: readonly {ends: readonly import("../lib/measuring.js").Anchor[], label: string}[]) => void} setMeasures
  * @property {(centre: {at: readonly [number, number, number], label: string} | null) => void} setCentre of mass, root frame
+ * @property {() => import("./state/graphics.js").Graphics} graphics
+ * @property {() => void} lighten draw lightly from now on
+ * @property {() => void} reload make the view anew
  * @property {boolean} connected
  */
 

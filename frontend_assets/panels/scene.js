@@ -3,6 +3,7 @@
 import { html, useEffect, useRef } from "vendor/preact.js";
 import { mend, openPath, setDisplay, undo, worstProblem } from "../app/actions.js";
 import { commandById } from "../app/commands.js";
+import { GraphicsNotice } from "../app/graphics.js";
 import { PlaceLink } from "../app/place-link.js";
 import { heldBack } from "../app/state/alarm.js";
 import { mayEdit, role } from "../app/state/connection.js";
@@ -34,6 +35,7 @@ export function ScenePanel() {
     <${Cover} />
     <${MeshProgress} />
     <${LastGoodNotice} />
+    <${GraphicsNotice} />
   </section>`;
 }
 

@@ -3,19 +3,50 @@
 // viser reconnects only while its document has the focus; in a frame of our page it seldom has.
 document.hasFocus = () => true;
 
-// Where the processor draws, four samples a pixel double the time of a picture: there a picture at
-// rest is drawn finer instead (still.js), and data-gl says so to the scripts that come later.
+// How much is drawn (quality.js): as the person chose, else lightly where the processor draws or where
+// pictures came too slowly before. Smooth edges are chosen once and for all when the canvas is made;
+// without them a picture at rest is drawn finer instead (still.js).
 {
   const ask = HTMLCanvasElement.prototype.getContext;
   const gl = ask.call(document.createElement("canvas"), "webgl2");
   const told = gl?.getExtension("WEBGL_debug_renderer_info");
   const name = told ? String(gl.getParameter(told.UNMASKED_RENDERER_WEBGL)) : "";
   gl?.getExtension("WEBGL_lose_context")?.loseContext();
-  if (/swiftshader|llvmpipe|softpipe|software|basic render/i.test(name)) {
-    document.documentElement.dataset.gl = "software";
+  const isSoftware = /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+
+  /** What the page around remembers, as lib/remembered.js writes it. */
+  const recall = (key) => {
+    try {
+      return JSON.parse(localStorage.getItem(`studio.${key}`) ?? "null");
+    } catch {
+      return null;
+    }
+  };
+  const choice = recall("graphics");
+  const isWeak = isSoftware || recall("graphics.slow") === true;
+  const isLight = choice === "light" || (choice !== "full" && isWeak);
+
+  const { dataset } = document.documentElement;
+  if (isSoftware) dataset.gl = "software";
+  dataset.graphics = isLight ? "light" : "full";
+  dataset.renderer = name;
+
+  if (isLight) {
     HTMLCanvasElement.prototype.getContext = function getContext(kind, options) {
       const plain = kind === "webgl2" ? { ...options, antialias: false } : options;
       return ask.call(this, kind, plain);
     };
   }
+  // Asked for whenever the canvas gets its size, so that a machine that proves slow gets fewer pixels.
+  const real = Object.getOwnPropertyDescriptor(window, "devicePixelRatio");
+  Object.defineProperty(window, "devicePixelRatio", {
+    configurable: true,
+    get() {
+      const ratio = real?.get?.call(window) ?? 1;
+      return dataset.graphics === "light" ? Math.min(ratio, 1) : ratio;
+    },
+    set(value) {
+      real?.set?.call(window, value);
+    },
+  });
 }

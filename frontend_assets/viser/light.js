@@ -1,5 +1,6 @@
 /** @import { Door } from "./door.js" */
 /** @import { Message, Scene } from "./viser.d.ts" */
+import { isLight } from "./quality.js";
 
 const SKY = "/sky";
 const ROOT = "/robot";
@@ -11,12 +12,12 @@ const HEMISPHERE = { sky_color: [255, 255, 255], ground_color: [122, 118, 112], 
 
 /**
  * The light of this browser: more from all around and less from above than viser gives, and shadows
- * that do not stripe what casts them. Without a graphics card, light from a picture of a street
- * costs more than everything else together: there a plain sky stands for it.
+ * that do not stripe what casts them. Where the processor draws, light from a picture of a street
+ * costs more than everything else together: drawn lightly, a plain sky stands for it.
  */
 export class Light {
   #door;
-  #isSoftware = document.documentElement.dataset.gl === "software";
+  #hasSky = false;
   /** @type {WeakSet<object>} */
   #softened = new WeakSet();
 
@@ -30,7 +31,10 @@ export class Light {
   #soften() {
     const scene = this.#door.mutable?.scene;
     if (!scene) return;
-    if (this.#isSoftware) scene.environment = null;
+    if (isLight()) {
+      scene.environment = null;
+      if (!this.#hasSky && this.#door.node(ROOT)) this.#putSky();
+    }
     scene.environmentIntensity = SURROUNDING_LIGHT;
     this.#softenLamps(scene);
   }
@@ -49,7 +53,12 @@ export class Light {
   /** The server, which begins with the robot, does not know of the sky. @param {Message} message */
   #putSkyAnew(message) {
     if (message.name !== ROOT || message.type !== "FrameMessage") return;
-    if (this.#isSoftware) queueMicrotask(() => this.#door.inject(...skyMessages()));
+    if (isLight()) queueMicrotask(() => this.#putSky());
+  }
+
+  #putSky() {
+    this.#hasSky = true;
+    this.#door.inject(...skyMessages());
   }
 }
 

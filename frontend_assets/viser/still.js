@@ -1,11 +1,12 @@
 /** @import { Door } from "./door.js" */
 /** @import { Renderer } from "./viser.d.ts" */
+import { isLight } from "./quality.js";
 
 const REST_MS = 350;
 const FINER = 2;
 
 /**
- * Where the processor draws, a moving picture has one sample a pixel; the picture that comes to rest
+ * Drawn lightly, a moving picture has one sample a pixel; the picture that comes to rest
  * is drawn once more with four. Not when the address fixes the pixels of a picture (`fixedDpr`).
  */
 export class Still {
@@ -20,7 +21,7 @@ export class Still {
   /** @param {Door} door */
   constructor(door) {
     this.#door = door;
-    if (document.documentElement.dataset.gl !== "software") return;
+    if (!isLight()) return;
     if (new URLSearchParams(location.search).has("fixedDpr")) return;
     door.onPicture((renderer) => {
       this.#renderer = renderer;

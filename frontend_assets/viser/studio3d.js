@@ -95,6 +95,10 @@ class Studio3d {
     this.#theme.set(this.#theme.name);
   }
 
+  reload() {
+    location.reload();
+  }
+
   getCamera() {
     return this.#camera.get();
   }

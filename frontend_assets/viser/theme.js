@@ -1,5 +1,6 @@
 /** @import { Door } from "./door.js" */
 /** @import { Material, Message } from "./viser.d.ts" */
+import { isLight } from "./quality.js";
 
 /** @typedef {"dark" | "light"} ThemeName */
 /** @typedef {[number, number, number]} Rgb */
@@ -71,7 +72,7 @@ export class Theme {
   }
 
   #shadow() {
-    return { shadow_opacity: this.#shadowed ? THEMES[this.name].shadow : 0 };
+    return { shadow_opacity: this.#shadowed && !isLight() ? THEMES[this.name].shadow : 0 };
   }
 
   #calmGrid() {

@@ -168,6 +168,8 @@ export interface Message {
   visible?: boolean;
   position?: [number, number, number];
   virtual?: boolean;
+  enabled?: boolean;
+  cast_shadow?: boolean;
   props?: Record<string, unknown>;
   updates?: Record<string, unknown>;
 }

@@ -107,7 +107,7 @@ def test_a_panel_comes_back_where_it_was_scrolled_to(
 
 
 def test_no_tab_is_cut_in_a_window_of_any_size(tab: StudioPage):
-    tab.page.get_by_role("button", name="Layout and settings").click()
+    tab.page.get_by_role("button", name="Settings").click()
     tab.page.get_by_role("menuitemradio", name="Deutsch").click()
     panel_tab(tab, "Herkunft").wait_for()
     for width in (1600, 1280, 1024, 760):

@@ -1,0 +1,121 @@
+/** Says when this browser draws the 3D view lightly, and lets the person choose. */
+
+import { effect, html } from "vendor/preact.js";
+import { t } from "../lib/i18n.js";
+import { Dialog, Icon, IconButton } from "../lib/ui.js";
+import {
+  GRAPHICS,
+  graphics,
+  graphicsChoice,
+  graphicsSaid,
+  meansLight,
+  provedSlow,
+  slowHz,
+} from "./state/graphics.js";
+import { dialog } from "./state/view.js";
+import { viewport } from "./viewport.js";
+
+/** @import { MenuItem } from "../lib/ui.js" */
+/** @import { Command } from "./commands.js" */
+/** @import { GraphicsChoice } from "./state/graphics.js" */
+
+/** Ask the 3D view what it draws with, and hear when it proves slow. */
+export function followGraphics() {
+  effect(() => {
+    const view = viewport.value;
+    graphics.value = view?.graphics() ?? null;
+    if (!view) return undefined;
+    const hear = (/** @type {Event} */ event) =>
+      takeSlow(/** @type {CustomEvent<{hz: number}>} */ (event).detail.hz);
+    view.events.addEventListener("slow", hear);
+    return () => view.events.removeEventListener("slow", hear);
+  });
+}
+
+/** @param {number} hz pictures a second */
+function takeSlow(hz) {
+  const view = viewport.peek();
+  slowHz.value = hz;
+  if (!view || graphicsChoice.peek() !== "automatic" || graphics.peek()?.light) return;
+  provedSlow.value = true;
+  view.lighten();
+  graphics.value = view.graphics();
+}
+
+/** @param {GraphicsChoice} choice the view is made anew where its canvas has to be another */
+export function chooseGraphics(choice) {
+  graphicsChoice.value = choice;
+  graphicsSaid.value = true;
+  // Chosen anew, it is measured anew.
+  provedSlow.value = false;
+  const now = graphics.peek();
+  if (now && now.light !== meansLight(choice, now)) viewport.peek()?.reload();
+}
+
+/** @returns {Command[]} */
+export function graphicsCommands() {
+  return GRAPHICS.map((choice) => ({
+    id: `graphics.${choice}`,
+    icon: "system",
+    enabled: () => graphicsChoice.value !== choice,
+    run: () => chooseGraphics(choice),
+  }));
+}
+
+/** @returns {MenuItem[]} */
+export function graphicsItems() {
+  return GRAPHICS.map((choice) => ({
+    label: t(`graphics.${choice}`),
+    checked: graphicsChoice.value === choice,
+    run: () => chooseGraphics(choice),
+  }));
+}
+
+/** Over the 3D view, once: that it is drawn lightly, and the way back. */
+export function GraphicsNotice() {
+  if (graphicsSaid.value || graphicsChoice.value !== "automatic" || !graphics.value?.light)
+    return null;
+  const details = () => {
+    dialog.value = { kind: "graphics" };
+  };
+  return html`<div class="graphics-notice" role="status"><${Icon} name="system" size=${15} />
+    <span>${t("graphics.notice")}</span>
+    <button type="button" class="text-button" onClick=${details}>${t("graphics.details")}</button>
+    <button type="button" class="text-button" onClick=${() => chooseGraphics("full")}>${t("command.undo")}</button>
+    <${IconButton} icon="close" size=${14} label=${t("dismiss")} onClick=${() => {
+      graphicsSaid.value = true;
+    }} /></div>`;
+}
+
+/** @param {{onClose: () => void}} props what was found, what it changes, and the choice */
+export function GraphicsDialog({ onClose }) {
+  const now = graphics.value;
+  /** @param {GraphicsChoice} choice */
+  const choose = (choice) => {
+    onClose();
+    chooseGraphics(choice);
+  };
+  return html`<${Dialog} title=${t("graphics")} closeLabel=${t("close")} class="graphics-dialog" onClose=${onClose}>
+    <p class="dialog-text">${reason()}</p>
+    <p class="dialog-text">${t("graphics.what")}</p>
+    ${now?.renderer && html`<p class="dialog-text">${t("graphics.renderer", { name: now.renderer })}</p>`}
+    ${now?.software && html`<p class="dialog-text">${t("graphics.mend")}</p>`}
+    <div class="graphics-choices" role="radiogroup" aria-label=${t("graphics")}>
+      ${GRAPHICS.map(
+        (
+          choice,
+        ) => html`<button key=${choice} type="button" role="radio" class="button" aria-checked=${graphicsChoice.value === choice}
+        data-first=${graphicsChoice.value === choice ? true : null} onClick=${() => choose(choice)}>
+        ${graphicsChoice.value === choice && html`<${Icon} name="check" size=${14} />`}${t(`graphics.${choice}`)}</button>`,
+      )}
+    </div>
+  <//>`;
+}
+
+/** @returns {string} */
+function reason() {
+  const now = graphics.value;
+  if (now?.software) return t("graphics.software");
+  if (slowHz.value !== null) return t("graphics.slow", { hz: Math.round(slowHz.value) });
+  return provedSlow.value ? t("graphics.was_slow") : t("graphics.fine");
+}

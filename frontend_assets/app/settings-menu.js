@@ -1,0 +1,80 @@
+/** The menus at the right of the bar above: the panels and their layouts; and the page's own settings. */
+
+import { html } from "vendor/preact.js";
+import { LANGUAGES, language, t } from "../lib/i18n.js";
+import { Icon, MenuButton } from "../lib/ui.js";
+import { commandById } from "./commands.js";
+import { graphicsItems } from "./graphics.js";
+import { layoutItems } from "./layout-commands.js";
+import { PANELS, panelTitle } from "./panels.js";
+import { languageChoice, size, themeChoice } from "./state/view.js";
+
+/** @import { MenuItem } from "../lib/ui.js" */
+
+export function PanelsMenu() {
+  if (size.value === "phone") return null;
+  return html`<${MenuButton} label=${t("panels.menu")} items=${panelItems}><${Icon} name="layout" /><//>`;
+}
+
+export function SettingsMenu() {
+  return html`<${MenuButton} label=${t("settings")} items=${settingsItems}><${Icon} name="sliders" /><//>`;
+}
+
+/** @param {string} id of a command @param {string} icon @param {string} [label] @returns {MenuItem} */
+const commandItem = (id, icon, label = t(`command.${id}`)) => ({
+  label,
+  icon,
+  run: () => commandById(id)?.run(),
+});
+
+/** @returns {MenuItem[]} */
+function panelItems() {
+  const panels = Object.entries(PANELS).map(([id, { icon }]) =>
+    commandItem(`panel.${id}`, icon, panelTitle(id)),
+  );
+  return [
+    { label: t("panels"), heading: true },
+    ...panels,
+    { label: t("command.layouts"), heading: true },
+    ...layoutItems(),
+    commandItem("reset_layout", "reset"),
+    commandItem("layouts", "disk", `${t("layouts.manage")}…`),
+  ];
+}
+
+/** @returns {MenuItem[]} */
+function settingsItems() {
+  return [
+    // The bar of a phone has no room for the palette's button.
+    ...(size.value === "phone" ? [commandItem("palette", "search", t("palette.hint"))] : []),
+    { ...commandItem("keys", "keyboard"), hint: "?" },
+    { label: t("theme"), heading: true },
+    ...themeItems(),
+    { label: t("graphics"), heading: true },
+    ...graphicsItems(),
+    { label: t("language"), heading: true },
+    ...languageItems(),
+  ];
+}
+
+/** @returns {MenuItem[]} */
+function languageItems() {
+  return Object.entries(LANGUAGES).map(([id, label]) => ({
+    label,
+    checked: language.value === id,
+    run: () => {
+      languageChoice.value = id;
+    },
+  }));
+}
+
+/** @returns {MenuItem[]} */
+function themeItems() {
+  return /** @type {const} */ (["system", "dark", "light"]).map((choice) => ({
+    label: t(`theme.${choice}`),
+    checked: themeChoice.value === choice,
+    run: () => {
+      themeChoice.value = choice;
+    },
+  }));
+}

@@ -1,0 +1,118 @@
+/** @import { Door } from "./door.js" */
+/** @import { Message } from "./viser.d.ts" */
+
+/** Fewer pictures a second than this, for so long, is slow. */
+const SLOW_HZ = 20;
+const SLOW_FOR_MS = 3000;
+/** Who asks for the next picture as soon as this after one keeps the picture moving. */
+const AT_ONCE_MS = 60;
+/** After a longer pause than this nothing moved: the tab was hidden, or the machine slept. */
+const PAUSE_MS = 1500;
+/** Shaders and meshes come first; what they cost says little about what follows. */
+const WARM_UP_MS = 5000;
+
+/** Whether this browser's pictures are drawn lightly: `early.js` decides, and a slow machine later. */
+export const isLight = () => document.documentElement.dataset.graphics === "light";
+
+/**
+ * How much this browser draws, by how fast it is. Light means no shadows, no smooth edges while the
+ * picture moves, one pixel of the picture for one of the page, and a plain sky for the light of a
+ * street. The server and all others who look know nothing of it.
+ */
+export class Quality {
+  #door;
+  #onSlow;
+  #pace = new Pace();
+
+  /** @param {Door} door @param {(hz: number) => void} onSlow pictures a second, told once */
+  constructor(door, onSlow) {
+    this.#door = door;
+    this.#onSlow = onSlow;
+    door.onMessage((message) => this.#takeShadow(message));
+    door.onRedraw(() => this.#pace.asked(performance.now()));
+    door.onPicture(
+      () => undefined,
+      () => this.#drawn(),
+    );
+    const begin = () => this.#pace.begin(performance.now() + WARM_UP_MS);
+    door.ready.then(begin);
+    // A hidden tab draws nothing, and catches up when it is seen again.
+    document.addEventListener("visibilitychange", begin);
+  }
+
+  /** What the page says of it. */
+  state() {
+    const { graphics = "full", gl = "hardware", renderer = "" } = document.documentElement.dataset;
+    return { light: graphics === "light", software: gl === "software", renderer };
+  }
+
+  /** Draw lightly from now on; smooth edges only go when the page is loaded anew. */
+  lighten() {
+    if (isLight()) return;
+    document.documentElement.dataset.graphics = "light";
+    this.#door.inject({ type: "EnableLightsMessage", enabled: true, cast_shadow: false });
+    this.#door.redraw();
+  }
+
+  /** @param {Message} message */
+  #takeShadow(message) {
+    if (message.type === "EnableLightsMessage" && isLight()) message.cast_shadow = false;
+  }
+
+  #drawn() {
+    const hz = this.#pace.drawn(performance.now());
+    if (hz === null || document.hidden) return;
+    this.#onSlow(hz);
+  }
+}
+
+/** Counts pictures while one asks for the next: a picture that rests has no pace. */
+export class Pace {
+  #from = Number.POSITIVE_INFINITY;
+  #last = 0;
+  #pictures = 0;
+  /** Whether the next picture was asked for as soon as the last was there. */
+  #moving = false;
+  #isTold = false;
+
+  /** Count from a time on. @param {number} now_ms */
+  begin(now_ms) {
+    this.#restart(now_ms);
+  }
+
+  /** @param {number} now_ms somebody asks for a picture */
+  asked(now_ms) {
+    if (now_ms - this.#last <= AT_ONCE_MS) this.#moving = true;
+  }
+
+  /** @param {number} now_ms a picture is there @returns {number | null} pictures a second, once they were too few for long */
+  drawn(now_ms) {
+    if (this.#isTold || now_ms < this.#from) return null;
+    const rested = !this.#moving || now_ms - this.#last > PAUSE_MS;
+    this.#moving = false;
+    this.#last = now_ms;
+    if (rested) {
+      this.#restart(now_ms);
+      return null;
+    }
+    this.#pictures += 1;
+    return this.#judge(now_ms);
+  }
+
+  /** @param {number} now_ms @returns {number | null} */
+  #judge(now_ms) {
+    const lasted_ms = now_ms - this.#from;
+    if (lasted_ms < SLOW_FOR_MS) return null;
+    const hz = (this.#pictures * 1000) / lasted_ms;
+    this.#restart(now_ms);
+    if (hz >= SLOW_HZ) return null;
+    this.#isTold = true;
+    return hz;
+  }
+
+  /** @param {number} from_ms */
+  #restart(from_ms) {
+    this.#from = from_ms;
+    this.#pictures = 0;
+  }
+}
