@@ -9,7 +9,6 @@ import { documentOf } from "../lib/paths.js";
 import { iconElement } from "../lib/ui.js";
 import { clearSelection, redo, save, toggleAnimation, undo, watch, zeroJoints } from "./actions.js";
 import { addCommands, onKey } from "./commands.js";
-import { listenToDrops } from "./drop.js";
 import { followGraphics } from "./graphics.js";
 import { followMissing } from "./launch-dialog.js";
 import { addLayoutCommands } from "./layout-commands.js";
