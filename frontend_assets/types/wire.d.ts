@@ -23,6 +23,15 @@ export interface ApplyFix {
   label: string;
 }
 
+/** Move the joints to a named pose; joints that it does not name stay. */
+export interface ApplyPose {
+  request?: number;
+  document?: string;
+  type: "apply_pose";
+  key: string;
+  duration_s?: number;
+}
+
 /** Make the robot a variant, in one undo step; an empty name makes it as its files say. */
 export interface ApplyVariant {
   request?: number;
@@ -157,6 +166,14 @@ export interface CompletionsAnswer {
   type: "completions";
   request: number;
   completions: Completions;
+}
+
+/** Forget one's own pose; the joints stay where they are. */
+export interface DeletePose {
+  request?: number;
+  document?: string;
+  type: "delete_pose";
+  name: string;
 }
 
 /** Forget a variant; the robot stays as it is. */
@@ -864,6 +881,29 @@ export interface Places {
   folders: string[];
 }
 
+/** One named pose as the page lists it. */
+export interface PoseView {
+  key: string;
+  name: string;
+  group: string;
+  kind: "own" | "srdf" | "initial";
+  file: string;
+  line: number;
+  positions: Record<string, number>;
+  unknown: string[];
+  unknown_count: number;
+  beyond: string[];
+}
+
+/** All named poses that fit the robot. */
+export interface Poses {
+  type: "poses";
+  poses: PoseView[];
+  path: string;
+  only_here: string;
+  trouble: string;
+}
+
 /**
  * One finding. `sentence` stands alone; `code` is stable, kebab-case, for tests and tools.
  *
@@ -979,6 +1019,15 @@ export interface Rename {
   type: "rename";
   name: string;
   count: number;
+}
+
+/** Give one's own pose another name. */
+export interface RenamePose {
+  request?: number;
+  document?: string;
+  type: "rename_pose";
+  name: string;
+  new_name: string;
 }
 
 /** Give a variant another name and note. */
@@ -1098,6 +1147,15 @@ export interface SaveCopy {
   type: "save_copy";
   file: string;
   path: string;
+}
+
+/** Keep where the joints are under a name; with `replace` also under one that there is. */
+export interface SavePose {
+  request?: number;
+  document?: string;
+  type: "save_pose";
+  name: string;
+  replace?: boolean;
 }
 
 /** Keep the present arguments and values as a new variant. */
@@ -1397,6 +1455,10 @@ export type Command =
   | ChoosePackage
   | GetUrdf
   | GetUrdfChanges
+  | ApplyPose
+  | SavePose
+  | RenamePose
+  | DeletePose
   | GetRenaming
   | Rename
   | FindTexts
@@ -1445,6 +1507,7 @@ export type Event =
   | Opened
   | Urdf
   | UrdfChanges
+  | Poses
   | RenamingAnswer
   | TextsFound
   | Text

@@ -50,6 +50,7 @@ class Board:
         if robot != self._robot_told:
             self._robot_told, self._joints_told = robot, None
             self.audience.tell(robot)
+            self._document.poses.doubt()
         if joints != self._joints_told:
             self.audience.tell(joints)
         self._joints_told = joints
@@ -99,6 +100,7 @@ class Board:
         yield self._history()
         yield self._problems()
         yield from self._document.variants.events()
+        yield from self._document.poses.events()
         yield from self._document.drafts.events()
 
     def _state(self) -> m.DocumentState:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Final, TypeAlias, TypeVar
 
 from studio.engine import messages as m
 from studio.engine.listeners import tell
+from studio.engine.messages import poses as p
 from studio.engine.messages import rewriting as r
 from studio.engine.messages.message import CommandMessage
 
@@ -81,7 +82,13 @@ _VARIANTS: Final = (
     _row(m.DeleteVariant, lambda d, c, _: d.variants.delete(c.name)),
     _row(m.CompareVariants, lambda d, c, _: d.variants.compare(c.sides)),
 )
-WORK: Final = dict((*_EDITS, *_FILES, *_VIEW, *_QUESTIONS, *_VARIANTS))
+_POSES: Final = (
+    _row(p.ApplyPose, lambda d, c, _: d.poses.apply(c)),
+    _row(p.SavePose, lambda d, c, _: d.poses.save(c)),
+    _row(p.RenamePose, lambda d, c, _: d.poses.rename(c)),
+    _row(p.DeletePose, lambda d, c, _: d.poses.delete(c)),
+)
+WORK: Final = dict((*_EDITS, *_FILES, *_VIEW, *_QUESTIONS, *_VARIANTS, *_POSES))
 """What each command of a document does; those that are not here are the engine's own."""
 
 

@@ -26,6 +26,7 @@ from studio.engine.motion import Motion
 from studio.engine.origins import OriginDesk
 from studio.engine.packages_used import PackagesUsed
 from studio.engine.policy import target_of
+from studio.engine.poses import PoseDesk
 from studio.engine.rewriting import RewritingDesk
 from studio.engine.saving import SaveDesk
 from studio.engine.sharing import SharedFile, place_edits
@@ -91,6 +92,7 @@ class Document:
         self.history, self.saving = HistoryDesk(self), SaveDesk(self)
         self.drafts = DraftDesk(self, services.settings.data_folder)
         self.motion = Motion(self.model, self.board)
+        self.poses = PoseDesk(self, services)
         self._services = services
         self._runs = EditLoop(services.description_worker(), self.sources, self.target, self._take)
         self._meshes = MeshDesk(self, services.meshes, self._watch_files)
@@ -169,7 +171,7 @@ class Document:
             task.cancel()
         await asyncio.gather(*background, return_exceptions=True)
         await asyncio.gather(self._watch.close(), self._meshes.close(), self._runs.close())
-        await asyncio.gather(self.variants.close(), self.drafts.close())
+        await asyncio.gather(self.variants.close(), self.drafts.close(), self.poses.close())
         self.scene.close()
 
     async def edit_site(self, site: str, text: str, gesture: str) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from studio.engine.animation import Animation
+from studio.engine.glide import Glide
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -19,6 +20,7 @@ class Motion:
     def __init__(self, model: Model, board: Board) -> None:
         self._model, self._board = model, board
         self._animation = Animation(self._swing)
+        self._glide = Glide(self._move)
         self._swing_start = model.joints.values
 
     @property
@@ -29,8 +31,12 @@ class Motion:
     def set(self, positions: Mapping[str, float]) -> None:
         """Move joints, rad or m by name; ends a swing."""
         self._stop_swinging()
-        self._model.joints.set(positions)
-        self._show()
+        self._move(positions)
+
+    def glide(self, positions: Mapping[str, float], duration_s: float) -> None:
+        """Move joints, rad or m by name, within a time; ends a swing."""
+        self._stop_swinging()
+        self._glide.start(self._model.joints.by_name(), positions, duration_s)
 
     def zero(self) -> None:
         """All joints to zero."""
@@ -46,6 +52,7 @@ class Motion:
 
     def animate(self, *, running: bool) -> None:
         """Swing the joints from where they are, or stop."""
+        self._glide.stop()
         if running and not self.swinging:
             self._swing_start = self._model.joints.values
             self._animation.start()
@@ -55,13 +62,19 @@ class Motion:
 
     def close(self) -> None:
         """End a swing without telling anybody."""
+        self._glide.stop()
         self._animation.stop()
 
     def _swing(self, time_s: float) -> None:
         self._model.joints.swing(time_s, self._swing_start)
         self._show()
 
+    def _move(self, positions: Mapping[str, float]) -> None:
+        self._model.joints.set(positions)
+        self._show()
+
     def _stop_swinging(self) -> None:
+        self._glide.stop()
         if self.swinging:
             self._animation.stop()
             self._board.joints()

@@ -65,7 +65,7 @@ def test_every_websocket_opens_for_each_role_as_the_table_says(web: RunningWeb, 
 
 FIELDS: dict[str, object] = {
     **dict.fromkeys(("path", "part", "site", "text", "name", "value", "folder"), "x"),
-    **dict.fromkeys(("file", "link", "new_name", "code", "sentence", "label"), "x"),
+    **dict.fromkeys(("file", "link", "new_name", "code", "sentence", "label", "key"), "x"),
     "values": {"x": "1"},
     "keep": "mine",
     "position": 0,

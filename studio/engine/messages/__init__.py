@@ -112,6 +112,7 @@ from studio.engine.messages.origins import (
     Origin,
     PartEffect,
 )
+from studio.engine.messages.poses import PoseCommand, Poses
 from studio.engine.messages.rewriting import RewritingCommand, RewritingEvent
 from studio.engine.messages.robot import (
     AnimateJoints,
@@ -190,6 +191,7 @@ Command: TypeAlias = Annotated[
     | ChoosePackage
     | GetUrdf
     | GetUrdfChanges
+    | PoseCommand
     | RewritingCommand
     | GetText
     | GetOrigin
@@ -238,6 +240,7 @@ Event: TypeAlias = Annotated[
     | Opened
     | Urdf
     | UrdfChanges
+    | Poses
     | RewritingEvent
     | Text
     | TextsChanged
