@@ -154,12 +154,12 @@ def _demo(options: argparse.Namespace, arguments: dict[str, str]) -> None:
 
     settings = _settings(options)
     models = repository_or_wheel("models")
-    _launch(
-        options,
-        settings,
-        working_copy(models, settings.data_folder, _DEMO_PACKAGE, fresh=options.fresh),
-        arguments,
-    )
+    package = working_copy(models, settings.data_folder, _DEMO_PACKAGE, fresh=options.fresh)
+    if options.fresh:
+        from studio.engine.draft_store import forget_drafts
+
+        forget_drafts(settings.data_folder, package.rglob("*"))
+    _launch(options, settings, package, arguments)
 
 
 def _open(options: argparse.Namespace, arguments: dict[str, str]) -> None:

@@ -15,6 +15,7 @@ import {
   problems,
   unsaved,
 } from "./state/document.js";
+import { showBeforeSaving } from "./state/keeping.js";
 import { dialog, notify, selected } from "./state/view.js";
 import { RefusedError, send } from "./wire.js";
 
@@ -77,11 +78,22 @@ export async function redo(steps = 1) {
   }
 }
 
+/** Show what saving writes, or write it at once, as was chosen. */
 export async function save() {
   await allSettled();
   if (role.value !== "presenter" || !unsaved.value) return;
-  const files = history.value.unsaved_files.length;
-  if (await ask({ type: "save" })) notify(t("saved", { count: Math.max(files, 1) }));
+  const { unsaved_count: places, unsaved_files: files } = history.value;
+  const choice = showBeforeSaving.value;
+  if (choice === "always" || (choice === "several" && Math.max(places, files.length) > 1))
+    dialog.value = { kind: "save" };
+  else await saveFiles(null);
+}
+
+/** @param {readonly string[] | null} files null: all */
+export async function saveFiles(files) {
+  await allSettled();
+  const count = Math.max((files ?? history.value.unsaved_files).length, 1);
+  if (await ask({ type: "save", files: files && [...files] })) notify(t("saved", { count }));
 }
 
 export function reload() {

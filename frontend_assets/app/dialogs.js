@@ -10,6 +10,7 @@ import { LayoutsDialog } from "./layouts-dialog.js";
 import { MergeDialog } from "./merge-dialog.js";
 import { OpenDialog, PackageDialog } from "./open-dialog.js";
 import { Palette } from "./palette.js";
+import { SaveDialog } from "./save-dialog.js";
 import { ShareDialog } from "./share.js";
 import { dialog } from "./state/view.js";
 
@@ -30,6 +31,8 @@ export function Dialogs() {
       return html`<${LaunchDialog} path=${shown.path} onClose=${close} />`;
     case "merge":
       return html`<${MergeDialog} file=${shown.file} onClose=${close} />`;
+    case "save":
+      return html`<${SaveDialog} onClose=${close} />`;
     case "share":
       return html`<${ShareDialog} link=${shown.link} onClose=${close} />`;
     case "layouts":

@@ -8,6 +8,7 @@ import { commandById } from "./commands.js";
 import { Dialogs } from "./dialogs.js";
 import { DiskBars } from "./merge-dialog.js";
 import { PANELS, panelTitle } from "./panels.js";
+import { RestoredBar } from "./restored-bar.js";
 import { connection, role, turnedAway } from "./state/connection.js";
 import { documentState, gone } from "./state/document.js";
 import { activePanel, dismiss, notices, size } from "./state/view.js";
@@ -26,6 +27,7 @@ export function Shell({ onDock }) {
     <${TopBar} />
     <${LostBar} />
     <${GoneBar} />
+    <${RestoredBar} />
     <${DiskBars} />
     <main ref=${dock} class="dock" aria-label=${t("dock")}></main>
     ${size.value === "phone" ? html`<${PhoneTabs} />` : html`<${StatusBar} />`}

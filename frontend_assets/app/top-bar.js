@@ -6,6 +6,7 @@ import { shortcutText } from "../lib/keys.js";
 import { Icon, IconButton, MenuButton } from "../lib/ui.js";
 import { closeDocument, goTo, redo, reload, save, undo } from "./actions.js";
 import { commandById, onMac } from "./commands.js";
+import { HistoryMenu } from "./history-menu.js";
 import { PANELS, panelTitle } from "./panels.js";
 import { mayEdit, role } from "./state/connection.js";
 import { documentId, documents, history, title, unsaved } from "./state/document.js";
@@ -101,9 +102,8 @@ function EditButtons() {
   const off = !mayEdit.value;
   return html`<div class="edit-buttons">
     <${IconButton} icon="undo" label=${t("command.undo")} hint=${hinted("undo", done.at(-1))} disabled=${off || done.length === 0} onClick=${() => undo()} />
-    <${MenuButton} class="icon-button narrow" label=${t("undo.list")} disabled=${off || done.length === 0} items=${undoItems}>
-      <${Icon} name="chevronDown" size=${12} /><//>
     <${IconButton} icon="redo" label=${t("command.redo")} hint=${hinted("redo", undone.at(-1))} disabled=${off || undone.length === 0} onClick=${() => redo()} />
+    <${HistoryMenu} />
     <button type="button" class="button save" aria-label=${t("command.save")} title=${`${t("command.save")} (${keyOf("save")})`}
       disabled=${off || !unsaved.value} onClick=${save}>
       <${Icon} name="disk" /><span class="label">${t("command.save")}</span></button>
@@ -113,14 +113,6 @@ function EditButtons() {
 /** @param {string} id @param {string | undefined} step @returns {string} */
 function hinted(id, step) {
   return `${t(`command.${id}`)}${step ? `: ${step}` : ""} (${keyOf(id)})`;
-}
-
-/** @returns {MenuItem[]} newest first; a click takes back all down to it */
-function undoItems() {
-  return [...history.value.undo]
-    .reverse()
-    .slice(0, 15)
-    .map((step, at) => ({ label: step, icon: "undo", run: () => void undo(at + 1) }));
 }
 
 function SettingsMenu() {

@@ -101,8 +101,10 @@ def test_an_outside_write_is_merged_with_an_unsaved_drag_and_a_collision_is_a_ch
         entry.write_text(MAST.replace('value="0.4"', 'value="0.9"'))
         page.get_by_role("button", name="Compare", exact=True).click()
         choice = page.get_by_role("dialog", name="mast.urdf.xacro changed on disk")
-        choice.get_by_text('value="0.9"').wait_for()
-        choice.get_by_role("button", name="Take theirs").click()
+        wait_until("both texts", lambda: choice.locator("mark").count() == 2)
+        assert choice.locator("mark").all_inner_texts() == [dragged, "0.9"]
+        choice.get_by_role("radio", name="On disk").check()
+        choice.get_by_role("button", name="Use these").click()
         wait_until("the choice to be gone", lambda: choice.count() == 0)
         tab.seek("reach")
         wait_until("theirs to stand", lambda: number(tab, "reach") == "0.9")

@@ -50,6 +50,7 @@ def test_a_dragged_property_changes_the_pixels_is_undone_and_saved_byte_by_byte(
     assert working_copy.read_bytes() == (models / ROVER).read_bytes()
     save = tab.page.get_by_role("button", name="Save", exact=True)
     save.click()
+    tab.agree_to_save()
     wait_until("the file to be written", lambda: f'"{value}"' in working_copy.read_text())
     (difference,) = changed_bytes(models / ROVER, working_copy.read_bytes())
     assert difference[1] == difference[0].replace(b'"0.105"', f'"{value}"'.encode())

@@ -87,6 +87,7 @@ def test_a_typed_number_moves_the_pixels_and_its_slider_and_is_undone_as_one_ste
     put_cursor_behind(tab, '"0.10')
     tab.page.keyboard.type("2")
     tab.page.keyboard.press("Control+s")
+    tab.agree_to_save()
     saved = tmp_path / "data" / "models" / "rover_description/urdf/rover.urdf.xacro"
     wait_until("the file", lambda: b'"wheel_radius" value="0.1025"' in saved.read_bytes())
     assert tab.errors == []

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 PATIENCE_S = 60.0
 _PICTURE_PATIENCE_S = 120.0
 _POLL_S = 0.1
+_HAS_FOCUS = "one => one === document.activeElement"
 _COMPLAINTS = frozenset({"error"})
 _HAS_VISUALS = """() => {
   const nodes = document.querySelector("iframe")?.contentWindow?.__viserMutable?.nodeRefFromName;
@@ -117,6 +118,14 @@ class StudioPage:
             lambda: abs(float(self.box(name).input_value()) - wanted) < 1e-9,
         )
         return self.box(name).input_value()
+
+    def agree_to_save(self) -> None:
+        """Save what the window that shows the changes holds, by the one key that it takes."""
+        window = self.page.get_by_role("dialog", name="Save these changes?")
+        agree = window.get_by_role("button", name="Save", exact=True)
+        wait_until("the key to be the button's", lambda: agree.evaluate(_HAS_FOCUS))
+        self.page.keyboard.press("Enter")
+        wait_until("the window to be gone", lambda: window.count() == 0)
 
     def picture(self) -> bytes:
         """The pixels of the 3D view as PNG."""

@@ -14,6 +14,7 @@ import { movableJoints } from "../../lib/joints.js";
 import { isChanged } from "../../lib/sites.js";
 import { linkTree } from "../../lib/tree.js";
 import { role, session, version } from "./connection.js";
+import { takeRestored } from "./keeping.js";
 import { takeTextNews } from "./source.js";
 import { takeComparison, takeVariants } from "./variants.js";
 
@@ -205,6 +206,7 @@ const TAKERS = {
   disk_merged: (event) => {
     diskMerged.value = event;
   },
+  restored: takeRestored,
   gone: (event) => {
     if (event.document === documentId.value) gone.value = true;
   },
