@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import Final, TypeAlias
 
+from studio.description.checks.check_values import Checked, CheckQuery
 from studio.description.language.questions import (
     LANGUAGE_QUERIES,
     LANGUAGE_REPLIES,
@@ -22,8 +23,8 @@ from studio.description.origins.origin_values import (
 )
 from studio.description.values import NoReply
 
-Query: TypeAlias = PartOriginQuery | SiteEffectsQuery | LanguageQuery
-Reply: TypeAlias = PartOrigin | SiteEffects | NoReply | LanguageReply
+Query: TypeAlias = PartOriginQuery | SiteEffectsQuery | CheckQuery | LanguageQuery
+Reply: TypeAlias = PartOrigin | SiteEffects | Checked | NoReply | LanguageReply
 
-QUERIES: Final = (PartOriginQuery, SiteEffectsQuery, *LANGUAGE_QUERIES)
-REPLIES: Final = (PartOrigin, SiteEffects, NoReply, *LANGUAGE_REPLIES)
+QUERIES: Final = (PartOriginQuery, SiteEffectsQuery, CheckQuery, *LANGUAGE_QUERIES)
+REPLIES: Final = (PartOrigin, SiteEffects, Checked, NoReply, *LANGUAGE_REPLIES)

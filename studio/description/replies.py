@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, assert_never
 
+from studio.description.checks.check_values import CheckQuery
 from studio.description.faults import Fault
 from studio.description.language.questions import (
     CompletionQuery,
@@ -18,6 +19,8 @@ from studio.description.origins.provenance import part_origin
 from studio.description.values import NoReply
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from studio.description.origins.good_run import GoodRun
     from studio.description.queries import Query, Reply
 
@@ -28,8 +31,13 @@ def reply_to(query: Query, run: GoodRun | None) -> Reply:
     """Answer a question; one that has no answer, or fails, is told so in a sentence."""
     if run is None:
         return NoReply("The description has not been expanded yet: mend its problems first.")
+    return guarded(lambda: _reply(query, run))
+
+
+def guarded(answer: Callable[[], Reply]) -> Reply:
+    """The answer, or what hindered it in a sentence."""
     try:
-        return _reply(query, run)
+        return answer()
     except Fault as fault:
         return NoReply(fault.sentence)
     except Exception as error:  # noqa: BLE001 - a question may not cost the process its robot
@@ -46,5 +54,7 @@ def _reply(query: Query, run: GoodRun) -> Reply:
             OutlineQuery() | LookUpQuery() | ReferencesQuery() | CompletionQuery() | RenamingQuery()
         ):
             raise TypeError("the language desk answers what is asked about texts")
+        case CheckQuery():
+            raise TypeError("the session answers what is asked about all texts")
         case _:
             assert_never(query)

@@ -5,6 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
+from studio.description.checks.answering import checked_broken, checked_good
+from studio.description.checks.check_values import CheckQuery
 from studio.description.evaluator.evaluation import Evaluation
 from studio.description.evaluator.output_tree import OutputElement
 from studio.description.evaluator.parts import part_of, write_part, write_parts
@@ -22,7 +24,7 @@ from studio.description.origins.good_run import GoodRun
 from studio.description.patching.live_run import LiveRun
 from studio.description.patching.output_index import OutputIndex
 from studio.description.patching.verification import verified
-from studio.description.replies import reply_to
+from studio.description.replies import guarded, reply_to
 from studio.description.sites.sites import SiteBuilder
 from studio.description.syntax.recovery import RECOVERABLE
 from studio.description.syntax.source_tree import SourceElement, SourceText, parse_source
@@ -31,6 +33,7 @@ from studio.description.values import (
     EditRequest,
     Expansion,
     Failure,
+    NoReply,
     OpenRequest,
     ReloadRequest,
     VerifyRequest,
@@ -40,7 +43,7 @@ from studio.packages.roots import ServedRoots
 from studio.problems import Place, Problem, Severity
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from studio.description.patching.live_run import Patch
     from studio.description.queries import Query, Reply
@@ -68,6 +71,10 @@ class Session:
         """The last good answer."""
         self._live: LiveRun | None = None
         """The last run, when it was a good one that can be patched."""
+        self._fault = ""
+        """Code of what the last run failed for; empty when it gave a robot."""
+        self._chain_to: Callable[[str], tuple[Place, ...]] = lambda _: ()
+        """How a file came to be included in the last good run."""
         self._language = LanguageDesk(self._store, self._policy, self._entry)
 
     def answer(self, request: Request) -> Answer:
@@ -144,6 +151,8 @@ class Session:
 
     def query(self, query: Query) -> Reply:
         """Answer a question from the last good run; nothing changes."""
+        if isinstance(query, CheckQuery):
+            return guarded(self._check)
         if isinstance(query, LANGUAGE_QUERIES):
             if self._live is not None:
                 self._sites.update(self._live.texts.moved(self._sites))
@@ -178,14 +187,25 @@ class Session:
             return self._expansion(evaluation, root, reason)
         except MemoryError:
             fault = Refusal("output-too-large", "The robot comes to more text than can be shown.")
-            return Failure(problem_of(fault, self._entry), tuple(self._store.asked))
+            return self._failed(fault)
         except Fault as fault:
             return self._failed(fault)
         except DescriptionError as error:
+            self._fault = "expansion-failed"
             return Failure(_problem_of_error(error, self._entry), tuple(self._store.asked))
+
+    def _check(self) -> Reply:
+        """Look at the texts as they are, broken or not."""
+        if self._fault in RECOVERABLE:
+            broken = recovered_run(self._store, self._policy, self._arguments, self._entry)
+            return checked_broken(broken)
+        if self._fault or self._good is None:
+            return NoReply("The description does not expand: mend its problems first.")
+        return checked_good(self._good, self._chain_to)
 
     def _failed(self, fault: Fault) -> Answer:
         """Say all that is wrong; of a first robot whose texts are broken, draw what can be read."""
+        self._fault = fault.code
         problem, files = problem_of(fault, self._entry), tuple(self._store.asked)
         if fault.code not in RECOVERABLE or fault.place is None:
             return Failure(problem, files)
@@ -253,6 +273,7 @@ class Session:
         self._sites = {site.id: site for site in sites}
         self._told = expansion
         self._good = self._good_run(root, record, expansion.evaluator)
+        self._fault, self._chain_to = "", evaluation.chain_to
         if not reason:
             builder = self._site_builder
             self._live = LiveRun(evaluation, record, index, builder.reads, builder.files)

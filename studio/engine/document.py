@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import asyncio
 import time
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, TypeVar
 
 from studio.description.editing.sources import Change, Sources
 from studio.description.values import Expansion, Failure, NoReply
 from studio.engine.board import Board
+from studio.engine.checking import CheckDesk
 from studio.engine.disk import DiskDesk
 from studio.engine.drafts import DraftDesk
 from studio.engine.edit_loop import EditLoop, Outcome, Target
@@ -34,7 +34,6 @@ from studio.engine.texts import TextDesk
 from studio.engine.variants import VariantDesk
 from studio.engine.watching import FileWatch
 from studio.errors import CommandError
-from studio.problems import Fix, Problem
 from studio.scene import DocumentScene
 from studio.settings import LOOPBACK_HOSTS
 
@@ -49,9 +48,6 @@ if TYPE_CHECKING:
     from studio.packages.workspace import Location
 
 AnyReply = TypeVar("AnyReply")
-
-_VALIDATE_AFTER_S = 0.3
-"""Quiet time after a structural change before yourdfpy is asked for its opinion."""
 
 
 class Document:
@@ -87,7 +83,7 @@ class Document:
         self.language = LanguageDesk(self)
         self.rewriting = RewritingDesk(self)
         self.expanded = ExpandedDesk(self, services.description_worker)
-        self.mending = MendingDesk(self)
+        self.mending, self.checks = MendingDesk(self), CheckDesk(self, services.validator)
         self.disk = DiskDesk(self.sources, served, self.board)
         self.history, self.saving = HistoryDesk(self), SaveDesk(self)
         self.drafts = DraftDesk(self, services.settings.data_folder)
@@ -170,6 +166,7 @@ class Document:
         for task in background:
             task.cancel()
         await asyncio.gather(*background, return_exceptions=True)
+        await self.checks.close()
         await asyncio.gather(self._watch.close(), self._meshes.close(), self._runs.close())
         await asyncio.gather(self.variants.close(), self.drafts.close(), self.poses.close())
         self.scene.close()
@@ -288,8 +285,7 @@ class Document:
         self._files = tuple(dict.fromkeys((*self._files, *failure.files)))
         self.sources.track(failure.files)
         self.board.book.take_failure(self.sources)
-        first, *others = failure.problems or (failure.problem,)
-        self.board.find("expansion", (self._with_undo(first), *others))
+        self.checks.failed(failure)
 
     def _take_expansion(self, expansion: Expansion, version: int) -> None:
         is_first = self.expansion is None
@@ -297,23 +293,13 @@ class Document:
         change = self.model.take(expansion)  # first: this is the picture, what follows is talk
         self.sources.adopt(expansion, version)
         self.board.book.take(expansion)
-        self.board.find("expansion", expansion.warnings)
-        self.board.find("robot", change.problems)
+        structural = is_first or change.structural
+        self.checks.expanded(expansion, change.problems, structural=structural)
         self.board.find("inertia", self.model.inertia_problems())
         self._look_at_packages()
         if is_first or change.new_meshes:
             self._meshes.want()
         self.board.robot()
-        if is_first or change.structural:
-            self._spawn("validation", self._validate())
-
-    def _with_undo(self, problem: Problem) -> Problem:
-        """Offer to give what is missing, or to take the edit back that may have broken it."""
-        if problem.code == "undefined-argument" and self.expansion is None:
-            return replace(problem, fix=Fix("Give it a value", "give_arguments"))
-        if problem.fix or not self.sources.undo_labels or self.expansion is None:
-            return problem
-        return replace(problem, fix=Fix("Undo edit", "undo"))
 
     async def follow(self, change: Change | None) -> None:
         """Run what an undo or redo, say, changed in the sources."""
@@ -365,10 +351,6 @@ class Document:
             self._packages_seen = used
             duplicates = self.location.index.duplicates(self.entry, used)
             self.board.find("packages", (*self.location.problems, *duplicates))
-
-    async def _validate(self) -> None:
-        await asyncio.sleep(_VALIDATE_AFTER_S)
-        self.board.find("validation", await self._services.validator.validate(self.urdf()))
 
     def _texts_changed(self) -> None:
         self.board.texts()

@@ -223,11 +223,13 @@ class Assembly:
         part = self.part(key)
         if part is None:
             return problem
-        return dataclasses.replace(problem, place=part.place, macro_stack=part.calls)
+        return dataclasses.replace(
+            problem, place=part.place, macro_stack=part.calls, parts=(part.key,)
+        )
 
 
 def _problem(severity: Severity, code: str, sentence: str, part: Part) -> Problem:
-    return Problem(severity, code, sentence, part.place, macro_stack=part.calls)
+    return Problem(severity, code, sentence, part.place, macro_stack=part.calls, parts=(part.key,))
 
 
 def _repeated(value: Link | Joint, part: Part) -> Problem:

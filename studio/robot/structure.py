@@ -72,32 +72,32 @@ def _held_joints(robot: Robot, findings: list[Finding]) -> dict[str, Joint]:
     held: dict[str, Joint] = {}
     holder: dict[str, str] = {}
     for joint in robot.joints.values():
-        fault = _why_loose(robot, joint, holder)
-        if fault:
-            code, sentence = fault
+        faults = _why_loose(robot, joint, holder)
+        for code, sentence in faults:
             findings.append(_warning(code, sentence, f"joint:{joint.name}"))
-        else:
+        if not faults:
             held[joint.name] = joint
             holder[joint.child] = joint.name
     return held
 
 
-def _why_loose(robot: Robot, joint: Joint, holder: Mapping[str, str]) -> tuple[str, str] | None:
+def _why_loose(robot: Robot, joint: Joint, holder: Mapping[str, str]) -> list[tuple[str, str]]:
+    found: list[tuple[str, str]] = []
     for role, link in (("parent", joint.parent), ("child", joint.child)):
         if link not in robot.links:
             sentence = (
                 f'Joint "{joint.name}" has the {role} "{link}", and no link has that name: '
                 "the joint was left out; ROS rejects this."
             )
-            return "dangling-joint", sentence
-    if joint.child in holder:
+            found.append((f"dangling-{role}", sentence))
+    if joint.child in holder and not found:
         sentence = (
             f'Joint "{joint.name}" has the child "{joint.child}", which joint '
             f'"{holder[joint.child]}" already holds: the joint was left out, '
             "since a link has one parent."
         )
-        return "second-parent", sentence
-    return None
+        found.append(("second-parent", sentence))
+    return found
 
 
 def _report_cycles(

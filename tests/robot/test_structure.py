@@ -43,8 +43,10 @@ def test_a_tree_is_pruned_to_itself():
 @pytest.mark.parametrize(
     ("one", "code", "key"),
     [
-        (robot("ab", "ab", "xb"), "dangling-joint", "joint:xb"),
-        (robot("ab", "ab", "bx"), "dangling-joint", "joint:bx"),
+        (robot("ab", "ab", "xb"), "dangling-parent", "joint:xb"),
+        (robot("ab", "ab", "bx"), "dangling-child", "joint:bx"),
+        (robot("ab", "ab", "xy"), "dangling-parent", "joint:xy"),
+        (robot("ab", "ab", "xy"), "dangling-child", "joint:xy"),
         (robot("abc", "ab", "ac", "cb"), "second-parent", "joint:cb"),
         (robot("abc", "ab", ab="zz"), "bad-mimic", "joint:ab"),
         (robot("ab", "ab", ab="ab"), "bad-mimic", "joint:ab"),

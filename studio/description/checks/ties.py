@@ -1,0 +1,182 @@
+"""Joints that name links which are not there, and links that no joint holds, with what mends it."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from difflib import get_close_matches
+from itertools import islice
+from typing import TYPE_CHECKING, Final, NamedTuple
+from xml.sax.saxutils import quoteattr
+
+from studio.description.checks.element_mends import ElementMends
+from studio.description.faults import shorten
+from studio.problems import Severity
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from studio.description.checks.checked_run import CheckedRun
+    from studio.description.evaluator.output_tree import OutputElement
+    from studio.description.syntax.source_tree import SourceElement
+    from studio.problems import Fix, Problem, Replacement
+
+_LIKENESS: Final = 0.7
+_NAMES_LOOKED_AT: Final = 2_000
+_FOUND_LIMIT: Final = 100
+_SHOWN: Final = 5
+_BASE: Final = "base_link"
+_SEPARATORS: Final = re.compile(r"[\s_-]+")
+
+
+class _Tie(NamedTuple):
+    """A joint and the element in it that names its parent or its child."""
+
+    joint: OutputElement
+    end: OutputElement
+    role: str
+    link: str
+
+
+def loose_ties(run: CheckedRun) -> Iterator[Problem]:
+    """What is wrong with how joints hold links: one finding for each fact."""
+    links = {name: one for one in run.keys if one.tag == "link" and (name := _name(one))}
+    ties = [tie for one in run.keys if one.tag == "joint" for tie in _ties(one)]
+    named = {tie.link for tie in ties}
+    dangling = [tie for tie in ties if tie.link not in links]
+    for tie in dangling[:_FOUND_LIMIT]:
+        yield _dangling(run, tie, links, named)
+    if not dangling:
+        yield from _several_roots(run, links, ties)
+
+
+def _name(element: OutputElement) -> str:
+    return element.attributes.get("name", "")
+
+
+def _ties(joint: OutputElement) -> Iterator[_Tie]:
+    for role in ("parent", "child"):
+        end = next((one for one in joint.elements() if one.tag == role), None)
+        if end is not None and (link := end.attributes.get("link")):
+            yield _Tie(joint, end, role, link)
+
+
+def _dangling(
+    run: CheckedRun, tie: _Tie, links: dict[str, OutputElement], named: set[str]
+) -> Problem:
+    """A joint names a link that is not there: another name was meant, or the link is missing."""
+    meant = _meant(tie.link, links)
+    fix = _spelling_fix(tie, meant, links, named) or (None if meant else _link_fix(tie))
+    advice = f'did you mean "{meant}"?' if meant else "add the link, or name one that is there."
+    sentence = (
+        f'Joint "{_name(tie.joint)}" has the {tie.role} "{tie.link}", and no link has that name: '
+        f"the joint was left out; {advice}"
+    )
+    return run.problem(
+        Severity.WARNING,
+        f"dangling-{tie.role}",
+        shorten(sentence, 480),
+        tie.end,
+        fix,
+        (run.keys[tie.joint],),
+    )
+
+
+def _meant(name: str, links: dict[str, OutputElement]) -> str:
+    """The link whose name is nearly this one; blanks, dashes and underscores count as the same."""
+    plain = _SEPARATORS.sub("_", name.strip())
+    for link in links:
+        if _SEPARATORS.sub("_", link.strip()) == plain:
+            return link
+    near = get_close_matches(name, islice(links, _NAMES_LOOKED_AT), 1, _LIKENESS)
+    return near[0] if near else ""
+
+
+def _spelling_fix(
+    tie: _Tie, meant: str, links: dict[str, OutputElement], named: set[str]
+) -> Fix | None:
+    """Make both names the same: the joint's, or the link's when nobody can mean that one."""
+    if not meant:
+        return None
+    link = ElementMends(links[meant].origin)
+    if re.search(r"\s", meant) and meant not in named and link.written("name") == meant:
+        return link.fix(f'Rename the link to "{tie.link}"', link.value("name", tie.link))
+    end = ElementMends(tie.end.origin)
+    return end.fix(f'Write "{meant}"', end.value("link", meant))
+
+
+def _link_fix(tie: _Tie) -> Fix | None:
+    """Add the link before its joint, by the name as it is written there."""
+    if tie.role == "parent" or "link" not in tie.end.origin.attributes:
+        return None
+    written = tie.end.origin.attributes["link"]
+    mends = ElementMends(tie.joint.origin)
+    return mends.fix(
+        f'Add the link "{tie.link}"', mends.before(f"<link name={quoteattr(written)}/>")
+    )
+
+
+def _several_roots(
+    run: CheckedRun, links: dict[str, OutputElement], ties: Sequence[_Tie]
+) -> Iterator[Problem]:
+    held = {tie.link for tie in ties if tie.role == "child"}
+    roots = [name for name in links if name not in held]
+    if len(roots) < 2:
+        return
+    shown = ", ".join(f'"{name}"' for name in roots[:_SHOWN]) + (", ..." if roots[_SHOWN:] else "")
+    makers = Counter(one.calls.macro for name in roots if (one := links[name]).calls)
+    maker, count = makers.most_common(1)[0] if makers else ("", 0)
+    advice = (
+        f'the macro "{maker}" makes {count} of them and no joint: write one into it.'
+        if count > 1
+        else "tie all but one with a joint."
+    )
+    sentence = (
+        f"{len(roots)} links have no parent ({shown}) and are drawn at the origin; "
+        f"ROS rejects this: {advice}"
+    )
+    yield run.problem(
+        Severity.WARNING,
+        "several-roots",
+        shorten(sentence, 480),
+        links[roots[1]],
+        _fix_of_roots(run, links, roots, ties),
+        tuple(run.keys[links[name]] for name in roots[:_FOUND_LIMIT]),
+    )
+
+
+def _fix_of_roots(
+    run: CheckedRun,
+    links: dict[str, OutputElement],
+    roots: Sequence[str],
+    ties: Sequence[_Tie],
+) -> Fix | None:
+    """Hold all roots by fixed joints at the root that carries most, or at a new one.
+
+    A link that a macro writes gets its joint in that macro, so that no call of it lacks one.
+    """
+    origins = {links[name].origin: name for name in roots}
+    if len(roots) > _FOUND_LIMIT:
+        return None
+    alone = [n for n in roots if sum(links[o].origin is links[n].origin for o in roots) == 1]
+    carried = Counter(tie.link for tie in ties if tie.role == "parent")
+    base = max(alone, key=lambda name: carried[name], default="")
+    edits = [_held(one, base or _BASE) for one, name in origins.items() if name != base]
+    first = next(iter(run.root.origin.elements()), None)
+    if not base:
+        if _BASE in links or first is None:
+            return None
+        edits.append(ElementMends(first).before(f'<link name="{_BASE}"/>'))
+    return ElementMends(run.root.origin).fix(f'Tie them to "{base or _BASE}"', *edits)
+
+
+def _held(link: SourceElement, base: str) -> Replacement | None:
+    """A fixed joint behind a link, by the name as it is written there."""
+    name = link.attributes.get("name")
+    if name is None:
+        return None
+    xml = (
+        f'<joint name={quoteattr(f"{name}_joint")} type="fixed"><parent link={quoteattr(base)}/>'
+        f"<child link={quoteattr(name)}/></joint>"
+    )
+    return ElementMends(link).after(xml)

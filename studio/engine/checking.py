@@ -1,0 +1,147 @@
+"""What is found wrong with a document's texts and its robot, told on the board, fixes included."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from dataclasses import replace
+from typing import TYPE_CHECKING, Final
+
+from studio.description.checks.check_values import Checked, CheckQuery, ReadRobot
+from studio.engine.roles import Role
+from studio.errors import CommandError
+from studio.problems import Fix, Problem
+from studio.robot.assembly import Assembly
+
+if TYPE_CHECKING:
+    from collections.abc import Coroutine, Iterable, Sequence
+
+    from studio.description.values import Expansion, Failure
+    from studio.engine.document import Document
+    from studio.robot.validation import UrdfValidator
+
+QUIET_S: Final = 0.4
+"""Without a run, before the texts are looked at: no edit ever waits for it."""
+_VALIDATE_AFTER_S: Final = 0.3
+"""Quiet time after a structural change before yourdfpy is asked for its opinion."""
+_XML: Final = "xml-"
+"""How the codes of broken texts begin: a run tells them itself."""
+
+_log = logging.getLogger(__name__)
+
+
+class CheckDesk:
+    """Tells what runs found at once, and what the checks of the texts find when it is quiet.
+
+    It asks the worker as a viewer does, so that whoever edits is answered first.
+    """
+
+    role = Role.VIEWER
+
+    def __init__(self, document: Document, validator: UrdfValidator) -> None:
+        self._document, self._validator = document, validator
+        self._of_robot: tuple[Problem, ...] = ()
+        self._of_texts: tuple[Problem, ...] = ()
+        self._looking: asyncio.Task[None] | None = None
+        self._validating: asyncio.Task[None] | None = None
+
+    def post(self, data: bytes, *, binary: bool = False, key: str | None = None) -> None:
+        """Nothing is sent to it: answers come from where it asks."""
+
+    def failed(self, failure: Failure) -> None:
+        """A run gave no robot."""
+        first, *others = failure.problems or (failure.problem,)
+        self._document.board.find("expansion", (self._with_undo(first), *others))
+        self.doubt()
+
+    def expanded(
+        self, expansion: Expansion, of_robot: tuple[Problem, ...], *, structural: bool
+    ) -> None:
+        """A run gave a robot, with these problems."""
+        self._document.board.find("expansion", expansion.warnings)
+        self._of_robot = of_robot
+        self._tell()
+        if structural:
+            self._validating = self._instead(self._validating, self._validate())
+        self.doubt()
+
+    def doubt(self) -> None:
+        """The texts are other ones: look at them when it has been quiet for a while."""
+        self._looking = self._instead(self._looking, self._look_later())
+
+    async def settled(self) -> None:
+        """Wait until the texts as they are now were looked at."""
+        while self._looking is not None and not self._looking.done():
+            await asyncio.wait({self._looking})
+
+    async def close(self) -> None:
+        """Look no more."""
+        tasks = [task for task in (self._looking, self._validating) if task is not None]
+        for task in tasks:
+            task.cancel()
+        await asyncio.gather(*tasks, return_exceptions=True)
+
+    @staticmethod
+    def _instead(
+        before: asyncio.Task[None] | None, work: Coroutine[None, None, None]
+    ) -> asyncio.Task[None]:
+        if before is not None:
+            before.cancel()
+        return asyncio.create_task(work)
+
+    async def _look_later(self) -> None:
+        await asyncio.sleep(QUIET_S)
+        try:
+            self._take(await self._document.ask(CheckQuery(), Checked, self))
+        except CommandError:
+            return  # what was found last stands until there is a robot again
+        except Exception:  # noqa: BLE001 - the checks of one text may not end those of the next
+            _log.exception("The checks of %s failed.", self._document.path)
+
+    def _take(self, checked: Checked) -> None:
+        self._of_texts = tuple(one for one in checked.problems if not one.code.startswith(_XML))
+        if checked.read is not None and self._document.failed:
+            self._of_robot = _problems_of(checked.read)
+        self._tell()
+
+    def _tell(self) -> None:
+        self._document.board.find("robot", merged(self._of_robot, self._of_texts))
+
+    async def _validate(self) -> None:
+        await asyncio.sleep(_VALIDATE_AFTER_S)
+        found = await self._validator.validate(self._document.urdf())
+        self._document.board.find("validation", found)
+
+    def _with_undo(self, problem: Problem) -> Problem:
+        """Offer to give what is missing, or to take the edit back that may have broken it."""
+        document = self._document
+        if problem.code == "undefined-argument" and document.expansion is None:
+            return replace(problem, fix=Fix("Give it a value", "give_arguments"))
+        if problem.fix or not document.sources.undo_labels or document.expansion is None:
+            return problem
+        return replace(problem, fix=Fix("Undo edit", "undo"))
+
+
+_OF_BOTH: Final = frozenset({"dangling-parent", "dangling-child", "several-roots"})
+"""Codes of what the robot's structure and the texts tell; the texts know the place and a fix."""
+
+
+def merged(of_robot: Iterable[Problem], of_texts: Sequence[Problem]) -> tuple[Problem, ...]:
+    """Each fact once: as the robot tells it, with what the texts know of it.
+
+    What the texts tell of the robot's structure holds only while the robot tells it, too.
+    """
+    better = {_fact(one): one for one in of_texts if one.code in _OF_BOTH}
+    found = [better.get(_fact(one), one) for one in of_robot]
+    return (*found, *(one for one in of_texts if one.code not in _OF_BOTH))
+
+
+def _fact(problem: Problem) -> tuple[str, tuple[str, ...]]:
+    """What a finding is about; of the roots there is one finding."""
+    return problem.code, () if problem.code == "several-roots" else problem.parts
+
+
+def _problems_of(read: ReadRobot) -> tuple[Problem, ...]:
+    """What the structure of a robot has wrong that is not the one that is shown."""
+    order = tuple(part.key for part in read.parts)
+    return Assembly(read.name).apply(order, read.parts).problems
