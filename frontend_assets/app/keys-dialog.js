@@ -1,12 +1,37 @@
 /** The list of keys, by where they count. */
 
-import { html } from "vendor/preact.js";
+import { html, useSignal } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
 import { shortcutText } from "../lib/keys.js";
-import { Dialog } from "../lib/ui.js";
+import { Dialog, SearchBox } from "../lib/ui.js";
 import { commandLabel, commands, onMac } from "./commands.js";
 
 /** @typedef {readonly [string, readonly string[]]} Row words, and keys that are pressed one after the other */
+/** @typedef {{title: string, rows: readonly Row[]}} Group */
+
+/** Commands that have to do with where panels stand. */
+const OF_PANELS = /^(next_panel|previous_panel|maximize|move_panel|layout\.\d+)$/;
+/** Commands of the 3D view. */
+const OF_SCENE = /^(fit|measure.*|end_measuring|deselect)$/;
+
+/** @type {readonly Row[]} */
+const AT_TABS = [
+  ["keys.tabs", ["←", "→"]],
+  ["keys.tab_menu", ["Shift+F10"]],
+];
+
+/** @type {readonly Row[]} */
+const IN_SCENE = [["keys.turn", ["←", "↑", "→", "↓"]]];
+
+/** @type {readonly Row[]} */
+const IN_PALETTE = [
+  ["palette.sign.command", [">"]],
+  ["palette.sign.link", ["@"]],
+  ["palette.sign.property", ["#"]],
+  ["palette.sign.file", ["/"]],
+  ["palette.sign.problem", ["!"]],
+  ["keys.line", [":120"]],
+];
 
 /** @type {readonly Row[]} */
 const IN_LISTS = [
@@ -25,6 +50,8 @@ const IN_SOURCE = [
   ["command.definition", ["F12"]],
   ["command.references", ["Shift+F12"]],
   ["command.meaning", ["Alt+F12"]],
+  ["command.rename", ["F2"]],
+  ["editor.Replace", ["Ctrl+H"]],
   ["keys.back", ["Alt+←"]],
   ["source.find", ["Mod+F"]],
   ["editor.Go_to_line", ["Ctrl+G"]],
@@ -32,20 +59,53 @@ const IN_SOURCE = [
 
 /** @param {{onClose: () => void}} props */
 export function KeysDialog({ onClose }) {
+  const words = useSignal("");
+  const groups = groupsOf(words.value);
   return html`<${Dialog} title=${t("command.keys")} closeLabel=${t("close")} class="keys" onClose=${onClose}>
-    <div class="keys-list">
-      <${Keys} title=${t("keys.page")} rows=${named()} />
-      <${Keys} title=${t("keys.in_source")} rows=${said(IN_SOURCE)} />
-      <${Keys} title=${t("keys.everywhere")} rows=${said(IN_LISTS)} />
+    <div class="keys-bar"><${SearchBox} label=${t("keys.filter")} value=${words.value} onInput=${(
+      /** @type {string} */ text,
+    ) => {
+      words.value = text;
+    }} /></div>
+    <div class="keys-list" tabindex="0" role="region" aria-label=${t("command.keys")}>
+      ${groups.map((group) => html`<${Keys} key=${group.title} ...${group} />`)}
+      ${groups.length === 0 && html`<p class="nothing">${t("filter.nothing", { words: words.value })}</p>`}
     </div>
   <//>`;
 }
 
-/** @returns {Row[]} the page's commands that have a key */
-function named() {
+/** @param {string} text of the search @returns {Group[]} those in which something fits, with what does */
+function groupsOf(text) {
+  const words = text.trim().toLowerCase();
+  return allGroups()
+    .map(({ title, rows }) => ({ title, rows: rows.filter((row) => heapOf(row).includes(words)) }))
+    .filter(({ rows }) => rows.length > 0);
+}
+
+/** @param {Row} row @returns {string} its words, and its keys as they are written here and on keyboards */
+function heapOf([words, keys]) {
+  const written = keys.map((key) => `${key} ${shortcutText(key, onMac)}`).join(" ");
+  return `${words} ${written}`.toLowerCase();
+}
+
+/** @returns {Group[]} */
+function allGroups() {
+  const ofPage = (/** @type {string} */ id) => !OF_PANELS.test(id) && !OF_SCENE.test(id);
+  return [
+    { title: t("keys.page"), rows: named(ofPage) },
+    { title: t("panels.menu"), rows: [...named((id) => OF_PANELS.test(id)), ...said(AT_TABS)] },
+    { title: t("panel.scene"), rows: [...named((id) => OF_SCENE.test(id)), ...said(IN_SCENE)] },
+    { title: t("keys.in_source"), rows: said(IN_SOURCE) },
+    { title: t("keys.everywhere"), rows: said(IN_LISTS) },
+    { title: t("keys.in_palette"), rows: said(IN_PALETTE) },
+  ];
+}
+
+/** @param {(id: string) => boolean} isMeant @returns {Row[]} the page's commands that have a key */
+function named(isMeant) {
   return commands.value.flatMap((command) => {
     const [key] = command.keys ?? [];
-    return key ? [/** @type {Row} */ ([commandLabel(command), [key]])] : [];
+    return key && isMeant(command.id) ? [/** @type {Row} */ ([commandLabel(command), [key]])] : [];
   });
 }
 

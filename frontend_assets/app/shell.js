@@ -26,6 +26,7 @@ export function Shell({ onDock }) {
   return html`<div class=${`shell ${size.value}`}>
     <${TopBar} />
     <${LostBar} />
+    <${SkipLink} />
     <${GoneBar} />
     <${RestoredBar} />
     <${DiskBars} />
@@ -40,6 +41,15 @@ export function Shell({ onDock }) {
 function LostBar() {
   const said = useSignal(false);
   const lost = connection.value === "lost";
+/** The first stop of Tab: past the bar to where the work is. */
+function SkipLink() {
+  const skip = (/** @type {Event} */ event) => {
+    event.preventDefault();
+    commandById("next_panel")?.run();
+  };
+  return html`<a class="skip" href="#" onClick=${skip}>${t("skip")}</a>`;
+}
+
   useEffect(() => {
     if (!lost) {
       said.value = false;

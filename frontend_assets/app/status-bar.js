@@ -18,7 +18,7 @@ import {
 import { viewport, viewportConnected } from "./viewport.js";
 
 export function StatusBar() {
-  return html`<footer class="status-bar">
+  return html`<footer class="status-bar" aria-label=${t("status")}>
     <${Link} />
     <${Evaluator} />
     <${Size} />

@@ -1,7 +1,7 @@
 /** Keys that viser may have for itself: they turn the camera. */
 const VISERS = new Set(["ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight"]);
 /** With Ctrl or Cmd: what the browser would do with these is never meant here. */
-const OURS = new Set(["s", "z", "y", "k", "o", "1", "2", "3"]);
+const OURS = new Set(["s", "z", "y", "k", "o", "m", "f", "enter", ..."123456789"]);
 
 /**
  * Hand every key to the page around us, as if it had been pressed there.
