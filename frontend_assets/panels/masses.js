@@ -24,7 +24,8 @@ import {
   sumOf,
 } from "../lib/masses.js";
 import { formatNumber } from "../lib/numbers.js";
-import { EmptyState, Icon, MenuButton, ProgressBar, SearchBox } from "../lib/ui.js";
+import { baseName } from "../lib/paths.js";
+import { EmptyState, Icon, IconButton, MenuButton, ProgressBar, SearchBox } from "../lib/ui.js";
 
 const SHOWN = 300;
 
@@ -152,10 +153,14 @@ function Row({ row }) {
     <td class="number three">${mass.centre_m.map((value) => html`<span>${value.toFixed(4)}</span>`)}</td>
     <${Moments} mass=${mass} />
     <${DensityCell} row=${row} />
-    <td>${link && html`<${PlaceLink} place=${{ file: link.file, line: link.line, column: 1 }} />`}
-      <button type="button" class="text-button muted" title=${t("origin.show")} onClick=${() => explain(mass.link)}>${t("masses.why")}</button></td>
+    <td class="where">${link && html`<${PlaceLink} place=${{ file: link.file, line: link.line, column: 1 }} words=${placeWords(link)} />`}
+      <${IconButton} icon="origin" label=${t("masses.why", { name: mass.link })} size=${14} onClick=${() => explain(mass.link)} /></td>
   </tr>`;
 }
+
+/** @param {NonNullable<MassRow["link"]>} link @returns {string} file and line, short */
+const placeWords = ({ file, line }) =>
+  `${baseName(file).replace(/(\.(urdf|xacro))+$/, "")}:${line}`;
 
 /** @param {string} link say where its inertial comes from */
 function explain(link) {

@@ -110,9 +110,11 @@ function End({ end }) {
 
 function Found() {
   if (measures.value.length === 0) return null;
-  return html`<ol class="measure-list">${measuredNow.value.map(
-    ({ measure, found }) => html`<${Row} key=${measure.id} measure=${measure} found=${found} />`,
-  )}</ol>`;
+  return html`<ul class="measure-list">${[...measuredNow.value]
+    .reverse()
+    .map(
+      ({ measure, found }) => html`<${Row} key=${measure.id} measure=${measure} found=${found} />`,
+    )}</ul>`;
 }
 
 /** @param {{measure: Measure, found: Measured | null}} props */

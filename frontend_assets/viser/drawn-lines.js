@@ -1,5 +1,8 @@
 /** @import { Place } from "./screen.js" */
 
+/** About as wide as a character is, with room to both sides. */
+const CHARACTER_PX = 8;
+const LINE_PX = 24;
 const SVG = "http://www.w3.org/2000/svg";
 
 /** @typedef {{ places: Place[], kind: "line" | "axis" | "aim" }} Line */
@@ -28,7 +31,7 @@ export class DrawnLines {
       ...all.lines.flatMap((line) => [lineOf(line, "casing"), lineOf(line, line.kind)]),
       ...all.dots.map(dotOf),
     );
-    this.#labels.replaceChildren(...all.labels.map(labelOf));
+    this.#labels.replaceChildren(...apart(all.labels).map(labelOf));
   }
 }
 
@@ -48,6 +51,22 @@ function dotOf({ place, kind }) {
   element.setAttribute("r", kind === "aim" || kind === "centre" ? "7" : "4");
   element.setAttribute("class", kind);
   return element;
+}
+
+/** Words that would cover others go below them. @param {Label[]} labels @returns {Label[]} */
+function apart(labels) {
+  /** @type {Label[]} */
+  const placed = [];
+  for (const label of labels) {
+    const [x, start] = label.place;
+    let y = start;
+    const covers = (/** @type {Label} */ { place, text }) =>
+      Math.abs(place[0] - x) < CHARACTER_PX * Math.max(text.length, label.text.length) &&
+      Math.abs(place[1] - y) < LINE_PX;
+    while (label.kind !== "aim" && placed.some(covers)) y += LINE_PX;
+    placed.push({ ...label, place: [x, y] });
+  }
+  return placed;
 }
 
 /** @param {Label} label */
