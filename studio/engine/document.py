@@ -28,6 +28,7 @@ from studio.engine.packages_used import PackagesUsed
 from studio.engine.policy import target_of
 from studio.engine.poses import PoseDesk
 from studio.engine.rewriting import RewritingDesk
+from studio.engine.robot_checking import RobotChecks
 from studio.engine.saving import SaveDesk
 from studio.engine.sharing import SharedFile, place_edits
 from studio.engine.texts import TextDesk
@@ -92,6 +93,7 @@ class Document:
         self._services = services
         self._runs = EditLoop(services.description_worker(), self.sources, self.target, self._take)
         self._meshes = MeshDesk(self, services.meshes, self._watch_files)
+        self.robot_checks = RobotChecks(self, services.meshes)
         self.variants = VariantDesk(self, services, self._meshes.want)
         self._files: tuple[str, ...] = (self.path,)
         self._watch = FileWatch(self._changed_on_disk)
@@ -166,6 +168,7 @@ class Document:
         for task in background:
             task.cancel()
         await asyncio.gather(*background, return_exceptions=True)
+        await self.robot_checks.close()
         await self.checks.close()
         await asyncio.gather(self._watch.close(), self._meshes.close(), self._runs.close())
         await asyncio.gather(self.variants.close(), self.drafts.close(), self.poses.close())
@@ -295,7 +298,6 @@ class Document:
         self.board.book.take(expansion)
         structural = is_first or change.structural
         self.checks.expanded(expansion, change.problems, structural=structural)
-        self.board.find("inertia", self.model.inertia_problems())
         self._look_at_packages()
         if is_first or change.new_meshes:
             self._meshes.want()
@@ -364,6 +366,7 @@ class Document:
     def _watch_files(self) -> None:
         self._watch.watch((*self._files, *self._meshes.files))
         self.variants.doubt()  # with a mesh come sizes
+        self.robot_checks.doubt()
 
     def _spawn(self, name: str, work: Awaitable[None]) -> None:
         """Run something beside; the one of the same name before it is given up."""

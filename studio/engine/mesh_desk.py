@@ -85,4 +85,4 @@ class MeshDesk:
 
 
 def _placed(problem: Problem, part: Part | None) -> Problem:
-    return replace(problem, place=part.place if part else None)
+    return replace(problem, place=part.place, parts=(part.key,)) if part else problem

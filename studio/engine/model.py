@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 
 from studio.engine.joints import JointPositions
 from studio.robot.assembly import Assembly, Change
-from studio.robot.inertia import inertia_problems
 from studio.robot.kinematics import Kinematics
 from studio.robot.textured import mesh_uris
 from studio.robot.values import Robot
@@ -45,7 +44,6 @@ class Model:
         """Counts structural changes."""
         self.posed: Callable[[tuple[str, ...], Floats], None] = lambda _links, _poses: None
         """Called with the links and their poses whenever they were moved, before that is sent."""
-        self._inertia: dict[str, list[Problem]] = {}
         self._meshes: dict[str, tuple[str, ...]] = {}
 
     @property
@@ -69,24 +67,8 @@ class Model:
             self.revision += change.structural
         self.scene.show(change.robot, change.changed_links | self._axes_of(change))
         self.pose()
-        self._weigh(change)
         new_meshes = self._note_meshes(change)
         return Taken(change.structural, change.problems, new_meshes)
-
-    def inertia_problems(self) -> list[Problem]:
-        """What no body can have, at the links that have it."""
-        return [problem for found in self._inertia.values() for problem in found]
-
-    def _weigh(self, change: Change) -> None:
-        """Look at the inertias that changed; the others are as they were."""
-        links = change.robot.links
-        self._inertia = {name: found for name, found in self._inertia.items() if name in links}
-        for name in change.changed_links & links.keys():
-            part = self.assembly.part(f"link:{name}")
-            place = part.place if part else None
-            self._inertia[name] = [
-                replace(problem, place=place) for problem in inertia_problems(links[name])
-            ]
 
     def _note_meshes(self, change: Change) -> bool:
         """Look at the meshes of the links that changed; whether any is other than before."""

@@ -206,10 +206,6 @@ def _read_joint(element: Element, parsed: ParsedElement) -> Joint:
     where, faults = f'joint "{name}"', parsed.faults
     kind = _attempt(parsed.notes, lambda: _joint_type(element, where), JointType.FIXED)
     limit, mimic = element.find("limit"), element.find("mimic")
-    if limit is None and kind in {JointType.REVOLUTE, JointType.PRISMATIC}:
-        parsed.notes.append(
-            RobotError(f"{where} is {kind} and has no <limit>: ROS rejects it, write one.")
-        )
     return Joint(
         name,
         kind,

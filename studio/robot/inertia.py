@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from studio.problems import Problem, Severity
 from studio.robot.rotations import matrix_from_rpy
 
 if TYPE_CHECKING:
@@ -17,9 +16,6 @@ if TYPE_CHECKING:
     from studio.robot.values import Inertial, Link, Robot
 
     Floats: TypeAlias = NDArray[np.float64]
-
-_TOLERANCE = 1e-6
-"""Of the largest moment: rounding in the file is no fault."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -61,27 +57,6 @@ def inertia_box(link: Link) -> InertiaBox | None:
     return InertiaBox(link.name, inertial.mass_kg, size_m, link_from_box)
 
 
-def inertia_problems(link: Link) -> list[Problem]:
-    """What no body can have: mass not above zero, a tensor not positive, the triangle rule broken.
-
-    The triangle rule: no principal moment exceeds the sum of the two others.
-    """
-    inertial = link.inertial
-    if inertial is None:
-        return []
-    if inertial.mass_kg <= 0:
-        return [_problem("mass", link, f"a mass of {inertial.mass_kg:g} kg: write one above zero")]
-    moments, _ = _principal(inertial)
-    slack = _TOLERANCE * float(np.abs(moments).max())
-    shown = ", ".join(f"{moment:.4g}" for moment in moments)
-    if moments.min() < -slack or not moments.any():
-        return [_problem("inertia", link, f"principal moments of ({shown}): all must be positive")]
-    if moments.max() > moments.sum() - moments.max() + slack:
-        why = "the largest exceeds the sum of the others, which no body can have"
-        return [_problem("inertia", link, f"principal moments of ({shown}): {why}")]
-    return []
-
-
 def total(robot: Robot, kinematics: Kinematics, positions: Floats) -> Total:
     """Mass and centre of mass of the robot in a pose; `positions` as in Kinematics."""
     world_from_links = kinematics.world_from_links(positions)
@@ -114,7 +89,3 @@ def _link_from_inertial(inertial: Inertial) -> Floats:
     pose[:3, :3] = matrix_from_rpy(np.array(inertial.origin.rpy))
     pose[:3, 3] = inertial.origin.xyz
     return pose
-
-
-def _problem(code: str, link: Link, what: str) -> Problem:
-    return Problem(Severity.WARNING, f"bad-{code}", f'Link "{link.name}" has {what}.')

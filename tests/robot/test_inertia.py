@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from studio.robot.inertia import inertia_box, inertia_problems, total
+from studio.robot.inertia import inertia_box, total
 from studio.robot.kinematics import Kinematics
 from studio.robot.rotations import matrix_from_rpy
 from studio.robot.values import Inertial, Joint, JointType, Link, Origin, Robot, Vector3
@@ -59,25 +59,23 @@ def test_a_link_without_mass_has_no_box(inertial: Inertial | None):
 
 
 @pytest.mark.parametrize(
-    ("inertial", "said"),
+    "inertial",
     [
-        (Inertial(Origin(), 0.0, 1, 0, 0, 1, 0, 1), "a mass of 0 kg"),
-        (Inertial(Origin(), 1.0, -1, 0, 0, 1, 0, 1), "must be positive"),
-        (Inertial(Origin(), 1.0), "must be positive"),
-        (Inertial(Origin(), 1.0, 1, 0, 0, 1, 0, 2.5), "the largest exceeds the sum"),
-        (Inertial(Origin(), 1.0, 1, 5, 0, 1, 0, 1), "must be positive"),
+        Inertial(Origin(), 1.0),
+        Inertial(Origin(), 1.0, -1, 0, 0, 1, 0, 1),
+        Inertial(Origin(), 1.0, 1, 0, 0, 1, 0, 2.5),
+        Inertial(Origin(), 1.0, 1, 5, 0, 1, 0, 1),
     ],
 )
-def test_what_no_body_can_have_is_said(inertial: Inertial, said: str):
-    (problem,) = inertia_problems(Link("arm", inertial=inertial))
-    assert 'Link "arm"' in problem.sentence
-    assert said in problem.sentence
-    inertia_box(Link("arm", inertial=inertial))
+def test_what_no_body_can_have_gets_a_box_of_real_sides(inertial: Inertial):
+    box = inertia_box(Link("arm", inertial=inertial))
+    assert box is not None
+    assert np.isfinite(box.size_m).all()
+    assert (box.size_m >= 0).all()
 
 
-def test_a_rod_is_fine():
+def test_a_rod_is_as_long_as_its_inertia_says():
     rod = Inertial(Origin(), 1.0, ixx=1.0, iyy=1.0, izz=0.0)
-    assert not inertia_problems(Link("l", inertial=rod))
     box = inertia_box(Link("l", inertial=rod))
     assert box is not None
     np.testing.assert_allclose(box.size_m, [0, 0, math.sqrt(12)])

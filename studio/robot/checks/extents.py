@@ -25,16 +25,14 @@ _MARKER_M: Final = 0.01
 
 @dataclass(slots=True, eq=False)
 class Extent:
-    """Least and greatest corners, each (3,), m; None without geometry, or while it is unknown."""
+    """Least and greatest corners, each (3,), m; None without geometry or with an unknown mesh."""
 
     visual: tuple[Floats, Floats] | None = None
     collision: tuple[Floats, Floats] | None = None
-    is_known: bool = True
-    """Whether every mesh of the link is known."""
 
     @property
     def whole(self) -> tuple[Floats, Floats] | None:
-        """The box around both."""
+        """The box around both, or around the one that is known."""
         boxes = [box for box in (self.visual, self.collision) if box is not None]
         if not boxes:
             return None
@@ -81,7 +79,6 @@ def extents(
         for is_visual, side in ((True, link.visuals), (False, link.collisions)):
             if not _gather(boxes, (link.name, is_visual), side, mesh_bounds):
                 unknown.add((link.name, is_visual))
-                found[link.name].is_known = False
     if boxes.owners:
         for owner, low, high in boxes.turned():
             if owner not in unknown:

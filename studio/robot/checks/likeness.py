@@ -42,7 +42,7 @@ def likeness_findings(robot: Robot, extents: Mapping[str, Extent]) -> Iterator[F
     known: list[tuple[Link, Inertial, Floats, Floats]] = []
     for link in robot.links.values():
         extent = extents[link.name]
-        if link.inertial is None or link.inertial.mass_kg <= 0 or not extent.is_known:
+        if link.inertial is None or link.inertial.mass_kg <= 0:
             continue
         if (box := extent.whole) is not None and not is_marker(box):
             known.append((link, link.inertial, *box))

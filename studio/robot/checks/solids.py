@@ -35,7 +35,7 @@ def inertia_mend(link: Link, extent: Extent) -> SetAttributes | None:
     of mass stays where it is.
     """
     inertial, box = link.inertial, extent.whole
-    if inertial is None or inertial.mass_kg <= 0 or box is None or not extent.is_known:
+    if inertial is None or inertial.mass_kg <= 0 or box is None:
         return None
     solid = _only_primitive(link)
     if solid is None:

@@ -39,13 +39,12 @@ def test_a_side_with_an_unknown_mesh_is_unknown_as_a_whole():
     extent = of(Link("l", (FLAT, Visual(Origin(), Mesh("m"))), (ROD,)))
     assert extent.visual is None
     assert extent.collision is not None
-    assert not extent.is_known
+    assert extent.whole is not None
+    np.testing.assert_array_equal(extent.whole, extent.collision)
 
 
-def test_a_frame_has_no_extent_and_is_known():
-    extent = of(Link("l"))
-    assert extent.whole is None
-    assert extent.is_known
+def test_a_frame_has_no_extent():
+    assert of(Link("l")).whole is None
 
 
 @pytest.mark.parametrize(("side_m", "marks"), [(0.001, True), (0.01, True), (0.0101, False)])
