@@ -10,6 +10,7 @@ import { LayoutsDialog } from "./layouts-dialog.js";
 import { MergeDialog } from "./merge-dialog.js";
 import { OpenDialog, PackageDialog } from "./open-dialog.js";
 import { Palette } from "./palette.js";
+import { SaveAsDialog } from "./save-as.js";
 import { SaveDialog } from "./save-dialog.js";
 import { ShareDialog } from "./share.js";
 import { dialog } from "./state/view.js";
@@ -24,7 +25,9 @@ export function Dialogs() {
   const shown = dialog.value;
   switch (shown?.kind) {
     case "open":
-      return html`<${OpenDialog} onClose=${close} />`;
+      return html`<${OpenDialog} tab=${shown.tab} onClose=${close} />`;
+    case "save_as":
+      return html`<${SaveAsDialog} onClose=${close} />`;
     case "choose_package":
       return html`<${PackageDialog} name=${shown.name} onClose=${close} />`;
     case "launch":
@@ -35,14 +38,14 @@ export function Dialogs() {
       return html`<${SaveDialog} onClose=${close} />`;
     case "share":
       return html`<${ShareDialog} link=${shown.link} onClose=${close} />`;
+    case "graphics":
+      return html`<${GraphicsDialog} onClose=${close} />`;
     case "layouts":
       return html`<${LayoutsDialog} onClose=${close} />`;
     case "keys":
       return html`<${KeysDialog} onClose=${close} />`;
     case "palette":
       return html`<${Palette} onClose=${close} />`;
-    case "graphics":
-      return html`<${GraphicsDialog} onClose=${close} />`;
     case "confirm":
       return html`<${ConfirmDialog} ...${shown} />`;
     default:

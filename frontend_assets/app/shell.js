@@ -6,9 +6,11 @@ import { Icon, IconButton, MenuButton } from "../lib/ui.js";
 import { goTo, openPath } from "./actions.js";
 import { commandById } from "./commands.js";
 import { Dialogs } from "./dialogs.js";
+import { DropLayer } from "./drop.js";
 import { DiskBars } from "./merge-dialog.js";
 import { PANELS, panelTitle } from "./panels.js";
 import { RestoredBar } from "./restored-bar.js";
+import { StartCard } from "./start-card.js";
 import { connection, role, turnedAway } from "./state/connection.js";
 import { documentState, gone } from "./state/document.js";
 import { activePanel, dismiss, notices, size } from "./state/view.js";
@@ -24,23 +26,21 @@ export function Shell({ onDock }) {
     if (dock.current) onDock(dock.current);
   }, []);
   return html`<div class=${`shell ${size.value}`}>
+    <${SkipLink} />
     <${TopBar} />
     <${LostBar} />
-    <${SkipLink} />
     <${GoneBar} />
     <${RestoredBar} />
     <${DiskBars} />
     <main ref=${dock} class="dock" aria-label=${t("dock")}></main>
     ${size.value === "phone" ? html`<${PhoneTabs} />` : html`<${StatusBar} />`}
+    <${StartCard} />
     <${Notices} />
     <${Dialogs} />
+    <${DropLayer} />
   </div>`;
 }
 
-/** Says that the studio went away; a blink of the connection is not worth a word. */
-function LostBar() {
-  const said = useSignal(false);
-  const lost = connection.value === "lost";
 /** The first stop of Tab: past the bar to where the work is. */
 function SkipLink() {
   const skip = (/** @type {Event} */ event) => {
@@ -50,6 +50,10 @@ function SkipLink() {
   return html`<a class="skip" href="#" onClick=${skip}>${t("skip")}</a>`;
 }
 
+/** Says that the studio went away; a blink of the connection is not worth a word. */
+function LostBar() {
+  const said = useSignal(false);
+  const lost = connection.value === "lost";
   useEffect(() => {
     if (!lost) {
       said.value = false;

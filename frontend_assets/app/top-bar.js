@@ -1,22 +1,23 @@
 /** The bar above: what is open, undo and redo, saving, and the page's own settings. */
 
 import { html } from "vendor/preact.js";
-import { LANGUAGES, language, t } from "../lib/i18n.js";
+import { t } from "../lib/i18n.js";
 import { shortcutText } from "../lib/keys.js";
 import { Icon, IconButton, MenuButton } from "../lib/ui.js";
 import { closeDocument, goTo, redo, reload, save, undo } from "./actions.js";
 import { commandById, onMac } from "./commands.js";
 import { HistoryMenu } from "./history-menu.js";
-import { PANELS, panelTitle } from "./panels.js";
+import { PanelsMenu, SettingsMenu } from "./settings-menu.js";
 import { mayEdit, role } from "./state/connection.js";
 import { documentId, documents, history, title, unsaved } from "./state/document.js";
-import { dialog, languageChoice, size, theme, themeChoice } from "./state/view.js";
+import { dialog, theme, themeChoice } from "./state/view.js";
 
 /** @import { MenuItem } from "../lib/ui.js" */
 
 export function TopBar() {
   const { unsaved_count: count } = history.value;
   return html`<header class="top-bar">
+    <div class="bar-left">
     <a class="brand" href="/" aria-label=${t("brand.home")}><span class="logo"><${Icon} name="robot" size=${17} /></span>
       <span class="brand-name">${t("brand")}</span></a>
     <${DocumentMenu} />
@@ -26,12 +27,14 @@ export function TopBar() {
       <span class="wide-only">${t("unsaved.count", { count })}</span></span>`
     }
     ${role.value === "viewer" && html`<span class="watching"><${Icon} name="watching" size=${14} /><span>${t("watching")}</span></span>`}
-    <span class="push"></span>
+    </div>
     <${PaletteButton} />
-    <span class="push"></span>
+    <div class="bar-right">
     ${role.value === "presenter" && html`<${EditButtons} />`}
+    <${PanelsMenu} />
     <${SettingsMenu} />
     <${ThemeButton} />
+    </div>
   </header>`;
 }
 
@@ -62,6 +65,18 @@ function documentItems() {
       hint: keyOf("open"),
       disabled: locked,
       run: () => commandById("open")?.run(),
+    },
+    ...["new_robot", "new_pasted"].map((id) => ({
+      label: `${t(`command.${id}`)}…`,
+      icon: commandById(id)?.icon ?? "filePlus",
+      disabled: locked,
+      run: () => commandById(id)?.run(),
+    })),
+    {
+      label: `${t("command.save_as")}…`,
+      icon: "disk",
+      disabled: none,
+      run: () => commandById("save_as")?.run(),
     },
     {
       label: `${t("command.arguments")}…`,
@@ -113,73 +128,6 @@ function EditButtons() {
 /** @param {string} id @param {string | undefined} step @returns {string} */
 function hinted(id, step) {
   return `${t(`command.${id}`)}${step ? `: ${step}` : ""} (${keyOf(id)})`;
-}
-
-function SettingsMenu() {
-  return html`<${MenuButton} label=${t("settings")} items=${settingsItems}><${Icon} name="layout" /><//>`;
-}
-
-/** @returns {MenuItem[]} */
-function settingsItems() {
-  const phone = size.value === "phone";
-  /** @type {MenuItem[]} */
-  const panels = Object.entries(PANELS).map(([id, { icon }]) => ({
-    label: panelTitle(id),
-    icon,
-    run: () => commandById(`panel.${id}`)?.run(),
-  }));
-  return [
-    ...(phone ? [searchItem()] : [{ label: t("panels"), heading: true }, ...panels]),
-    { label: t("layout"), heading: true },
-    ...(phone
-      ? []
-      : [
-          {
-            label: t("command.reset_layout"),
-            icon: "reset",
-            run: () => commandById("reset_layout")?.run(),
-          },
-          {
-            label: `${t("command.layouts")}…`,
-            icon: "layout",
-            run: () => commandById("layouts")?.run(),
-          },
-        ]),
-    {
-      label: t("command.keys"),
-      icon: "keyboard",
-      hint: "?",
-      run: () => commandById("keys")?.run(),
-    },
-    { label: t("language"), heading: true },
-    ...Object.entries(LANGUAGES).map(([id, label]) => ({
-      label,
-      checked: language.value === id,
-      run: () => {
-        languageChoice.value = id;
-      },
-    })),
-    { label: t("theme"), heading: true },
-    ...themeItems(),
-  ];
-}
-
-/** The bar of a phone has no room for the palette's button. @returns {MenuItem} */
-const searchItem = () => ({
-  label: t("palette.hint"),
-  icon: "search",
-  run: () => commandById("palette")?.run(),
-});
-
-/** @returns {MenuItem[]} */
-function themeItems() {
-  return /** @type {const} */ (["system", "dark", "light"]).map((choice) => ({
-    label: t(`theme.${choice}`),
-    checked: themeChoice.value === choice,
-    run: () => {
-      themeChoice.value = choice;
-    },
-  }));
 }
 
 function ThemeButton() {

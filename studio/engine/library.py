@@ -16,10 +16,12 @@ from studio.errors import (
     NotMadeError,
     StudioError,
     UnreadableFileError,
+    UploadError,
 )
 from studio.packages.archive import folder_to_open
 from studio.packages.arranging import arrange
 from studio.packages.choices import load_choices, save_choices
+from studio.packages.entry_points import entry_points
 from studio.packages.examples import examples
 from studio.packages.naming import robot_of
 from studio.packages.presence import is_file, is_folder
@@ -146,11 +148,12 @@ class Library:
 
     async def _open_sent(self, upload: Upload, staged: Path) -> str:
         chosen = await asyncio.to_thread(arrange, staged)
+        robot = (await asyncio.to_thread(_robot_in, staged)).relative_to(staged)
         kept, is_new = await asyncio.to_thread(upload.keep)
         folder = folder_to_open(kept)
         try:
             self._choose(folder, {name: kept / one for name, one in chosen.items()})
-            return await self._open_new(folder, ServedRoots([folder]))
+            return await self._open_new(kept / robot, ServedRoots([folder]))
         except StudioError:
             if is_new:
                 await asyncio.to_thread(shutil.rmtree, kept, ignore_errors=True)
@@ -287,6 +290,23 @@ _ORIGINS: Final[dict[str, Literal["example", "upload", "untitled"]]] = {
     UPLOADS: "upload",
     UNTITLED: "untitled",
 }
+
+
+def _robot_in(folder: Path) -> Path:
+    """What to open of a folder: the part of it that was dropped, or a broken description in it.
+
+    Raises:
+        UploadError: It holds no description.
+    """
+    base = folder_to_open(folder)
+    found = entry_points(base, ServedRoots([base]))
+    if any(one.openable for one in found):
+        return base
+    broken = next((one.path for one in found if one.reason.startswith("not readable")), None)
+    if broken is None:
+        why = f"{found[0].path.name}: {found[0].reason}" if found else "a .xacro, .urdf or .zip"
+        raise UploadError(f"there is no robot description among the files ({why}).")
+    return broken
 
 
 async def _write(upload: Upload, chunks: AsyncIterator[bytes]) -> None:

@@ -12,6 +12,7 @@ from studio.packages.entry_points import survey
 from studio.packages.folder_memory import is_robot_name, is_text
 from studio.packages.manifest import FILE_NAME
 from studio.packages.presence import is_file
+from studio.packages.roots import is_below
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -53,7 +54,7 @@ def list_folder(path: str, roots: ServedRoots) -> Listing:
         UnreadableFileError: It is no folder, or may not be listed.
     """
     if not path:
-        return Listing("", None, tuple(_entries(list(roots.all), roots, whole_path=True)))
+        return Listing("", None, tuple(_entries(_outermost(roots), roots, whole_path=True)))
     folder = roots.resolve(path)
     try:
         with os.scandir(folder) as found:
@@ -64,6 +65,15 @@ def list_folder(path: str, roots: ServedRoots) -> Listing:
     inside = [folder / name for name in names[:ENTRY_LIMIT]]
     entries = sorted(_entries(inside, roots), key=_order)
     return Listing(str(folder), _parent(folder, roots), tuple(entries))
+
+
+def _outermost(roots: ServedRoots) -> list[Path]:
+    """The roots without those that are reached from another one."""
+    return [
+        root
+        for root in roots.all
+        if not any(root != other and is_below(root, other) for other in roots.all)
+    ]
 
 
 def _is_shown(name: str) -> bool:

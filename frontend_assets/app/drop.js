@@ -1,0 +1,111 @@
+/** Files dropped anywhere on the page, and texts pasted outside of a text box, open as robots. */
+
+import { effect, html } from "vendor/preact.js";
+import { chosenFiles, droppedFiles, holdsFiles } from "../lib/dropped.js";
+import { t } from "../lib/i18n.js";
+import { takesText } from "../lib/keys.js";
+import { Icon, ProgressBar } from "../lib/ui.js";
+import { ask, goTo } from "./actions.js";
+import { mayEdit } from "./state/connection.js";
+import { dropping, sending } from "./state/sending.js";
+import { dialog, notify } from "./state/view.js";
+import { uploadFiles } from "./upload.js";
+import { viewport } from "./viewport.js";
+
+const MEGABYTE = 1 << 20;
+/** The studio reads no longer command; longer texts come as a file. */
+const PASTED_AT_MOST = 700_000;
+
+/** Listens on the page, and on the frame of the 3D view, which keeps its events to itself. */
+export function listenToDrops() {
+  listenOn(window);
+  effect(() => {
+    const frame = viewport.value && document.querySelector("iframe")?.contentWindow;
+    if (frame) listenOn(frame);
+  });
+}
+
+/** @param {Window} view */
+function listenOn(view) {
+  view.addEventListener("dragenter", onDrag);
+  view.addEventListener("dragover", onDrag);
+  view.addEventListener("dragleave", onLeave);
+  view.addEventListener("drop", onDrop);
+  view.addEventListener("paste", onPaste);
+}
+
+/** @param {DragEvent} event */
+function onDrag(event) {
+  if (!holdsFiles(event.dataTransfer)) return;
+  // Not prevented, the browser would leave the page and show the file itself.
+  event.preventDefault();
+  const takes = mayEdit.value && sending.value === null;
+  if (event.dataTransfer) event.dataTransfer.dropEffect = takes ? "copy" : "none";
+  dropping.value = takes;
+}
+
+/** @param {DragEvent} event the pointer left the window, or went from one element to the next */
+function onLeave(event) {
+  if (event.relatedTarget === null) dropping.value = false;
+}
+
+/** @param {DragEvent} event */
+async function onDrop(event) {
+  if (!event.dataTransfer || !holdsFiles(event.dataTransfer)) return;
+  event.preventDefault();
+  dropping.value = false;
+  if (!mayEdit.value) return;
+  await uploadFiles(await droppedFiles(event.dataTransfer));
+}
+
+/** @param {ClipboardEvent} event */
+async function onPaste(event) {
+  if (event.defaultPrevented || takesText(event.target) || dialog.value !== null) return;
+  if (!mayEdit.value || !event.clipboardData) return;
+  const files = [...event.clipboardData.files];
+  const text = event.clipboardData.getData("text/plain");
+  if (files.length === 0 && text === "") return;
+  event.preventDefault();
+  if (files.length > 0) await uploadFiles(chosenFiles(files));
+  else await openText(text);
+}
+
+/** @param {string} text @returns {Promise<boolean>} it is open, as an untitled robot */
+export async function openText(text) {
+  if (!text.includes("<")) {
+    notify(t("paste.no_robot"), { bad: true });
+    return false;
+  }
+  if (text.length > PASTED_AT_MOST) {
+    await uploadFiles([{ path: "pasted.urdf.xacro", file: new File([text], "pasted") }]);
+    return true;
+  }
+  const opened = await ask({ type: "new_untitled", text });
+  if (opened?.type !== "opened") return false;
+  goTo(opened.document);
+  return true;
+}
+
+/** What lies over the page while files are held over it, or are on their way. */
+export function DropLayer() {
+  if (sending.value) return html`<${Sending} />`;
+  if (!dropping.value) return null;
+  return html`<div class="drop-layer" aria-hidden="true"><div class="drop-card">
+    <${Icon} name="upload" size=${34} />
+    <strong>${t("drop.title")}</strong><span>${t("drop.text")}</span></div></div>`;
+}
+
+function Sending() {
+  const now = sending.value;
+  if (!now) return null;
+  const { name, done, total, cancel } = now;
+  const sent = done >= total;
+  const megabytes = (/** @type {number} */ bytes) => (bytes / MEGABYTE).toFixed(1);
+  const label = sent ? t("upload.opening", { name }) : t("upload.sending", { name });
+  return html`<div class="sending-card" role="status">
+    <p>${label}</p>
+    <${ProgressBar} label=${label} done=${sent ? 0 : done} total=${sent ? 0 : total} />
+    <footer><span>${t("upload.done", { done: megabytes(done), total: megabytes(total) })}</span>
+      <button type="button" class="button small" onClick=${cancel}>${t("cancel")}</button></footer>
+  </div>`;
+}
