@@ -48,7 +48,7 @@ async def read_poses_around(
     Args:
         location: Of the robot; it has an entry.
         target: What its files may read.
-        arguments: Passed to the SRDFs too, which name joints by the same prefixes.
+        arguments: Of the robot, for the SRDFs, which name joints by the same prefixes.
         robot_name: An SRDF names the robot that it is of. Where one is of this robot, others are
             left out; else all may be.
         take_worker: Gives an xacro worker; asked for only when there is an SRDF to run.

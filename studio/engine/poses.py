@@ -12,6 +12,7 @@ from studio.engine.listeners import encode
 from studio.engine.messages.poses import Poses, PoseView
 from studio.engine.pose_reading import FoundPoses, read_poses_around
 from studio.engine.pose_shelf import PoseShelf
+from studio.engine.second_robot import argument_values
 from studio.engine.watching import FileWatch
 from studio.errors import CommandError
 
@@ -154,7 +155,9 @@ class PoseDesk:
         document = self._document
         if document.expansion is None:
             return
-        arguments, name = dict(document.sources.arguments), document.model.robot.name
+        # Also those that nobody passed: an SRDF asks for the same prefixes, and has no defaults.
+        values = argument_values(document.board.book.sites.values())
+        arguments, name = values | document.sources.arguments, document.model.robot.name
         made_from = (arguments, id(document.location.index), name)
         if made_from == self._made_from:
             return
