@@ -9,7 +9,7 @@ import numpy as np
 from studio.problems import Severity
 from studio.robot.checks.extents import is_marker
 from studio.robot.checks.finding import Finding
-from studio.robot.checks.masses import tensors
+from studio.robot.checks.masses import moments_fault, tensors
 from studio.robot.checks.solids import inertia_mend
 
 if TYPE_CHECKING:
@@ -52,8 +52,8 @@ def likeness_findings(robot: Robot, extents: Mapping[str, Extent]) -> Iterator[F
     for (link, inertial, low, high), own in zip(known, moments, strict=True):
         if finding := _density_finding(link, inertial, high - low):
             yield finding
-        elif own[0] > 0 and (code := _moment_fault(inertial, float(own[2]), low, high)):
-            yield _inertia_finding(link, high - low, code, extents[link.name])
+        elif not moments_fault(own) and (how := _misfit(inertial, float(own[2]), low, high)):
+            yield _inertia_finding(link, high - low, how, extents[link.name])
 
 
 def _density_finding(link: Link, inertial: Inertial, sides_m: Floats) -> Finding | None:
@@ -69,8 +69,8 @@ def _density_finding(link: Link, inertial: Inertial, sides_m: Floats) -> Finding
     return Finding(severity, "density", sentence, f"link:{link.name}")
 
 
-def _moment_fault(inertial: Inertial, most: float, low: Floats, high: Floats) -> str:
-    """Whether the greatest moment fits the box around the link; empty when it does."""
+def _misfit(inertial: Inertial, most: float, low: Floats, high: Floats) -> str:
+    """Whether the greatest moment is more or less than fits the box; empty when it fits."""
     sides = np.maximum(high - low, _THINNEST_M)
     centre = np.array(inertial.origin.xyz)
     farthest = np.maximum(np.abs(low - centre), np.abs(high - centre))
@@ -82,8 +82,8 @@ def _moment_fault(inertial: Inertial, most: float, low: Floats, high: Floats) ->
     return "less" if most < _TOO_NARROW * solid else ""
 
 
-def _inertia_finding(link: Link, sides_m: Floats, code: str, extent: Extent) -> Finding:
-    if code == "more":
+def _inertia_finding(link: Link, sides_m: Floats, how: str, extent: Extent) -> Finding:
+    if how == "more":
         why = f"more than its mass can have anywhere in a box of {_shown(sides_m)}"
     else:
         why = f"less than a hundredth of that of a solid box of {_shown(sides_m)}"

@@ -20,8 +20,12 @@ if TYPE_CHECKING:
 
     Floats: TypeAlias = NDArray[np.float64]
 
-TOLERANCE: Final = 1e-6
+_TOLERANCE: Final = 1e-6
 """Of the largest moment: rounding in the file is no fault."""
+_WHY: Final = {
+    "bad-inertia": "all must be above zero",
+    "inertia-triangle": "in a real body none exceeds the sum of the two others",
+}
 
 
 def mass_findings(robot: Robot, extents: Mapping[str, Extent]) -> Iterator[Finding]:
@@ -50,27 +54,33 @@ def tensors(inertials: list[Inertial]) -> Floats:
     return np.array(rows).reshape(-1, 3, 3)
 
 
+def moments_fault(moments: Floats) -> str:
+    """Why no body has these principal moments (3,), ascending; empty when one may."""
+    least, middle, most = moments.tolist()
+    slack = _TOLERANCE * max(abs(least), abs(most))
+    if least <= slack:
+        return "bad-inertia"
+    return "inertia-triangle" if most > least + middle + slack else ""
+
+
 def _bad_mass(link: Link, inertial: Inertial) -> Finding:
-    mend = None
-    todo = "write what it weighs"
-    if inertial.mass_kg == 0:
-        mend = RemoveChild("Remove the <inertial>", "inertial")
-        todo = "write what it weighs, or leave the <inertial> out of a link that is only a frame"
+    is_frame = inertial.mass_kg == 0 and not (link.visuals or link.collisions)
+    todo = (
+        "leave the <inertial> out of a link that is only a frame"
+        if is_frame
+        else "write what it weighs"
+    )
     sentence = f'Link "{link.name}" has a mass of {inertial.mass_kg:g} kg: {todo}.'
+    mend = RemoveChild("Remove the <inertial>", "inertial") if is_frame else None
     return Finding(Severity.WARNING, "bad-mass", sentence, f"link:{link.name}", mend)
 
 
 def _moments_finding(link: Link, moments: Floats, extent: Extent) -> Finding | None:
     """What is wrong with principal moments (3,), kg m², ascending."""
-    least, middle, most = moments.tolist()
-    slack = TOLERANCE * max(abs(least), abs(most))
-    if least <= slack:
-        code, why = "bad-inertia", "all must be above zero"
-    elif most > least + middle + slack:
-        code, why = "inertia-triangle", "in a real body none exceeds the sum of the two others"
-    else:
+    if not (fault := moments_fault(moments)):
         return None
-    shown = ", ".join(f"{moment:.4g}" for moment in (least, middle, most))
+    why = _WHY[fault]
+    shown = ", ".join(f"{moment:.4g}" for moment in moments.tolist())
     sentence = f'Link "{link.name}" has principal moments of inertia of {shown} kg m²: {why}.'
     key, mend = f"link:{link.name}", inertia_mend(link, extent)
-    return Finding(Severity.WARNING, code, sentence, key, mend)
+    return Finding(Severity.WARNING, fault, sentence, key, mend)

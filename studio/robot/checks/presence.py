@@ -78,7 +78,7 @@ def _heavy_roots(bodies: list[Body]) -> Iterator[Finding]:
         if body.mover is None and root.inertial is not None and root.inertial.mass_kg > 0:
             sentence = (
                 f'The root link "{root.name}" has an <inertial>, which KDL ignores with a warning: '
-                "put an empty link such as base_footprint above it, on a fixed joint."
+                "put a link without one above it, on a fixed joint."
             )
             yield Finding(Severity.INFO, "root-inertial", sentence, f"link:{root.name}")
 

@@ -74,4 +74,7 @@ def test_a_mesh_counts_once_its_size_is_known():
 
 
 def test_an_impossible_inertia_is_not_told_twice():
-    assert not about(body(1.0, -5.0, box("visual", "0.1 0.1 0.1")))
+    seen = box("visual", "0.1 0.1 0.1")
+    assert not about(body(1.0, -5.0, seen))
+    assert about(body(1.0, 5.0, seen)) == ["inertia-size"]
+    assert not about(body(1.0, 5.0, seen).replace('izz="5.0"', 'izz="11"'))

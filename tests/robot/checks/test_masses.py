@@ -44,9 +44,11 @@ def test_a_mass_not_above_zero_is_the_one_finding_of_its_link(mass_kg: float):
     assert "bad-inertia" not in found
 
 
-def test_a_zero_mass_is_removed_with_its_element_and_a_negative_one_is_not():
+def test_a_frame_of_zero_mass_loses_its_inertial_and_what_has_a_shape_keeps_it():
     after = mended(heavy(0, 0, 0, mass_kg=0), "bad-mass")
     assert "<inertial" not in after
+    seen = heavy(0, 0, 0, mass_kg=0, more=box("visual", "1 1 1"))
+    assert problem_of(checked(seen), "bad-mass").fix is None
     assert problem_of(checked(heavy(1, 1, 1, mass_kg=-1)), "bad-mass").fix is None
 
 
