@@ -26,6 +26,7 @@ examples:
   studio open ~/ws/src                     open a workspace, a package folder or a .zip
   studio open ur.urdf.xacro ur_type:=ur10e name:=ur
                                            pass arguments as to xacro
+  studio check ~/ws/src                    say what is wrong with every robot there
   studio xacro robot.urdf.xacro > robot.urdf
                                            expand as the xacro command does
 """
@@ -35,12 +36,12 @@ _HIGHEST_PORT = 65535
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run one command; answers the exit code: 0, or 2 after one sentence on stderr."""
+    """Run one command; answers its exit code: 0 where it has none, 2 after a sentence on stderr."""
     given = sys.argv[1:] if argv is None else list(argv)
     mappings = [word for word in given if _MAPPING in word]
     options = _parser().parse_args([word for word in given if _MAPPING not in word])
     try:
-        options.run(options, _arguments(mappings))
+        return options.run(options, _arguments(mappings)) or 0
     except StudioError as error:
         print(f"studio: {error}", file=sys.stderr)
         return 2
@@ -48,7 +49,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         return 130
     except BrokenPipeError:  # the reader of our output has gone, as `head` does
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    return 0
+        return 0
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -71,6 +72,12 @@ def _parser() -> argparse.ArgumentParser:
     opens.add_argument("name:=value", nargs="*", help="arguments of the xacro file")
     opens.set_defaults(run=_open)
     _add_server_options(opens)
+    check = commands.add_parser("check", help="say what is wrong with robots; exit code 1: errors")
+    check.add_argument("path", metavar="PATH", type=Path, help="a file, a folder or a .zip")
+    check.add_argument("name:=value", nargs="*", help="arguments of the xacro file")
+    check.add_argument("--json", action="store_true", help="print a JSON list of the findings")
+    check.set_defaults(run=_check)
+    _add_read_options(check)
     expand = commands.add_parser("xacro", help="print the URDF, byte for byte as xacro does")
     expand.add_argument("file", metavar="FILE")
     expand.add_argument("name:=value", nargs="*", help="arguments of the xacro file")
@@ -149,6 +156,7 @@ def _package_paths(options: argparse.Namespace) -> tuple[Path, ...]:
 
 
 def _demo(options: argparse.Namespace, arguments: dict[str, str]) -> None:
+    from studio.engine.draft_store import forget_drafts
     from studio.packages.working_copy import working_copy
     from studio.settings import repository_or_wheel
 
@@ -193,6 +201,32 @@ def _settings(options: argparse.Namespace) -> Settings:
         trusted=options.trust,
         open_browser=not options.no_browser,
     )
+
+
+def _check(options: argparse.Namespace, arguments: dict[str, str]) -> int:
+    import asyncio
+
+    from studio.engine.check_report import exit_code, report_json, report_lines
+    from studio.engine.check_run import check_path
+    from studio.settings import Settings, data_folder
+    from studio.web.progress_bar import ProgressBar
+
+    settings = Settings(
+        data_folder=data_folder(options.data_dir),
+        package_paths=_package_paths(options),
+        trusted=options.trust,
+    )
+    bar = ProgressBar(sys.stderr)
+    try:
+        path = options.path.expanduser().absolute()
+        files = asyncio.run(check_path(settings, path, arguments, bar.show))
+    finally:
+        bar.end()
+    if options.json:
+        print(report_json(files))
+    else:
+        print(*report_lines(files, Path.cwd()), sep="\n")
+    return exit_code(files)
 
 
 def _xacro(options: argparse.Namespace, arguments: dict[str, str]) -> None:

@@ -166,3 +166,19 @@ def test_a_reader_that_has_gone_is_no_error(tmp_path: Path):
         process.stdout.close()
         assert process.stderr.read() == b""
     assert process.returncode == 0
+
+
+def test_check_says_what_is_wrong_and_its_exit_code_how_bad_it_is(tmp_path: Path):
+    good, bad = tmp_path / "robots" / "good.urdf", tmp_path / "robots" / "bad.urdf"
+    good.parent.mkdir()
+    good.write_text('<robot name="r"><link name="a"/></robot>')
+    bad.write_text('<robot name="r"><link name="a"/>')
+    at = ("--data-dir", str(tmp_path / "data"))
+    assert run("check", str(good), *at).returncode == 0
+    done = run("check", "bad.urdf", *at, cwd=bad.parent)
+    assert done.returncode == 1
+    assert done.stdout.decode().startswith("bad.urdf:1:32: error: The file ends while <robot>")
+    listed = run("check", str(bad.parent), "--json", *at)
+    assert listed.returncode == 1
+    assert "xml-open-element" in {row["code"] for row in json.loads(listed.stdout)}
+    assert run("check", str(tmp_path / "gone.urdf"), *at).returncode == 2

@@ -42,6 +42,7 @@ class CheckDesk:
         self._document, self._validator = document, validator
         self._of_robot: tuple[Problem, ...] = ()
         self._of_texts: tuple[Problem, ...] = ()
+        self._second_opinion: tuple[Problem, ...] = ()
         self._looking: asyncio.Task[None] | None = None
         self._validating: asyncio.Task[None] | None = None
 
@@ -70,16 +71,20 @@ class CheckDesk:
         self._looking = self._instead(self._looking, self._look_later())
 
     async def settled(self) -> None:
-        """Wait until the texts as they are now were looked at."""
-        while self._looking is not None and not self._looking.done():
-            await asyncio.wait({self._looking})
+        """Wait until the texts as they are now were looked at, by yourdfpy too."""
+        while under_way := self._under_way():
+            await asyncio.wait(under_way)
 
     async def close(self) -> None:
         """Look no more."""
-        tasks = [task for task in (self._looking, self._validating) if task is not None]
-        for task in tasks:
+        under_way = self._under_way()
+        for task in under_way:
             task.cancel()
-        await asyncio.gather(*tasks, return_exceptions=True)
+        await asyncio.gather(*under_way, return_exceptions=True)
+
+    def _under_way(self) -> set[asyncio.Task[None]]:
+        tasks = (self._looking, self._validating)
+        return {task for task in tasks if task is not None and not task.done()}
 
     @staticmethod
     def _instead(
@@ -105,12 +110,15 @@ class CheckDesk:
         self._tell()
 
     def _tell(self) -> None:
-        self._document.board.find("robot", merged(self._of_robot, self._of_texts))
+        board, found = self._document.board, merged(self._of_robot, self._of_texts)
+        board.find("robot", found)
+        is_explained = any(one.code in _EXPLAIN for one in found)
+        board.find("validation", () if is_explained else self._second_opinion)
 
     async def _validate(self) -> None:
         await asyncio.sleep(_VALIDATE_AFTER_S)
-        found = await self._validator.validate(self._document.urdf())
-        self._document.board.find("validation", found)
+        self._second_opinion = tuple(await self._validator.validate(self._document.urdf()))
+        self._tell()
 
     def _with_undo(self, problem: Problem) -> Problem:
         """Offer to give what is missing, or to take the edit back that may have broken it."""
@@ -122,6 +130,13 @@ class CheckDesk:
         return replace(problem, fix=Fix("Undo edit", "undo"))
 
 
+_EXPLAIN: Final = frozenset(
+    {
+        *("bad-element", "cycle", "dangling-child", "dangling-parent", "duplicate-joint"),
+        *("duplicate-link", "no-links", "second-parent", "several-roots"),
+    }
+)
+"""Codes of what makes yourdfpy fall as well: what it says of it then helps nobody."""
 _OF_BOTH: Final = frozenset({"dangling-parent", "dangling-child", "several-roots"})
 """Codes of what the robot's structure and the texts tell; the texts know the place and a fix."""
 
