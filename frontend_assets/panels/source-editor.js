@@ -111,7 +111,7 @@ export function openReplace(view) {
 }
 
 /** @param {boolean} open @returns {HTMLElement} */
-function foldMark(open) {
+export function foldMark(open) {
   const mark = document.createElement("span");
   mark.className = `source-fold ${open ? "" : "folded"}`;
   mark.title = open ? t("source.fold") : t("source.unfold");
@@ -202,36 +202,40 @@ function isTyped({ transactions }) {
 /** @param {string} file @returns {Extension} its name for a screen reader, and the words of the search */
 function wordsFor(file) {
   const short = shortPath(file, documentState.value?.root ?? "");
-  const phrases = [
-    "Find",
-    "Replace",
-    "next",
-    "previous",
-    "all",
-    "match case",
-    "by word",
-    "regexp",
-    "replace",
-    "replace all",
-    "close",
-    "Go to line",
-    "go",
-    "current match",
-    "replaced match on line $",
-    "replaced $ matches",
-    "on line",
-    "folded code",
-    "unfold",
-  ];
   return [
     EditorView.contentAttributes.of({
       "aria-label": t("source.text", { file: short }),
       "aria-description": `${t("keys.leave")}: Escape, Tab`,
     }),
-    EditorState.phrases.of(
-      Object.fromEntries(phrases.map((one) => [one, t(`editor.${one.replaceAll(" ", "_")}`)])),
-    ),
+    EditorState.phrases.of(editorWords()),
   ];
+}
+
+const PHRASES = [
+  "Find",
+  "Replace",
+  "next",
+  "previous",
+  "all",
+  "match case",
+  "by word",
+  "regexp",
+  "replace",
+  "replace all",
+  "close",
+  "Go to line",
+  "go",
+  "current match",
+  "replaced match on line $",
+  "replaced $ matches",
+  "on line",
+  "folded code",
+  "unfold",
+];
+
+/** @returns {Record<string, string>} what CodeMirror itself says, in the page's language */
+export function editorWords() {
+  return Object.fromEntries(PHRASES.map((one) => [one, t(`editor.${one.replaceAll(" ", "_")}`)]));
 }
 
 /** @param {EditorView} view @param {{dark: boolean, mayEdit: boolean, link: TextLink}} options set anew */

@@ -1,84 +1,143 @@
-/** The URDF that the xacro came to, as text to read, copy and keep. It is fetched when it is looked at. */
+/** The URDF that the xacro came to, and what the unsaved edits change in it. Fetched when it is looked at. */
+
+/** @import { UrdfChanges } from "../types/wire.d.ts" */
 
 import { html, useEffect, useMemo, useRef, useSignal } from "vendor/preact.js";
 import { commandById } from "../app/commands.js";
 import { connection } from "../app/state/connection.js";
-import { built, robot, title } from "../app/state/document.js";
+import { built, history, robot, title } from "../app/state/document.js";
 import { selection, selectPart } from "../app/state/selection.js";
 import { notify } from "../app/state/view.js";
 import { send } from "../app/wire.js";
 import { copyText } from "../lib/clipboard.js";
-import { t } from "../lib/i18n.js";
-import { EmptyState, Icon } from "../lib/ui.js";
+import { language, t } from "../lib/i18n.js";
+import { EmptyState, Icon, IconButton, ProgressBar } from "../lib/ui.js";
 import { elementsByLine } from "../lib/urdf-elements.js";
+import { UrdfText } from "./urdf-text.js";
 
 const SETTLE_MS = 250;
 
 export function UrdfPanel() {
   const text = useSignal("");
-  useFresh(text);
+  const onlyChanges = useSignal(false);
+  const changes = useSignal(/** @type {UrdfChanges | null} */ (null));
+  const view = useRef(/** @type {UrdfText | null} */ (null));
+  useFresh(text, onlyChanges.value ? changes : null);
   if (!text.value) {
     return html`<section class="panel-body" aria-label=${t("panel.urdf")}>
       <${EmptyState} icon="urdf" title=${robot.value ? t("loading") : t("urdf.none")} /></section>`;
   }
-  const lines = text.value.trimEnd().split("\n");
-  const copy = async () => {
-    if (await copyText(text.value)) notify(t("copied"));
-  };
   return html`<section class="panel-body" aria-label=${t("panel.urdf")}>
-    <div class="panel-bar row">
-      <span class="muted numbers">${t("urdf.lines", { count: lines.length })}</span>
-      <span class="push"></span>
-      <button type="button" class="button small" onClick=${copy}><${Icon} name="copy" size=${14} />${t("copy")}</button>
-      <button type="button" class="button small" onClick=${() => download(text.value)}><${Icon} name="download" size=${14} />${t("download")}</button>
-    </div>
-    <${Lines} lines=${lines} text=${text.value} />
+    <${Bar} text=${text.value} onlyChanges=${onlyChanges} changes=${changes.value} find=${() => view.current?.find()} />
+    <${Body} text=${text.value} changes=${onlyChanges.value ? changes.value : undefined} view=${view} />
   </section>`;
 }
 
-/** @param {{lines: string[], text: string}} props each element leads to where it comes from */
-function Lines({ lines, text }) {
-  const pre = useRef(/** @type {HTMLElement | null} */ (null));
-  // Thousands of lines: drawn once for a text, not anew at every choice.
-  const drawn = useMemo(() => lines.map(drawnLine), [text]);
-  const elements = useMemo(() => elementsByLine(lines), [text]);
-  useChosenLine(pre, elements);
-  /** @param {MouseEvent} event */
-  const choose = (event) => {
-    const target = event.target instanceof Element ? event.target : null;
-    const line = Number(target?.closest("code")?.dataset.line) - 1;
-    const found = elements.get(line);
-    if (!found || getSelection()?.isCollapsed === false) return;
-    selectPart(found.part, found.element, attributeAt(target), "urdf");
-    commandById("panel.origin")?.run();
+/** @param {{text: string, onlyChanges: {value: boolean}, changes: UrdfChanges | null, find: () => void}} props */
+function Bar({ text, onlyChanges, changes, find }) {
+  const copy = async () => {
+    if (await copyText(text)) notify(t("copied"));
   };
-  return html`<pre ref=${pre} class="code scroll" tabindex="0" aria-label=${t("panel.urdf")} title=${t("urdf.where")}
-    onClick=${choose}>${drawn}</pre>`;
+  const choose = (/** @type {boolean} */ only) => () => {
+    onlyChanges.value = only;
+  };
+  return html`<div class="panel-bar row urdf-bar">
+    <div class="segments" role="group" aria-label=${t("urdf.view")}>
+      <button type="button" class="segment" aria-pressed=${!onlyChanges.value} onClick=${choose(false)}>${t("urdf.all")}</button>
+      <button type="button" class="segment" aria-pressed=${onlyChanges.value} onClick=${choose(true)}>${t("urdf.changes")}</button>
+    </div>
+    <span class="muted numbers urdf-count">${countWords(text, onlyChanges.value, changes)}</span>
+    <span class="push"></span>
+    <${IconButton} icon="search" label=${t("urdf.find")} onClick=${find} />
+    <button type="button" class="button small" onClick=${copy}><${Icon} name="copy" size=${14} />${t("copy")}</button>
+    <button type="button" class="button small" onClick=${() => download(text)}><${Icon} name="download" size=${14} />${t("download")}</button>
+  </div>`;
 }
 
-/** @param {string} line @param {number} at */
-function drawnLine(line, at) {
-  return html`<code key=${at} data-line=${at + 1}>${coloured(line)}</code>`;
+/** @param {string} text @param {boolean} onlyChanges @param {UrdfChanges | null} changes @returns {string} */
+function countWords(text, onlyChanges, changes) {
+  if (!onlyChanges) return t("urdf.lines", { count: text.trimEnd().split("\n").length });
+  if (!changes) return "";
+  const { added, removed, left_out: count } = changes;
+  const words = [t("urdf.differs", { added, removed })];
+  if (count > 0) words.push(t("urdf.left_out", { count }));
+  return words.join(" · ");
 }
 
-/** The line of the chosen element is marked and in view. @param {{current: HTMLElement | null}} pre @param {ReturnType<typeof elementsByLine>} elements */
-function useChosenLine(pre, elements) {
+/**
+ * @param {{text: string, changes: UrdfChanges | null | undefined, view: {current: UrdfText | null}}} props
+ *   `changes` undefined: the whole is shown; null: they are not known yet
+ */
+function Body({ text, changes, view }) {
+  const host = useRef(/** @type {HTMLElement | null} */ (null));
+  const elements = useMemo(() => elementsByLine(text.split("\n")), [text]);
+  const known = useRef(elements);
+  known.current = elements;
+  const words = language.value;
+  useEffect(() => {
+    if (!host.current) return undefined;
+    view.current = new UrdfText(host.current, (line, column) =>
+      choose(known.current, view, line, column),
+    );
+    return () => {
+      view.current?.destroy();
+      view.current = null;
+    };
+  }, [words]);
+  useEffect(() => {
+    if (changes === undefined) view.current?.showText(text.trimEnd());
+    else if (changes) view.current?.showChanges(changes);
+  }, [text, changes, words]);
+  useChosenLine(host, view, elements, changes === undefined);
+  const empty = emptyWords(changes);
+  return html`<div class="source-editor urdf-body" ref=${host} title=${changes === undefined ? t("urdf.where") : ""} hidden=${empty !== "" || changes === null}></div>
+    ${changes === null && html`<${ProgressBar} label=${t("urdf.comparing")} done=${0} total=${0} />`}
+    ${empty && html`<${EmptyState} icon=${changes?.fault ? "alert" : "check"} title=${empty} />`}`;
+}
+
+/** @param {UrdfChanges | null | undefined} changes @returns {string} why there are no lines to show */
+function emptyWords(changes) {
+  if (!changes || changes.hunks.length > 0) return "";
+  if (changes.fault) return changes.fault;
+  const isSaved = history.value.unsaved_files.length === 0;
+  return t(isSaved ? "urdf.nothing_unsaved" : "urdf.no_changes");
+}
+
+/** An element leads to where it comes from. @param {ReturnType<typeof elementsByLine>} elements @param {{current: UrdfText | null}} view @param {number} line from 0 @param {number} column */
+function choose(elements, view, line, column) {
+  const found = elements.get(line);
+  if (!found) return;
+  const text = view.current?.view.state.doc.line(line + 1).text ?? "";
+  selectPart(found.part, found.element, attributeAt(text, column), "urdf");
+  commandById("panel.origin")?.run();
+}
+
+/** @param {string} line @param {number} column @returns {string} the attribute that is written there */
+export function attributeAt(line, column) {
+  for (const { 0: whole, 1: name = "", index } of line.matchAll(/([\w:.-]+)="[^"]*"/g))
+    if (index <= column && column <= index + whole.length) return name;
+  return "";
+}
+
+/**
+ * The line of the chosen element is marked and in view.
+ *
+ * @param {{current: HTMLElement | null}} host
+ * @param {{current: UrdfText | null}} view
+ * @param {ReturnType<typeof elementsByLine>} elements
+ * @param {boolean} isWhole
+ */
+function useChosenLine(host, view, elements, isWhole) {
   const lines = useMemo(() => {
     const entries = [...elements].map(([line, one]) => [`${one.part} ${one.element}`, line]);
     return new Map(/** @type {[string, number][]} */ (entries));
   }, [elements]);
   const { part, element } = selection.value ?? {};
-  const line = lines.get(`${part} ${element}`);
+  const line = lines.get(`${part} ${element ?? ""}`) ?? -1;
   useEffect(() => {
-    const code = pre.current?.querySelector(`[data-line="${(line ?? -1) + 1}"]`);
-    if (!code) return undefined;
-    code.classList.add("chosen");
-    const shown = whenInView(pre.current, () => scrollTo(code));
-    return () => {
-      shown();
-      code.classList.remove("chosen");
-    };
-  }, [line, elements]);
+    if (!isWhole) return undefined;
+    return whenInView(host.current, () => view.current?.light(line));
+  }, [line, elements, isWhole]);
 }
 
 /** Once, and not before the panel is looked at. @param {Element | null} element @param {() => void} run @returns {() => void} the end of waiting */
@@ -92,54 +151,29 @@ function whenInView(element, run) {
   return () => watcher.disconnect();
 }
 
-/** A line in view stays where it is. @param {Element} code */
-function scrollTo(code) {
-  const around = code.parentElement?.getBoundingClientRect();
-  const { top, bottom } = code.getBoundingClientRect();
-  if (around && (top < around.top || bottom > around.bottom))
-    code.scrollIntoView({ block: "center" });
-}
-
-/** @param {Element | null} word the name of an attribute, or its value @returns {string} the attribute's name */
-function attributeAt(word) {
-  if (word?.matches("i.name")) return word.textContent ?? "";
-  const name = word?.matches("i.value") ? word.previousElementSibling : null;
-  return name?.matches("i.name") ? (name.textContent ?? "") : "";
-}
-
-/** Asks again after every good run, but not at every step of a drag. @param {{value: string}} text */
-function useFresh(text) {
+/** Asks again after every good run, but not at every step of a drag. @param {{value: string}} text @param {{value: UrdfChanges | null} | null} changes null: nobody looks at them */
+function useFresh(text, changes) {
   const run = built.value;
+  const unsaved = history.value;
   const there = connection.value === "connected" && robot.value !== null;
   useEffect(() => {
     if (!there) return undefined;
+    let isOld = false;
     const later = setTimeout(
       async () => {
         const answer = await send({ type: "get_urdf" }).catch(() => null);
-        if (answer?.type === "urdf") text.value = answer.text;
+        if (!isOld && answer?.type === "urdf") text.value = answer.text;
+        if (!changes || isOld) return;
+        const found = await send({ type: "get_urdf_changes" }).catch(() => null);
+        if (!isOld && found?.type === "urdf_changes") changes.value = found;
       },
       text.value ? SETTLE_MS : 0,
     );
-    return () => clearTimeout(later);
-  }, [run, there]);
-}
-
-const PARTS = /(<!--.*?(?:-->|$))|(<\/?[\w:.-]+|\/?>|\?>|<\?xml)|([\w:.-]+)(=)("[^"]*")/g;
-
-/** @param {string} line of XML @returns {unknown[]} its parts with their colours */
-function coloured(line) {
-  /** @type {unknown[]} */
-  const parts = [];
-  let at = 0;
-  for (const match of line.matchAll(PARTS)) {
-    const [whole, comment, tag, name, equals, value] = match;
-    parts.push(line.slice(at, match.index));
-    if (comment) parts.push(html`<i class="comment">${comment}</i>`);
-    else if (tag) parts.push(html`<b>${tag}</b>`);
-    else parts.push(html`<i class="name">${name}</i>`, equals, html`<i class="value">${value}</i>`);
-    at = match.index + whole.length;
-  }
-  return [...parts, line.slice(at), "\n"];
+    return () => {
+      isOld = true;
+      clearTimeout(later);
+    };
+  }, [run, unsaved, there, changes !== null]);
 }
 
 /** @param {string} text */

@@ -108,9 +108,12 @@ def test_the_values_of_a_link_are_all_that_shape_it(tab: StudioPage):
 
 def test_an_element_of_the_urdf_leads_to_its_number(tab: StudioPage):
     tab.page.get_by_role("tab", name="URDF", exact=True).click()
-    limit = tab.page.locator("code[data-line]", has_text="upper=").first
+    tab.page.get_by_role("region", name="URDF").get_by_role("button", name="Find").click()
+    tab.page.keyboard.type("upper=")
+    tab.page.keyboard.press("Enter")
+    limit = tab.page.locator(".urdf-text .cm-line", has_text="upper=").first
     wait_until("the URDF", lambda: limit.count() == 1)
-    limit.locator("i.name", has_text="upper").click()
+    limit.locator(".source-name", has_text="upper").click()
     chosen = panel(tab).locator(".origin-attribute.chosen")
     wait_until("the number", lambda: chosen.count() == 1)
     assert chosen.get_attribute("aria-label") == "upper"
