@@ -2,20 +2,23 @@
 
 import { html } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
+import { later } from "../lib/later.js";
 import { Dialog } from "../lib/ui.js";
 import { GraphicsDialog } from "./graphics.js";
-import { KeysDialog } from "./keys-dialog.js";
 import { LaunchDialog } from "./launch-dialog.js";
-import { LayoutsDialog } from "./layouts-dialog.js";
 import { MergeDialog } from "./merge-dialog.js";
-import { OpenDialog, PackageDialog } from "./open-dialog.js";
 import { Palette } from "./palette.js";
-import { SaveAsDialog } from "./save-as.js";
-import { SaveDialog } from "./save-dialog.js";
 import { ShareDialog } from "./share.js";
 import { dialog } from "./state/view.js";
 
 /** @import { Shown } from "./state/view.js" */
+
+const KeysDialog = later(async () => (await import("./keys-dialog.js")).KeysDialog);
+const LayoutsDialog = later(async () => (await import("./layouts-dialog.js")).LayoutsDialog);
+const OpenDialog = later(async () => (await import("./open-dialog.js")).OpenDialog);
+const PackageDialog = later(async () => (await import("./open-dialog.js")).PackageDialog);
+const SaveAsDialog = later(async () => (await import("./save-as.js")).SaveAsDialog);
+const SaveDialog = later(async () => (await import("./save-dialog.js")).SaveDialog);
 
 const close = () => {
   dialog.value = null;

@@ -2,6 +2,7 @@
 
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
+import { later } from "../lib/later.js";
 import { Icon, IconButton, MenuButton } from "../lib/ui.js";
 import { goTo, openPath } from "./actions.js";
 import { commandById } from "./commands.js";
@@ -10,14 +11,14 @@ import { DropLayer } from "./drop.js";
 import { DiskBars } from "./merge-dialog.js";
 import { PANELS, panelTitle } from "./panels.js";
 import { RestoredBar } from "./restored-bar.js";
-import { StartCard } from "./start-card.js";
 import { connection, role, turnedAway } from "./state/connection.js";
-import { documentState, gone } from "./state/document.js";
+import { documentId, documentState, gone } from "./state/document.js";
 import { activePanel, dismiss, notices, size } from "./state/view.js";
 import { StatusBar } from "./status-bar.js";
 import { TopBar } from "./top-bar.js";
 
 const SAY_AFTER_MS = 600;
+const StartCard = later(async () => (await import("./start-card.js")).StartCard);
 
 /** @param {{onDock: (element: HTMLElement) => void}} props */
 export function Shell({ onDock }) {
@@ -34,7 +35,7 @@ export function Shell({ onDock }) {
     <${DiskBars} />
     <main ref=${dock} class="dock" aria-label=${t("dock")}></main>
     ${size.value === "phone" ? html`<${PhoneTabs} />` : html`<${StatusBar} />`}
-    <${StartCard} />
+    ${documentId.value === "" && html`<${StartCard} />`}
     <${Notices} />
     <${Dialogs} />
     <${DropLayer} />

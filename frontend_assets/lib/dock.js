@@ -131,8 +131,18 @@ function contentOf(panel, restores) {
     element,
     /** @param {{api: IDockviewPanel["api"]}} parameters */
     init({ api }) {
-      const unmount = panel?.mount(element);
-      const shown = api.onDidVisibilityChange(({ isVisible }) => isVisible && restore());
+      /** @type {(() => void) | undefined} */
+      let unmount;
+      // What nobody looks at need not be drawn, nor its file be loaded.
+      const mount = () => {
+        unmount ??= panel?.mount(element);
+      };
+      const shown = api.onDidVisibilityChange(({ isVisible }) => {
+        if (!isVisible) return;
+        mount();
+        restore();
+      });
+      queueMicrotask(() => (api.isVisible || panel?.keepsFrame) && mount());
       const letGo = panel?.keepsFrame ? keepInPlace(element, api) : () => {};
       end = () => {
         letGo();
