@@ -2,7 +2,7 @@
 
 /** @import { JointView } from "../types/wire.d.ts" */
 
-import { html, useSignal } from "vendor/preact.js";
+import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import {
   jointsSettled,
   moveJoint,
@@ -12,13 +12,15 @@ import {
 } from "../app/actions.js";
 import { mayEdit } from "../app/state/connection.js";
 import { animating, movable, position, robot } from "../app/state/document.js";
-import { selectPart } from "../app/state/selection.js";
+import { selection, selectPart } from "../app/state/selection.js";
 import { degrees, hovered, selected } from "../app/state/view.js";
 import { t } from "../lib/i18n.js";
 import { rangeOf, unitsOf } from "../lib/joints.js";
 import { formatNumber, parseNumber } from "../lib/numbers.js";
+import { reveal } from "../lib/seen.js";
 import { Slider, TextBox } from "../lib/slider.js";
 import { EmptyState, Icon, SearchBox } from "../lib/ui.js";
+import { PosesSection } from "./joints-poses.js";
 
 export function JointsPanel() {
   const filter = useSignal("");
@@ -34,6 +36,7 @@ export function JointsPanel() {
       <${JointActions} />
     </div>
     <div class="scroll">
+      ${words === "" && html`<${PosesSection} />`}
       ${shown.map((joint) => html`<${JointRow} key=${joint.name} joint=${joint} />`)}
       ${shown.length === 0 && html`<${Nothing} words=${filter.value.trim()} />`}
     </div>
@@ -66,7 +69,11 @@ function JointActions() {
 function JointRow({ joint }) {
   const follows = joint.mimic !== "";
   const chosen = selected.value === joint.child;
-  return html`<div class=${`property joint ${chosen ? "chosen" : ""} ${follows ? "follows" : ""}`} role="group" aria-label=${joint.name}
+  const row = useRef(/** @type {HTMLElement | null} */ (null));
+  useEffect(() => {
+    return chosen && selection.value?.by !== "joints" ? reveal(row.current) : undefined;
+  }, [chosen, selection.value]);
+  return html`<div ref=${row} class=${`property joint ${chosen ? "chosen" : ""} ${follows ? "follows" : ""}`} role="group" aria-label=${joint.name}
     onPointerEnter=${() => {
       hovered.value = joint.child;
     }} onPointerLeave=${() => {

@@ -15,6 +15,7 @@ import { isChanged } from "../../lib/sites.js";
 import { linkTree } from "../../lib/tree.js";
 import { role, session, version } from "./connection.js";
 import { takeRestored } from "./keeping.js";
+import { takePoses } from "./poses.js";
 import { takeTextNews } from "./source.js";
 import { takeComparison, takeVariants } from "./variants.js";
 
@@ -202,6 +203,7 @@ const TAKERS = {
   },
   texts_changed: takeTextNews,
   variants: takeVariants,
+  poses: takePoses,
   comparison: takeComparison,
   disk_merged: (event) => {
     diskMerged.value = event;
