@@ -126,7 +126,7 @@ class Assembly:
         """Whether only numbers differ, in an element that is drawn and has nothing wrong."""
         if old is None or (old.part.place, old.part.calls) != (new.part.place, new.part.calls):
             return False
-        if old.parsed.faults or old.parsed.notes or new.parsed.faults or new.parsed.notes:
+        if old.parsed.faults or new.parsed.faults:
             return False
         match old.value, new.value:
             case Link() as was, Link() as link:
@@ -163,8 +163,6 @@ class Assembly:
         for element in self._elements.values():
             for fault in element.parsed.faults:
                 yield _problem(Severity.ERROR, "bad-element", str(fault), element.part)
-            for note in element.parsed.notes:
-                yield _problem(Severity.WARNING, "bad-joint", str(note), element.part)
 
     def _written(self) -> tuple[Robot, list[Problem]]:
         """The robot as its parts say, first of a name wins, materials resolved."""

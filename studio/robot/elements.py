@@ -47,8 +47,6 @@ class ParsedElement:
 
     value: Link | Joint | Material | None = None
     faults: list[RobotError] = field(default_factory=list[RobotError])
-    notes: list[RobotError] = field(default_factory=list[RobotError])
-    """What urdfdom would refuse but is drawn all the same."""
 
 
 def parse_element(xml: str) -> ParsedElement:
@@ -204,11 +202,10 @@ def _read_color(element: Element, where: str) -> tuple[float, float, float, floa
 def _read_joint(element: Element, parsed: ParsedElement) -> Joint:
     name = _name_of(element)
     where, faults = f'joint "{name}"', parsed.faults
-    kind = _attempt(parsed.notes, lambda: _joint_type(element, where), JointType.FIXED)
     limit, mimic = element.find("limit"), element.find("mimic")
     return Joint(
         name,
-        kind,
+        _joint_type(element),
         _link_name(element, "parent", where),
         _link_name(element, "child", where),
         _attempt(faults, lambda: _read_origin(element, where), Origin()),
@@ -218,14 +215,12 @@ def _read_joint(element: Element, parsed: ParsedElement) -> Joint:
     )
 
 
-def _joint_type(element: Element, where: str) -> JointType:
-    written = element.get("type", "")
+def _joint_type(element: Element) -> JointType:
+    """The type; what URDF does not know is drawn fixed, and the checks tell it."""
     try:
-        return JointType(written.strip())
-    except ValueError as error:
-        raise RobotError(
-            f'{where} is of type "{written}" and is drawn fixed: URDF knows {", ".join(JointType)}.'
-        ) from error
+        return JointType(element.get("type", "").strip())
+    except ValueError:
+        return JointType.FIXED
 
 
 def _link_name(element: Element, tag: str, where: str) -> str:

@@ -85,7 +85,8 @@ def _range_findings(joint: Joint, limit: Limit) -> Iterator[Finding]:
 
 def _unwritten(joint: Joint, xml: str) -> Iterator[Finding]:
     """An effort or velocity that the limit does not say: urdfdom needs both."""
-    limit = _limit_element(xml)
+    element = joint_element(xml)
+    limit = None if element is None else element.find("limit")
     if limit is None:
         return
     for name, (text, meaning) in _MOST.items():
@@ -98,9 +99,10 @@ def _unwritten(joint: Joint, xml: str) -> Iterator[Finding]:
             yield Finding(Severity.ERROR, f"limit-without-{name}", sentence, _key(joint), mend)
 
 
-def _limit_element(xml: str) -> Element | None:
+def joint_element(xml: str) -> Element | None:
+    """A part's text as an element; None when there is none or it cannot be read."""
     try:
-        return parse_tree(xml).find("limit") if xml else None
+        return parse_tree(xml) if xml else None
     except RobotError:
         return None
 

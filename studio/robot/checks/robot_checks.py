@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from studio.problems import Problem
 from studio.robot.checks.extents import extents
+from studio.robot.checks.joint_types import type_findings
 from studio.robot.checks.likeness import likeness_findings
 from studio.robot.checks.limits import limit_findings
 from studio.robot.checks.masses import mass_findings
@@ -57,6 +58,7 @@ def robot_findings(checked: CheckedRobot) -> Iterator[Finding]:
 
     robot = checked.robot
     found = extents(robot.links.values(), checked.mesh_bounds)
+    yield from type_findings(robot, xml_of)
     yield from limit_findings(robot, xml_of)
     yield from mass_findings(robot, found)
     yield from likeness_findings(robot, found)
