@@ -178,6 +178,8 @@ class Library:
             case m.OpenRecent():
                 return await self._open_recent(command.path)
             case m.OpenExample():
+                if all(one.package != command.name for one in examples(self._models)):
+                    raise CommandError(f'There is no example "{command.name}": choose another.')
                 copy = await asyncio.to_thread(
                     working_copy, self._models, self._data_folder, command.name, fresh=False
                 )

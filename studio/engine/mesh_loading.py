@@ -5,8 +5,8 @@ from __future__ import annotations
 import asyncio
 from typing import TYPE_CHECKING
 
-from studio.errors import PackageError, RobotError, WorkerError
-from studio.problems import Problem, Severity
+from studio.errors import PackageError, PackageNotFoundError, RobotError, WorkerError
+from studio.problems import Fix, Problem, Severity
 from studio.robot.textured import split_textured
 
 if TYPE_CHECKING:
@@ -77,7 +77,9 @@ class MeshLoading:
             self.problems.pop(uri, None)
         except (PackageError, RobotError, WorkerError) as error:
             what = "Texture" if uri != split_textured(uri)[1] else "Mesh"
-            self.problems[uri] = Problem(Severity.WARNING, "mesh", f"{what} {error}")
+            self.problems[uri] = Problem(
+                Severity.WARNING, "mesh", f"{what} {error}", fix=_fix_of(error)
+            )
         finally:
             self._tasks.pop(uri, None)
             self._done += 1
@@ -89,3 +91,10 @@ class MeshLoading:
             self._progress(self._done, self._total)
         if self._done == self._total:
             self._done = self._total = 0
+
+
+def _fix_of(error: Exception) -> Fix | None:
+    """A package that is missing can be pointed at."""
+    if isinstance(error, PackageNotFoundError):
+        return Fix("Choose its folder", "choose_package", error.name)
+    return None
