@@ -135,7 +135,7 @@ export const sameAnchor = (one, other) => JSON.stringify(one) === JSON.stringify
  */
 
 /** @param {number} value @param {number} digits behind the point @returns {string} never a zero with a sign */
-const fixed = (value, digits) => value.toFixed(digits).replace(/^-(0\.0*)$/, "$1");
+export const fixed = (value, digits) => value.toFixed(digits).replace(/^-(0\.0*)$/, "$1");
 
 /** @param {number} value m @param {Units} units @returns {string} to a hundredth of a millimetre, without its unit */
 export const lengthNumber = (value, { millimetres }) =>

@@ -23,6 +23,7 @@ import {
   sortedMasses,
   sumOf,
 } from "../lib/masses.js";
+import { fixed } from "../lib/measuring.js";
 import { formatNumber } from "../lib/numbers.js";
 import { baseName } from "../lib/paths.js";
 import { EmptyState, Icon, IconButton, MenuButton, ProgressBar, SearchBox } from "../lib/ui.js";
@@ -82,7 +83,7 @@ function Sum({ masses: found }) {
   return html`<dl class="masses-sum">
     <div><dt>${t("masses.sum")}</dt><dd><strong>${formatNumber(sumOf(found), 6)}</strong> kg</dd></div>
     <div><dt title=${t("masses.centre.hint")}>${t("masses.centre", { frame: robot.value?.root ?? "" })}</dt>
-      <dd class="masses-centre">${centre ? html`${centre.map((value) => html`<span>${value.toFixed(4)}</span>`)} m` : "–"}</dd></div>
+      <dd class="masses-centre">${centre ? html`${numbers(centre, (value) => fixed(value, 4))}m` : "–"}</dd></div>
     <div><dt>${t("masses.links")}</dt><dd>${t("masses.links.count", { count: found.length })}${
       without > 0 &&
       html` <span class="muted" title=${t("masses.without.hint")}>${t("masses.without", { count: without })}</span>`
@@ -150,7 +151,7 @@ function Row({ row }) {
     <th scope="row"><button type="button" class="link-name" title=${mass.link} aria-pressed=${chosen}>${mass.link}</button></th>
     <td class="number">${formatNumber(mass.mass_kg, 5)}</td>
     <td class="share"><span class="share-bar" style=${`--share:${(100 * share).toFixed(2)}%`}></span><span class="share-text">${(100 * share).toFixed(1)} %</span></td>
-    <td class="number three">${mass.centre_m.map((value) => html`<span>${value.toFixed(4)}</span>`)}</td>
+    <td class="number three">${numbers(mass.centre_m, (value) => fixed(value, 4))}</td>
     <${Moments} mass=${mass} />
     <${DensityCell} row=${row} />
     <td class="where">${link && html`<${PlaceLink} place=${{ file: link.file, line: link.line, column: 1 }} words=${placeWords(link)} />`}
@@ -177,9 +178,12 @@ function Moments({ mass }) {
   const possible = isPossible(mass);
   const hint = [...written, ...(possible ? [] : [t("masses.impossible")])].join("\n");
   return html`<td class=${`number three ${possible ? "" : "odd"}`} title=${hint}>
-    ${mass.moments_kg_m2 ? mass.moments_kg_m2.map((value) => html`<span>${shortNumber(value)}</span>`) : "–"}
+    ${mass.moments_kg_m2 ? numbers(mass.moments_kg_m2, shortNumber) : "–"}
     ${!possible && html`<${Icon} name="alert" size=${13} /><span class="hidden-words">${t("masses.impossible")}</span>`}</td>`;
 }
+
+/** @param {readonly number[]} values @param {(value: number) => string} write each in a place of its own, with blanks between for those who copy */
+const numbers = (values, write) => values.map((value) => [html`<span>${write(value)}</span>`, " "]);
 
 /** @param {number} value @returns {string} three digits, and small ones as powers */
 function shortNumber(value) {
