@@ -4,12 +4,13 @@
 
 import { html, render, useEffect, useState } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
+import { untilIdle } from "../lib/idle.js";
 import { Icon, ProgressBar } from "../lib/ui.js";
 import { heldBack } from "./state/alarm.js";
 import { changedCount, problems } from "./state/document.js";
 
 /**
- * @typedef {{icon: string, keepsFrame?: boolean, badge?: () => {text: string, tone: string, label: string} | null,
+ * @typedef {{icon: string, keepsFrame?: boolean, heavy?: boolean, badge?: () => {text: string, tone: string, label: string} | null,
  *   load: () => Promise<() => import("vendor/preact.js").VNode>}} PanelEntry
  */
 
@@ -34,7 +35,11 @@ export const PANELS = {
     icon: "variants",
     load: async () => (await import("../panels/variants.js")).VariantsPanel,
   },
-  source: { icon: "source", load: async () => (await import("../panels/source.js")).SourcePanel },
+  source: {
+    icon: "source",
+    heavy: true,
+    load: async () => (await import("../panels/source.js")).SourcePanel,
+  },
   outline: {
     icon: "includes",
     load: async () => (await import("../panels/outline.js")).OutlinePanel,
@@ -85,13 +90,29 @@ function Tab({ id }) {
     ${badge && html`<span class=${`badge ${badge.tone}`} title=${badge.label} aria-label=${badge.label}>${badge.text}</span>`}</span>`;
 }
 
+/** Settles when the panels that were asked for so far are here. @type {Promise<unknown>} */
+let others = Promise.resolve();
+
+/** @param {string} id what takes long comes once the rest of the page stands */
+async function fetched(id) {
+  const entry = PANELS[id];
+  if (entry?.heavy) {
+    await untilIdle();
+    await others;
+    return entry.load();
+  }
+  const panel = entry?.load();
+  others = Promise.allSettled([others, panel]);
+  return panel;
+}
+
 /** @param {{id: string}} props draws the panel as soon as its file is here */
 function Loaded({ id }) {
   const [drawn, setDrawn] = useState(
     /** @type {{panel: () => import("vendor/preact.js").VNode} | null} */ (null),
   );
   useEffect(() => {
-    PANELS[id]?.load().then((panel) => setDrawn({ panel }));
+    fetched(id).then((panel) => panel && setDrawn({ panel }));
   }, [id]);
   if (!drawn) return html`<${ProgressBar} label=${t("loading")} done=${0} total=${0} />`;
   return html`<${drawn.panel} />`;

@@ -39,9 +39,10 @@ export function TopBar() {
 }
 
 function DocumentMenu() {
-  const name = title.value || t("document.none");
+  // Until the studio has said what is open there is nothing to read, and so nothing to move.
+  const name = title.value || (documentId.value === "" ? t("document.none") : "");
   return html`<${MenuButton} class="document-button" label=${t("documents.menu")} hint=${name} items=${documentItems}>
-    <${Icon} name="fileCode" /><span class="document-title">${name}</span><${Icon} name="chevronDown" size=${13} />
+    <${Icon} name="fileCode" /><span class="document-title">${name}</span>${name && html`<${Icon} name="chevronDown" size=${13} />`}
   <//>`;
 }
 

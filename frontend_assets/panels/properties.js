@@ -2,7 +2,7 @@
 
 /** @import { SiteGroup } from "../lib/sites.js" */
 
-import { html, useEffect, useRef, useSignal, useState } from "vendor/preact.js";
+import { html, useEffect, useLayoutEffect, useRef, useSignal, useState } from "vendor/preact.js";
 import { commandById, commandLabel } from "../app/commands.js";
 import { followChoices } from "../app/state/arguments.js";
 import {
@@ -183,6 +183,12 @@ function Piece({ ids }) {
   const [near, setNear] = useState(false);
   const height = useRef(ids.length * ROW_PX);
   const sought = soughtSite.value !== null && ids.includes(soughtSite.value);
+  // What is in view at first is drawn before the first picture, so that nothing moves after it.
+  useLayoutEffect(() => {
+    const list = element.current?.closest(".scroll");
+    const top = element.current?.getBoundingClientRect().top ?? Infinity;
+    if (list && top < list.getBoundingClientRect().bottom) setNear(true);
+  }, []);
   useEffect(() => {
     const piece = element.current;
     if (!piece) return undefined;
