@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from statistics import median
 from typing import TYPE_CHECKING, Final
 
 from studio.problems import Severity
@@ -28,14 +27,18 @@ def mesh_scale_findings(
 ) -> Iterator[Finding]:
     """Meshes of a size that no part of this robot has; `mesh_bounds` as for `measure`."""
     sizes = _sizes_m(robot, mesh_bounds)
-    others = {uri: size for uri, (size, _, _) in sizes.items()}
-    for uri, (size_m, link, mesh) in sizes.items():
-        rest = [one for name, one in others.items() if name != uri]
-        usual_m = median(rest) if rest else 0.0
+    usual_m = _usual_m([size_m for size_m, _, _ in sizes.values()])
+    for size_m, link, mesh in sizes.values():
         if size_m > _LARGEST_M or (size_m > _STRIKING_M and 0 < usual_m * _DWARFS < size_m):
             yield _finding(link, mesh, size_m, 0.001)
         elif 0 < size_m < _SMALLEST_M:
             yield _finding(link, mesh, size_m, 1000.0)
+
+
+def _usual_m(sizes_m: list[float]) -> float:
+    """The median of what is left without the largest; 0 when there is nothing."""
+    rest = sorted(sizes_m)[:-1]
+    return rest[(len(rest) - 1) // 2] if rest else 0.0
 
 
 def _sizes_m(

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from studio.problems import Problem
 from studio.robot.checks.extents import extents
@@ -23,6 +24,9 @@ if TYPE_CHECKING:
     from studio.robot.checks.finding import Finding
     from studio.robot.measures import Bounds
     from studio.robot.values import Robot
+
+ALIKE_AT_MOST: Final = 200
+"""Findings of one code that are told one by one: nobody reads ten thousand."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,7 +50,24 @@ def check_robot(checked: CheckedRobot) -> tuple[Problem, ...]:
     What its names and ties come to is not looked at: `structure` does that.
     """
     mender = Mender(checked.source)
-    return tuple(_problem(one, checked, mender) for one in robot_findings(checked))
+    found: list[Problem] = []
+    counts = Counter[str]()
+    left_out: dict[str, Finding] = {}
+    for one in robot_findings(checked):
+        counts[one.code] += 1
+        if counts[one.code] <= ALIKE_AT_MOST:
+            found.append(_problem(one, checked, mender))
+        else:
+            left_out[one.code] = one
+    return (*found, *(_more(one, counts[one.code]) for one in left_out.values()))
+
+
+def _more(last: Finding, count: int) -> Problem:
+    more = count - ALIKE_AT_MOST
+    sentence = (
+        f'{more:,} more parts have the fault "{last.code}": mend those that are listed first.'
+    )
+    return Problem(last.severity, last.code, sentence)
 
 
 def robot_findings(checked: CheckedRobot) -> Iterator[Finding]:
