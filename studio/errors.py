@@ -9,6 +9,7 @@ StudioError
         OutsideRootsError
         UnreadableFileError
         UnsafeArchiveError
+        ExportError
         NotMadeError
         UploadError
     DescriptionError
@@ -129,6 +130,14 @@ class UploadError(PackageError):
     def __init__(self, reason: str) -> None:
         super().__init__(f"Nothing was uploaded: {reason}")
         self.reason = reason
+
+
+class ExportError(PackageError):
+    """A robot or its package cannot be given out."""
+
+    def __init__(self, what: str, reason: str) -> None:
+        super().__init__(f"{what} was not exported: {reason}.")
+        self.what, self.reason = what, reason
 
 
 class DescriptionError(StudioError):

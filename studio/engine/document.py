@@ -15,6 +15,7 @@ from studio.engine.disk import DiskDesk
 from studio.engine.drafts import DraftDesk
 from studio.engine.edit_loop import EditLoop, Outcome, Target
 from studio.engine.expanded import ExpandedDesk
+from studio.engine.exports import ExportDesk
 from studio.engine.history import HistoryDesk
 from studio.engine.inspection import InspectionDesk
 from studio.engine.language import LanguageDesk
@@ -87,7 +88,7 @@ class Document:
         self.mending, self.checks = MendingDesk(self), CheckDesk(self, services.validator)
         self.disk = DiskDesk(self.sources, served, self.board)
         self.history, self.saving = HistoryDesk(self), SaveDesk(self)
-        self.drafts = DraftDesk(self, services.settings.data_folder)
+        self.drafts, self.exports = DraftDesk(self, services.settings.data_folder), ExportDesk(self)
         self.motion = Motion(self.model, self.board)
         self.poses = PoseDesk(self, services)
         self._services = services

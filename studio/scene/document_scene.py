@@ -16,6 +16,7 @@ from studio.scene.host import make_server
 from studio.scene.naming import GRID
 from studio.scene.pose_writer import PoseWriter
 from studio.scene.robot_drawing import RobotDrawing
+from studio.scene.standalone import standalone_page
 
 if TYPE_CHECKING:
     import asyncio
@@ -143,6 +144,14 @@ class DocumentScene:
             connection.close(_BAD_VERSION)
             return
         await self._server.serve(connection, allowed)
+
+    def standalone_page(self, title: str, *, dark: bool) -> Callable[[], bytes]:
+        """Take the view as it is now; what is returned makes a page of it, in any thread."""
+        low, high = self._robot.ground.bounds_m(*self._last_poses)
+        centre = ((low + high) / 2).tolist()
+        size_m = float(np.linalg.norm(high - low))
+        at = (centre[0], centre[1], centre[2])
+        return standalone_page(self.viser, title, at, size_m, dark=dark)
 
     def close(self) -> None:
         """End all connections and forget everything."""

@@ -61,6 +61,28 @@ class Ground:
                 lowest = min(lowest, float(heights.min()))
         return lowest if math.isfinite(lowest) else 0.0
 
+    def bounds_m(
+        self, link_names: Sequence[str], wxyz_xyz: NDArray[np.floating]
+    ) -> tuple[Floats, Floats]:
+        """Lowest and highest corner of all boxes in the root frame, each (3,); zeros for none.
+
+        Args:
+            link_names: L names.
+            wxyz_xyz: Shape (L, 7), as for `DocumentScene.set_poses`.
+        """
+        self._look_at_noted()
+        low, high = np.full(3, np.inf), np.full(3, -np.inf)
+        for name, pose in zip(link_names, np.asarray(wxyz_xyz, dtype=np.float64), strict=True):
+            boxes = self._boxes.get(name)
+            if boxes is not None:
+                rotation = _rotation(pose)
+                centres = boxes[0] @ rotation.T + pose[4:]
+                halves = np.abs(boxes[1] @ rotation.T).sum(axis=1)
+                low = np.minimum(low, (centres - halves).min(axis=0))
+                high = np.maximum(high, (centres + halves).max(axis=0))
+        is_there = bool(np.isfinite(low).all() and np.isfinite(high).all())
+        return (low, high) if is_there else (np.zeros(3), np.zeros(3))
+
     def _look_at_noted(self) -> None:
         noted, self._noted = self._noted, {}
         for name, (link, shelf) in noted.items():
@@ -77,6 +99,18 @@ def _up_in_link(pose: Floats) -> Floats:
     """The third row of the rotation: how much each axis of the link points up."""
     w, x, y, z = pose[:4].tolist()
     return np.array([2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)])
+
+
+def _rotation(pose: Floats) -> Floats:
+    """Shape (3, 3): the root frame's axes from the link's."""
+    w, x, y, z = pose[:4].tolist()
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    )
 
 
 def _box_of(visual: Visual, shelf: MeshShelf) -> tuple[Vector3, tuple[Vector3, ...]] | None:

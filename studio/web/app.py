@@ -16,6 +16,7 @@ from studio.web.access import PUBLIC_ROUTES, ROUTE_DEEDS, demand
 from studio.web.api import Api
 from studio.web.assets import Assets
 from studio.web.credentials import Credentials
+from studio.web.exports import Exports
 from studio.web.guard import Guard
 from studio.web.origin import KnownHosts
 from studio.web.pages import not_found_page, trouble_page
@@ -56,6 +57,7 @@ def make_app(
     app.add_exception_handler(HTTPException, _say_http)
     Site(engine, assets, session).add_to(app)
     app.include_router(Api(engine, session).router())
+    app.include_router(Exports(engine).router())
     app.include_router(Uploads(engine).router())
     document = openapi(app.routes)
 

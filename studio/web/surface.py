@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Protocol
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
 
+    from studio.engine.exports import Download, MeshNames
     from studio.engine.listeners import Listener
     from studio.engine.messages import Command
     from studio.scene import Connection
@@ -22,12 +23,33 @@ class OpenScene(Protocol):
         ...
 
 
+class MakesDownloads(Protocol):
+    """A document for other programs. Each raises a StudioError when it cannot be made."""
+
+    async def urdf(self, meshes: MeshNames, /) -> Download:
+        """The expanded URDF."""
+        ...
+
+    async def package(self, *, all_used: bool) -> Download:
+        """The robot's package as a zip, or all that it uses."""
+        ...
+
+    async def page(self, *, dark: bool) -> Download:
+        """The 3D view as a page of its own."""
+        ...
+
+
 class OpenDocument(Protocol):
     """One document."""
 
     @property
     def scene(self) -> OpenScene:
         """Its 3D view."""
+        ...
+
+    @property
+    def exports(self) -> MakesDownloads:
+        """Makes what can be downloaded of it."""
         ...
 
 

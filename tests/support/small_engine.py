@@ -5,6 +5,9 @@ from __future__ import annotations
 import asyncio
 from typing import TYPE_CHECKING
 
+from starlette.requests import ClientDisconnect
+
+from studio.engine.exports import Download
 from studio.engine.listeners import tell
 from studio.engine.messages import (
     AnimateJoints,
@@ -22,12 +25,13 @@ from studio.engine.messages import (
     Urdf,
     ZeroJoints,
 )
-from studio.errors import SaveConflictError, UnknownDocumentError, UploadError
+from studio.errors import ExportError, SaveConflictError, UnknownDocumentError, UploadError
 from studio.scene.connection import SUBPROTOCOL
 
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator, Callable
 
+    from studio.engine.exports import MeshNames
     from studio.engine.listeners import Listener
     from studio.scene import Connection
 
@@ -51,9 +55,25 @@ class SmallScene:
                 connection.write(message)
 
 
+class SmallExports:
+    """Downloads that hold what was asked for."""
+
+    async def urdf(self, meshes: MeshNames, /) -> Download:
+        return Download("small 'robot\" ü🤖\r\n.urdf", "application/xml", (meshes.encode(),))
+
+    async def package(self, *, all_used: bool) -> Download:
+        return Download("small.zip", "application/zip", (b"used" if all_used else b"entry", b"!"))
+
+    async def page(self, *, dark: bool) -> Download:
+        if not dark:
+            raise ExportError("small", "it has no light")
+        return Download("small.html", "text/html", (b"page",))
+
+
 class SmallDocument:
     def __init__(self) -> None:
         self.scene = SmallScene()
+        self.exports = SmallExports()
 
 
 class SmallLibrary:
@@ -61,11 +81,18 @@ class SmallLibrary:
 
     def __init__(self) -> None:
         self.uploads: list[tuple[bytes, bytes]] = []
+        self.begun = self.broken = 0
 
     async def take_upload(self, manifest: bytes, chunks: AsyncIterator[bytes], /) -> str:
         if manifest == b"refuse":
             raise UploadError("the small engine is in no mood.")
-        self.uploads.append((manifest, b"".join([chunk async for chunk in chunks])))
+        self.begun += 1
+        try:
+            content = b"".join([chunk async for chunk in chunks])
+        except ClientDisconnect:
+            self.broken += 1
+            raise
+        self.uploads.append((manifest, content))
         return "small"
 
 

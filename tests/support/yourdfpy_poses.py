@@ -13,6 +13,7 @@ import yourdfpy
 if TYPE_CHECKING:
     from collections.abc import Mapping
     from io import BytesIO
+    from pathlib import Path
 
     from numpy.typing import NDArray
 
@@ -31,3 +32,9 @@ def poses_by_yourdfpy(
     return {
         name: np.asarray(robot.get_transform(name), dtype=np.float64) for name in robot.link_map
     }
+
+
+def loaded_by_yourdfpy(urdf: Path, joint: str) -> tuple[list[float], int]:
+    """Where a joint stands, x y z in m, and how many meshes were read for the robot's visuals."""
+    robot: Any = yourdfpy.URDF.load(str(urdf))
+    return [float(one) for one in robot.joint_map[joint].origin[:3, 3]], len(robot.scene.geometry)

@@ -13,6 +13,7 @@ from studio.scene import SUBPROTOCOL
 from studio.web.access import PUBLIC_ROUTES, ROUTE_DEEDS, may
 from studio.web.api import Api
 from studio.web.assets import Assets
+from studio.web.exports import Exports
 from studio.web.site import Site
 from studio.web.uploads import Uploads
 from tests.support.small_engine import URDF, SmallEngine
@@ -33,6 +34,7 @@ def test_every_route_is_in_the_table_and_the_table_names_no_other(assets_folder:
     engine = SmallEngine()
     Site(engine, Assets(assets_folder), "session").add_to(app)
     app.include_router(Api(engine, "session").router())
+    app.include_router(Exports(engine).router())
     app.include_router(Uploads(engine).router())
     found = {path for route in app.routes for path in _paths(route)}
     assert found | {"/api/openapi.json"} == ROUTE_DEEDS.keys() | PUBLIC_ROUTES
