@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from studio.description.language.uses import Use
     from studio.description.syntax.source_tree import SourceElement, SourceTree
 
+_CALLED = re.compile(rb"\s*\(")
 _GIVEN = re.compile(rb"\s*\(\s*(?:'([^']*)'|\"([^\"]*)\"|&quot;(.*?)&quot;|&apos;(.*?)&apos;)\s*\)")
 
 
@@ -39,6 +40,8 @@ def arg_spots(name: str, definitions: Definitions, book: UsesBook) -> Iterator[S
 def _asked_for(tree: SourceTree, use: Use, name: str) -> Iterator[Spot]:
     """The text in `arg('name')` and `xacro.arg('name')`."""
     if use.chain is None or use.chain.steps[-1].key != "arg":
+        return
+    if not _CALLED.match(tree.data, use.ends[-1]):  # of `$(arg name)`
         return
     found = _GIVEN.match(tree.data, use.ends[-1])
     if found is None:
