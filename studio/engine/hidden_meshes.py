@@ -5,15 +5,16 @@ from __future__ import annotations
 import asyncio
 from typing import TYPE_CHECKING, TypeAlias
 
+from studio.engine.mesh_loading import mesh_problem
 from studio.errors import PackageError, RobotError, WorkerError
 from studio.packages.uris import resolve_uri
-from studio.problems import Problem, Severity
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
     from pathlib import Path
 
     from studio.engine.document import Document
+    from studio.problems import Problem
     from studio.robot.measures import Bounds
     from studio.robot.meshes import MeshLibrary
 
@@ -59,7 +60,7 @@ class HiddenMeshes:
             self.problems.pop(uri, None)
         except (PackageError, RobotError, WorkerError) as error:
             self.bounds.pop(uri, None)
-            self.problems[uri] = Problem(Severity.WARNING, "mesh", f"Mesh {error}")
+            self.problems[uri] = mesh_problem(uri, error)
         self._seen[uri] = stamp
 
     def _stamp(self, uri: str) -> _Stamp:

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
     from pathlib import Path
 
+    from studio.errors import StudioError
     from studio.robot.loaded_mesh import LoadedMesh
     from studio.robot.meshes import MeshLibrary
 
@@ -76,10 +77,7 @@ class MeshLoading:
             mesh = await self._library.load(path, roots, shape)
             self.problems.pop(uri, None)
         except (PackageError, RobotError, WorkerError) as error:
-            what = "Texture" if uri != split_textured(uri)[1] else "Mesh"
-            self.problems[uri] = Problem(
-                Severity.WARNING, "mesh", f"{what} {error}", fix=_fix_of(error)
-            )
+            self.problems[uri] = mesh_problem(uri, error)
         finally:
             self._tasks.pop(uri, None)
             self._done += 1
@@ -91,6 +89,12 @@ class MeshLoading:
             self._progress(self._done, self._total)
         if self._done == self._total:
             self._done = self._total = 0
+
+
+def mesh_problem(uri: str, error: StudioError) -> Problem:
+    """Why a mesh, or a texture on a primitive, is not there to be drawn."""
+    what = "Texture" if uri != split_textured(uri)[1] else "Mesh"
+    return Problem(Severity.WARNING, "mesh", f"{what} {error}", fix=_fix_of(error))
 
 
 def _fix_of(error: Exception) -> Fix | None:

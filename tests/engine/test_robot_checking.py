@@ -120,3 +120,18 @@ def test_a_document_that_is_closed_is_looked_at_no_more(tmp_path: Path):
             assert not found(document, "reversed-limits")
 
     asyncio.run(run())
+
+
+def test_a_mesh_that_is_missing_twice_is_told_once(tmp_path: Path):
+    shape = '<geometry><mesh filename="package://nowhere/arm.stl"/></geometry>'
+    text = robot(link("base", f"<visual>{shape}</visual><collision>{shape}</collision>"))
+
+    async def run() -> None:
+        async with engine(tmp_path / "data") as made:
+            document, _ = await opened(made, written(tmp_path, text))
+            await document.robot_checks.settled()
+            (missing,) = found(document, "mesh")
+            assert missing.fix is not None
+            assert missing.fix.target == "nowhere"
+
+    asyncio.run(run())
