@@ -21,21 +21,24 @@ export function useSeen(element, tell) {
 }
 
 /**
- * Bring something into view without moving the focus: at once, or as soon as its panel is looked at.
+ * Do something once, as soon as an element has a place on the page.
  *
  * @param {Element | null | undefined} element
- * @param {ScrollLogicalPosition} [block]
+ * @param {() => void} run
  * @returns {() => void} the end of waiting
  */
-export function reveal(element, block = "nearest") {
-  const watcher = new IntersectionObserver((entries) => {
-    const last = entries.at(-1);
-    if (!last || last.rootBounds?.height === 0) return;
-    if (element && element.getClientRects().length > 0) {
-      watcher.disconnect();
-      if (last.intersectionRatio < 1) element.scrollIntoView({ block });
-    }
+export function whenPlaced(element, run) {
+  // Told of the size that it has now, and of every other one: none while its panel is behind another.
+  const watcher = new ResizeObserver(() => {
+    if (!element || element.getClientRects().length === 0) return;
+    watcher.disconnect();
+    run();
   });
   if (element) watcher.observe(element);
   return () => watcher.disconnect();
+}
+
+/** Bring something into view without moving the focus, once it can be. @param {Element | null | undefined} element @returns {() => void} the end of waiting */
+export function reveal(element) {
+  return whenPlaced(element, () => element?.scrollIntoView({ block: "nearest" }));
 }

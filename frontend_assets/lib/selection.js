@@ -86,23 +86,22 @@ function litNow({ part, link }, robot) {
 const has = (parts, wanted) => parts.some(({ name }) => name === wanted);
 
 /**
- * The part that was written at a place. One element of a macro makes several: the one that is selected
- * already stays so.
+ * The part that was written at a place. One element of a macro makes several: the one that belongs to
+ * the link that is lit already is meant.
  *
  * @param {Parts} robot
  * @param {{file: string, line: number, kind: string, name: string}} element `kind` is `link` or `joint`;
  *   `name` as it stands there, perhaps an expression; line from 1
- * @param {string | null} present key of the part that is selected
+ * @param {string | null} lit the link of the selection
  * @returns {string | null} key of the part
  */
-export function partWrittenAt({ links, joints }, { file, line, kind, name }, present) {
+export function partWrittenAt(robot, { file, line, kind, name }, lit) {
   /** @type {readonly (LinkView | JointView)[]} */
-  const all = kind === "joint" ? joints : links;
+  const all = kind === "joint" ? robot.joints : robot.links;
   const here = all.filter((one) => one.file === file);
   const named = here.filter((one) => one.name === name);
   // Lines are those of the last good run; a name that is no expression is surer.
-  const found = (named.length > 0 ? named : here.filter((one) => one.line === line)).map(
-    (one) => `${kind}:${one.name}`,
-  );
-  return found.find((key) => key === present) ?? found[0] ?? null;
+  const found = named.length > 0 ? named : here.filter((one) => one.line === line);
+  const keys = found.map((one) => `${kind}:${one.name}`);
+  return keys.find((key) => linkOf(robot, key) === lit) ?? keys[0] ?? null;
 }

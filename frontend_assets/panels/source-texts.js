@@ -18,6 +18,7 @@ import { t } from "../lib/i18n.js";
 import { commonExtensions, fromElsewhere, stateOf, tellCursor } from "./source-editor.js";
 import { pointing } from "./source-effects.js";
 import { languageOf } from "./source-language.js";
+import { selecting } from "./source-selection.js";
 
 /**
  * @typedef {object} Shown what the panel draws
@@ -119,7 +120,7 @@ export class SourceTexts {
       const options = {
         dark: theme.value === "dark",
         mayEdit: mayEdit.value,
-        more: [languageOf(link), pointing(link)],
+        more: [languageOf(link), pointing(link), selecting(link)],
       };
       one.state = stateOf(link, this.#common, options);
       return "";

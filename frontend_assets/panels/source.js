@@ -30,6 +30,7 @@ import { setSaved } from "./source-changes.js";
 import { adjust, goToPlace } from "./source-editor.js";
 import { setLit } from "./source-lights.js";
 import { SourceSearch } from "./source-search.js";
+import { useSelection } from "./source-selection.js";
 import { SourceTabs } from "./source-tabs.js";
 import { SourceTexts } from "./source-texts.js";
 
@@ -111,6 +112,7 @@ function useEditor(texts, host) {
   useMarks(texts);
   useSaved(texts);
   useLights(texts);
+  useSelection(texts);
   useWanted(texts);
 }
 

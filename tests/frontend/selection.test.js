@@ -82,11 +82,13 @@ test("a joint that moves another link now lights that one", () => {
   assert.equal(stillThere(before, hung)?.part, "joint:left_joint");
 });
 
-test("a place of a macro is the part that is selected already, else the first that it made", () => {
+test("a place of a macro is the part of the link that is lit, else the first that it made", () => {
   const at = { file: "/a.xacro", line: 10, kind: "link", name: "${side}_wheel" };
   assert.equal(partWrittenAt(ROBOT, at, null), "link:left_wheel");
-  assert.equal(partWrittenAt(ROBOT, at, "link:right_wheel"), "link:right_wheel");
-  assert.equal(partWrittenAt(ROBOT, at, "link:base"), "link:left_wheel");
+  assert.equal(partWrittenAt(ROBOT, at, "right_wheel"), "link:right_wheel");
+  assert.equal(partWrittenAt(ROBOT, at, "base"), "link:left_wheel");
+  const joints = { ...at, line: 14, kind: "joint", name: "${side}_joint" };
+  assert.equal(partWrittenAt(ROBOT, joints, "right_wheel"), "joint:right_joint");
 });
 
 test("a name that is written out is found also where lines were added above it", () => {
