@@ -51,7 +51,8 @@ class InspectionDesk:
         robot = self._document.model.robot
         weighed = [link for link in robot.links.values() if link.inertial]
         volumes = await self._volumes_of(_mesh_uris(weighed))
-        return masses_event(command.request, robot, volumes.get)
+        # a large robot takes a while, and nobody else shall wait for it
+        return await asyncio.to_thread(masses_event, command.request, robot, volumes.get)
 
     async def _volumes_of(self, uris: Iterable[str]) -> dict[str, Volume]:
         """By URI; without the meshes that cannot be read, of which the problems tell."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
@@ -35,8 +36,12 @@ def link_mass(link: Link) -> LinkMass | None:
     return LinkMass(one.mass_kg, one.origin.xyz, tensor, principal_moments(one))
 
 
+@lru_cache(maxsize=16_384)
 def principal_moments(inertial: Inertial) -> Vector3 | None:
-    """Moments about the axes in which no product of inertia is left, kg m2, the least first."""
+    """Moments about the axes in which no product of inertia is left, kg m2, the least first.
+
+    An edit leaves most links as they were: theirs are remembered.
+    """
     one = inertial
     tensor = np.array(
         [[one.ixx, one.ixy, one.ixz], [one.ixy, one.iyy, one.iyz], [one.ixz, one.iyz, one.izz]]
