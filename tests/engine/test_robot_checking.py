@@ -135,3 +135,14 @@ def test_a_mesh_that_is_missing_twice_is_told_once(tmp_path: Path):
             assert missing.fix.target == "nowhere"
 
     asyncio.run(run())
+
+
+def test_there_is_nothing_to_mend_in_our_own_models(models: Path, tmp_path: Path):
+    async def run() -> None:
+        async with engine(tmp_path / "data") as made:
+            for path in sorted(models.glob("*/urdf/*.urdf.xacro")):
+                document, _ = await opened(made, path)
+                await document.robot_checks.settled()
+                assert not document.board.found, path.name
+
+    asyncio.run(run())

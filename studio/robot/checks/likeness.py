@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 
 _DENSEST_KG_M3: Final = 20_000.0
 """Gold has 19,300; steel 7,850."""
-_LIGHTEST_KG_M3: Final = 1.0
-"""Of the box around a link, most of which may be air."""
+_LIGHTEST_KG_M3: Final = 5.0
+"""Of the box around a link, most of which may be air; of the corpus the lightest has 19."""
 _THINNEST_M: Final = 0.005
 """A sheet or a line as a picture of something is taken to be that thick."""
 _TOO_WIDE: Final = 1.5
@@ -60,12 +60,13 @@ def _density_finding(link: Link, inertial: Inertial, sides_m: Floats) -> Finding
     density = inertial.mass_kg / float(np.prod(np.maximum(sides_m, _THINNEST_M)))
     if _LIGHTEST_KG_M3 <= density <= _DENSEST_KG_M3:
         return None
-    what = "heavier than any metal" if density > 1 else "lighter than air"
+    is_heavy = density > _DENSEST_KG_M3
+    what = "heavier than any metal" if is_heavy else "lighter than foam"
     sentence = (
         f'Link "{link.name}" weighs {inertial.mass_kg:.4g} kg in a box of {_shown(sides_m)}, which '
         f"is {what} ({density:.2g} kg/m³): check the mass (kg) and the size (m)."
     )
-    severity = Severity.WARNING if density > 1 else Severity.INFO
+    severity = Severity.WARNING if is_heavy else Severity.INFO
     return Finding(severity, "density", sentence, f"link:{link.name}")
 
 
