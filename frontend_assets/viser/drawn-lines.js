@@ -74,7 +74,9 @@ function labelOf({ place: [x, y], text, kind }) {
   const element = document.createElement("output");
   element.className = `studio-label ${kind}`;
   element.textContent = text;
-  const away = kind === "aim" ? "translate(14px, 14px)" : "translate(-50%, -50%)";
+  const isRight = x > innerWidth * 0.6;
+  const beside = isRight ? "translate(calc(-100% - 14px), 14px)" : "translate(14px, 14px)";
+  const away = kind === "aim" ? beside : "translate(-50%, -50%)";
   element.style.transform = `translate(${round(x)}px, ${round(y)}px) ${away}`;
   return element;
 }

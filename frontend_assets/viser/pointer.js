@@ -136,6 +136,8 @@ export class Pointer {
     if (this.#measuring.on) {
       const anchor = this.#measuring.take(placeOf(event));
       if (anchor) this.#tell("measure", { anchor });
+      // A finger that was lifted aims at nothing any more.
+      if (event.pointerType === "touch") this.#measuring.hover(null);
     } else {
       this.#looks.setSelected(link);
       this.#tell("select", { link });
