@@ -6,6 +6,7 @@ import { LANGUAGES, language } from "../lib/i18n.js";
 import { closeDocument, reload } from "./actions.js";
 import { commandById } from "./commands.js";
 import { graphicsCommands } from "./graphics.js";
+import { exportCommands } from "./export.js";
 import { copyLink } from "./share.js";
 import { mayEdit } from "./state/connection.js";
 import { documentId, unsaved } from "./state/document.js";
@@ -17,7 +18,7 @@ const onDocument = () => mayEdit.value && isFree() && documentId.value !== "";
 
 /** @returns {Command[]} */
 export function menuCommands() {
-  return [...documentCommands(), ...themeCommands(), ...graphicsCommands(), ...languageCommands()];
+  return [...documentCommands(), ...exportCommands(), ...themeCommands(), ...graphicsCommands(), ...languageCommands()];
 }
 
 /** @returns {Command[]} */

@@ -6,6 +6,7 @@ import { shortcutText } from "../lib/keys.js";
 import { Icon, IconButton, MenuButton } from "../lib/ui.js";
 import { closeDocument, goTo, redo, reload, save, undo } from "./actions.js";
 import { commandById, onMac } from "./commands.js";
+import { ExportMenu } from "./export.js";
 import { HistoryMenu } from "./history-menu.js";
 import { PanelsMenu, SettingsMenu } from "./settings-menu.js";
 import { mayEdit, role } from "./state/connection.js";
@@ -31,6 +32,7 @@ export function TopBar() {
     <${PaletteButton} />
     <div class="bar-right">
     ${role.value === "presenter" && html`<${EditButtons} />`}
+    <${ExportMenu} />
     <${PanelsMenu} />
     <${SettingsMenu} />
     <${ThemeButton} />

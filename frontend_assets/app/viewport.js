@@ -33,6 +33,7 @@ import {
  * @property {() => void} fit
  * @property {(name: string) => void} view
  * @property {(link: string) => void} focus
+ * @property {(scale: number, transparent: boolean) => Promise<Blob | null>} picture a PNG; null: too large
  * @property {(theme: "dark" | "light") => void} setTheme
  * @property {(mode: "rviz" | "trackpad") => void} setMouse
  * @property {(link: string, visible: boolean) => void} setLinkVisible

@@ -8,6 +8,7 @@ import { Looks } from "./looks.js";
 import { Marks } from "./marks.js";
 import { Measuring } from "./measuring.js";
 import { pick } from "./picking.js";
+import { Picture } from "./picture.js";
 import { Pointer } from "./pointer.js";
 import { Quality } from "./quality.js";
 import { RobotView } from "./robot.js";
@@ -29,6 +30,7 @@ class Studio3d {
   #camera = new CameraView(this.#door, this.#robot);
   #light = new Light(this.#door);
   #still = new Still(this.#door);
+  #picture = new Picture(this.#door);
   #theme = new Theme(this.#door, () => this.#camera.distance());
   #looks = new Looks(this.#door, this.#robot, this.#theme);
   #marks = new Marks(this.#door, this.#robot);
@@ -106,6 +108,11 @@ class Studio3d {
   /** @param {CameraPose} pose @param {boolean} [animate] */
   setCamera(pose, animate) {
     this.#camera.set(pose, animate);
+  }
+
+  /** A PNG of the view. @param {number} scale @param {boolean} transparent */
+  picture(scale, transparent) {
+    return this.#picture.take(scale, transparent);
   }
 
   /** @param {"dark" | "light"} name */
