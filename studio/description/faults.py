@@ -36,6 +36,8 @@ class Fault(Exception):  # noqa: N818 - a fault of the description, not of the s
         super().__init__(sentence)
         self.code, self.sentence = code, sentence
         self.unreadable, self.package = unreadable, package
+        self.misnamed: tuple[str, str] | None = None
+        """The name that nobody knows, and the one that was likely meant."""
         self.place: Place | None = None
         self.include_chain: tuple[Place, ...] = ()
         self.macro_stack: tuple[MacroCall, ...] = ()
@@ -49,10 +51,28 @@ class Unsupported(Exception):  # noqa: N818 - never leaves the room
     """Our evaluator does not know this construct; the stock library may."""
 
 
-def hint(name: str, known: Iterable[str], otherwise: str) -> str:
-    """`did you mean "x"?` when a known name is near, else what to do instead."""
-    near = get_close_matches(name, islice(known, _NAMES_LOOKED_AT), n=1, cutoff=0.7)
-    return f'did you mean "{near[0]}"?' if near else otherwise
+def misnamed(code: str, sentence: str, name: str, known: Iterable[str], otherwise: str) -> Fault:
+    """A name that nobody knows: the sentence goes on with the one that was likely meant.
+
+    Args:
+        code: As of a `Fault`.
+        sentence: What is wrong, up to its colon.
+        name: As it is written.
+        known: The names that there are.
+        otherwise: What to do when none of them is near.
+    """
+    meant = near(name, known)
+    fault = Fault(
+        code, f'{sentence}: did you mean "{meant}"?' if meant else f"{sentence}: {otherwise}"
+    )
+    fault.misnamed = (name, meant) if meant else None
+    return fault
+
+
+def near(name: str, known: Iterable[str]) -> str:
+    """The known name that is nearly this one; empty when none is."""
+    found = get_close_matches(name, islice(known, _NAMES_LOOKED_AT), n=1, cutoff=0.7)
+    return found[0] if found else ""
 
 
 def shorten(text: str, limit: int = 120) -> str:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
 from studio.description.checks.answering import checked_broken, checked_good
 from studio.description.checks.check_values import CheckQuery
+from studio.description.checks.fault_mends import mend_of
 from studio.description.evaluator.evaluation import Evaluation
 from studio.description.evaluator.output_tree import OutputElement
 from studio.description.evaluator.parts import part_of, write_part, write_parts
@@ -208,7 +210,8 @@ class Session:
         self._fault = fault.code
         problem, files = problem_of(fault, self._entry), tuple(self._store.asked)
         if fault.code not in RECOVERABLE or fault.place is None:
-            return Failure(problem, files)
+            mend = mend_of(fault, self._store.trees(files))
+            return Failure(replace(problem, fix=problem.fix or mend), files)
         if self._good is None:
             run = recovered_run(self._store, self._policy, self._arguments, self._entry)
             if run.root is not None and run.problems:

@@ -123,9 +123,11 @@ class CheckDesk:
     def _with_undo(self, problem: Problem) -> Problem:
         """Offer to give what is missing, or to take the edit back that may have broken it."""
         document = self._document
+        if problem.fix:
+            return problem
         if problem.code == "undefined-argument" and document.expansion is None:
             return replace(problem, fix=Fix("Give it a value", "give_arguments"))
-        if problem.fix or not document.sources.undo_labels or document.expansion is None:
+        if not document.sources.undo_labels or document.expansion is None:
             return problem
         return replace(problem, fix=Fix("Undo edit", "undo"))
 

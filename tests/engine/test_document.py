@@ -89,7 +89,7 @@ def test_a_failed_run_keeps_the_model_and_its_undo_mends_it(arm: Path, tmp_path:
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, arm)
-            await document.edit_site(ear.site("reach")["id"], "${rech}", "")
+            await document.edit_site(ear.site("reach")["id"], "${unheard_of}", "")
             told = ear.last("problems")
             assert told["showing_last_good"]
             (problem,) = [one for one in told["problems"] if one["severity"] == "error"]
@@ -99,7 +99,7 @@ def test_a_failed_run_keeps_the_model_and_its_undo_mends_it(arm: Path, tmp_path:
             assert height_of(document) == pytest.approx(0.4)
             newcomer = Ear()
             document.board.attach(newcomer)
-            assert newcomer.site("reach")["text"] == "${rech}"
+            assert newcomer.site("reach")["text"] == "${unheard_of}"
             await document.undo()
             assert ear.last("problems")["problems"] == []
             assert ear.site("reach")["text"] == "0.4"

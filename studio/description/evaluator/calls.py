@@ -10,7 +10,7 @@ from studio.description.evaluator.node_attributes import import_namespaces, requ
 from studio.description.evaluator.output_tree import CallFrame, OutputElement
 from studio.description.evaluator.scopes import Cell, Scope, ScopeView
 from studio.description.expressions.guarded_operations import text_of
-from studio.description.faults import Fault, hint
+from studio.description.faults import Fault, misnamed
 from studio.description.values import SiteKind
 
 if TYPE_CHECKING:
@@ -83,9 +83,8 @@ def _resolve(name: str, macros: MacroTable, scope: Scope) -> tuple[Macro, MacroT
 
 def _unknown(name: str, macros: MacroTable) -> Fault:
     otherwise = "include the file that defines it."
-    return Fault(
-        "unknown-macro", f'There is no macro "{name}": {hint(name, macros.all_names(), otherwise)}'
-    )
+    sentence = f'There is no macro "{name}"'
+    return misnamed("unknown-macro", sentence, name, macros.all_names(), otherwise)
 
 
 def _missing(macro: Macro, names: list[str]) -> Fault:
@@ -104,10 +103,9 @@ def _bind_arguments(
     left = list(macro.parameters)
     for name, text in node.attributes.items():
         if name not in left:
-            known = hint(name, left, f"it knows {', '.join(macro.parameters) or 'none'}.")
-            raise Fault(
-                "unknown-parameter", f'The macro "{macro.name}" has no parameter "{name}": {known}'
-            )
+            sentence = f'The macro "{macro.name}" has no parameter "{name}"'
+            otherwise = f"it knows {', '.join(macro.parameters) or 'none'}."
+            raise misnamed("unknown-parameter", sentence, name, left, otherwise)
         left.remove(name)
         binding = run.binding(None, name, node.origin, name, text)
         warn_hidden(run, name)
@@ -184,8 +182,9 @@ def insert_block(
         return
     found = scope.find(f"*{name}")
     if found is None:
-        known = hint(name, _block_names(scope), "pass it to the macro or define the property.")
-        raise Fault("unknown-block", f'There is no block "{name}" here: {known}')
+        otherwise = "pass it to the macro or define the property."
+        sentence = f'There is no block "{name}" here'
+        raise misnamed("unknown-block", sentence, name, _block_names(scope), otherwise)
     run.ordinary(_block(found[0]), out, macros, scope)
 
 

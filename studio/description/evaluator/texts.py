@@ -18,7 +18,7 @@ from studio.description.evaluator.yaml_values import Reader, wrap
 from studio.description.expressions.bounded_values import is_lasting
 from studio.description.expressions.expressions import HELPERS, Expression, compile_expression
 from studio.description.expressions.guarded_operations import SIZE_LIMIT, text_of
-from studio.description.faults import Fault, Refusal, hint, shorten
+from studio.description.faults import Fault, Refusal, misnamed, shorten
 from studio.description.syntax.templates import Cut, segments_of
 from studio.problems import Problem, Severity
 
@@ -230,8 +230,8 @@ class Texts:
         if name in self.arguments:
             return Fault("undefined-property", f'"{name}" is an arg: read it with $(arg {name}).')
         otherwise = f'define it with <xacro:property name="{name}" value="..."/>.'
-        sentence = f'"{name}" is not defined here: {hint(name, scope.all_names(), otherwise)}'
-        return Fault("undefined-property", sentence)
+        sentence = f'"{name}" is not defined here'
+        return misnamed("undefined-property", sentence, name, scope.all_names(), otherwise)
 
     def _resolve(self, name: str, cell: Cell, scope: Scope) -> None:
         if cell.resolving:
@@ -268,8 +268,8 @@ class Texts:
         found = self.arguments.get(name)
         if found is None:
             otherwise = f"declare it with <xacro:arg> or pass {name}:=value."
-            known = hint(name, self.arguments, otherwise)
-            raise Fault("undefined-argument", f'The arg "{name}" is not given: {known}')
+            sentence = f'The arg "{name}" is not given'
+            raise misnamed("undefined-argument", sentence, name, self.arguments, otherwise)
         self._now.reads.append(found)
         return found.value
 

@@ -147,7 +147,7 @@ class _Recovery:
 
     def _text_outside(self, start: int, end: int, raw: bytes) -> None:
         """Text before or behind the robot: what a paste brought along, a fence of Markdown say."""
-        declares = self._data.startswith(b"<?xml", end)
+        declares = self._data.startswith(b"<?xml", end) and not self._elements.content_end
         if raw.isspace() and not declares:
             return
         fix = self._mends.fix("Remove the text", self._mends.replaced(start, end, ""))
