@@ -6,11 +6,12 @@ import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { setDisplay } from "../app/actions.js";
 import { mayEdit } from "../app/state/connection.js";
 import { displays, links, robot } from "../app/state/document.js";
-import { selectLink } from "../app/state/selection.js";
+import { selection, selectLink } from "../app/state/selection.js";
 import { hiddenLinks, hovered, selected, showLink } from "../app/state/view.js";
 import { focusLink } from "../app/viewport.js";
 import { t } from "../lib/i18n.js";
 import { formatNumber, parseNumber } from "../lib/numbers.js";
+import { whenPlaced } from "../lib/seen.js";
 import { TextBox } from "../lib/slider.js";
 import { ancestorsOf, linkRows } from "../lib/tree.js";
 import { EmptyState, Icon, SearchBox } from "../lib/ui.js";
@@ -40,7 +41,8 @@ export function DisplaysPanel() {
   const closed = useSignal(/** @type {ReadonlySet<string>} */ (new Set(["grid", "layers"])));
   const active = useSignal("robot");
   const rows = treeRows(filter.value, closed.value);
-  useRevealSelection(closed);
+  const panel = useRef(/** @type {HTMLElement | null} */ (null));
+  useRevealSelection(closed, panel);
   /** @param {string} id @param {boolean} open */
   const setOpen = (id, open) => {
     const now = new Set(closed.value);
@@ -48,7 +50,7 @@ export function DisplaysPanel() {
     else now.add(id);
     closed.value = now;
   };
-  return html`<section class="panel-body" aria-label=${t("panel.displays")}>
+  return html`<section ref=${panel} class="panel-body" aria-label=${t("panel.displays")}>
     <div class="panel-bar">
       <${SearchBox} label=${t("displays.filter")} value=${filter.value} onInput=${(
         /** @type {string} */ text,
@@ -63,15 +65,17 @@ export function DisplaysPanel() {
   </section>`;
 }
 
-/** A link selected in 3D is unfolded and scrolled to. @param {{value: ReadonlySet<string>}} closed */
-function useRevealSelection(closed) {
+/** A link selected elsewhere is unfolded and scrolled to. @param {{value: ReadonlySet<string>}} closed @param {{current: HTMLElement | null}} panel */
+function useRevealSelection(closed, panel) {
   const link = selected.value;
   useEffect(() => {
-    if (!link || !robot.value) return;
+    if (!link || !robot.value || selection.value?.by === "displays") return undefined;
     const way = ["robot", "links", ...ancestorsOf(robot.value, link).map((name) => `link:${name}`)];
     closed.value = new Set([...closed.value].filter((id) => !way.includes(id)));
-    requestAnimationFrame(() =>
-      document.getElementById(rowId(`link:${link}`))?.scrollIntoView({ block: "nearest" }),
+    return whenPlaced(panel.current, () =>
+      requestAnimationFrame(() => {
+        document.getElementById(rowId(`link:${link}`))?.scrollIntoView({ block: "nearest" });
+      }),
     );
   }, [link]);
 }

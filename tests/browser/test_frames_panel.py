@@ -1,0 +1,151 @@
+"""The pose of a frame in another one: in three clicks, live, copied, and as yourdfpy has it."""
+
+from __future__ import annotations
+
+import json
+from io import BytesIO
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+
+from tests.support.server import running_studio
+from tests.support.studio_page import StudioPage, studio_page, wait_until
+from tests.support.yourdfpy_poses import poses_by_yourdfpy
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+    from numpy.typing import NDArray
+    from playwright.sync_api import Browser, Locator
+
+    from tests.support.server import RunningStudio
+
+pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(240)]
+
+_LIT = """() => Object.entries(
+  document.querySelector("iframe").contentWindow.__viserMutable.nodeRefFromName)
+  .filter(([name, node]) => name.endsWith("/studio_frame") && node)
+  .map(([name]) => name.split("/")[2]).sort()"""
+_JOINTS = """() => [...document.querySelectorAll(".joint")].map((row) => [
+  row.getAttribute("aria-label"),
+  Number(row.querySelector("input[type=range]").value)])"""
+
+
+@pytest.fixture
+def studio(tmp_path: Path) -> Iterator[RunningStudio]:
+    with running_studio(["demo"], tmp_path / "data") as running:
+        yield running
+
+
+@pytest.fixture
+def tab(browser: Browser, studio: RunningStudio) -> Iterator[StudioPage]:
+    with studio_page(browser, studio) as page:
+        page.page.context.grant_permissions(["clipboard-read", "clipboard-write"])
+        yield page
+
+
+class Hand:
+    """Counts what it does."""
+
+    def __init__(self) -> None:
+        self.clicks = 0
+
+    def click(self, at: Locator) -> None:
+        at.click()
+        self.clicks += 1
+
+
+def panel(tab: StudioPage) -> Locator:
+    return tab.page.locator("section[aria-label='Frames']")
+
+
+def link(tab: StudioPage, name: str) -> Locator:
+    return tab.page.get_by_role("treeitem", name=name, exact=True)
+
+
+def box(tab: StudioPage, name: str) -> str:
+    return tab.page.get_by_role("combobox", name=name).input_value()
+
+
+def copied(tab: StudioPage, what: str, form: str) -> str:
+    tab.page.get_by_role("button", name=f"Copy: {what}").first.click()
+    tab.page.get_by_role("menuitem", name=form).click()
+    return str(tab.page.evaluate("navigator.clipboard.readText()"))
+
+
+def matrix(tab: StudioPage) -> NDArray[np.float64]:
+    return np.array(json.loads(copied(tab, "Matrix", "Copy as a Python list")))
+
+
+def shown_matrix(tab: StudioPage) -> NDArray[np.float64]:
+    cells = panel(tab).locator(".frames-matrix td").all_inner_texts()
+    return np.array([float(cell) for cell in cells]).reshape(4, 4)
+
+
+def test_the_pose_of_one_frame_in_another_takes_three_clicks(tab: StudioPage):
+    hand = Hand()
+    hand.click(link(tab, "base_link"))
+    hand.click(tab.page.get_by_role("button", name="Poses in this frame"))
+    hand.click(link(tab, "camera_head"))
+    wait_until("the pose", lambda: panel(tab).locator(".frames-matrix").count() == 1)
+    assert (box(tab, "Frame whose pose is told"), hand.clicks) == ("camera_head", 3)
+    assert box(tab, "Frame in which it is told") == "base_link"
+    wait_until("both frames in 3D", lambda: tab.page.evaluate(_LIT) == ["base_link", "camera_head"])
+
+    way = tab.page.get_by_role("list", name="Joints between the two frames")
+    way.get_by_role("button", name="mast_pan_joint").click()
+    wait_until(
+        "the joint in the tree",
+        lambda: link(tab, "camera_yoke").get_attribute("aria-selected") == "true",
+    )
+    assert box(tab, "Frame whose pose is told") == "camera_head"
+
+    there = matrix(tab)
+    tab.page.get_by_role("button", name="Swap the two frames").click()
+    wait_until("the other way", lambda: box(tab, "Frame in which it is told") == "camera_head")
+    assert np.abs(matrix(tab) @ there - np.eye(4)).max() < 1e-9
+    assert copied(tab, "Position", "<origin").startswith('<origin xyz="')
+
+    reference = tab.page.get_by_role("combobox", name="Frame in which it is told")
+    reference.click()
+    tab.page.keyboard.type("lidar")
+    tab.page.keyboard.press("Enter")
+    wait_until("the lidar", lambda: box(tab, "Frame in which it is told") == "lidar")
+    tab.page.get_by_role("tab", name="Source").click()
+    wait_until("no frames in 3D", lambda: tab.page.evaluate(_LIT) == [])
+    assert tab.errors == []
+
+
+def test_poses_follow_the_joints_and_are_those_of_yourdfpy(tab: StudioPage, studio: RunningStudio):
+    page = tab.page
+    document = page.url.rsplit("/", 1)[1]
+    with studio.client() as client:
+        urdf = client.get(f"/api/documents/{document}/urdf").content
+        page.get_by_role("tab", name="Joints").click()
+        link(tab, "base_link").click()
+        page.get_by_role("button", name="Poses in this frame").click()
+        for target in ("left_finger", "left_camera_optical_frame"):
+            link(tab, target).click()
+            for _ in range(3):
+                command = {"type": "randomize_joints", "document": document}
+                client.post("/api/commands", json=command).raise_for_status()
+                agrees(tab, urdf, "base_link", target)
+    assert tab.errors == []
+
+
+def agrees(tab: StudioPage, urdf: bytes, reference: str, target: str) -> None:
+    """Wait until the panel shows the joints that the sliders show, then look at every digit."""
+    wanted = np.zeros((4, 4))
+
+    def follows() -> bool:
+        nonlocal wanted
+        positions = dict(tab.page.evaluate(_JOINTS))
+        poses = poses_by_yourdfpy(BytesIO(urdf), positions)
+        assert poses is not None
+        wanted = np.linalg.inv(poses[reference]) @ poses[target]
+        return bool(np.abs(shown_matrix(tab) - wanted).max() < 2e-5)
+
+    wait_until(f"the pose of {target}", follows)
+    assert np.abs(matrix(tab) - wanted).max() < 1e-9
