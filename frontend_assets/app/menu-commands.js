@@ -5,8 +5,8 @@
 import { LANGUAGES, language } from "../lib/i18n.js";
 import { closeDocument, reload } from "./actions.js";
 import { commandById } from "./commands.js";
-import { graphicsCommands } from "./graphics.js";
 import { exportCommands } from "./export.js";
+import { graphicsCommands } from "./graphics.js";
 import { copyLink } from "./share.js";
 import { mayEdit } from "./state/connection.js";
 import { documentId, unsaved } from "./state/document.js";
@@ -18,7 +18,13 @@ const onDocument = () => mayEdit.value && isFree() && documentId.value !== "";
 
 /** @returns {Command[]} */
 export function menuCommands() {
-  return [...documentCommands(), ...exportCommands(), ...themeCommands(), ...graphicsCommands(), ...languageCommands()];
+  return [
+    ...documentCommands(),
+    ...exportCommands(),
+    ...themeCommands(),
+    ...graphicsCommands(),
+    ...languageCommands(),
+  ];
 }
 
 /** @returns {Command[]} */
