@@ -27,20 +27,24 @@ const peeked = StateField.define({
 
 /** @param {{pos: number, card: HTMLElement}} peek @returns {Tooltip} */
 function tooltipOf({ pos, card }) {
-  return { pos, above: false, create: () => ({ dom: card }) };
+  // At once, so that what is typed next is meant for the card.
+  const mount = () => firstOf(card)?.focus({ preventScroll: true });
+  return { pos, above: false, create: () => ({ dom: card, mount }) };
 }
+
+/** @param {HTMLElement} card @returns {HTMLElement | null} what takes the focus in it */
+const firstOf = (card) => card.querySelector("input") ?? card.querySelector("button");
 
 /** @type {Extension} */
 export const PEEK = [peeked, keymap.of([{ key: "Escape", run: closePeek }])];
 
-/** @param {EditorView} view @param {number} pos @param {HTMLElement} card its first button gets the focus */
+/** @param {EditorView} view @param {number} pos @param {HTMLElement} card its field, or first button, gets the focus */
 export function peek(view, pos, card) {
   card.addEventListener("keydown", (event) => onKey(view, card, event));
   card.addEventListener("click", ({ target }) => {
     if (target instanceof Element && target.closest("button")) closePeek(view);
   });
   view.dispatch({ effects: [closeHoverTooltips, setPeek.of({ pos, card })] });
-  requestAnimationFrame(() => card.querySelector("button")?.focus({ preventScroll: true }));
 }
 
 /** @param {EditorView} view @returns {boolean} there was one */

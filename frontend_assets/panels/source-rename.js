@@ -34,7 +34,6 @@ export function renameAt(link, view, pos) {
 function show(link, view, pos, meaning) {
   const card = new RenameCard(link, pos, meaning, () => closePeek(view));
   peek(view, Math.min(Math.max(meaning.start, 0), view.state.doc.length), card.element);
-  requestAnimationFrame(() => requestAnimationFrame(() => card.focus()));
 }
 
 /** A field for the name, what it would change, and the button that does it. */
@@ -69,12 +68,8 @@ class RenameCard {
     this.#listen();
   }
 
-  focus() {
-    this.field.focus();
-    this.field.select();
-  }
-
   #listen() {
+    this.field.addEventListener("focus", () => this.field.select(), { once: true });
     this.field.addEventListener("input", () => this.#typed());
     this.field.addEventListener("keydown", (event) => {
       if (event.key !== "Enter") return;
