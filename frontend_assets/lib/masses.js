@@ -5,8 +5,8 @@
 
 import { moved } from "./kinematics.js";
 
-/** Below and above these no robot is built of anything, kg/m3: aerogel aside, and osmium. */
-export const DENSITIES = { least: 20, most: 23_000 };
+/** Below and above these no robot is built of anything, kg/m3, as the checks of the studio see it. */
+export const DENSITIES = { least: 5, most: 20_000 };
 
 /** @typedef {"link" | "mass" | "moment" | "density"} MassOrder */
 /**
