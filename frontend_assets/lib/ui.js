@@ -39,6 +39,7 @@ export function SearchBox({ label, value, onInput }) {
   const clearOnEscape = (event) => {
     if (event.key !== "Escape" || value === "") return;
     event.stopPropagation();
+    event.preventDefault(); // else the window around it closes
     onInput("");
   };
   return html`<label class="search">

@@ -1,0 +1,188 @@
+"""Robots that are dropped, pasted, made anew, or opened again out of the page."""
+
+from __future__ import annotations
+
+import base64
+import io
+import zipfile
+from typing import TYPE_CHECKING
+
+import pytest
+
+from tests.support.broken_snippet import PRINTED
+from tests.support.packages import write_package
+from tests.support.server import running_studio
+from tests.support.studio_page import StudioPage, studio_page, wait_until
+
+if TYPE_CHECKING:
+    from collections.abc import Generator, Iterator
+    from pathlib import Path
+
+    from playwright.sync_api import Browser
+
+    from tests.support.server import RunningStudio
+
+pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(300)]
+
+SPHERE = '<visual><geometry><sphere radius="1"/></geometry></visual>'
+OWN = f'<robot name="own"><link name="base">{SPHERE}</link></robot>'
+WITH_MESH = (
+    '<robot name="meshed"><link name="base"><visual><geometry>'
+    '<mesh filename="package://meshed_description/meshes/tyre.stl"/>'
+    "</geometry></visual></link></robot>"
+)
+_DRAG = """([type, target, files]) => {
+  const held = new DataTransfer();
+  for (const [name, content] of files)
+    held.items.add(new File([Uint8Array.from(atob(content), (one) => one.charCodeAt(0))], name));
+  const event = new DragEvent(type, { dataTransfer: held, bubbles: true, cancelable: true });
+  document.querySelector(target).dispatchEvent(event);
+}"""
+"""A drag out of a file manager, which no tool for tests can begin."""
+
+
+@pytest.fixture(scope="module")
+def studio(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningStudio]:
+    folder = tmp_path_factory.mktemp("opening")
+    package = write_package(folder / "ws" / "own_robot", files={"urdf/own.urdf": OWN})
+    with running_studio(["open", str(package)], folder / "data") as running:
+        yield running
+
+
+@pytest.fixture
+def tab(browser: Browser, studio: RunningStudio) -> Generator[StudioPage]:
+    with studio_page(browser, studio) as opened:
+        yield opened
+        assert opened.errors == []
+
+
+def drag(tab: StudioPage, event: str, target: str, files: dict[str, bytes]) -> None:
+    held = [(name, base64.b64encode(content).decode()) for name, content in files.items()]
+    tab.page.evaluate(_DRAG, [event, target, held])
+
+
+def zipped(files: dict[str, str]) -> bytes:
+    archive = io.BytesIO()
+    with zipfile.ZipFile(archive, "w") as writer:
+        for path, content in files.items():
+            writer.writestr(path, content)
+    return archive.getvalue()
+
+
+def test_a_dropped_zip_is_opened_and_drawn(tab: StudioPage):
+    manifest = "<package><name>dropped</name></package>"
+    content = zipped({"dropped/package.xml": manifest, "dropped/urdf/dropped.urdf": OWN})
+    drag(tab, "dragenter", "header", {"robot.zip": content})
+    tab.page.get_by_text("Drop to open this robot").wait_for()
+    drag(tab, "drop", ".drop-layer", {"robot.zip": content})
+    tab.page.wait_for_url("**/d/dropped")
+    wait_until("it to be drawn", tab.has_drawn_robot)
+
+
+def test_a_robot_and_its_meshes_chosen_together_find_each_other(
+    tab: StudioPage, models: Path, tmp_path: Path
+):
+    robot = tmp_path / 'a "b" <i> \'ü🤖.urdf'
+    robot.write_text(WITH_MESH)
+    mesh = models / "rover_description" / "meshes" / "tyre.stl"
+    tab.page.keyboard.press("Control+o")
+    tab.page.locator("input[type=file]").first.set_input_files([robot, mesh])
+    tab.page.wait_for_url("**/d/a-b*")
+    wait_until("it to be drawn", tab.has_drawn_robot)
+    assert tab.page.get_by_text(robot.name).count() > 0
+
+
+def test_a_pasted_text_is_drawn_at_once_and_gets_a_place_by_saving_it(tab: StudioPage):
+    tab.page.context.grant_permissions(["clipboard-read", "clipboard-write"])
+    text = f'<link name="ball">{SPHERE}</link>'
+    tab.page.evaluate("(text) => navigator.clipboard.writeText(text)", text)
+    tab.page.keyboard.press("Control+v")
+    tab.page.wait_for_url("**/d/untitled-1")
+    wait_until("it to be drawn", tab.has_drawn_robot)
+    tab.page.get_by_role("button", name="Documents", exact=True).click()
+    tab.page.get_by_role("menuitemradio", name="Untitled 1").wait_for()
+    tab.page.get_by_role("menuitem", name="Save as").click()
+    name = tab.page.get_by_role("textbox", name="Package")
+    name.fill("My Ball")
+    tab.page.get_by_text("of small letters only").wait_for()
+    name.fill("ball_description")
+    tab.page.get_by_text("A good name").wait_for()
+    tab.page.keyboard.press("Enter")
+    tab.page.wait_for_url("**/d/ball")
+    wait_until("it to be drawn", tab.has_drawn_robot)
+
+
+def test_the_course_s_broken_listing_pasted_is_drawn_and_says_what_is_wrong(tab: StudioPage):
+    tab.page.context.grant_permissions(["clipboard-read", "clipboard-write"])
+    tab.page.evaluate("(text) => navigator.clipboard.writeText(text)", PRINTED)
+    tab.page.keyboard.press("Control+v")
+    tab.page.wait_for_url("**/d/untitled-*")
+    wait_until("it to be drawn", tab.has_drawn_robot)
+    panel = tab.page.get_by_role("region", name="Problems")
+    tab.page.get_by_role("tab", name="Problems").click()
+    for word in ("</robot>", "base_link", "wheel_link"):
+        panel.get_by_text(word).first.wait_for()
+
+
+def test_a_pasted_text_that_is_no_robot_changes_nothing(tab: StudioPage):
+    tab.page.context.grant_permissions(["clipboard-read", "clipboard-write"])
+    before = tab.page.url
+    tab.page.evaluate("() => navigator.clipboard.writeText('some words')")
+    tab.page.keyboard.press("Control+v")
+    tab.page.get_by_text("The clipboard holds no robot description").wait_for()
+    assert tab.page.url == before
+
+
+def test_a_new_rover_is_drawn_with_the_keyboard_alone(tab: StudioPage):
+    keys = tab.page.keyboard
+    keys.press("Control+k")
+    keys.type("new robot")
+    tab.page.get_by_role("option", name="New robot").first.wait_for()
+    keys.press("Enter")
+    tab.page.get_by_role("textbox", name="Package").fill("my_rover_description")
+    keys.press("Enter")
+    tab.page.wait_for_url("**/d/my-rover")
+    wait_until("it to be drawn", tab.has_drawn_robot)
+    tab.page.get_by_role("button", name="0 problems").wait_for()
+
+
+def test_folders_are_walked_through_and_filtered_by_keys(tab: StudioPage):
+    keys = tab.page.keyboard
+    keys.press("Control+o")
+    dialog = tab.page.get_by_role("dialog", name="Open a robot")
+    dialog.get_by_role("tab", name="Folders").click()
+    dialog.get_by_title("own_robot").first.focus()
+    keys.press("Enter")
+    dialog.get_by_role("navigation").get_by_text("own_robot").wait_for()
+    dialog.get_by_role("button", name="urdf", exact=True).press("Enter")
+    dialog.get_by_text("own.urdf", exact=True).wait_for()
+    keys.press("z")
+    dialog.get_by_text("Nothing matches").wait_for()
+    keys.press("Escape")
+    dialog.get_by_text("own.urdf", exact=True).wait_for()
+    dialog.get_by_role("searchbox").press("Enter")
+    tab.page.wait_for_url("**/d/own-2")
+
+
+def test_ones_own_workspace_is_two_clicks_and_a_key_away(browser: Browser, tmp_path: Path):
+    package = write_package(tmp_path / "ws" / "own_robot", files={"urdf/own.urdf": OWN})
+    with running_studio(["open", str(package)], tmp_path / "data"):
+        pass
+    with running_studio(["demo"], tmp_path / "data") as studio, studio_page(browser, studio) as tab:
+        tab.page.keyboard.press("Control+o")
+        tab.page.get_by_role("tab", name="Recent").click()
+        tab.page.get_by_role("button", name="own.urdf").first.click()
+        tab.page.wait_for_url("**/d/own")
+        wait_until("it to be drawn", tab.has_drawn_robot)
+        assert tab.errors == []
+
+
+def test_the_page_is_never_empty(browser: Browser, tmp_path: Path):
+    with running_studio(["demo"], tmp_path / "data") as studio, studio_page(browser, studio) as tab:
+        tab.page.get_by_role("button", name="Documents", exact=True).click()
+        tab.page.get_by_role("menuitem", name="Close").click()
+        tab.page.get_by_role("heading", name="Which robot?").wait_for()
+        tab.page.get_by_role("button", name="r2d2").click()
+        tab.page.wait_for_url("**/d/r2d2")
+        wait_until("it to be drawn", tab.has_drawn_robot)
+        assert tab.errors == []
