@@ -12,6 +12,7 @@ from tests.benchmarks import (
     evaluator,
     fan_out,
     meshes_to_websocket,
+    page,
     start,
 )
 from tests.benchmarks.report import say, say_machine, say_verdicts
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
 
 BENCHMARKS: dict[str, Callable[[], None]] = {
     "start": start.run,
+    "page": page.run,
     "evaluator": evaluator.run,
     "edit": edit_to_websocket.run,
     "pixels": edit_to_pixels.run,
