@@ -104,9 +104,9 @@ function Table({ rows, order }) {
       <${SortHead} order=${order} by="link" words=${t("masses.link")} />
       <${SortHead} order=${order} by="mass" words=${t("masses.mass")} unit="kg" class="number" />
       <th scope="col">${t("masses.share")}</th>
+      <${SortHead} order=${order} by="density" words=${t("masses.density")} unit="kg/m³" class="number" />
       <th scope="col" class="number" title=${t("masses.com.hint")}>${t("masses.com")} <small>m</small></th>
       <${SortHead} order=${order} by="moment" words=${t("masses.moments")} unit="kg m²" class="number" />
-      <${SortHead} order=${order} by="density" words=${t("masses.density")} unit="kg/m³" class="number" />
       <th scope="col">${t("masses.place")}</th>
     </tr></thead>
     <tbody>${shown.map((row) => html`<${Row} key=${row.mass.link} row=${row} />`)}</tbody>
@@ -151,9 +151,9 @@ function Row({ row }) {
     <th scope="row"><button type="button" class="link-name" title=${mass.link} aria-pressed=${chosen}>${mass.link}</button></th>
     <td class="number">${formatNumber(mass.mass_kg, 5)}</td>
     <td class="share"><span class="share-bar" style=${`--share:${(100 * share).toFixed(2)}%`}></span><span class="share-text">${(100 * share).toFixed(1)} %</span></td>
+    <${DensityCell} row=${row} />
     <td class="number three">${numbers(mass.centre_m, (value) => fixed(value, 4))}</td>
     <${Moments} mass=${mass} />
-    <${DensityCell} row=${row} />
     <td class="where">${link && html`<${PlaceLink} place=${{ file: link.file, line: link.line, column: 1 }} words=${placeWords(link)} />`}
       <${IconButton} icon="origin" label=${t("masses.why", { name: mass.link })} size=${14} onClick=${() => explain(mass.link)} /></td>
   </tr>`;
