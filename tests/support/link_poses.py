@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from studio.engine.document import Document
 
 REPOSITORY = Path(__file__).resolve().parents[2]
-FILE = REPOSITORY / "tests" / "frontend" / "link-poses.json"
+FILE = REPOSITORY / "tests" / "support" / "link-poses.json"
 MODEL = REPOSITORY / "models" / "rover_description" / "urdf" / "rover.urdf.xacro"
 _SEED = 4
 _JOINT = ("name", "type", "parent", "child", "axis")
