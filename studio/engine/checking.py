@@ -97,16 +97,17 @@ class CheckDesk:
     async def _look_later(self) -> None:
         await asyncio.sleep(QUIET_S)
         try:
-            self._take(await self._document.ask(CheckQuery(), Checked, self))
+            await self._take(await self._document.ask(CheckQuery(), Checked, self))
         except CommandError:
             return  # what was found last stands until there is a robot again
         except Exception:  # noqa: BLE001 - the checks of one text may not end those of the next
             _log.exception("The checks of %s failed.", self._document.path)
 
-    def _take(self, checked: Checked) -> None:
+    async def _take(self, checked: Checked) -> None:
+        of_robot = checked.read and await asyncio.to_thread(_problems_of, checked.read)
         self._of_texts = tuple(one for one in checked.problems if not one.code.startswith(_XML))
-        if checked.read is not None and self._document.failed:
-            self._of_robot = _problems_of(checked.read)
+        if of_robot is not None and self._document.failed:
+            self._of_robot = of_robot
         self._tell()
 
     def _tell(self) -> None:
@@ -149,7 +150,7 @@ def merged(of_robot: Iterable[Problem], of_texts: Sequence[Problem]) -> tuple[Pr
     What the texts tell of the robot's structure holds only while the robot tells it, too.
     """
     better = {_fact(one): one for one in of_texts if one.code in _OF_BOTH}
-    found = [better.get(_fact(one), one) for one in of_robot]
+    found = [replace(better.get(_fact(one), one), severity=one.severity) for one in of_robot]
     return (*found, *(one for one in of_texts if one.code not in _OF_BOTH))
 
 

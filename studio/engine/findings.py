@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from typing import TYPE_CHECKING
 
 from studio.problems import Problem, Severity
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Iterator
 
+OF_A_CODE = 500
+"""So many findings of one code are told: a large robot may have the same fault everywhere."""
 _RANK = {Severity.ERROR: 0, Severity.WARNING: 1, Severity.INFO: 2}
 
 
@@ -41,4 +44,20 @@ class Findings:
     def all(self) -> tuple[Problem, ...]:
         """Every problem once, errors first, else in the order in which they were found."""
         distinct = dict.fromkeys(problem for found in self._by_origin.values() for problem in found)
-        return tuple(sorted(distinct, key=lambda problem: _RANK[problem.severity]))
+        kept = _bounded(distinct)
+        return tuple(sorted(kept, key=lambda problem: _RANK[problem.severity]))
+
+
+def _bounded(problems: Iterable[Problem]) -> Iterator[Problem]:
+    """The first of each code; how many more there are is said behind them."""
+    counts: Counter[str] = Counter()
+    last: dict[str, Problem] = {}
+    for problem in problems:
+        counts[problem.code] += 1
+        if counts[problem.code] <= OF_A_CODE:
+            yield problem
+            last[problem.code] = problem
+    for code, count in counts.items():
+        if count > OF_A_CODE:
+            more = f"{count - OF_A_CODE} more findings are like this one: {last[code].sentence}"
+            yield Problem(last[code].severity, code, more)

@@ -44,6 +44,8 @@ class EntryPoint:
     openable: bool
     reason: str = ""
     """Why it cannot be opened as a robot, in words; empty when it can."""
+    is_broken: bool = False
+    """Its XML has a fault: others are opened first."""
 
 
 def entry_points(
@@ -122,6 +124,7 @@ class _Survey:
             package=self._package_of(path.parent)[0],
             openable=not reason,
             reason=reason,
+            is_broken=outline.is_broken,
         )
 
     def _rank(self, point: EntryPoint, includes: Includes) -> tuple[bool | int | str, ...]:
@@ -130,6 +133,7 @@ class _Survey:
         inside = point.path.relative_to(package_folder) if package_folder else point.path
         return (
             not point.openable,
+            point.is_broken,
             any(_words(step) & _ASIDE for step in inside.parts),
             "description" not in point.package and "support" not in point.package,
             not _is_named_like(point, start=False),
@@ -144,7 +148,7 @@ class _Survey:
 
 def _why_not(path: Path, outline: Outline, includes: Includes) -> str:
     """The picker's rule; empty when the file is a robot."""
-    if outline.error:
+    if outline.error and not _is_broken_robot(outline):
         return f"not readable: {outline.error}"
     if outline.root != "robot":
         return f"root is <{outline.root}>"
@@ -156,6 +160,11 @@ def _why_not(path: Path, outline: Outline, includes: Includes) -> str:
     if not outline.name and includers:
         return f"included by {includers[0].name}"
     return ""
+
+
+def _is_broken_robot(outline: Outline) -> bool:
+    """Whether a file is a robot up to a fault: it is opened, and says what is wrong with it."""
+    return outline.is_broken and outline.root == "robot" and outline.has_content
 
 
 def _without_content(outline: Outline) -> str:

@@ -36,6 +36,8 @@ class Outline:
     includes: list[str] = field(default_factory=list[str])
     """The file names of its includes outside macros, as written."""
     error: str = ""
+    is_broken: bool = False
+    """It is XML up to a fault, which is the error; the rest may be read all the same."""
 
 
 def read_outline(data: bytes) -> Outline:
@@ -49,6 +51,7 @@ def read_outline(data: bytes) -> Outline:
         reader.outline.error = (
             f"not well-formed XML: {expat.ErrorString(error.code)}, line {error.lineno}"
         )
+        reader.outline.is_broken = True
     except (LookupError, ValueError) as error:  # an encoding that does not exist or does not fit
         reader.outline.error = f"of no readable encoding ({error})"
     return reader.outline

@@ -1,4 +1,4 @@
-from studio.engine.findings import Findings
+from studio.engine.findings import OF_A_CODE, Findings
 from studio.problems import Problem, Severity
 
 NO_INERTIA = Problem(Severity.WARNING, "no-inertia", "No inertia.")
@@ -31,3 +31,13 @@ def test_what_two_found_is_listed_once():
     findings.replace("robot", [BROKEN])
     findings.replace("validation", [BROKEN])
     assert findings.all() == (BROKEN,)
+
+
+def test_of_one_code_only_the_first_are_told_and_how_many_more_there_are():
+    findings = Findings()
+    many = [Problem(Severity.WARNING, "same", f"Link {n} is odd.") for n in range(OF_A_CODE + 7)]
+    findings.replace("checks", [*many, Problem(Severity.INFO, "other", "One.")])
+    told = findings.all()
+    assert len(told) == OF_A_CODE + 2
+    last = [one for one in told if one.code == "same"][-1]
+    assert last.sentence == f"7 more findings are like this one: Link {OF_A_CODE - 1} is odd."

@@ -41,6 +41,14 @@ def test_a_robot_is_offered_with_its_name_kind_and_package(tmp_path: Path):
     assert all(one.openable and one.reason == "" for one in points.values())
 
 
+def test_a_robot_with_a_fault_in_its_xml_can_be_opened_and_is_offered_last(tmp_path: Path):
+    broken = CALLS.replace("</robot>", "</robt>")
+    write(tmp_path, {"rover.urdf.xacro": broken, "other.xacro": CALLS, "m.xacro": MACROS[:-3]})
+    points = found(tmp_path)
+    assert list(points) == ["other.xacro", "rover.urdf.xacro", "m.xacro"]
+    assert [one.openable for one in points.values()] == [True, True, False]
+
+
 def test_the_suffix_does_not_tell_what_is_xacro(tmp_path: Path):
     write(tmp_path, {"a.urdf": CALLS, "b.xacro": "<robot name='b'><link name='l'/></robot>"})
     points = found(tmp_path)
