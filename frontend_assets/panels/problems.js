@@ -66,7 +66,7 @@ function Bar({ all, files, words, hidden }) {
     ${SEVERITIES.map((one) => html`<${SeverityChip} key=${one} severity=${one} count=${counts(all)[one]} hidden=${hidden} />`)}
     <span class="push"></span>
     ${
-      count > 0 &&
+      count > 1 &&
       mayEdit.value &&
       html`<button type="button" class="button small primary" title=${t("problems.mend_all_hint")}
       onClick=${() => mendAll()}><${Icon} name="wand" size=${14} />${t("problems.mend_all", { count })}</button>`
