@@ -14,7 +14,9 @@ import {
 /** @import { Pose } from "../../frontend_assets/lib/kinematics.js" */
 
 /** A robot as the studio tells it, and where yourdfpy puts its links; made by tests/support/link_poses.py. */
-const ROVER = JSON.parse(readFileSync(new URL("../support/link-poses.json", import.meta.url), "utf8"));
+const ROVER = JSON.parse(
+  readFileSync(new URL("../support/link-poses.json", import.meta.url), "utf8"),
+);
 
 /** @param {Pose} found @param {Pose} wanted @param {number} within @param {string} what */
 function assertNear(found, wanted, within, what) {

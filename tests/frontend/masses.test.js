@@ -15,7 +15,9 @@ import {
 
 /** @import { LinkMassView } from "../../frontend_assets/types/wire.d.ts" */
 
-const ROVER = JSON.parse(readFileSync(new URL("../support/link-poses.json", import.meta.url), "utf8"));
+const ROVER = JSON.parse(
+  readFileSync(new URL("../support/link-poses.json", import.meta.url), "utf8"),
+);
 
 /** @param {string} link @param {number} kg @param {Partial<LinkMassView>} [more] @returns {LinkMassView} */
 const mass = (link, kg, more = {}) => ({

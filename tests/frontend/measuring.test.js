@@ -13,7 +13,9 @@ import {
 /** @import { Anchor } from "../../frontend_assets/lib/measuring.js" */
 /** @import { Pose } from "../../frontend_assets/lib/kinematics.js" */
 
-const ROVER = JSON.parse(readFileSync(new URL("../support/link-poses.json", import.meta.url), "utf8"));
+const ROVER = JSON.parse(
+  readFileSync(new URL("../support/link-poses.json", import.meta.url), "utf8"),
+);
 
 /** @param {string} name @param {string} child @param {string} [type] @param {number[]} [axis] */
 const joint = (name, child, type = "revolute", axis = [0, 0, 1]) =>
