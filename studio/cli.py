@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 _EXAMPLES = """\
 examples:
   studio demo                              look at the sample rover, drag its properties
+  studio open                              open what was opened last
   studio open robot.urdf.xacro             open a file
   studio open ~/ws/src                     open a workspace, a package folder or a .zip
   studio open ur.urdf.xacro ur_type:=ur10e name:=ur
@@ -68,7 +69,7 @@ def _parser() -> argparse.ArgumentParser:
     demo.set_defaults(run=_demo)
     _add_server_options(demo)
     opens = commands.add_parser("open", help="open a .xacro or .urdf file, a folder or a .zip")
-    opens.add_argument("path", metavar="PATH", type=Path)
+    opens.add_argument("path", metavar="PATH", type=Path, nargs="?", help="default: the last one")
     opens.add_argument("name:=value", nargs="*", help="arguments of the xacro file")
     opens.set_defaults(run=_open)
     _add_server_options(opens)
@@ -171,10 +172,26 @@ def _demo(options: argparse.Namespace, arguments: dict[str, str]) -> None:
 
 
 def _open(options: argparse.Namespace, arguments: dict[str, str]) -> None:
+    if options.path is None:
+        _open_last(options, arguments)
+        return
     path = options.path.expanduser()
     if not path.exists():
         raise UnreadableFileError(str(path), "there is no such file or folder.")
     _launch(options, _settings(options), path.absolute(), arguments)
+
+
+def _open_last(options: argparse.Namespace, arguments: dict[str, str]) -> None:
+    """Open what was opened last; the sample rover while that was nothing."""
+    from studio.packages.recent import last_opened
+
+    settings = _settings(options)
+    last = last_opened(settings.data_folder)
+    if last is None:
+        options.fresh = False
+        _demo(options, arguments)
+        return
+    _launch(options, settings, Path(last.path), arguments or last.arguments)
 
 
 def _launch(

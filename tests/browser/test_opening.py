@@ -164,7 +164,9 @@ def test_folders_are_walked_through_and_filtered_by_keys(tab: StudioPage):
     tab.page.wait_for_url("**/d/own-2")
 
 
-def test_ones_own_workspace_is_two_clicks_and_a_key_away(browser: Browser, tmp_path: Path):
+def test_ones_own_workspace_is_two_clicks_and_a_key_away_and_the_last_one_next_time(
+    browser: Browser, tmp_path: Path
+):
     package = write_package(tmp_path / "ws" / "own_robot", files={"urdf/own.urdf": OWN})
     with running_studio(["open", str(package)], tmp_path / "data"):
         pass
@@ -175,6 +177,9 @@ def test_ones_own_workspace_is_two_clicks_and_a_key_away(browser: Browser, tmp_p
         tab.page.wait_for_url("**/d/own")
         wait_until("it to be drawn", tab.has_drawn_robot)
         assert tab.errors == []
+    with running_studio(["open"], tmp_path / "data") as studio, studio.client() as client:
+        (document,) = client.get("/api/documents").json()["documents"]
+        assert document["title"] == "own.urdf"
 
 
 def test_the_page_is_never_empty(browser: Browser, tmp_path: Path):
