@@ -33,13 +33,13 @@ export function PoseForms({ pose }) {
   return html`<div class="frames-forms">
     <${Form} title=${t("frames.position")} unit=${html`<${LengthUnit} />`} names="xyz" values=${lengths} digits=${millimetres.value ? 2 : 5}
       copies=${copiesOf(pose, lengths)} />
-    <${Form} title=${t("frames.quaternion")} unit="" names="xyzw" values=${quaternion} digits=${6} copies=${copiesOf(pose, quaternion)} />
     <div class="frames-turn">
       <${Form} title=${t("frames.rpy")} unit="°" names=${RPY} values=${degrees} digits=${3} copies=${copiesOf(pose, degrees)} />
       <${Form} title="" unit="rad" names=${RPY} values=${rpy} digits=${5} copies=${copiesOf(pose, rpy)}
         note=${t("frames.rpy.note")} />
       ${locked && html`<p class="note frames-note"><${Icon} name="info" size=${13} />${t("frames.locked")}</p>`}
     </div>
+    <${Form} title=${t("frames.quaternion")} unit="" names="xyzw" values=${quaternion} digits=${6} copies=${copiesOf(pose, quaternion)} />
     <${Matrix} pose=${pose} />
   </div>`;
 }

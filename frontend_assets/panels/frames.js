@@ -47,9 +47,9 @@ function Content({ names }) {
     </div>
     <div class="scroll">
       ${target.value === null && html`<${EmptyState} icon="frames" title=${t("frames.none")} />`}
-      ${way && html`<${Way} way=${way} />`}
       ${target.value !== null && !way && html`<p class="note padded"><${Icon} name="info" size=${13} />${t("frames.apart")}</p>`}
       ${target.value !== null && html`<${Values} />`}
+      ${way && html`<${Way} way=${way} />`}
     </div>`;
 }
 

@@ -11,7 +11,7 @@ import { compose, inverse } from "../../lib/kinematics.js";
 import { remembered } from "../../lib/remembered.js";
 import { commandById } from "../commands.js";
 import { robot } from "./document.js";
-import { linkPoses } from "./frames.js";
+import { posesOf } from "./frames.js";
 import { selection, selectLink } from "./selection.js";
 
 /** Selections made by this panel are those on the way. */
@@ -38,9 +38,11 @@ export const reference = computed(() => there(chosen.value) ?? robot.value?.root
 
 /** Pose of the target in the reference; null until it is known. @type {Signal<Pose | null>} */
 export const referenceFromTarget = computed(() => {
-  const poses = linkPoses.value;
-  const rootFromReference = poses?.get(reference.value ?? "");
-  const rootFromTarget = poses?.get(target.value ?? "");
+  const [from, to] = [reference.value, target.value];
+  if (from === null || to === null) return null;
+  const poses = posesOf([from, to]);
+  const rootFromReference = poses?.get(from);
+  const rootFromTarget = poses?.get(to);
   if (!rootFromReference || !rootFromTarget) return null;
   return compose(inverse(rootFromReference), rootFromTarget);
 });

@@ -16,17 +16,28 @@ import { built, movable, position, robot } from "./document.js";
 
 /** @type {Signal<Frames["origins"] | null>} */
 const origins = signal(null);
+const moving = computed(() => new Set(movable.value.map(({ name }) => name)));
+
+/**
+ * The same of these links only, which costs less than of all.
+ *
+ * @param {readonly string[]} names
+ * @returns {ReadonlyMap<string, Pose> | null} by link, of those above them too; null until it is known
+ */
+export function posesOf(names) {
+  const [known, tree, moves] = [origins.value, robot.value, moving.value];
+  if (!known || !tree) return null;
+  const links = names.map((name) => ({ name }));
+  return rootFromLinks(
+    { links, joints: tree.joints },
+    (joint) => known[joint],
+    (joint) => (moves.has(joint) ? position(joint).value : 0),
+  );
+}
 
 /** Pose of each link in the root frame, by link; null until it is known. Needs `followFrames`. @type {Signal<ReadonlyMap<string, Pose> | null>} */
 export const linkPoses = computed(() => {
-  const [known, tree] = [origins.value, robot.value];
-  if (!known || !tree) return null;
-  const moving = new Set(movable.value.map(({ name }) => name));
-  return rootFromLinks(
-    tree,
-    (joint) => known[joint],
-    (joint) => (moving.has(joint) ? position(joint).value : 0),
-  );
+  return robot.value && posesOf(robot.value.links.map(({ name }) => name));
 });
 
 let followers = 0;
