@@ -60,7 +60,7 @@ def test_the_version_and_the_examples_are_said():
         assert option in run("open", "--help").stdout.decode()
 
 
-@pytest.mark.parametrize("arguments", [(), ("no-such",), ("open",), ("demo", "--port", "70000")])
+@pytest.mark.parametrize("arguments", [(), ("no-such",), ("check",), ("demo", "--port", "70000")])
 def test_a_wrong_command_line_ends_with_2(arguments: tuple[str, ...]):
     done = run(*arguments)
     assert done.returncode == 2
