@@ -3,7 +3,7 @@
 /** @import { FoundText, TextsFound } from "../types/wire.d.ts" */
 /** @import { Signal } from "vendor/preact.js" */
 
-import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
+import { html, useEffect, useLayoutEffect, useRef, useSignal } from "vendor/preact.js";
 import { ask } from "../app/actions.js";
 import { addCommands, commandById } from "../app/commands.js";
 import { mayEdit } from "../app/state/connection.js";
@@ -53,7 +53,8 @@ function Search({ wish }) {
   const wholeWord = useSignal(false);
   const found = useSignal(/** @type {TextsFound | null} */ (null));
   const field = useRef(/** @type {HTMLInputElement | null} */ (null));
-  useEffect(() => {
+  // At once: what is typed next stands in the field.
+  useLayoutEffect(() => {
     words.value = wish.text;
     field.current?.focus();
     field.current?.select();

@@ -108,7 +108,7 @@ def test_the_values_of_a_link_are_all_that_shape_it(tab: StudioPage):
 
 def test_an_element_of_the_urdf_leads_to_its_number(tab: StudioPage):
     tab.page.get_by_role("tab", name="URDF", exact=True).click()
-    tab.page.get_by_role("region", name="URDF").get_by_role("button", name="Find").click()
+    tab.page.locator("section[aria-label='URDF']").get_by_role("button", name="Find").click()
     tab.page.keyboard.type("upper=")
     tab.page.keyboard.press("Enter")
     limit = tab.page.locator(".urdf-text .cm-line", has_text="upper=").first
