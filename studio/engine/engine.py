@@ -13,11 +13,12 @@ from studio.engine import messages as m
 from studio.engine.dispatch import carry_out
 from studio.engine.document import Document
 from studio.engine.launching import form_at, form_of
+from studio.engine.left_work import LeftWorkDesk
 from studio.engine.library import Library
 from studio.engine.listeners import Audience, tell
 from studio.engine.services import Services
 from studio.engine.sharing import found_again, link_to, read_link
-from studio.errors import CommandError, UnknownDocumentError
+from studio.errors import CommandError, OutsideRootsError, UnknownDocumentError
 from studio.packages.listing import list_folder
 from studio.packages.roots import ServedRoots
 from studio.packages.workspace import Location, open_location
@@ -45,6 +46,7 @@ class Engine:
         self.library = Library(settings, self)
         self.served = ServedRoots((self.library.robots_folder,))
         """What can be listed and opened out of the page."""
+        self._left_work = LeftWorkDesk(self, settings.data_folder)
 
     async def start(self) -> None:
         """Warm the workers in the background; pages are served meanwhile."""
@@ -52,6 +54,7 @@ class Engine:
 
     async def close(self) -> None:
         """Close all documents and end all workers."""
+        await self._left_work.close()
         documents, self.documents = tuple(self.documents.values()), {}
         await asyncio.gather(*(document.close() for document in documents), self._services.close())
 
@@ -59,10 +62,12 @@ class Engine:
         """A control lane was opened: tell it what is open."""
         self._lobby.add(listener)
         tell(listener, self._list())
+        self._left_work.attach(listener)
 
     def detach(self, listener: Listener) -> None:
         """A control lane was closed."""
         self._lobby.remove(listener)
+        self._left_work.detach(listener)
         if document := self._watching.pop(listener, None):
             document.board.audience.remove(listener)
 
@@ -98,6 +103,8 @@ class Engine:
                 tell(listener, link_to(document.sources, document.location, command.request))
             case m.OpenLink():
                 tell(listener, await self._open_link(command))
+            case m.ForgetWork():
+                await self._left_work.forget(command.path)
             case m.ListFolder():
                 tell(listener, await self._list_folder(command))
             case _ if isinstance(command, m.LibraryCommand):
@@ -143,7 +150,12 @@ class Engine:
 
     async def _open_served(self, command: m.OpenPath) -> str:
         """Open out of the page: nothing is served then that was not before, but a zip's folder."""
-        path = self.served.resolve(Path(command.path))
+        try:
+            path = self.served.resolve(Path(command.path))
+        except OutsideRootsError:  # a page that outlived the studio shows what was opened before
+            if not self.library.may_reopen(command.path):
+                raise
+            return await self.open_at(Path(command.path), command.arguments, None)
         return self._open(await self._locate(path, within=self.served), command.arguments)
 
     async def _launch_form(self, command: m.GetArguments) -> m.Arguments:
@@ -230,3 +242,4 @@ class Engine:
 
     def _tell_list(self) -> None:
         self._lobby.tell(self._list())
+        self._left_work.doubt()

@@ -122,6 +122,11 @@ class Library:
         arguments = document.sources.arguments
         self._recent.note(document.path, document.title, arguments, now_s)
 
+    def may_reopen(self, path: str) -> bool:
+        """Whether a path may be opened though nothing serves it: it was opened before."""
+        known = self._recent.find(path)
+        return known is not None and self._may_open(known)
+
     async def take_upload(self, manifest: bytes, chunks: AsyncIterator[bytes]) -> str:
         """Keep sent files in the data folder and open them; gives the document's id.
 
@@ -197,7 +202,7 @@ class Library:
 
     async def _open_recent(self, path: str) -> str:
         known = self._recent.find(path)
-        if known is None or not self._may_open(known):
+        if known is None or not self.may_reopen(path):
             raise CommandError(f"{path} is not among the recent files: open its folder.")
         if not is_file(Path(path)):
             raise UnreadableFileError(path, "is no longer there: take it out of the list.")

@@ -194,6 +194,19 @@ def test_what_was_opened_is_remembered_and_opens_again_in_another_run(tmp_path: 
     run(story())
 
 
+def test_a_page_that_outlived_the_studio_opens_its_untitled_text_again(tmp_path: Path):
+    async def story() -> None:
+        async with engine(tmp_path) as made:
+            path = (await document_of(made, m.NewUntitled(text=ROBOT.decode()))).path
+        async with engine(tmp_path) as made:
+            document = await document_of(made, m.OpenPath(path=path))
+            assert document.title == "Untitled 1"
+            with pytest.raises(PackageError, match="outside the opened folders"):
+                await asked(made, m.OpenPath(path=str(tmp_path / "other.urdf")))
+
+    run(story())
+
+
 def test_only_what_was_opened_before_opens_as_a_recent_file(tmp_path: Path):
     secret = tmp_path / "secret.urdf"
     secret.write_bytes(ROBOT)

@@ -112,3 +112,11 @@ def test_closed_folders_and_files_are_listed_and_say_so_when_they_are_entered():
     assert entries["closed"].kind == "folder"
     assert not entries["a.urdf"].openable
     assert "permissions forbid it" in entries["a.urdf"].reason
+
+
+def test_a_root_inside_another_one_is_not_listed_twice(tmp_path: Path):
+    outer, inner, beside = (tmp_path / name for name in ("ws", "ws/inner", "ws2"))
+    for one in (outer, inner, beside):
+        one.mkdir()
+    listed = list_folder("", ServedRoots([outer, inner, beside]))
+    assert [one.path for one in listed.entries] == [str(outer), str(beside)]
