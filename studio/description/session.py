@@ -211,7 +211,7 @@ class Session:
         problem, files = problem_of(fault, self._entry), tuple(self._store.asked)
         if fault.code not in RECOVERABLE or fault.place is None:
             mend = mend_of(fault, self._store.trees(files))
-            return Failure(replace(problem, fix=problem.fix or mend), files)
+            return Failure(replace(problem, fix=mend or problem.fix), files)
         if self._good is None:
             run = recovered_run(self._store, self._policy, self._arguments, self._entry)
             if run.root is not None and run.problems:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from studio.description.faults import Fault
+from studio.description.faults import misnamed
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -15,12 +15,16 @@ def find_package(packages: Mapping[str, tuple[str, ...]], name: str, asking_file
     """The folder of a package: of several, the one that shares the longest path with the asker.
 
     Raises:
-        Fault: There is none of that name; its fix is to choose the folder.
+        Fault: There is none of that name; its fix is to write one that is near, or to choose the
+            folder.
     """
     folders = packages.get(name, ())
     if not folders:
-        sentence = f'The package "{name}" was not found: choose its folder or give --package-path.'
-        raise Fault("package-not-found", sentence, package=name)
+        sentence = f'The package "{name}" was not found'
+        otherwise = "choose its folder or give --package-path."
+        fault = misnamed("package-not-found", sentence, name, packages, otherwise)
+        fault.package = name
+        raise fault
     if len(folders) == 1:
         return folders[0]
     asking = Path(asking_file).parts

@@ -5,6 +5,8 @@ from typing import TYPE_CHECKING
 import pytest
 
 from tests.support.checked_texts import checked, mended
+from tests.support.descriptions import robot
+from tests.support.packages import write_package
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -32,6 +34,16 @@ def test_one_click_writes_the_name_that_was_meant(
     problems = checked(tmp_path, wrong)
     assert "did you mean" in problems[0].sentence
     assert mended(tmp_path, problems) == wrong.replace(*right)
+
+
+def test_a_package_that_is_nearly_there_is_named_and_else_its_folder_is_asked_for(tmp_path: Path):
+    write_package(tmp_path / "ball_description", files={"a.xacro": robot("")})
+    body = '<xacro:include filename="$(find ball_descripton)/a.xacro"/><link name="a"/>'
+    problems = checked(tmp_path, body)
+    assert mended(tmp_path, problems) == body.replace("descripton", "description")
+    (far,) = checked(tmp_path, body.replace("ball_descripton", "elsewhere"))
+    assert far.fix is not None
+    assert (far.fix.action, far.fix.target) == ("choose_package", "elsewhere")
 
 
 def test_of_several_places_the_one_that_was_evaluated_is_mended_first(tmp_path: Path):
