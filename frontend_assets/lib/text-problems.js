@@ -14,14 +14,15 @@ const WORD = /^(?:<\/?[\w:.-]+|[\w:.-]*\w|\$\{[^}]*\}?)/;
  * @param {readonly Problem[]} problems
  * @param {string} file
  * @param {Lines} doc
- * @returns {{from: number, to: number, severity: "error" | "warning" | "info", message: string}[]} in order
+ * @returns {{from: number, to: number, severity: Problem["severity"], message: string, problem: Problem}[]} in order
  */
 export function marksOf(problems, file, doc) {
   return problems
-    .flatMap(({ severity, sentence, place }) => {
+    .flatMap((problem) => {
+      const { severity, sentence, place } = problem;
       if (place?.file !== file || !place.line || place.line > doc.lines) return [];
       const line = doc.line(place.line);
-      return [{ ...stretch(line, place.column), severity, message: sentence }];
+      return [{ ...stretch(line, place.column), severity, message: sentence, problem }];
     })
     .sort((a, b) => a.from - b.from);
 }

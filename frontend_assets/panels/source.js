@@ -1,5 +1,7 @@
 /** The source texts, read and written: a tab per file, an editor, and what is wrong at its very place. */
 
+/** @import { Problem } from "../types/wire.d.ts" */
+
 import {
   EditorState,
   EditorView,
@@ -10,6 +12,7 @@ import {
   unfoldAll,
 } from "vendor/codemirror.js";
 import { html, useEffect, useMemo, useRef } from "vendor/preact.js";
+import { mend } from "../app/actions.js";
 import { connection, mayEdit } from "../app/state/connection.js";
 import { documentState, history, problems } from "../app/state/document.js";
 import {
@@ -131,12 +134,20 @@ function useWords(texts) {
 function useMarks(texts) {
   const link = texts.shown.value?.link;
   const found = problems.value;
+  const free = mayEdit.value;
   useEffect(() => {
     const { view } = texts;
     if (!link || !view) return;
     const marks = marksOf(found, link.file, view.state.doc);
-    view.dispatch(setDiagnostics(view.state, marks));
-  }, [link, found]);
+    const drawn = marks.map(({ problem, ...mark }) => ({ ...mark, actions: fixOf(problem, free) }));
+    view.dispatch(setDiagnostics(view.state, drawn));
+  }, [link, found, free]);
+}
+
+/** @param {Problem} problem @param {boolean} free @returns {{name: string, apply: () => void}[]} a click on it where it is underlined */
+function fixOf(problem, free) {
+  if (!free || !problem.fix) return [];
+  return [{ name: problem.fix.label, apply: () => void mend(problem) }];
 }
 
 /** @param {SourceTexts} texts what is saved is no longer marked as changed */

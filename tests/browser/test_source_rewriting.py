@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.browser.test_source_panel import go_to, notice, put_cursor_behind, text_of
+from tests.browser.test_source_panel import go_to, line_of, notice, put_cursor_behind, text_of
 from tests.support.server import running_studio
 from tests.support.studio_page import StudioPage, studio_page, wait_until
 
@@ -89,7 +89,7 @@ def test_words_are_found_in_all_files_and_replaced(tab: StudioPage):
     wait_until("what is found", lambda: "places in 2 files" in search.inner_text())
     search.get_by_role("button", name="wheel_radius").last.click()
     wait_until("its file", tab.page.get_by_role("tab", name="wheel.xacro").is_visible)
-    assert "hub_ratio" in tab.page.locator(".cm-activeLine").inner_text()
+    wait_until("its line", lambda: "hub_ratio" in line_of(tab))
     search.get_by_role("textbox", name="Replace by").fill("rim_ratio")
     search.get_by_role("button", name="Replace all").click()
     wait_until("the text", lambda: "rim_ratio" in text_of(tab))

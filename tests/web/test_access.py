@@ -19,6 +19,8 @@ VIEWER_COMMANDS = {
     *("watch", "get_urdf", "get_text", "get_origin", "get_effects"),
     *("get_outline", "look_up", "get_references"),
     *("get_frames", "get_masses"),
+    *("find_texts", "get_urdf_changes"),
+    *("find_texts", "get_renaming", "get_urdf_changes"),
 }
 CLIENT_MESSAGES = {
     "ViewerCameraMessage",
