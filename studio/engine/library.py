@@ -33,7 +33,7 @@ from studio.packages.untitled import drop_untitled, new_untitled
 from studio.packages.uploads import Upload, is_zip, read_manifest
 from studio.packages.working_copy import FOLDER as EXAMPLES
 from studio.packages.working_copy import working_copy
-from studio.packages.workspace import UPLOADS
+from studio.packages.workspace import UPLOADS, unpacked_folder
 from studio.settings import LOOPBACK_HOSTS, repository_or_wheel
 
 if TYPE_CHECKING:
@@ -146,10 +146,21 @@ class Library:
                 await _write(upload, chunks)
                 staged = upload.finish()
                 if is_zip(files[0]):
-                    return await self._open_new(staged / files[0].path, None)
+                    return await self._open_zip(staged / files[0].path)
                 return await self._open_sent(upload, staged)
         finally:
             self._reserved_bytes -= upload.size_bytes
+
+    async def _open_zip(self, sent: Path) -> str:
+        """Unpack and open; what holds no robot is not kept."""
+        folder = await asyncio.to_thread(unpacked_folder, sent, self._data_folder)
+        is_new = not is_folder(folder)
+        try:
+            return await self._open_new(sent, None)
+        except StudioError:
+            if is_new:
+                await asyncio.to_thread(shutil.rmtree, folder, ignore_errors=True)
+            raise
 
     async def _open_sent(self, upload: Upload, staged: Path) -> str:
         chosen = await asyncio.to_thread(arrange, staged)

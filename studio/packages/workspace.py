@@ -267,25 +267,33 @@ def _best(candidates: tuple[EntryPoint, ...]) -> Path | None:
     return next((one.path for one in candidates if one.openable), None)
 
 
-def _unpacked(zip_path: Path, data_folder: Path, tell: Progress) -> Path:
-    """The folder of a zip's content; what was edited there after an earlier opening stays."""
+def unpacked_folder(zip_path: Path, data_folder: Path) -> Path:
+    """Where a zip of this content is unpacked; it need not be there yet.
+
+    Raises:
+        UnreadableFileError: The zip cannot be read.
+    """
     try:
         with zip_path.open("rb") as file:
             digest = hashlib.file_digest(file, "sha256").hexdigest()[:20]
     except OSError as error:
         raise UnreadableFileError(str(zip_path), f"cannot be read ({error.strerror}).") from error
-    uploads = data_folder / UPLOADS
-    if is_folder(uploads / digest):
-        return folder_to_open(uploads / digest)
+    return data_folder / UPLOADS / digest
+
+
+def _unpacked(zip_path: Path, data_folder: Path, tell: Progress) -> Path:
+    """The folder of a zip's content; what was edited there after an earlier opening stays."""
+    folder = unpacked_folder(zip_path, data_folder)
+    uploads = folder.parent
+    if is_folder(folder):
+        return folder_to_open(folder)
     left = UPLOADS_QUOTA_BYTES - folder_bytes(uploads)
     if left <= 0:
         reason = f"{uploads} is full: delete folders there that you need no more."
         raise UnsafeArchiveError(str(zip_path), reason)
     limit_bytes = min(ZIP_SIZE_LIMIT_BYTES, left)
     label = f"unpacking {zip_path.name}"
-    return unpack_zip(
-        zip_path, uploads / digest, limit_bytes, lambda done, total: tell(label, done, total)
-    )
+    return unpack_zip(zip_path, folder, limit_bytes, lambda done, total: tell(label, done, total))
 
 
 def folder_bytes(folder: Path) -> int:
