@@ -20,7 +20,6 @@ VIEWER_COMMANDS = {
     *("get_outline", "look_up", "get_references"),
     *("get_frames", "get_masses"),
     *("find_texts", "get_urdf_changes"),
-    *("find_texts", "get_renaming", "get_urdf_changes"),
 }
 CLIENT_MESSAGES = {
     "ViewerCameraMessage",
