@@ -7,7 +7,11 @@ from enum import StrEnum
 
 
 class Severity(StrEnum):
-    """How much a Problem hinders: an error keeps the last good model, a warning does not."""
+    """How much a Problem hinders.
+
+    An error keeps the last good model, or ROS rejects the robot for it; a warning does neither, and
+    something will not work as it is written; the rest is worth knowing.
+    """
 
     ERROR = "error"
     WARNING = "warning"

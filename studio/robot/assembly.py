@@ -47,8 +47,7 @@ class Assembly:
 
     Severities: an error means that something last good is shown (a broken element keeps its last
     good value, a cycle keeps the whole robot) or, when there is none, that the broken sub-element
-    is left out. A warning means that the robot is drawn as far as it makes sense, although ROS may
-    reject the file.
+    is left out; and that ROS rejects the file, though it is drawn as far as it makes sense.
     """
 
     def __init__(self, name: str = "") -> None:
@@ -236,7 +235,7 @@ def _repeated(value: Link | Joint, part: Part) -> Problem:
         f'A second {kind} is named "{value.name}" and was left out; ROS rejects this: '
         "give it a name of its own."
     )
-    return _problem(Severity.WARNING, f"duplicate-{kind}", sentence, part)
+    return _problem(Severity.ERROR, f"duplicate-{kind}", sentence, part)
 
 
 def _add_inline_materials(links: Iterable[Link], materials: dict[str, Material]) -> None:

@@ -74,7 +74,7 @@ def _held_joints(robot: Robot, findings: list[Finding]) -> dict[str, Joint]:
     for joint in robot.joints.values():
         faults = _why_loose(robot, joint, holder)
         for code, sentence in faults:
-            findings.append(_warning(code, sentence, f"joint:{joint.name}"))
+            findings.append(_rejected(code, sentence, f"joint:{joint.name}"))
         if not faults:
             held[joint.name] = joint
             holder[joint.child] = joint.name
@@ -139,7 +139,7 @@ def _report_roots(robot: Robot, roots: list[str], findings: list[Finding]) -> No
             f"{len(roots)} links have no parent ({shown}) and are drawn at the origin; "
             "ROS rejects this: tie all but one with a joint."
         )
-        findings.append(_warning("several-roots", sentence, f"link:{roots[1]}"))
+        findings.append(_rejected("several-roots", sentence, f"link:{roots[1]}"))
 
 
 def _unled(held: Mapping[str, Joint], findings: list[Finding]) -> frozenset[str]:
@@ -158,7 +158,8 @@ def _unled(held: Mapping[str, Joint], findings: list[Finding]) -> frozenset[str]
         else:
             continue
         freed.add(joint.name)
-        findings.append(_warning("bad-mimic", sentence, f"joint:{joint.name}"))
+        problem = Problem(Severity.WARNING, "bad-mimic", sentence)
+        findings.append((problem, f"joint:{joint.name}"))
     return frozenset(freed)
 
 
@@ -173,5 +174,6 @@ def _leads_round(joint: Joint, held: Mapping[str, Joint], freed: set[str]) -> bo
     return False
 
 
-def _warning(code: str, sentence: str, key: str) -> Finding:
-    return Problem(Severity.WARNING, code, sentence), key
+def _rejected(code: str, sentence: str, key: str) -> Finding:
+    """What ROS does not load, whatever can still be drawn of it."""
+    return Problem(Severity.ERROR, code, sentence), key

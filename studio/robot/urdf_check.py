@@ -59,7 +59,7 @@ def _clean(text: str, problems: list[Problem]) -> bytes:
     root = parse_tree(text)
     if not root.get("name"):
         sentence = "The <robot> has no name; ROS rejects this: give it one."
-        problems.append(_problem("no-robot-name", sentence))
+        problems.append(Problem(Severity.ERROR, "no-robot-name", sentence))
         root.set("name", _NAME)
     for parent in root.iter():
         for child in [one for one in parent if ":" in one.tag]:

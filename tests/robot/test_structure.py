@@ -53,11 +53,15 @@ def test_a_tree_is_pruned_to_itself():
         (robot("abc", "ab"), "several-roots", "link:c"),
     ],
 )
-def test_each_fault_is_a_warning_at_its_element(one: Robot, code: str, key: str):
+def test_each_fault_is_told_at_its_element_and_what_ros_rejects_is_an_error(
+    one: Robot, code: str, key: str
+):
     assert (code, key) in found(one)
     structure = Structure.of(one)
     assert not structure.broken
-    assert all(problem.severity is Severity.WARNING for problem, _ in structure.findings)
+    for problem, _ in structure.findings:
+        loaded = problem.code == "bad-mimic"
+        assert problem.severity is (Severity.WARNING if loaded else Severity.ERROR)
 
 
 def test_joints_that_hold_nothing_are_pruned():

@@ -73,7 +73,7 @@ def _dangling(
         f"the joint was left out; {advice}"
     )
     return run.problem(
-        Severity.WARNING,
+        Severity.ERROR,
         f"dangling-{tie.role}",
         shorten(sentence, 480),
         tie.end,
@@ -136,7 +136,7 @@ def _several_roots(
         f"ROS rejects this: {advice}"
     )
     yield run.problem(
-        Severity.WARNING,
+        Severity.ERROR,
         "several-roots",
         shorten(sentence, 480),
         links[roots[1]],

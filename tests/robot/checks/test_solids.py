@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from studio.robot.checks.extents import extents
@@ -67,6 +67,7 @@ def test_axes_that_are_turned_alike_see_the_shape_straight():
     assert (found["ixx"], found["iyy"], found["izz"]) == pytest.approx((13, 10, 5))
 
 
+@settings(deadline=None)  # of a loaded machine
 @given(st.tuples(sides, sides, sides), st.tuples(angles, angles, angles))
 def test_what_is_written_is_always_the_inertia_of_a_body(size: Vector3, rpy: Vector3):
     link = solid(Box(size), rpy=rpy)
