@@ -22,7 +22,7 @@ export function RestoredBar() {
 }
 
 /** @param {string} at ISO 8601 @returns {string} the time of today, or date and time */
-function timeText(at) {
+export function timeText(at) {
   const then = new Date(at);
   const today = then.toDateString() === new Date().toDateString();
   return then.toLocaleString(language.value, {

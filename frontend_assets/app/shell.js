@@ -8,6 +8,7 @@ import { goTo, openPath } from "./actions.js";
 import { commandById } from "./commands.js";
 import { Dialogs } from "./dialogs.js";
 import { DropLayer } from "./drop.js";
+import { LeftWorkBar } from "./left-work-bar.js";
 import { DiskBars } from "./merge-dialog.js";
 import { PANELS, panelTitle } from "./panels.js";
 import { RestoredBar } from "./restored-bar.js";
@@ -32,6 +33,7 @@ export function Shell({ onDock }) {
     <${LostBar} />
     <${GoneBar} />
     <${RestoredBar} />
+    <${LeftWorkBar} />
     <${DiskBars} />
     <main ref=${dock} class="dock" aria-label=${t("dock")}></main>
     ${size.value === "phone" ? html`<${PhoneTabs} />` : html`<${StatusBar} />`}

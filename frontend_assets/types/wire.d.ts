@@ -378,6 +378,14 @@ export interface ForgetRecent {
   path: string;
 }
 
+/** Give up the unsaved work on a file that is not open. */
+export interface ForgetWork {
+  request?: number;
+  document?: string;
+  type: "forget_work";
+  path: string;
+}
+
 /** A place, and what stands in its line from `line_column` (from 1) on. */
 export interface FoundText {
   place: TextPlace;
@@ -562,6 +570,19 @@ export interface JointView {
   multiplier: number;
   file: string;
   line: number;
+}
+
+/** Files below the served folders that are not open, and have unsaved work of an earlier run. */
+export interface LeftWork {
+  type: "left_work";
+  entries: LeftWorkEntry[];
+}
+
+/** Unsaved work on one file; `at` is UTC, as ISO 8601. */
+export interface LeftWorkEntry {
+  path: string;
+  title: string;
+  at: string;
 }
 
 /** Answer to `get_link`: `text` goes behind `#robot=` of the studio's address. */
@@ -1208,7 +1229,12 @@ export interface SetJoints {
   positions: Record<string, number>;
 }
 
-/** How much a Problem hinders: an error keeps the last good model, a warning does not. */
+/**
+ * How much a Problem hinders.
+ *
+ * An error keeps the last good model, or ROS rejects the robot for it; a warning does neither, and
+ * something will not work as it is written; the rest is worth knowing.
+ */
 export type Severity = "error" | "warning" | "info";
 
 /** A state that can be compared: the robot as it is, as its files say, or a variant. */
@@ -1439,6 +1465,7 @@ export type Command =
   | GetChanges
   | SaveCopy
   | DiscardRestored
+  | ForgetWork
   | Save
   | Reload
   | GetCollisions
@@ -1524,6 +1551,7 @@ export type Event =
   | Saved
   | Changes
   | Restored
+  | LeftWork
   | Origin
   | Effects
   | Frames

@@ -9,6 +9,7 @@ from __future__ import annotations
 import contextlib
 import hashlib
 import os
+import time
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Final
 
@@ -28,6 +29,9 @@ _BROKEN: Final = "broken"
 _VERSION: Final = 1
 _SLOTS: Final = 32
 """Documents that may have the same file open with the same data folder, in all studios."""
+_LOOKED_AT: Final = 50
+_TRIES: Final = 5
+_TRY_AGAIN_S: Final = 0.01
 _LIMIT_BYTES: Final = 256 << 20
 """Of a draft's file: more than is ever written."""
 
@@ -121,11 +125,20 @@ def draft_file(data_folder: Path, entry: Path) -> DraftFile:
     try:
         folder.mkdir(parents=True, exist_ok=True, mode=0o700)
         for path in _slots(folder, entry):
-            if lock := hold_file(path.with_suffix(".lock")):
+            if lock := _hold_soon(path):
                 return DraftFile(path, lock)
     except OSError as error:
         raise DraftError(str(folder), _reason(error)) from error
     raise DraftError(str(folder), "too many documents hold this file")
+
+
+def _hold_soon(path: Path) -> IO[bytes] | None:
+    """Hold a draft; whoever only looked whether it is held has let go of it a moment later."""
+    for _ in range(_TRIES if path.exists() else 1):
+        if lock := hold_file(path.with_suffix(".lock")):
+            return lock
+        time.sleep(_TRY_AGAIN_S)
+    return None
 
 
 def forget_drafts(data_folder: Path, entries: Iterable[Path]) -> None:
@@ -135,6 +148,34 @@ def forget_drafts(data_folder: Path, entries: Iterable[Path]) -> None:
         if path.exists() and (lock := hold_file(path.with_suffix(".lock"))):
             DraftFile(path, lock).remove()
             lock.close()
+
+
+def left_drafts(data_folder: Path) -> list[Draft]:
+    """Drafts with unsaved texts that no open document holds, the newest first."""
+    folder = data_folder / FOLDER
+    found = [draft for path in _newest(folder) if (draft := _left(path)) is not None]
+    return sorted(found, key=lambda one: one.at, reverse=True)
+
+
+def _newest(folder: Path) -> list[Path]:
+    """So many of the files that one look does not take long."""
+    try:
+        known = [(path.stat().st_mtime, path) for path in folder.glob("*.json")]
+    except OSError:
+        return []
+    return [path for _, path in sorted(known, reverse=True)[:_LOOKED_AT]]
+
+
+def _left(path: Path) -> Draft | None:
+    try:
+        lock = hold_file(path.with_suffix(".lock"))
+        if lock is None:
+            return None
+        lock.close()  # at once: somebody may be about to open the file
+        draft = _DECODER.decode(path.read_bytes())
+    except (OSError, msgspec.MsgspecError, UnicodeDecodeError):
+        return None  # whoever opens its file is told
+    return draft if draft.version == _VERSION and draft.kept.unsaved_files else None
 
 
 def _slots(folder: Path, entry: Path) -> list[Path]:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Final
 
 from studio.description.editing.undo import Change
 from studio.engine.draft_store import Draft, draft_file
-from studio.engine.messages import Restored
+from studio.engine.messages.keeping import Restored
 from studio.errors import DraftError
 from studio.problems import Place, Problem, Severity
 

@@ -18,6 +18,7 @@ from studio.engine.library import Library
 from studio.engine.listeners import Audience, tell
 from studio.engine.services import Services
 from studio.engine.sharing import found_again, link_to, read_link
+from studio.engine.upload_desk import UploadDesk
 from studio.errors import CommandError, OutsideRootsError, UnknownDocumentError
 from studio.packages.listing import list_folder
 from studio.packages.roots import ServedRoots
@@ -44,6 +45,7 @@ class Engine:
         self._lobby = Audience()
         self._watching: dict[Listener, Document] = {}
         self.library = Library(settings, self)
+        self.uploads = UploadDesk(settings.data_folder, self)
         self.served = ServedRoots((self.library.robots_folder,))
         """What can be listed and opened out of the page."""
         self._left_work = LeftWorkDesk(self, settings.data_folder)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from studio.description.editing.file_diff import file_diff
 from studio.description.editing.saving import hindrance, write_copy
 from studio.description.editing.undo import Change
-from studio.engine.messages import Changes, DiffLineView, FileChanges
+from studio.engine.messages.keeping import Changes, DiffLineView, FileChanges
 from studio.errors import CommandError, NotSavedError
 
 if TYPE_CHECKING:

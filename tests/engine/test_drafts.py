@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.engine import messages as m
-from tests.support.open_documents import engine, opened, until
+from studio.engine.roles import Role
+from studio.errors import OutsideRootsError
+from tests.support.open_documents import Ear, engine, opened, until
 from tests.support.packages import write_package
 
 if TYPE_CHECKING:
@@ -182,5 +184,58 @@ def test_files_outside_the_opened_folders_are_not_brought_back(mast: Path, tmp_p
         async with engine(tmp_path / "data") as made:
             document, _ = await opened(made, mast)
             assert (tip_of(document), document.sources.undo_labels) == ([0.1, 0, 0.4], ())
+
+    asyncio.run(run())
+
+
+def test_work_on_another_served_file_is_offered_to_presenters_and_can_be_given_up(
+    mast: Path, tmp_path: Path
+):
+    other = mast.with_name("other.urdf")
+    other.write_text('<robot name="other"><link name="a"/></robot>')
+
+    async def run() -> None:
+        await work(mast, tmp_path / "data")
+        async with engine(tmp_path / "data") as made:
+            presenter, viewer = Ear(), Ear(Role.VIEWER)
+            made.attach(presenter)
+            made.attach(viewer)
+            await opened(made, other)
+            await until(lambda: any(one["type"] == "left_work" for one in presenter.events))
+            (entry,) = presenter.last("left_work")["entries"]
+            assert (entry["path"], entry["title"]) == (str(mast), "mast.urdf.xacro")
+            assert all(one["type"] != "left_work" for one in viewer.events)
+            document, _ = await opened(made, mast)
+            await until(lambda: presenter.last("left_work")["entries"] == [])
+            assert document.has_unsaved
+        await work_is_given_up(other, mast, tmp_path / "data")
+
+    asyncio.run(run())
+
+
+async def work_is_given_up(other: Path, mast: Path, data: Path) -> None:
+    async with engine(data) as made:
+        presenter = Ear()
+        made.attach(presenter)
+        await opened(made, other)
+        await until(lambda: any(one["type"] == "left_work" for one in presenter.events))
+        await made.execute(m.ForgetWork(path=str(mast)), presenter)
+        assert presenter.last("left_work")["entries"] == []
+        document, _ = await opened(made, mast)
+        assert not document.has_unsaved
+
+
+def test_work_on_files_that_are_not_served_is_nobodys_business(mast: Path, tmp_path: Path):
+    elsewhere = write_package(tmp_path / "elsewhere/e", files={"e.urdf": '<robot name="e"/>'})
+
+    async def run() -> None:
+        await work(mast, tmp_path / "data")
+        async with engine(tmp_path / "data") as made:
+            presenter = Ear()
+            made.attach(presenter)
+            await opened(made, elsewhere / "e.urdf")
+            with pytest.raises(OutsideRootsError):
+                await made.execute(m.ForgetWork(path=str(mast)), presenter)
+            assert all(one["type"] != "left_work" for one in presenter.events)
 
     asyncio.run(run())

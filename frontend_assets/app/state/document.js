@@ -14,7 +14,7 @@ import { movableJoints } from "../../lib/joints.js";
 import { isChanged } from "../../lib/sites.js";
 import { linkTree } from "../../lib/tree.js";
 import { role, session, version } from "./connection.js";
-import { takeRestored } from "./keeping.js";
+import { takeLeftWork, takeRestored } from "./keeping.js";
 import { takePoses } from "./poses.js";
 import { takeTextNews } from "./source.js";
 import { takeComparison, takeVariants } from "./variants.js";
@@ -209,6 +209,7 @@ const TAKERS = {
     diskMerged.value = event;
   },
   restored: takeRestored,
+  left_work: takeLeftWork,
   gone: (event) => {
     if (event.document === documentId.value) gone.value = true;
   },

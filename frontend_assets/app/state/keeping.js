@@ -1,6 +1,6 @@
 /** What becomes of edits: what was restored, and when saving shows first what it would write. */
 
-/** @import { Restored } from "../../types/wire.d.ts" */
+/** @import { LeftWork, LeftWorkEntry, Restored } from "../../types/wire.d.ts" */
 
 import { signal } from "vendor/preact.js";
 import { remembered } from "../../lib/remembered.js";
@@ -11,6 +11,14 @@ export const restored = signal(null);
 /** @param {Restored} event */
 export function takeRestored(event) {
   restored.value = event.at ? event : null;
+}
+
+/** Unsaved work on files that are not open. @type {import("vendor/preact.js").Signal<readonly LeftWorkEntry[]>} */
+export const leftWork = signal([]);
+
+/** @param {LeftWork} event */
+export function takeLeftWork(event) {
+  leftWork.value = event.entries;
 }
 
 export const SAVE_CHOICES = /** @type {const} */ (["always", "several", "never"]);

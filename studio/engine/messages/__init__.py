@@ -61,12 +61,11 @@ from studio.engine.messages.inspection import (
     VolumeView,
 )
 from studio.engine.messages.keeping import (
-    Changes,
-    DiffLineView,
     DiscardRestored,
-    FileChanges,
+    ForgetWork,
     GetChanges,
-    Restored,
+    KeepingCommand,
+    KeepingEvent,
     SaveCopy,
     UndoTo,
 )
@@ -171,10 +170,7 @@ Command: TypeAlias = Annotated[
     | SetArgument
     | Undo
     | Redo
-    | UndoTo
-    | GetChanges
-    | SaveCopy
-    | DiscardRestored
+    | KeepingCommand
     | Save
     | Reload
     | GetCollisions
@@ -254,8 +250,7 @@ Event: TypeAlias = Annotated[
     | Link
     | LinkOpened
     | Saved
-    | Changes
-    | Restored
+    | KeepingEvent
     | Origin
     | Effects
     | Frames
@@ -281,7 +276,6 @@ __all__ = [
     "ArgumentView",
     "Arguments",
     "Built",
-    "Changes",
     "ChoosePackage",
     "CloseDocument",
     "CollisionView",
@@ -292,7 +286,6 @@ __all__ = [
     "Complete",
     "CompletionsAnswer",
     "DeleteVariant",
-    "DiffLineView",
     "DifferenceView",
     "DiscardRestored",
     "DiskMerged",
@@ -307,10 +300,10 @@ __all__ = [
     "Event",
     "ExampleEntry",
     "Examples",
-    "FileChanges",
     "Folder",
     "FolderEntry",
     "ForgetRecent",
+    "ForgetWork",
     "Frames",
     "GetArguments",
     "GetChanges",
@@ -367,7 +360,6 @@ __all__ = [
     "RenameVariant",
     "ResetSite",
     "ResolveCollisions",
-    "Restored",
     "RobotState",
     "Save",
     "SaveAs",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Literal, TypeAlias
 
 from pydantic import Field
 
@@ -70,6 +70,28 @@ class DiscardRestored(CommandMessage):
     type: Literal["discard_restored"] = "discard_restored"
 
 
+class ForgetWork(CommandMessage):
+    """Give up the unsaved work on a file that is not open."""
+
+    type: Literal["forget_work"] = "forget_work"
+    path: str = Field(max_length=4096)
+
+
+class LeftWorkEntry(Message):
+    """Unsaved work on one file; `at` is UTC, as ISO 8601."""
+
+    path: str
+    title: str
+    at: str
+
+
+class LeftWork(Message):
+    """Files below the served folders that are not open, and have unsaved work of an earlier run."""
+
+    type: Literal["left_work"] = "left_work"
+    entries: tuple[LeftWorkEntry, ...]
+
+
 class Restored(Message):
     """Edits of an earlier run were brought back; `at` empty: that is no longer worth a word."""
 
@@ -77,3 +99,7 @@ class Restored(Message):
     at: str
     """When they were kept: UTC, as ISO 8601."""
     files: tuple[str, ...]
+
+
+KeepingCommand: TypeAlias = UndoTo | GetChanges | SaveCopy | DiscardRestored | ForgetWork
+KeepingEvent: TypeAlias = Changes | Restored | LeftWork

@@ -1,0 +1,39 @@
+/** Offers the unsaved work on files that are not open. */
+
+/** @import { LeftWorkEntry } from "../types/wire.d.ts" */
+
+import { html } from "vendor/preact.js";
+import { t } from "../lib/i18n.js";
+import { Icon, IconButton } from "../lib/ui.js";
+import { ask, openPath } from "./actions.js";
+import { timeText } from "./restored-bar.js";
+import { mayEdit } from "./state/connection.js";
+import { leftWork } from "./state/keeping.js";
+import { dialog } from "./state/view.js";
+
+/** @param {LeftWorkEntry} one */
+function giveUp({ path, title }) {
+  dialog.value = {
+    kind: "confirm",
+    title: t("left.discard"),
+    text: t("left.discard.text", { title }),
+    details: [path],
+    action: t("restored.discard"),
+    danger: true,
+    run: () => void ask({ type: "forget_work", path }),
+  };
+}
+
+/** One file at a time, the newest first. */
+export function LeftWorkBar() {
+  const one = leftWork.value[0];
+  if (!one || !mayEdit.value) return null;
+  const hide = () => {
+    leftWork.value = leftWork.value.slice(1);
+  };
+  return html`<div class="bar restored" role="status"><${Icon} name="reset" />
+    <span title=${one.path}>${t("left", { title: one.title, time: timeText(one.at) })}</span><span class="push"></span>
+    <button type="button" class="button small" onClick=${() => openPath(one.path, {})}>${t("left.open")}</button>
+    <button type="button" class="button small" onClick=${() => giveUp(one)}>${t("restored.discard")}</button>
+    <${IconButton} icon="close" size=${14} label=${t("dismiss")} onClick=${hide} /></div>`;
+}
