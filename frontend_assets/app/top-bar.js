@@ -11,7 +11,7 @@ import { HistoryMenu } from "./history-menu.js";
 import { PanelsMenu, SettingsMenu } from "./settings-menu.js";
 import { mayEdit, role } from "./state/connection.js";
 import { documentId, documents, history, title, unsaved } from "./state/document.js";
-import { dialog, theme, themeChoice } from "./state/view.js";
+import { dialog, size, theme, themeChoice } from "./state/view.js";
 
 /** @import { MenuItem } from "../lib/ui.js" */
 
@@ -32,7 +32,7 @@ export function TopBar() {
     <${PaletteButton} />
     <div class="bar-right">
     ${role.value === "presenter" && html`<${EditButtons} />`}
-    <${ExportMenu} />
+    ${size.value !== "phone" && html`<${ExportMenu} />`}
     <${PanelsMenu} />
     <${SettingsMenu} />
     <${ThemeButton} />
@@ -112,7 +112,7 @@ function PaletteButton() {
     dialog.value = { kind: "palette" };
   };
   return html`<button type="button" class="palette-button" onClick=${show} aria-label=${t("command.palette")}>
-    <${Icon} name="search" /><span>${t("palette.hint")}</span><kbd>${keyOf("palette")}</kbd></button>`;
+    <${Icon} name="search" /><span>${t("palette.button")}</span><kbd>${keyOf("palette")}</kbd></button>`;
 }
 
 function EditButtons() {

@@ -32,11 +32,11 @@ ON_PHONE = ("scene", "properties", "joints")
 DIALOGS = {"palette": "Control+k", "keys": "?", "open": "Control+o"}
 """What a key opens over the page."""
 _STILL_MS = 1200
-_PANELS = """async () => {
+PANEL_IDS = """async () => {
   const script = document.querySelector('script[type="module"]').src;
   return Object.keys((await import(new URL("panels.js", script))).PANELS);
 }"""
-_SHOW = """async (id) => {
+SHOW_PANEL = """async (id) => {
   const script = document.querySelector('script[type="module"]').src;
   (await import(new URL("commands.js", script))).commandById(`panel.${id}`).run();
 }"""
@@ -74,9 +74,9 @@ def take(page: Page, folder: Path, name: str, theme: Theme, size: tuple[int, int
 
 def take_panels(tab: StudioPage, folder: Path, theme: Theme, size: tuple[int, int]) -> None:
     """Each panel in front, one after the other."""
-    for panel in ON_PHONE if size == PHONE else tab.page.evaluate(_PANELS):
+    for panel in ON_PHONE if size == PHONE else tab.page.evaluate(PANEL_IDS):
         if wanted(panel):
-            tab.page.evaluate(_SHOW, panel)
+            tab.page.evaluate(SHOW_PANEL, panel)
             take(tab.page, folder, panel, theme, size)
 
 

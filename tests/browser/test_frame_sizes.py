@@ -1,0 +1,143 @@
+"""The frame by fingers, at twice the size, and on machines that draw slowly."""
+
+from __future__ import annotations
+
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+from tests.support.server import running_studio
+from tests.support.studio_page import StudioPage, wait_until
+
+if TYPE_CHECKING:
+    from collections.abc import Generator, Iterator
+
+    from playwright.sync_api import Browser
+
+    from tests.support.server import RunningStudio
+
+pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(300)]
+
+FINGER_PX = 40
+_SMALL = """(least) => [...document.querySelectorAll(
+    ".top-bar button, .top-bar a, .phone-tabs button, .dv-tab, .maximize, .scene-tools button")]
+  .filter((one) => one.checkVisibility())
+  .filter((one) => one.getBoundingClientRect().height < least)
+  .map((one) => `${one.className} ${one.getAttribute("aria-label")} ${one.offsetHeight}`)"""
+_BEYOND = """() => [...document.querySelectorAll(".top-bar *, .status-bar *, .phone-tabs *")]
+  .filter((one) => one.checkVisibility() && one.getBoundingClientRect().right > innerWidth + 1)
+  .map((one) => one.outerHTML.slice(0, 120))"""
+_OVERLAPS = """() => {
+  const parts = [...document.querySelector(".top-bar").children].map((one) =>
+    one.getBoundingClientRect()).filter(({ width }) => width > 0);
+  return parts.slice(1).some(({ left }, at) => left < parts[at].right - 1);
+}"""
+_VIEW = "document.querySelector('iframe').contentWindow"
+_GRAPHICS = f"() => {_VIEW}.studio3d.graphics()"
+_SHADOWS = f"""() => {{
+  let count = 0;
+  {_VIEW}.__viserMutable.scene.traverse((one) => {{
+    count += one.isDirectionalLight && one.castShadow ? 1 : 0;
+  }});
+  return count;
+}}"""
+_SPIN = f"""() => {{
+  const view = {_VIEW};
+  const turn = () => {{ view.__viserMutable.requestRender(); view.requestAnimationFrame(turn); }};
+  turn();
+}}"""
+_UNNAMED_CARD = """() => {
+  const ask = WebGL2RenderingContext.prototype.getParameter;
+  WebGL2RenderingContext.prototype.getParameter = function getParameter(what) {
+    return what === 0x9246 ? "Some card" : ask.call(this, what);
+  };
+}"""
+"""0x9246 is UNMASKED_RENDERER_WEBGL: what draws says that it were a card."""
+
+
+@pytest.fixture(scope="module")
+def studio(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningStudio]:
+    with running_studio(["demo"], tmp_path_factory.mktemp("studio") / "data") as running:
+        yield running
+
+
+@contextmanager
+def opened(
+    browser: Browser,
+    studio: RunningStudio,
+    size: tuple[int, int],
+    script: str = "",
+    **more: Any,  # noqa: ANN401 - what playwright takes
+) -> Generator[StudioPage]:
+    """A tab of that size in which the robot is drawn."""
+    context = browser.new_context(
+        viewport={"width": size[0], "height": size[1]}, reduced_motion="reduce", **more
+    )
+    if script:
+        context.add_init_script(f"({script})()")
+    tab = StudioPage(context.new_page())
+    tab.page.goto(studio.url)
+    wait_until("the robot", tab.has_drawn_robot)
+    yield tab
+    assert tab.errors == []
+    context.close()
+
+
+@pytest.mark.parametrize("size", [(390, 844), (844, 390), (1024, 768), (1180, 820)])
+def test_fingers_find_every_control_of_the_frame(
+    browser: Browser, studio: RunningStudio, size: tuple[int, int]
+):
+    with opened(browser, studio, size, has_touch=True, is_mobile=True) as tab:
+        assert tab.page.evaluate(_SMALL, FINGER_PX) == []
+        assert tab.page.evaluate(_BEYOND) == []
+        assert not tab.page.evaluate(_OVERLAPS)
+
+
+@pytest.mark.parametrize("size", [(800, 475), (640, 400)])
+def test_at_twice_the_size_nothing_is_cut_off(
+    browser: Browser, studio: RunningStudio, size: tuple[int, int]
+):
+    with opened(browser, studio, size, device_scale_factor=2) as tab:
+        assert tab.page.evaluate(_BEYOND) == []
+        assert not tab.page.evaluate(_OVERLAPS)
+        tab.page.get_by_role("button", name="Settings").click()
+        menu = tab.page.get_by_role("menu").bounding_box()
+        assert menu is not None
+        assert menu["x"] >= 0
+        assert menu["y"] + menu["height"] <= size[1]
+
+
+def test_where_the_processor_draws_it_is_said_once_and_drawn_lightly(
+    browser: Browser, studio: RunningStudio
+):
+    with opened(browser, studio, (1280, 720), device_scale_factor=2) as tab:
+        note = tab.page.get_by_text("the 3D view is drawn lightly here")
+        note.wait_for()
+        told = tab.page.evaluate(_GRAPHICS)
+        assert (told["light"], told["software"]) == (True, True)
+        assert tab.page.evaluate(_SHADOWS) == 0
+        assert tab.page.evaluate(f"() => {_VIEW}.devicePixelRatio") == 1
+        tab.page.get_by_role("button", name="Details").click()
+        assert "Drawn by: " in tab.page.get_by_role("dialog", name="Graphics").inner_text()
+        tab.page.keyboard.press("Escape")
+        tab.page.get_by_role("region", name="3D view").get_by_role("button", name="Dismiss").click()
+        note.wait_for(state="detached")
+        tab.page.reload()
+        wait_until("the robot", tab.has_drawn_robot)
+        assert tab.page.evaluate(_GRAPHICS)["light"]
+        assert note.count() == 0
+
+
+def test_a_view_that_proves_slow_is_drawn_lightly_until_one_undoes_it(
+    browser: Browser, studio: RunningStudio
+):
+    with opened(browser, studio, (900, 700), _UNNAMED_CARD) as tab:
+        assert tab.page.evaluate(_GRAPHICS)["light"] is False
+        tab.page.evaluate(_SPIN)
+        tab.page.get_by_text("the 3D view is drawn lightly here").wait_for(timeout=90_000)
+        assert tab.page.evaluate(_GRAPHICS)["light"]
+        wait_until("the shadows to go", lambda: tab.page.evaluate(_SHADOWS) == 0)
+        tab.page.get_by_role("region", name="3D view").get_by_role("button", name="Undo").click()
+        wait_until("the robot anew", tab.has_drawn_robot)
+        wait_until("full graphics", lambda: not tab.page.evaluate(_GRAPHICS)["light"])
