@@ -1,10 +1,8 @@
-"""What is opened beside the served folders: recent files, examples, uploads, and what is new."""
+"""What is opened beside the served folders: recent files, examples, and what is new."""
 
 from __future__ import annotations
 
 import asyncio
-import shutil
-from contextlib import ExitStack
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, Literal, Protocol
@@ -12,16 +10,9 @@ from typing import TYPE_CHECKING, Final, Literal, Protocol
 from studio.engine import messages as m
 from studio.errors import (
     CommandError,
-    DataFolderError,
     NotMadeError,
-    StudioError,
     UnreadableFileError,
-    UploadError,
 )
-from studio.packages.archive import folder_to_open
-from studio.packages.arranging import arrange
-from studio.packages.choices import load_choices, save_choices
-from studio.packages.entry_points import entry_points
 from studio.packages.examples import examples
 from studio.packages.naming import robot_of
 from studio.packages.presence import is_file, is_folder
@@ -30,19 +21,16 @@ from studio.packages.roots import ServedRoots, is_below
 from studio.packages.skeleton import ROBOTS, make_file, make_package, template_text
 from studio.packages.untitled import FOLDER as UNTITLED
 from studio.packages.untitled import drop_untitled, new_untitled
-from studio.packages.uploads import Upload, is_zip, read_manifest
 from studio.packages.working_copy import FOLDER as EXAMPLES
 from studio.packages.working_copy import working_copy
-from studio.packages.workspace import UPLOADS, unpacked_folder
+from studio.packages.workspace import UPLOADS
 from studio.settings import LOOPBACK_HOSTS, repository_or_wheel
 
 if TYPE_CHECKING:
-    from collections.abc import AsyncIterator, Mapping
+    from collections.abc import Mapping
 
     from studio.engine.document import Document
     from studio.settings import Settings
-
-_WRITTEN_AT_ONCE_BYTES: Final = 1 << 20
 
 
 class Opener(Protocol):
@@ -88,8 +76,6 @@ class Library:
         self._data_folder = settings.data_folder
         self._recent = RecentFiles(settings.data_folder)
         self._models = repository_or_wheel("models")
-        self._reserved_bytes = 0
-        """Announced by uploads that are under way."""
 
     @property
     def robots_folder(self) -> Path:
@@ -126,65 +112,6 @@ class Library:
         """Whether a path may be opened though nothing serves it: it was opened before."""
         known = self._recent.find(path)
         return known is not None and self._may_open(known)
-
-    async def take_upload(self, manifest: bytes, chunks: AsyncIterator[bytes]) -> str:
-        """Keep sent files in the data folder and open them; gives the document's id.
-
-        Args:
-            manifest: What `read_manifest` reads.
-            chunks: The bytes of all files, one after the other; ends early when it is cancelled.
-
-        Raises:
-            StudioError: They cannot be kept, or are no robot; then nothing is left of them.
-        """
-        files = read_manifest(manifest)
-        upload = Upload(self._data_folder, files, self._reserved_bytes)
-        self._reserved_bytes += upload.size_bytes
-        try:
-            with ExitStack() as stack:
-                await asyncio.to_thread(stack.enter_context, upload)
-                await _write(upload, chunks)
-                staged = upload.finish()
-                if is_zip(files[0]):
-                    return await self._open_zip(staged / files[0].path)
-                return await self._open_sent(upload, staged)
-        finally:
-            self._reserved_bytes -= upload.size_bytes
-
-    async def _open_zip(self, sent: Path) -> str:
-        """Unpack and open; what holds no robot is not kept."""
-        folder = await asyncio.to_thread(unpacked_folder, sent, self._data_folder)
-        is_new = not is_folder(folder)
-        try:
-            return await self._open_new(sent, None)
-        except StudioError:
-            if is_new:
-                await asyncio.to_thread(shutil.rmtree, folder, ignore_errors=True)
-            raise
-
-    async def _open_sent(self, upload: Upload, staged: Path) -> str:
-        chosen = await asyncio.to_thread(arrange, staged)
-        robot = (await asyncio.to_thread(_robot_in, staged)).relative_to(staged)
-        kept, is_new = await asyncio.to_thread(upload.keep)
-        folder = folder_to_open(kept)
-        try:
-            self._choose(folder, {name: kept / one for name, one in chosen.items()})
-            return await self._open_new(kept / robot, ServedRoots([folder]))
-        except StudioError:
-            if is_new:
-                await asyncio.to_thread(shutil.rmtree, kept, ignore_errors=True)
-            raise
-
-    def _choose(self, workspace: Path, chosen: Mapping[str, Path]) -> None:
-        """Have packages without a package.xml found; what a person chose before stays."""
-        if not chosen:
-            return
-        try:
-            known = load_choices(self._data_folder, workspace)
-            save_choices(self._data_folder, workspace, {**chosen, **known})
-        except OSError as error:
-            reason = error.strerror or "not kept"
-            raise DataFolderError(str(self._data_folder), reason) from error
 
     async def _open(
         self,
@@ -308,31 +235,3 @@ _ORIGINS: Final[dict[str, Literal["example", "upload", "untitled"]]] = {
     UPLOADS: "upload",
     UNTITLED: "untitled",
 }
-
-
-def _robot_in(folder: Path) -> Path:
-    """What to open of a folder: the part of it that was dropped, or a broken description in it.
-
-    Raises:
-        UploadError: It holds no description.
-    """
-    base = folder_to_open(folder)
-    found = entry_points(base, ServedRoots([base]))
-    if any(one.openable for one in found):
-        return base
-    broken = next((one.path for one in found if one.reason.startswith("not readable")), None)
-    if broken is None:
-        why = f"{found[0].path.name}: {found[0].reason}" if found else "a .xacro, .urdf or .zip"
-        raise UploadError(f"there is no robot description among the files ({why}).")
-    return broken
-
-
-async def _write(upload: Upload, chunks: AsyncIterator[bytes]) -> None:
-    """Hand on what comes, in pieces that are worth a thread."""
-    held = bytearray()
-    async for chunk in chunks:
-        held += chunk
-        if len(held) >= _WRITTEN_AT_ONCE_BYTES:
-            await asyncio.to_thread(upload.write, bytes(held))
-            held.clear()
-    await asyncio.to_thread(upload.write, bytes(held))

@@ -56,7 +56,7 @@ class OpenDocument(Protocol):
 class TakesUploads(Protocol):
     """What keeps and opens the files that are sent."""
 
-    async def take_upload(self, manifest: bytes, chunks: AsyncIterator[bytes], /) -> str:
+    async def take(self, manifest: bytes, chunks: AsyncIterator[bytes], /) -> str:
         """Keep and open them; gives the document's id.
 
         Raises:
@@ -69,7 +69,7 @@ class OpenDocuments(Protocol):
     """The engine."""
 
     @property
-    def library(self) -> TakesUploads:
+    def uploads(self) -> TakesUploads:
         """Takes what is dropped on the page."""
         ...
 

@@ -56,7 +56,7 @@ class Uploads:
         stream = request.stream()
         try:
             line, rest = await _first_line(stream)
-            document = await self._engine.library.take_upload(line, _and_then(rest, stream))
+            document = await self._engine.uploads.take(line, _and_then(rest, stream))
         except ClientDisconnect:  # it was cancelled, and nobody hears the answer
             return Response(status_code=HTTPStatus.BAD_REQUEST)
         except StudioError as error:

@@ -76,14 +76,14 @@ class SmallDocument:
         self.exports = SmallExports()
 
 
-class SmallLibrary:
+class SmallUploads:
     """Keeps what is sent in memory, and opens it as the small document."""
 
     def __init__(self) -> None:
-        self.uploads: list[tuple[bytes, bytes]] = []
+        self.taken: list[tuple[bytes, bytes]] = []
         self.begun = self.broken = 0
 
-    async def take_upload(self, manifest: bytes, chunks: AsyncIterator[bytes], /) -> str:
+    async def take(self, manifest: bytes, chunks: AsyncIterator[bytes], /) -> str:
         if manifest == b"refuse":
             raise UploadError("the small engine is in no mood.")
         self.begun += 1
@@ -92,7 +92,7 @@ class SmallLibrary:
         except ClientDisconnect:
             self.broken += 1
             raise
-        self.uploads.append((manifest, content))
+        self.taken.append((manifest, content))
         return "small"
 
 
@@ -102,7 +102,7 @@ class SmallEngine:
 
     def __init__(self) -> None:
         self.documents = {"small": SmallDocument()}
-        self.library = SmallLibrary()
+        self.uploads = SmallUploads()
         self.default_document: str | None = "small"
         self.executed: list[Command] = []
         self.listeners: list[Listener] = []

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.engine.roles import Role
-from tests.support.small_engine import SmallLibrary
+from tests.support.small_engine import SmallUploads
 from tests.support.studio_page import wait_until
 
 if TYPE_CHECKING:
@@ -17,14 +17,14 @@ if TYPE_CHECKING:
 
 @pytest.fixture(autouse=True)
 def _nothing_sent(web: RunningWeb) -> None:
-    web.engine.library = SmallLibrary()
+    web.engine.uploads = SmallUploads()
 
 
 def test_the_first_line_announces_and_the_rest_is_bytes(web: RunningWeb):
     with web.client(Role.PRESENTER) as client:
         answer = client.post("/api/uploads", content=b"[names]\nfirst\nsecond")
         assert (answer.status_code, answer.json()) == (200, {"document": "small"})
-    assert web.engine.library.uploads == [(b"[names]", b"first\nsecond")]
+    assert web.engine.uploads.taken == [(b"[names]", b"first\nsecond")]
 
 
 def test_a_body_in_many_pieces_is_put_together(web: RunningWeb):
@@ -36,7 +36,7 @@ def test_a_body_in_many_pieces_is_put_together(web: RunningWeb):
 
     with web.client(Role.PRESENTER) as client:
         assert client.post("/api/uploads", content=pieces()).status_code == 200
-    assert web.engine.library.uploads == [(b"[names]", bytes(500_000))]
+    assert web.engine.uploads.taken == [(b"[names]", bytes(500_000))]
 
 
 def test_a_refusal_comes_as_a_sentence_after_all_was_read(web: RunningWeb):
@@ -61,14 +61,14 @@ def test_a_viewer_and_a_stranger_send_nothing(web: RunningWeb):
     for role in (Role.VIEWER, None):
         with web.client(role) as client:
             assert client.post("/api/uploads", content=b"[]\n").status_code == 403
-    assert web.engine.library.uploads == []
+    assert web.engine.uploads.taken == []
 
 
 def test_another_site_sends_nothing_with_our_cookie(web: RunningWeb):
     headers = {"cookie": web.cookie(Role.PRESENTER), "origin": "http://evil.example"}
     with web.client(headers=headers) as client:
         assert client.post("/api/uploads", content=b"[]\n").status_code == 403
-    assert web.engine.library.uploads == []
+    assert web.engine.uploads.taken == []
 
 
 def test_who_goes_away_in_the_middle_has_sent_nothing(web: RunningWeb):
@@ -78,6 +78,6 @@ def test_who_goes_away_in_the_middle_has_sent_nothing(web: RunningWeb):
     )
     with socket.create_connection(("127.0.0.1", web.port)) as line:
         line.sendall(head.encode())
-        wait_until("the sending to begin", lambda: web.engine.library.begun > 0)
-    wait_until("the sending to end", lambda: web.engine.library.broken > 0)
-    assert web.engine.library.uploads == []
+        wait_until("the sending to begin", lambda: web.engine.uploads.begun > 0)
+    wait_until("the sending to end", lambda: web.engine.uploads.broken > 0)
+    assert web.engine.uploads.taken == []
