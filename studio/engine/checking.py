@@ -113,8 +113,9 @@ class CheckDesk:
     def _tell(self) -> None:
         board, found = self._document.board, merged(self._of_robot, self._of_texts)
         board.find("robot", found)
-        is_explained = any(one.code in _EXPLAIN for one in found)
-        board.find("validation", () if is_explained else self._second_opinion)
+        codes = {one.code for one in found}
+        more = [one for one in self._second_opinion if one.code not in codes]
+        board.find("validation", more if codes.isdisjoint(_EXPLAIN) else ())
 
     async def _validate(self) -> None:
         await asyncio.sleep(_VALIDATE_AFTER_S)

@@ -45,6 +45,13 @@ class ElementMends:
             return None
         return self._mends.replaced(span.start, span.end, quoteattr(text)[1:-1])
 
+    def attribute(self, name: str, text: str) -> Replacement | None:
+        """One more attribute, right behind the element's name."""
+        start, tag = self._element.offset + 1, self._element.tag.encode()
+        if not self._tree.data.startswith(tag, start):
+            return None
+        return self._mends.put_in(start + len(tag), f" {name}={quoteattr(text)}")
+
     def attribute_name(self, name: str, other: str) -> Replacement | None:
         """Another name of an attribute."""
         try:

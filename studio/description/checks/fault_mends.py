@@ -48,8 +48,25 @@ def _edits(code: str, element: SourceElement, wrong: str, meant: str) -> Iterato
         for name in ("macro", "name"):
             if element.attributes.get(name) == wrong and (edit := mends.value(name, meant)):
                 yield edit
+    elif code == "file-unreadable":
+        yield from _file_name(element, wrong, meant)
     else:
         yield from _in_expressions(element, wrong, meant)
+
+
+def _file_name(element: SourceElement, wrong: str, meant: str) -> Iterator[Replacement]:
+    """The end of the path that an include or an expression names."""
+    tree = element.tree
+    mends = TextMends(tree.path, tree.data, tree.encoding)
+    name = re.compile(rb"(?<=[/'\"])" + re.escape(wrong.encode()) + rb"(?=['\"])")
+    try:
+        spans = attribute_spans(tree.data, element.offset)
+    except EditError:
+        return
+    for span in spans.values():
+        found = name.search(tree.data, span.start - 1, span.end + 1)
+        if found is not None:
+            yield mends.replaced(*found.span(), meant)
 
 
 def _in_expressions(element: SourceElement, wrong: str, meant: str) -> Iterator[Replacement]:

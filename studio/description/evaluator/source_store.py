@@ -8,9 +8,10 @@ from __future__ import annotations
 import glob
 import os
 import re
+from itertools import islice
 from typing import TYPE_CHECKING, Any, Final, Protocol
 
-from studio.description.faults import Fault, Refusal
+from studio.description.faults import Fault, Refusal, misnamed
 from studio.description.syntax.source_tree import SourceError, SourceTree, parse_source
 from studio.description.syntax.yaml_reading import read_yaml
 from studio.errors import EditError, OutsideRootsError, UnreadableFileError
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
     from studio.description.values import Edit
 
 _MAGIC: Final = re.compile(r"[*[?]")
+_NAMES_LOOKED_AT: Final = 2_000
+"""Of a folder, in search of the one that was meant."""
 WILDCARD_LEVELS: Final = 3
 """Links that lead back to their own folder make each further one many times as slow."""
 
@@ -88,8 +91,7 @@ class SourceStore:
                 data = self._data[real] = self._roots.read(real)
             except UnreadableFileError as error:
                 self._real.pop(path, None)  # it may come back as a link to elsewhere
-                sentence = f"The file {error.path} {error.reason}"
-                raise Fault("file-unreadable", sentence, unreadable=True) from None
+                raise _unreadable(real, f"The file {error.path} {error.reason}") from None
             except OutsideRootsError as error:
                 raise Refusal("outside-roots", str(error), unreadable=True) from None
         return real, data
@@ -203,3 +205,21 @@ class SourceStore:
     def trees(self, paths: Iterable[str]) -> dict[str, SourceTree]:
         """Trees already parsed, of those paths that have one."""
         return {path: self._trees[path] for path in paths if path in self._trees}
+
+
+def _unreadable(path: str, sentence: str) -> Fault:
+    """A file cannot be read; one beside it may have been meant."""
+    folder, _, name = path.rpartition("/")
+    try:
+        with os.scandir(folder) as found:
+            names = [one.name for one in islice(found, _NAMES_LOOKED_AT)]
+    except OSError:
+        names = []
+    if not names or name in names:
+        return Fault("file-unreadable", sentence, unreadable=True)
+    told = sentence.removesuffix(".")
+    fault = misnamed("file-unreadable", told, name, names, "look for it there.")
+    if fault.misnamed is None:
+        fault = Fault("file-unreadable", sentence)
+    fault.unreadable = True
+    return fault

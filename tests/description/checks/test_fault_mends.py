@@ -46,6 +46,25 @@ def test_a_package_that_is_nearly_there_is_named_and_else_its_folder_is_asked_fo
     assert (far.fix.action, far.fix.target) == ("choose_package", "elsewhere")
 
 
+@pytest.mark.parametrize(
+    "body",
+    [
+        '<xacro:include filename="parst.xacro"/><link name="a"/>',
+        "<xacro:include filename='./parst.xacro'/><link name='a'/>",
+        '<xacro:include filename="${\'parst.xacro\'}"/><link name="a"/>',
+    ],
+)
+def test_a_file_that_is_nearly_there_is_named(tmp_path: Path, body: str):
+    problems = checked(tmp_path, body, parts=robot(""))
+    assert 'did you mean "parts.xacro"?' in problems[0].sentence
+    assert mended(tmp_path, problems) == body.replace("parst", "parts")
+
+
+def test_a_file_that_is_nowhere_is_told_without_a_guess(tmp_path: Path):
+    (problem,) = checked(tmp_path, '<xacro:include filename="nothing/like_it.xacro"/>')
+    assert (problem.code, problem.fix) == ("file-unreadable", None)
+
+
 def test_of_several_places_the_one_that_was_evaluated_is_mended_first(tmp_path: Path):
     body = (
         f'{PROPERTY}<xacro:property name="d" value="${{radus}}"/>'
