@@ -74,10 +74,12 @@ function changedBadge() {
 function problemsBadge() {
   const count = problems.value.length;
   if (count === 0) return null;
-  const bad = !heldBack.value && problems.value.some(({ severity }) => severity === "error");
+  const weights = new Set(problems.value.map(({ severity }) => severity));
+  const bad = !heldBack.value && weights.has("error");
+  const onlyNotes = !weights.has("error") && !weights.has("warning");
   return {
     text: String(count),
-    tone: bad ? "red" : "amber",
+    tone: bad ? "red" : onlyNotes ? "calm" : "amber",
     label: t("problems.count", { count }),
   };
 }

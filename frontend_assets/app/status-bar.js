@@ -76,7 +76,8 @@ function Build() {
 function ProblemsLink() {
   const count = problems.value.length;
   const bad = !heldBack.value && problems.value.some(({ severity }) => severity === "error");
-  return html`<button type="button" class=${`status-button ${bad ? "bad" : count > 0 ? "amber" : ""}`} onClick=${() => commandById("panel.problems")?.run()}>
+  const hindered = problems.value.some(({ severity }) => severity !== "info");
+  return html`<button type="button" class=${`status-button ${bad ? "bad" : hindered ? "amber" : ""}`} onClick=${() => commandById("panel.problems")?.run()}>
     ${t("problems.count", { count })}</button>`;
 }
 
