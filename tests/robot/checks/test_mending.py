@@ -1,15 +1,20 @@
 from __future__ import annotations
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from studio.problems import Fix, MacroCall, Place
 from studio.robot.checks.finding import AddChild, RemoveChild, SetAttributes
 from studio.robot.checks.mending import Mender
+from studio.robot.checks.robot_checks import check_robot
 from tests.support.checked import (
     FILE,
     applied,
+    box,
     checked,
     codes,
+    inertial,
     joint,
     link,
     mended,
@@ -120,3 +125,42 @@ def test_the_edits_of_a_fix_hold_what_they_replace():
     assert fix.action == "edit"
     assert all(edit.before for edit in fix.edits)
     assert "<inertial>" not in applied(LAID_OUT, fix)
+
+
+NUMBERS = st.sampled_from(["-1", "0", "1", "2.50", "1e-9", "1e6"])
+ATTRIBUTES = st.lists(
+    st.tuples(st.sampled_from(["lower", "upper", "effort", "velocity"]), NUMBERS),
+    unique_by=lambda one: one[0],
+)
+KINDS = st.sampled_from(["revolute", "prismatic", "continous", "fixed", "ball", "Planar"])
+
+
+def limit_of(attributes: list[tuple[str, str]] | None) -> str:
+    if attributes is None:
+        return ""
+    return "<limit" + "".join(f' {name}="{text}"' for name, text in attributes) + "/>"
+
+
+def joint_of(kind: str, attributes: list[tuple[str, str]] | None, axis: str) -> str:
+    return joint(kind, "arm", f'<axis xyz="{axis} 0 0"/>{limit_of(attributes)}')
+
+
+def link_of(mass_kg: str, moments: tuple[str, str, str], size: str) -> str:
+    return link("arm", inertial(mass_kg, *moments), box("collision", size) if size else "")
+
+
+JOINTS = st.builds(joint_of, KINDS, st.none() | ATTRIBUTES, NUMBERS)
+SIZES = st.sampled_from(["", "0.1 0.2 0.3", "1 0 0", "0.001 0.001 0.001", "0 0 0"])
+LINKS = st.builds(link_of, NUMBERS, st.tuples(NUMBERS, NUMBERS, NUMBERS), SIZES)
+
+
+@settings(deadline=None)  # of a loaded machine
+@given(JOINTS, LINKS)
+def test_click_after_click_comes_to_an_end_with_nothing_left_to_click(one: str, arm: str):
+    text = robot(link("base"), arm, one)
+    for _ in range(12):
+        fix = next((found.fix for found in check_robot(checked(text)) if found.fix), None)
+        if fix is None:
+            return
+        text = applied(text, fix)
+    raise AssertionError(f"there is still something to click: {text}")
