@@ -3,7 +3,7 @@
 /** @import { PoseView } from "../types/wire.d.ts" */
 /** @import { MenuItem } from "../lib/ui.js" */
 
-import { html, useLayoutEffect, useRef, useSignal } from "vendor/preact.js";
+import { computed, html, useLayoutEffect, useMemo, useRef, useSignal } from "vendor/preact.js";
 import { applyPose, deletePose, renamePose, savePose, updatePose } from "../app/poses.js";
 import { mayEdit } from "../app/state/connection.js";
 import { documentState, movable, position } from "../app/state/document.js";
@@ -73,7 +73,8 @@ function List({ list, writing }) {
 
 /** @param {{pose: PoseView, onRename: () => void}} props */
 function PoseRow({ pose, onRename }) {
-  const there = isThere(pose);
+  // Drawn anew when this changes, not with every frame of a swing.
+  const there = useMemo(() => computed(() => isThere(pose)), [pose]).value;
   const notes = notesOf(pose);
   const off = !mayEdit.value;
   return html`<li class=${`pose ${there ? "active" : ""}`}>

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 from dataclasses import replace
+from pathlib import Path
 from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
 from studio.description.poses.named_poses import NAME_LIMIT, NamedPose
@@ -26,6 +28,7 @@ if TYPE_CHECKING:
 
 _PAUSE_S: Final = 0.2
 """Between two looks while somebody edits."""
+_WATCH_BEGINS_S: Final = 1.5
 _NAMES_SHOWN: Final = 12
 _SLACK: Final = 1e-6
 """rad or m by which a limit may be passed without a word: files round."""
@@ -48,6 +51,7 @@ class PoseDesk:
         self._watch.watch({str(self._shelf.path)})
         self._doubted = False
         self._looking: asyncio.Task[None] | None = None
+        self._later: asyncio.Task[None] | None = None
 
     def events(self) -> Iterable[Poses]:
         """What a newcomer is told."""
@@ -61,9 +65,10 @@ class PoseDesk:
 
     async def close(self) -> None:
         """End what runs for it."""
-        if self._looking:
-            self._looking.cancel()
-            await asyncio.gather(self._looking, return_exceptions=True)
+        tasks = [task for task in (self._looking, self._later) if task]
+        for task in tasks:
+            task.cancel()
+        await asyncio.gather(*tasks, return_exceptions=True)
         await self._watch.close()
 
     def apply(self, command: ApplyPose) -> None:
@@ -169,7 +174,22 @@ class PoseDesk:
             name,
             self._services.description_worker,
         )
-        self._watch.watch({str(self._shelf.path), *self._found.files})
+        watched = {str(self._shelf.path), *self._found.files}
+        self._watch.watch(watched)
+        self._look_again_at(watched, await asyncio.to_thread(_stamps, watched))
+        self._shelf.look()
+
+    def _look_again_at(self, files: set[str], stamps: dict[str, int]) -> None:
+        """What changes before the watch stands is told by nobody: see once, a moment later."""
+
+        async def look() -> None:
+            await asyncio.sleep(_WATCH_BEGINS_S)
+            if await asyncio.to_thread(_stamps, files) != stamps:
+                await self._changed_on_disk(files)
+
+        if self._later:
+            self._later.cancel()
+        self._later = asyncio.create_task(look())
 
     def _fitting(self) -> Iterator[tuple[_Kind, NamedPose]]:
         """One's own, all of them; of those that were found the ones that mean this robot."""
@@ -200,6 +220,15 @@ class PoseDesk:
         if news != self._told:
             self._told = news
             self._document.board.audience.post(encode(news))
+
+
+def _stamps(files: Iterable[str]) -> dict[str, int]:
+    """When each file was written last; those that are not there are left out."""
+    found: dict[str, int] = {}
+    for file in files:
+        with contextlib.suppress(OSError):
+            found[file] = Path(file).stat().st_mtime_ns
+    return found
 
 
 def _key(kind: _Kind, pose: NamedPose) -> str:

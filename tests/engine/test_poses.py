@@ -119,6 +119,21 @@ def test_an_srdf_is_given_the_arguments_of_the_robot(tmp_path: Path):
     asyncio.run(run())
 
 
+def test_a_changed_srdf_is_read_again(tmp_path: Path):
+    async def run() -> None:
+        async with desk(write_arm(tmp_path / "src"), tmp_path / "data") as arm:
+            await until(lambda: arm.names == [("srdf", "folded")])
+            path = Path(arm.pose("folded")["file"])
+            path.write_text(SRDF.replace("folded", "packed"))
+            await until(lambda: arm.names == [("srdf", "packed")])
+            path.write_text("<robot")
+            await until(lambda: arm.names == [])
+            path.write_text(SRDF)
+            await until(lambda: arm.names == [("srdf", "folded")])
+
+    asyncio.run(run())
+
+
 def test_states_of_other_robots_are_left_out(tmp_path: Path):
     async def run() -> None:
         other = SRDF.replace('name="arm"', 'name="other"').replace("folded", "theirs")
