@@ -40,22 +40,8 @@ export const linkPoses = computed(() => {
   return robot.value && posesOf(robot.value.links.map(({ name }) => name));
 });
 
-let followers = 0;
-/** @type {() => void} */
-let stop = () => {};
-
-/** Keep `linkPoses` true while somebody looks. @returns {() => void} the end of looking */
-export function followFrames() {
-  followers += 1;
-  if (followers === 1) stop = askWhenBuilt(askFrames);
-  let over = false;
-  return () => {
-    if (over) return;
-    over = true;
-    followers -= 1;
-    if (followers === 0) stop();
-  };
-}
+/** Keep `linkPoses` true while somebody looks. @type {() => () => void} gives the end of looking */
+export const followFrames = sharedLook(() => askWhenBuilt(askFrames));
 
 async function askFrames() {
   const answer = await send({ type: "get_frames" }).catch(() => null);
@@ -67,9 +53,10 @@ async function askFrames() {
  * built meanwhile.
  *
  * @param {() => Promise<void>} ask
+ * @param {number} [restMs] between two, for what costs the studio more
  * @returns {() => void} the end of it
  */
-export function askWhenBuilt(ask) {
+export function askWhenBuilt(ask, restMs = 0) {
   let asking = false;
   let again = false;
   let over = false;
@@ -78,6 +65,7 @@ export function askWhenBuilt(ask) {
     do {
       again = false;
       await untracked(ask);
+      if (restMs > 0) await new Promise((resolve) => setTimeout(resolve, restMs));
     } while (again && !over);
     asking = false;
   };
@@ -90,5 +78,28 @@ export function askWhenBuilt(ask) {
   return () => {
     over = true;
     end();
+  };
+}
+
+/**
+ * However many look, one asks.
+ *
+ * @param {() => () => void} begin to ask; gives the end of it
+ * @returns {() => () => void} begin to look; gives the end of looking
+ */
+export function sharedLook(begin) {
+  let lookers = 0;
+  /** @type {() => void} */
+  let stop = () => {};
+  return () => {
+    lookers += 1;
+    if (lookers === 1) stop = begin();
+    let over = false;
+    return () => {
+      if (over) return;
+      over = true;
+      lookers -= 1;
+      if (lookers === 0) stop();
+    };
   };
 }

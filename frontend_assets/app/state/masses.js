@@ -5,15 +5,18 @@
 
 import { signal } from "vendor/preact.js";
 import { send } from "../wire.js";
-import { askWhenBuilt } from "./frames.js";
+import { askWhenBuilt, sharedLook } from "./frames.js";
+
+/** A drag is not slowed by what it weighs. */
+const REST_MS = 150;
 
 /** Links that have an inertial, in the order of the robot; null until they are known. @type {Signal<readonly LinkMassView[] | null>} */
 export const masses = signal(null);
 
-/** Keep `masses` true while somebody looks. @returns {() => void} the end of looking */
-export function followMasses() {
-  return askWhenBuilt(async () => {
-    const answer = await send({ type: "get_masses" }).catch(() => null);
-    if (answer?.type === "masses") masses.value = answer.links;
-  });
+/** Keep `masses` true while somebody looks. @type {() => () => void} gives the end of looking */
+export const followMasses = sharedLook(() => askWhenBuilt(askMasses, REST_MS));
+
+async function askMasses() {
+  const answer = await send({ type: "get_masses" }).catch(() => null);
+  if (answer?.type === "masses") masses.value = answer.links;
 }
