@@ -110,9 +110,17 @@ async def _check(
         document.start()
         await document.opened()
         await asyncio.gather(document.checks.settled(), document.robot_checks.settled())
-        return CheckedFile(document.entry, document.board.found)
+        return CheckedFile(document.entry, tuple(map(_as_checked, document.board.found)))
     finally:
         await document.close()
+
+
+def _as_checked(problem: Problem) -> Problem:
+    """A robot that waits for an argument has nothing wrong with it: it could not be looked at."""
+    if problem.fix is None or problem.fix.action != "give_arguments":
+        return problem
+    sentence = f"{problem.sentence} It was not checked."
+    return replace(problem, severity=Severity.WARNING, sentence=sentence)
 
 
 @asynccontextmanager

@@ -68,6 +68,23 @@ def test_arguments_are_passed_on(tmp_path: Path):
     assert "several-roots" in codes(given)
 
 
+def test_a_robot_that_needs_an_argument_is_no_error_but_a_misspelt_one_is(tmp_path: Path):
+    file = tmp_path / "robots" / "r.xacro"
+    file.parent.mkdir()
+    file.write_text(XACRO.replace('<link name="a"/>', '<link name="$(arg needed)"/>'))
+    (waiting,) = check(file, tmp_path / "data")
+    assert [(one.code, one.severity) for one in waiting.problems] == [
+        ("undefined-argument", Severity.WARNING)
+    ]
+    assert waiting.problems[0].sentence.endswith("pass needed:=value. It was not checked.")
+    (given,) = check(file, tmp_path / "data", needed="a")
+    assert not given.has_errors
+    file.write_text(XACRO.replace('name="n" default', 'name="side" default'))
+    file.write_text(file.read_text().replace("$(arg n)", "$(arg sid)"))
+    (misspelt,) = check(file, tmp_path / "data")
+    assert misspelt.has_errors
+
+
 def test_a_folder_is_every_robot_of_it_that_can_be_opened(tmp_path: Path):
     package = write_package(
         tmp_path / "ws" / "r_description",
