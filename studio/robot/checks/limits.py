@@ -17,8 +17,12 @@ if TYPE_CHECKING:
     from studio.robot.values import Joint, Limit, Robot
 
 _NEEDS_LIMIT: Final = {
-    JointType.REVOLUTE: '<limit lower="-1.57" upper="1.57" effort="10" velocity="1"/>',
-    JointType.PRISMATIC: '<limit lower="0" upper="0.1" effort="10" velocity="0.1"/>',
+    JointType.REVOLUTE: AddChild(
+        "Add limits of ±1.57 rad", '<limit lower="-1.57" upper="1.57" effort="10" velocity="1"/>'
+    ),
+    JointType.PRISMATIC: AddChild(
+        "Add limits of 0 and 0.1 m", '<limit lower="0" upper="0.1" effort="10" velocity="0.1"/>'
+    ),
 }
 """And what to begin with."""
 _MOST: Final = {
@@ -51,12 +55,11 @@ def limit_findings(robot: Robot, xml_of: Callable[[str], str]) -> Iterator[Findi
 
 
 def _missing_limit(joint: Joint) -> Finding:
-    element = _NEEDS_LIMIT[joint.type]
     sentence = (
         f'Joint "{joint.name}" is {joint.type} and has no <limit>, so that ROS rejects the robot: '
         f"say how far it goes, or make it {_without_limit(joint)}."
     )
-    mend = AddChild(f"Add {element}", element)
+    mend = _NEEDS_LIMIT[joint.type]
     return Finding(Severity.ERROR, "missing-limit", sentence, _key(joint), mend)
 
 

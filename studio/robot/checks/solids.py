@@ -48,7 +48,7 @@ def inertia_mend(link: Link, extent: Extent) -> SetAttributes | None:
         return None
     tensor = _in_axes_of(inertial, rpy, inertial.mass_kg * per_kg)
     texts = tuple((name, f"{_rounded(tensor, i, j):.6g}") for name, (i, j) in _ENTRIES.items())
-    label = f"Take the inertia of a solid {_shown(shape)} of {inertial.mass_kg:g} kg"
+    label = f"Take a solid {type(shape).__name__.lower()}'s inertia"
     return SetAttributes(label, ("inertial", "inertia"), texts, is_for_one=True)
 
 
@@ -86,13 +86,3 @@ def _rounded(tensor: Floats, i: int, j: int) -> float:
     """An entry, without the dust that turning leaves off the diagonal."""
     entry = float(tensor[i, j])
     return 0.0 if abs(entry) < 1e-9 * float(np.trace(tensor)) else entry
-
-
-def _shown(shape: Box | Cylinder | Sphere) -> str:
-    match shape:
-        case Box((x, y, z)):
-            return f"box of {x:.3g} x {y:.3g} x {z:.3g} m"
-        case Cylinder(radius_m, length_m):
-            return f"cylinder of radius {radius_m:.3g} m and length {length_m:.3g} m"
-        case Sphere(radius_m):
-            return f"sphere of radius {radius_m:.3g} m"
