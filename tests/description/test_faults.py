@@ -111,3 +111,12 @@ def test_a_lazy_property_is_blamed_where_it_is_written(tmp_path: Path):
 def test_a_missing_package_can_be_chosen(tmp_path: Path):
     fault = fault_of(write(tmp_path, {"a.xacro": robot('<x v="$(find far_away)"/>')}))
     assert fault.package == "far_away"
+
+
+def test_a_property_that_lost_its_value_is_told_as_a_block(tmp_path: Path):
+    inside = '<xacro:property name="wheel_radius" alue="1"/>\n<x v="${wheel_radius}"/>'
+    sentence = fault_of(write(tmp_path, {"r.xacro": robot(inside)})).sentence
+    assert sentence == '"wheel_radius" names a block: give its property a value.'
+    inside = '<xacro:property name="wheel_radius"><o/></xacro:property>\n<x v="${wheel_radiu}"/>'
+    sentence = fault_of(write(tmp_path, {"r.xacro": robot(inside)})).sentence
+    assert "did you mean" not in sentence

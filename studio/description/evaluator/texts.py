@@ -229,9 +229,14 @@ class Texts:
         """No scope has the name."""
         if name in self.arguments:
             return Fault("undefined-property", f'"{name}" is an arg: read it with $(arg {name}).')
+        if scope.find(f"**{name}"):
+            return Fault(
+                "undefined-property", f'"{name}" names a block: give its property a value.'
+            )
         otherwise = f'define it with <xacro:property name="{name}" value="..."/>.'
         sentence = f'"{name}" is not defined here'
-        return misnamed("undefined-property", sentence, name, scope.all_names(), otherwise)
+        known = (one for one in scope.all_names() if not one.startswith("*"))
+        return misnamed("undefined-property", sentence, name, known, otherwise)
 
     def _resolve(self, name: str, cell: Cell, scope: Scope) -> None:
         if cell.resolving:
