@@ -101,7 +101,7 @@ def test_a_failed_run_keeps_the_model_and_its_undo_mends_it(arm: Path, tmp_path:
             document.board.attach(newcomer)
             assert newcomer.site("reach")["text"] == "${unheard_of}"
             await document.undo()
-            assert ear.last("problems")["problems"] == []
+            assert "error" not in {one["severity"] for one in ear.last("problems")["problems"]}
             assert ear.site("reach")["text"] == "0.4"
 
     asyncio.run(run())
