@@ -32,6 +32,8 @@ def tab_of(
     context = browser.new_context(
         viewport={"width": 1600, "height": 950}, color_scheme=theme, reduced_motion="reduce"
     )
+    # With shadows, as a reader with a graphics card sees it, however slowly they are drawn here.
+    context.add_init_script("""localStorage.setItem("studio.graphics", '"full"')""")
     tab = StudioPage(context.new_page())
     tab.open(studio.url)
     yield tab
