@@ -62,7 +62,7 @@ function placeCommands(dock) {
       id: "maximize",
       icon: "maximize",
       keys: ["Mod+Enter"],
-      enabled: wide,
+      enabled: shown,
       run: dock.toggleMaximized,
     },
     {
@@ -99,7 +99,7 @@ function layoutCommands() {
     icon: "layout",
     label: () => t("layouts.use", { name: layoutName(name) }),
     ...(at < KEYS_MOST ? { keys: [`Mod+${at + 1}`], inText: true } : {}),
-    enabled: () => size.value !== "phone",
+    enabled: () => size.value !== "phone" && isFree(),
     run: () => layoutDesk.value?.use(name),
   }));
 }
