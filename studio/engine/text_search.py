@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from studio.description.values import Edit
 
-_SHOWN_BEFORE: Final = 80
+_SHOWN_BEFORE: Final = 24
 _SHOWN: Final = 240
 
 
