@@ -106,6 +106,6 @@ function Sending() {
     <p>${label}</p>
     <${ProgressBar} label=${label} done=${sent ? 0 : done} total=${sent ? 0 : total} />
     <footer><span>${t("upload.done", { done: megabytes(done), total: megabytes(total) })}</span>
-      <button type="button" class="button small" onClick=${cancel}>${t("cancel")}</button></footer>
+      ${!sent && html`<button type="button" class="button small" onClick=${cancel}>${t("cancel")}</button>`}</footer>
   </div>`;
 }

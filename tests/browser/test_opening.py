@@ -42,8 +42,12 @@ _DRAG = """([type, target, files]) => {
 
 
 @pytest.fixture(scope="module")
-def studio(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningStudio]:
-    folder = tmp_path_factory.mktemp("opening")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("opening")
+
+
+@pytest.fixture(scope="module")
+def studio(folder: Path) -> Iterator[RunningStudio]:
     package = write_package(folder / "ws" / "own_robot", files={"urdf/own.urdf": OWN})
     with running_studio(["open", str(package)], folder / "data") as running:
         yield running
@@ -92,6 +96,24 @@ def test_a_robot_and_its_meshes_chosen_together_find_each_other(
     assert tab.page.get_by_text(robot.name).count() > 0
 
 
+def test_a_sending_that_is_cancelled_leaves_nothing(tab: StudioPage, folder: Path, tmp_path: Path):
+    uploads = folder / "data" / "uploads"
+    before = set(uploads.glob("*"))
+    large = tmp_path / "large.stl"
+    large.write_bytes(bytes(40 << 20))
+    network = tab.page.context.new_cdp_session(tab.page)
+    network.send("Network.enable")
+    speed = {"latency": 0, "downloadThroughput": -1, "uploadThroughput": 1 << 20}
+    network.send("Network.emulateNetworkConditions", {"offline": False, **speed})
+    tab.page.keyboard.press("Control+o")
+    tab.page.locator("input[type=file]").first.set_input_files([large])
+    tab.page.get_by_text("Sending large.stl").wait_for()
+    wait_until("the sending to begin", lambda: set(uploads.glob("*")) > before)
+    tab.page.get_by_role("button", name="Cancel").click()
+    wait_until("it to be gone", lambda: set(uploads.glob("*")) == before)
+    assert tab.page.get_by_text("Sending large.stl").count() == 0
+
+
 def test_a_pasted_text_is_drawn_at_once_and_gets_a_place_by_saving_it(tab: StudioPage):
     tab.page.context.grant_permissions(["clipboard-read", "clipboard-write"])
     text = f'<link name="ball">{SPHERE}</link>'
@@ -128,6 +150,7 @@ def test_a_pasted_text_that_is_no_robot_changes_nothing(tab: StudioPage):
     tab.page.context.grant_permissions(["clipboard-read", "clipboard-write"])
     before = tab.page.url
     tab.page.evaluate("() => navigator.clipboard.writeText('some words')")
+    tab.page.locator("iframe").click()  # the 3D view has the keys now
     tab.page.keyboard.press("Control+v")
     tab.page.get_by_text("The clipboard holds no robot description").wait_for()
     assert tab.page.url == before
