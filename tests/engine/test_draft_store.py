@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import errno
+import os
 from contextlib import ExitStack, closing
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -100,6 +102,23 @@ def test_steps_that_do_not_fit_are_left_out_and_the_texts_stay(tmp_path: Path, t
     draft = place.read()
     assert draft is not None
     assert draft.kept == KeptSources(texts, {})
+
+
+def test_a_full_disk_leaves_the_draft_before_and_no_other_file(
+    tmp_path: Path, taken: Taken, monkeypatch: pytest.MonkeyPatch
+):
+    entry = tmp_path / "a.xacro"
+    place = taken(tmp_path, entry)
+    place.write(draft_of(entry))
+
+    def full(_handle: int) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(os, "fsync", full)
+    with pytest.raises(DraftError, match="No space left on device; save what matters"):
+        place.write(draft_of(entry, KeptSources((), {})))
+    assert place.read() == draft_of(entry)
+    assert {one.suffix for one in (tmp_path / "drafts").iterdir()} == {".json", ".lock"}
 
 
 def test_a_folder_that_cannot_be_written_is_said():
