@@ -81,7 +81,7 @@ export function GraphicsNotice() {
   return html`<div class="graphics-notice" role="status"><${Icon} name="system" size=${15} />
     <span>${t("graphics.notice")}</span>
     <button type="button" class="text-button" onClick=${details}>${t("graphics.details")}</button>
-    <button type="button" class="text-button" onClick=${() => chooseGraphics("full")}>${t("command.undo")}</button>
+    <button type="button" class="text-button" onClick=${() => chooseGraphics("full")}>${t("graphics.draw_fully")}</button>
     <${IconButton} icon="close" size=${14} label=${t("dismiss")} onClick=${() => {
       graphicsSaid.value = true;
     }} /></div>`;

@@ -138,6 +138,8 @@ def test_a_view_that_proves_slow_is_drawn_lightly_until_one_undoes_it(
         tab.page.get_by_text("the 3D view is drawn lightly here").wait_for(timeout=90_000)
         assert tab.page.evaluate(_GRAPHICS)["light"]
         wait_until("the shadows to go", lambda: tab.page.evaluate(_SHADOWS) == 0)
-        tab.page.get_by_role("region", name="3D view").get_by_role("button", name="Undo").click()
+        tab.page.get_by_role("region", name="3D view").get_by_role(
+            "button", name="Draw fully"
+        ).click()
         wait_until("the robot anew", tab.has_drawn_robot)
         wait_until("full graphics", lambda: not tab.page.evaluate(_GRAPHICS)["light"])
