@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Generator, Iterator
     from pathlib import Path
 
-    from playwright.sync_api import Browser
+    from playwright.sync_api import Browser, CDPSession
 
     from tests.support.server import RunningStudio
 
@@ -96,15 +96,19 @@ def test_a_robot_and_its_meshes_chosen_together_find_each_other(
     assert tab.page.get_by_text(robot.name).count() > 0
 
 
+def _send_slowly(network: CDPSession) -> None:
+    """Let files go out at a megabyte a second, so that there is time to cancel."""
+    speed = {"offline": False, "latency": 0, "downloadThroughput": -1, "uploadThroughput": 1 << 20}
+    network.send("Network.enable")  # pyright: ignore[reportUnknownMemberType]
+    network.send("Network.emulateNetworkConditions", speed)  # pyright: ignore[reportUnknownMemberType]
+
+
 def test_a_sending_that_is_cancelled_leaves_nothing(tab: StudioPage, folder: Path, tmp_path: Path):
     uploads = folder / "data" / "uploads"
     before = set(uploads.glob("*"))
     large = tmp_path / "large.stl"
     large.write_bytes(bytes(40 << 20))
-    network = tab.page.context.new_cdp_session(tab.page)
-    network.send("Network.enable")
-    speed = {"latency": 0, "downloadThroughput": -1, "uploadThroughput": 1 << 20}
-    network.send("Network.emulateNetworkConditions", {"offline": False, **speed})
+    _send_slowly(tab.page.context.new_cdp_session(tab.page))
     tab.page.keyboard.press("Control+o")
     tab.page.locator("input[type=file]").first.set_input_files([large])
     tab.page.get_by_text("Sending large.stl").wait_for()
