@@ -34,7 +34,7 @@ class FaultBook:
     def __init__(self, path: str, data: bytes, encoding: str) -> None:
         self._path, self._data, self._encoding = path, data, encoding
         self._found: list[XmlFault] = []
-        self._line, self._line_start = 1, 0
+        self._at, self._line, self._column = 0, 1, 1
 
     def add(self, code: str, sentence: str, at: int, fix: Fix | None) -> None:
         """Note a fault at a byte.
@@ -53,18 +53,23 @@ class FaultBook:
 
     def pass_by(self, at: int) -> Place:
         """The place of a byte behind all that were passed by before; counting goes on there."""
-        place = self.place(at)
-        self._line, self._line_start = place.line, self._data.rfind(b"\n", 0, at) + 1
-        return place
+        self._line, self._column = self._counted(self._at, self._line, self._column, at)
+        self._at = at
+        return Place(self._path, self._line, self._column)
 
     def place(self, at: int) -> Place:
         """The place of any byte."""
-        line, start = self._line, self._line_start
-        if at < start:
-            line, start = 1, 0
-        breaks = self._data.count(b"\n", start, at)
+        if at >= self._at:
+            return Place(self._path, *self._counted(self._at, self._line, self._column, at))
+        return Place(self._path, *self._counted(0, 1, 1, at))
+
+    def _counted(self, begin: int, line: int, column: int, at: int) -> tuple[int, int]:
+        """Line and column of a byte, from those of an earlier one: what is between is counted."""
+        breaks = self._data.count(b"\n", begin, at)
         if breaks:
-            start = self._data.rfind(b"\n", start, at) + 1
-        text = self._data[start:at].removeprefix(b"\xef\xbb\xbf")
-        column = len(text.decode(self._encoding, "replace")) + 1
-        return Place(self._path, line + breaks, column)
+            line, column = line + breaks, 1
+            begin = self._data.rfind(b"\n", begin, at) + 1
+        text = self._data[begin:at]
+        if begin == 0:
+            text = text.removeprefix(b"\xef\xbb\xbf")
+        return line, column + len(text.decode(self._encoding, "replace"))

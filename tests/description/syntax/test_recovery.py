@@ -287,6 +287,7 @@ HOSTILE = {
     "end tags": b"<r>" + b"</a>" * 300_000,
     "no end": b"<r " + b"a" * 3_000_000,
     "attributes": b"<r " + b" ".join(b"a%d=1" % n for n in range(200_000)),
+    "one line": b"<r>" + b'<a b="c"/>' * 100_000,
     "comments": b"<r>" + b"<!-- -- " * 300_000,
 }
 
