@@ -109,9 +109,10 @@ class DraftDesk:
 
     def _end_notice(self) -> None:
         """What was saved or taken back needs no word any more."""
+        if not self._restored.at:
+            return
         sources = self._document.sources
-        is_unsaved = sources.unsaved_files or sources.arguments != self._opened_with
-        if self._restored.at and not is_unsaved:
+        if not (sources.unsaved_files or sources.arguments != self._opened_with):
             self._restored = Restored(at="", files=())
             self._document.board.audience.tell(self._restored)
 

@@ -21,6 +21,7 @@ from studio.scene import SUBPROTOCOL
 from studio.settings import DEFAULT_PORT, Settings
 from studio.web.launch import remarks
 from tests.support.server import RunningStudio, running_studio
+from tests.support.studio_page import wait_until
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -163,3 +164,41 @@ def test_beyond_this_machine_it_warns():
     assert remarks(Settings(), DEFAULT_PORT) == []
     (warning,) = remarks(Settings(host="0.0.0.0", port=8000), 8000)
     assert "not encrypted" in warning
+
+
+def asked(studio: RunningStudio, **command: object) -> list[dict[str, Any]]:
+    """The events that a command by REST brought about."""
+    with studio.client() as client:
+        answer = client.post("/api/commands", content=json.dumps({"document": "rover"} | command))
+        assert answer.status_code == 200, answer.text
+        return answer.json()["events"]
+
+
+def texts_of(studio: RunningStudio) -> dict[str, Any]:
+    """The text of the open file, as it is edited and as the disk has it."""
+    with studio.client() as client:
+        (document,) = client.get("/api/documents").json()["documents"]
+    (text, _) = asked(studio, type="get_text", file=document["path"])
+    return text
+
+
+@linux
+@pytest.mark.timeout(180)
+def test_unsaved_work_outlasts_a_kill_and_ends_with_a_fresh_copy(tmp_path: Path):
+    data = tmp_path / "data"
+    with running_studio(["demo"], data) as studio:
+        text = texts_of(studio)
+        at = text["text"].index("<robot")
+        change = {"start": at, "end": at, "text": "<!-- mine ü🤖 -->"}
+        seen = {"file": text["file"], "version": text["version"]}
+        asked(studio, type="edit_text", changes=[change], **seen)
+        drafts = data / "drafts"
+        wait_until("a draft", lambda: any(drafts.glob("*.json")))
+        studio.stop(signal.SIGKILL)
+    with running_studio(["demo"], data) as studio:
+        again = texts_of(studio)
+        assert "<!-- mine ü🤖 --><robot" in again["text"]
+        assert again["saved"] == text["text"]
+    with running_studio(["demo", "--fresh"], data) as studio:
+        fresh = texts_of(studio)
+        assert (fresh["text"], fresh["saved"]) == (text["text"], None)
