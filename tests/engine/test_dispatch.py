@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 OF_THE_ENGINE = {
     *(m.Watch, m.OpenPath, m.CloseDocument, m.ListFolder),
     *(m.GetArguments, m.GetLink, m.OpenLink),
+    m.ForgetWork,
     *get_args(m.LibraryCommand),
 }
 
