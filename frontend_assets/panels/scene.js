@@ -51,10 +51,10 @@ function Tools() {
     <${LayerToggle} name="frames" icon="axes" />
     <${LayerToggle} name="names" icon="frames" />
     <span class="divider"></span>
-    <${MenuButton} label=${t("scene.mouse")} disabled=${off} items=${mouseItems}>
     <${IconButton} icon="measure" label=${t("command.measure")} hint=${`${t("command.measure")} (M)`} disabled=${off || !robot.value}
       pressed=${measuring.value} onClick=${() => commandById("measure")?.run()} />
     <span class="divider"></span>
+    <${MenuButton} label=${t("scene.mouse")} disabled=${off} items=${mouseItems}>
       <${Icon} name="mouse" /><${Icon} name="chevronDown" size=${12} />
     <//>
   </div>`;
