@@ -68,7 +68,7 @@ def test_wrong_values_are_refused_and_leave_no_step(mast: Path, tmp_path: Path):
             document, _ = await opened(made, mast, side="left")
             await document.history.pass_arguments({"reach": "2"})
             await document.undo()
-            with pytest.raises(CommandError, match="high.*as they were"):
+            with pytest.raises(CommandError, match=r"high.*as they were"):
                 await document.history.pass_arguments({"side": "right", "reach": "high"})
             assert not document.failed
             assert list(document.model.robot.links) == ["left_base"]
