@@ -4,10 +4,10 @@
 
 import { html, render, useEffect, useState } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
-import { untilIdle } from "../lib/idle.js";
+import { until, untilIdle } from "../lib/idle.js";
 import { Icon, ProgressBar } from "../lib/ui.js";
 import { heldBack } from "./state/alarm.js";
-import { changedCount, problems } from "./state/document.js";
+import { changedCount, problems, robot } from "./state/document.js";
 
 /**
  * @typedef {{icon: string, keepsFrame?: boolean, heavy?: boolean, badge?: () => {text: string, tone: string, label: string} | null,
@@ -92,6 +92,8 @@ function Tab({ id }) {
     ${badge && html`<span class=${`badge ${badge.tone}`} title=${badge.label} aria-label=${badge.label}>${badge.text}</span>`}</span>`;
 }
 
+/** A robot that takes longer than this is not waited for. */
+const PATIENCE_MS = 1500;
 /** Settles when the panels that were asked for so far are here. @type {Promise<unknown>} */
 let others = Promise.resolve();
 
@@ -99,8 +101,9 @@ let others = Promise.resolve();
 async function fetched(id) {
   const entry = PANELS[id];
   if (entry?.heavy) {
-    await untilIdle();
     await others;
+    await until(() => robot.value !== null, PATIENCE_MS);
+    await untilIdle();
     return entry.load();
   }
   const panel = entry?.load();
