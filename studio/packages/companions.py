@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from itertools import islice
 from typing import TYPE_CHECKING, Final
 from urllib.parse import unquote
 
@@ -14,16 +15,20 @@ if TYPE_CHECKING:
 
     from studio.packages.roots import ServedRoots
 
+# One way only to read any text: a mesh may be megabytes of blanks.
 _NAMED: Final = {
-    ".obj": re.compile(rb"^\s*mtllib[ \t]+([^\r\n]+)", re.MULTILINE),
+    ".obj": re.compile(rb"^[ \t]*mtllib[ \t]+([^\r\n]+)", re.MULTILINE),
     ".mtl": re.compile(
-        rb"^\s*(?:map_\w+|bump|disp|decal|refl)[ \t]+([^\r\n]+)", re.MULTILINE | re.IGNORECASE
+        rb"^[ \t]*(?:map_\w+|bump|disp|decal|refl)[ \t]+([^\r\n]+)", re.MULTILINE | re.IGNORECASE
     ),
-    ".dae": re.compile(rb"<init_from>\s*(?:<ref>)?\s*([^<]+?)\s*<"),
+    ".dae": re.compile(rb"<init_from>\s*+(?:<ref>)?+([^<]++)<"),
     ".gltf": re.compile(rb'"uri"\s*:\s*"([^"]+)"'),
 }
 _LIMIT: Final = 200
 """Of what one mesh names."""
+_READ_LIMIT: Final = 2_000
+"""Names that are looked for, whether or not something is there."""
+_NAME_LIMIT_BYTES: Final = 4096
 _TEXT_LIMIT_BYTES: Final = 256 << 20
 
 
@@ -47,10 +52,12 @@ def _named_in(file: Path, served: ServedRoots) -> list[Path]:
         data = served.read(file, _TEXT_LIMIT_BYTES)
     except (OutsideRootsError, UnreadableFileError):
         return []
-    written = {one.decode("utf-8", "replace").strip() for one in pattern.findall(data)}
+    found = islice(pattern.finditer(data), _READ_LIMIT)
+    written = {one[1][:_NAME_LIMIT_BYTES].decode("utf-8", "replace").strip() for one in found}
     # Several may stand in one line, behind options; and a name may have a blank in it.
     names = {name for one in written for name in (one, *one.split())}
-    paths = (_served(file, name, served) for name in sorted(names) if not name.startswith("data:"))
+    looked_for = sorted(name for name in names if not name.startswith("data:"))[:_READ_LIMIT]
+    paths = (_served(file, name, served) for name in looked_for)
     return [path for path in paths if path is not None]
 
 

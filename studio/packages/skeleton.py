@@ -18,7 +18,7 @@ Template: TypeAlias = Literal["blank", "rover", "arm"]
 
 _TEMPLATES: Final = Path(__file__).parent / "templates"
 _SUFFIX: Final = ".urdf.xacro"
-_FIRST_LINK: Final = re.compile(rb"""<link\s[^>]*?name\s*=\s*["']([\w-]+)["']""")
+_FIRST_LINK: Final = re.compile(rb"""<link\s[^<>]*?name\s*=\s*["']([\w-]+)["']""")
 
 
 def template_text(template: Template, robot: str) -> bytes:

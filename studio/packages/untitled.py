@@ -18,7 +18,6 @@ _SUFFIX: Final = ".urdf.xacro"
 _BYTE_ORDER_MARK: Final = "\N{ZERO WIDTH NO-BREAK SPACE}"
 _ROBOT: Final = re.compile(r"<(?:\w+:)?robot\b")
 _PART: Final = re.compile(r"<(?:link|joint|material|transmission|gazebo|xacro:\w+)\b")
-_DECLARATION: Final = re.compile(r"\s*<\?xml[^>]*\?>\s*")
 _AROUND: Final = (
     '<?xml version="1.0"?>\n<robot name="untitled" xmlns:xacro="http://www.ros.org/wiki/xacro">\n',
     "\n</robot>\n",
@@ -69,8 +68,19 @@ def _as_robot(text: str) -> str:
     if not _PART.search(text):
         reason = "the text is no robot description: it has no <robot>, <link> or <joint> in it."
         raise NotMadeError("An untitled robot", reason)
-    inside = _DECLARATION.sub("", text, count=1)
-    return inside.strip("\n").join(_AROUND)
+    return _without_declaration(text).strip("\n").join(_AROUND)
+
+
+def _without_declaration(text: str) -> str:
+    """The text without its first `<?xml ...?>`, and without the blanks around that.
+
+    Looked for step by step: a pattern for it takes for ever on many blanks or many beginnings.
+    """
+    begin = text.find("<?xml")
+    end = text.find("?>", begin)
+    if begin < 0 or end < 0 or ">" in text[begin:end]:
+        return text
+    return text[:begin].rstrip() + text[end + 2 :].lstrip()
 
 
 def _next_folder(untitled: Path) -> Path:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import pytest
+
 from studio.packages.companions import companions
 from studio.packages.roots import ServedRoots
 
@@ -49,3 +51,19 @@ def test_what_is_missing_elsewhere_or_the_mesh_itself_is_left_out(tmp_path: Path
     )
     assert names(tmp_path / "m", "a.obj") == {"b.mtl"}
     assert names(tmp_path / "m", "none.obj") == set()
+
+
+@pytest.mark.parametrize(
+    ("mesh", "data"),
+    [
+        ("a.obj", b"\n" * 300_000),
+        ("a.obj", b"mtllib " + b"x " * 1_000_000),
+        ("a.obj", b"mtllib x\n" * 500_000),
+        ("a.dae", b"<init_from>" + b" " * 300_000),
+        ("a.dae", b"<init_from>" * 100_000),
+        ("a.gltf", b'"uri" ' + b" " * 300_000),
+    ],
+)
+def test_a_mesh_that_goes_on_and_on_takes_no_longer_for_it(tmp_path: Path, mesh: str, data: bytes):
+    (tmp_path / mesh).write_bytes(data)
+    assert names(tmp_path, mesh) == set()

@@ -76,3 +76,9 @@ def test_a_folder_that_may_not_be_written_is_said_and_nothing_is_left():
                 with pytest.raises(NotMadeError, match="Permission denied"):
                     make(folder, "rover", b"<robot/>")
         assert list(folder.iterdir()) == []
+
+
+def test_a_text_of_tags_without_end_is_kept_as_fast_as_any_other(tmp_path: Path):
+    text = b"<robot>" + b"<link " * 150_000
+    file = make_package(tmp_path, "rover", text)
+    assert file.read_bytes() == text

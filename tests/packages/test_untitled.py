@@ -73,3 +73,15 @@ def test_a_data_folder_that_cannot_take_it_is_said(tmp_path: Path):
     (tmp_path / "untitled").write_text("a file")
     with pytest.raises(NotMadeError, match="the data folder cannot take it"):
         new_untitled(tmp_path, ROBOT)
+
+
+@pytest.mark.parametrize("rest", [" " * 900_000, "<?xml" * 180_000, "\n<?xml " * 120_000])
+def test_a_paste_that_goes_on_and_on_takes_no_longer_for_it(tmp_path: Path, rest: str):
+    text = f"<link/>{rest}"
+    assert text in new_untitled(tmp_path, text).read_text()
+
+
+def test_a_declaration_below_the_first_line_goes_too(tmp_path: Path):
+    text = new_untitled(tmp_path, '\n <?xml version="1.0"?> \n<link name="a"/>').read_text()
+    assert text.count("<?xml") == 1
+    assert '\n<link name="a"/>\n' in text
