@@ -35,7 +35,9 @@ export function byFile(problems) {
   const files = new Map();
   for (const one of [...problems].sort(byWeight)) {
     const file = one.place?.file ?? "";
-    files.set(file, [...(files.get(file) ?? []), one]);
+    const those = files.get(file);
+    if (those) those.push(one);
+    else files.set(file, [one]);
   }
   return [...files].map(([file, those]) => ({ file, problems: those }));
 }
@@ -63,6 +65,18 @@ export function asText(files, word) {
       return `${where ? `${where}: ` : ""}${word(severity)}: ${sentence} [${code}]\n`;
     })
     .join("");
+}
+
+/** @param {readonly Problem[]} those @returns {{key: string, problem: Problem}[]} two that say the same are told apart by their order */
+export function keyed(those) {
+  /** @type {Map<string, number>} */
+  const seen = new Map();
+  return those.map((problem) => {
+    const own = keyOf(problem);
+    const number = (seen.get(own) ?? 0) + 1;
+    seen.set(own, number);
+    return { key: `${own}#${number}`, problem };
+  });
 }
 
 /** @param {Problem} problem @returns {string} the same for the same problem, also when others come and go */

@@ -1,4 +1,4 @@
-/** Sites as lists: which are shown, under which file and heading, in pieces small enough to draw. */
+/** Sites as lists: which are shown, under which file and heading. */
 
 /** @import { SiteView } from "../types/wire.d.ts" */
 
@@ -8,7 +8,6 @@
  */
 
 export const KINDS = /** @type {const} */ (["arg", "property", "yaml", "param_default", "literal"]);
-const PIECE = 24;
 
 /** @param {SiteView} site @returns {boolean} the file on disk says something else */
 export function isChanged(site) {
@@ -53,13 +52,6 @@ export function groupSites(order, sites, filter) {
   }
   return [...files].flatMap(([file, groups]) =>
     [...groups].map(([group, ids]) => ({ key: `${file}\n${group}`, file, group, sites: ids })),
-  );
-}
-
-/** @param {readonly string[]} ids @returns {string[][]} pieces that are drawn when they come into view */
-export function inPieces(ids) {
-  return Array.from({ length: Math.ceil(ids.length / PIECE) }, (_, n) =>
-    ids.slice(n * PIECE, (n + 1) * PIECE),
   );
 }
 

@@ -15,36 +15,38 @@ export function linkTree(robot) {
   /** @type {Map<string, LinkNode>} */
   const nodes = new Map();
   for (const link of robot.links) nodes.set(link.name, { link, joint: null, children: [] });
-  for (const joint of robot.joints) hang(nodes, joint);
+  /** @type {Map<LinkNode, LinkNode>} */
+  const above = new Map();
+  for (const joint of robot.joints) hang(nodes, joint, above);
   const loose = [...nodes.values()].filter((node) => node.joint === null);
   return loose.sort(
     (a, b) => Number(b.link.name === robot.root) - Number(a.link.name === robot.root),
   );
 }
 
-/** @param {Map<string, LinkNode>} nodes @param {JointView} joint */
-function hang(nodes, joint) {
+/**
+ * @param {Map<string, LinkNode>} nodes
+ * @param {JointView} joint
+ * @param {Map<LinkNode, LinkNode>} above for each that hangs, one that is nearer to its root
+ */
+function hang(nodes, joint, above) {
   const child = nodes.get(joint.child);
   const parent = nodes.get(joint.parent);
-  if (!child || !parent || child.joint || isBelow(parent, child, nodes)) return;
+  // What hangs on nothing yet is a root: hung on a link below it, it would close a ring.
+  if (!child || !parent || child.joint || rootOf(parent, above) === child) return;
   child.joint = joint;
   parent.children.push(child);
+  above.set(child, parent);
 }
 
-/**
- * @param {LinkNode} node
- * @param {LinkNode} ancestor
- * @param {Map<string, LinkNode>} nodes
- * @returns {boolean} hanging `ancestor` on `node` would close a ring
- */
-function isBelow(node, ancestor, nodes) {
-  /** @type {LinkNode | undefined} */
+/** @param {LinkNode} node @param {Map<LinkNode, LinkNode>} above is shortened on the way @returns {LinkNode} */
+function rootOf(node, above) {
   let at = node;
-  while (at) {
-    if (at === ancestor) return true;
-    at = at.joint ? nodes.get(at.joint.parent) : undefined;
+  for (let up = above.get(at); up; up = above.get(at)) {
+    above.set(at, above.get(up) ?? up);
+    at = up;
   }
-  return false;
+  return at;
 }
 
 /**
@@ -56,31 +58,45 @@ function isBelow(node, ancestor, nodes) {
  */
 export function linkRows(roots, collapsed, filter, level = 1) {
   const wanted = filter.trim().toLowerCase();
-  return roots.flatMap((node) => {
-    if (wanted && !subtreeMatches(node, wanted)) return [];
-    const expanded = node.children.length > 0 && (wanted !== "" || !collapsed.has(node.link.name));
-    const row = { node, level, expandable: node.children.length > 0, expanded };
-    return expanded ? [row, ...linkRows(node.children, collapsed, filter, level + 1)] : [row];
-  });
+  const shown = wanted === "" ? null : wayTo(roots, wanted);
+  /** @type {LinkRow[]} */
+  const rows = [];
+  // By hand, not by calls: a chain of ten thousand links is deeper than calls may go.
+  const waiting = roots.map((node) => ({ node, level })).reverse();
+  for (let next = waiting.pop(); next; next = waiting.pop()) {
+    const { node, level: at } = next;
+    if (shown && !shown.has(node)) continue;
+    const expandable = node.children.length > 0;
+    const expanded = expandable && (shown !== null || !collapsed.has(node.link.name));
+    rows.push({ node, level: at, expandable, expanded });
+    const below = expanded ? node.children : [];
+    for (const child of below.toReversed()) waiting.push({ node: child, level: at + 1 });
+  }
+  return rows;
 }
 
-/** @param {LinkNode} node @param {string} wanted lower case @returns {boolean} */
-function subtreeMatches(node, wanted) {
-  return (
-    node.link.name.toLowerCase().includes(wanted) ||
-    node.children.some((child) => subtreeMatches(child, wanted))
-  );
+/** @param {LinkNode[]} roots @param {string} wanted lower case @returns {Set<LinkNode>} those that match, and what is above them */
+function wayTo(roots, wanted) {
+  const all = [...roots];
+  for (let at = 0; at < all.length; at += 1)
+    for (const child of all[at]?.children ?? []) all.push(child);
+  /** @type {Set<LinkNode>} */
+  const found = new Set();
+  // From the last back: what hangs on a link comes before it.
+  for (const node of all.reverse()) {
+    const matches = node.link.name.toLowerCase().includes(wanted);
+    if (matches || node.children.some((child) => found.has(child))) found.add(node);
+  }
+  return found;
 }
 
 /** @param {RobotState} robot @param {string} link @returns {string[]} the links above it, nearest first */
 export function ancestorsOf(robot, link) {
   const above = new Map(robot.joints.map((joint) => [joint.child, joint.parent]));
-  /** @type {string[]} */
-  const found = [];
-  let at = above.get(link);
-  while (at !== undefined && !found.includes(at)) {
-    found.push(at);
-    at = above.get(at);
+  /** @type {Set<string>} */
+  const found = new Set();
+  for (let at = above.get(link); at !== undefined && !found.has(at); at = above.get(at)) {
+    found.add(at);
   }
-  return found;
+  return [...found];
 }

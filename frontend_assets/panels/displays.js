@@ -10,7 +10,9 @@ import { selection, selectLink } from "../app/state/selection.js";
 import { hiddenLinks, hovered, selected, showLink } from "../app/state/view.js";
 import { focusLink } from "../app/viewport.js";
 import { t } from "../lib/i18n.js";
+import { LongList } from "../lib/long-list.js";
 import { formatNumber, parseNumber } from "../lib/numbers.js";
+import { siblingPlaces } from "../lib/pieces.js";
 import { whenPlaced } from "../lib/seen.js";
 import { TextBox } from "../lib/slider.js";
 import { ancestorsOf, linkRows } from "../lib/tree.js";
@@ -225,6 +227,7 @@ function linkRow({ node, level, expandable, expanded }) {
  */
 function Tree({ rows, active, setOpen }) {
   const element = useRef(/** @type {HTMLElement | null} */ (null));
+  const places = siblingPlaces(rows.map(({ level }) => level));
   const current = rows.some(({ id }) => id === active.value) ? active.value : (rows[0]?.id ?? "");
   /** @param {Row | undefined} row */
   const go = (row) => {
@@ -241,14 +244,15 @@ function Tree({ rows, active, setOpen }) {
     onPointerLeave=${() => {
       hovered.value = null;
     }}>
-    ${rows.map(
-      (
-        row,
-      ) => html`<${TreeRow} key=${row.id} row=${row} current=${row.id === current} setOpen=${setOpen}
-      onPick=${() => {
-        active.value = row.id;
-      }} />`,
-    )}
+    <${LongList} items=${rows} keyOf=${(/** @type {Row} */ row) => row.id} row="var(--row)"
+      isKept=${(/** @type {Row} */ row) => row.id === current || isChosen(row)}
+      draw=${(
+        /** @type {Row} */ row,
+        /** @type {number} */ at,
+      ) => html`<${TreeRow} key=${row.id} row=${row} place=${places[at]} current=${row.id === current} setOpen=${setOpen}
+        onPick=${() => {
+          active.value = row.id;
+        }} />`} />
   </div>`;
 }
 
@@ -292,15 +296,18 @@ function pick(row) {
   if (row.link) selectLink(selected.value === row.link ? null : row.link, "displays");
 }
 
-/** @param {{row: Row, current: boolean, setOpen: (id: string, open: boolean) => void, onPick: () => void}} props */
-function TreeRow({ row, current, setOpen, onPick }) {
+/**
+ * @param {{row: Row, place: {at: number, of: number} | undefined, current: boolean,
+ *   setOpen: (id: string, open: boolean) => void, onPick: () => void}} props
+ */
+function TreeRow({ row, place, current, setOpen, onPick }) {
   const onClick = () => {
     onPick();
     if (row.link) pick(row);
     else if (row.expandable) setOpen(row.id, !row.expanded);
   };
   return html`<div id=${rowId(row.id)} role="treeitem" class=${rowClass(row)} style=${`--level:${row.level}`}
-    tabindex=${current ? 0 : -1} aria-level=${row.level} aria-label=${rowLabel(row)}
+    tabindex=${current ? 0 : -1} aria-level=${row.level} aria-posinset=${place?.at} aria-setsize=${place?.of} aria-label=${rowLabel(row)}
     aria-expanded=${row.expandable ? row.expanded : null} aria-selected=${isChosen(row)} onClick=${onClick}
     onDblClick=${() => row.link && focusLink(row.link)}
     onPointerEnter=${() => {

@@ -16,6 +16,7 @@ import { selection, selectPart } from "../app/state/selection.js";
 import { degrees, hovered, selected } from "../app/state/view.js";
 import { t } from "../lib/i18n.js";
 import { rangeOf, unitsOf } from "../lib/joints.js";
+import { LongList } from "../lib/long-list.js";
 import { formatNumber, parseNumber } from "../lib/numbers.js";
 import { reveal } from "../lib/seen.js";
 import { Slider, TextBox } from "../lib/slider.js";
@@ -37,11 +38,16 @@ export function JointsPanel() {
     </div>
     <div class="scroll">
       ${words === "" && html`<${PosesSection} />`}
-      ${shown.map((joint) => html`<${JointRow} key=${joint.name} joint=${joint} />`)}
+      <${LongList} items=${shown} keyOf=${nameOf} row="66px"
+        isKept=${(/** @type {JointView} */ { child }) => selected.value === child}
+        draw=${(/** @type {JointView} */ joint) => html`<${JointRow} key=${joint.name} joint=${joint} />`} />
       ${shown.length === 0 && html`<${Nothing} words=${filter.value.trim()} />`}
     </div>
   </section>`;
 }
+
+/** @param {JointView} joint */
+const nameOf = ({ name }) => name;
 
 /** @param {{words: string}} props */
 function Nothing({ words }) {

@@ -13,6 +13,7 @@ import { selection, selectPart } from "../app/state/selection.js";
 import { hovered, notify, selected } from "../app/state/view.js";
 import { copyText } from "../lib/clipboard.js";
 import { t } from "../lib/i18n.js";
+import { LongList } from "../lib/long-list.js";
 import {
   centreOfMass,
   isOddDensity,
@@ -27,8 +28,6 @@ import { fixed } from "../lib/measuring.js";
 import { formatNumber } from "../lib/numbers.js";
 import { baseName } from "../lib/paths.js";
 import { EmptyState, Icon, IconButton, MenuButton, ProgressBar, SearchBox } from "../lib/ui.js";
-
-const SHOWN = 300;
 
 export function MassesPanel() {
   const filter = useSignal("");
@@ -91,15 +90,18 @@ function Sum({ masses: found }) {
   </dl>`;
 }
 
+const COLUMNS = 7;
+
+/** @param {MassRow} row */
+const nameOf = ({ mass }) => mass.link;
+
 /** @param {{rows: readonly MassRow[], order: Signal<MassOrder>}} props */
 function Table({ rows, order }) {
-  const all = useSignal(false);
   const element = useRef(/** @type {HTMLElement | null} */ (null));
   useShowSelected(element);
-  const shown = all.value ? rows : rows.slice(0, SHOWN);
   return html`<div class="scroll" ref=${element} onPointerLeave=${() => {
     hovered.value = null;
-  }}><table class="masses-table">
+  }}><table class="masses-table" aria-rowcount=${rows.length + 1}>
     <thead><tr>
       <${SortHead} order=${order} by="link" words=${t("masses.link")} />
       <${SortHead} order=${order} by="mass" words=${t("masses.mass")} unit="kg" class="number" />
@@ -109,14 +111,11 @@ function Table({ rows, order }) {
       <${SortHead} order=${order} by="moment" words=${t("masses.moments")} unit="kg m²" class="number" />
       <th scope="col">${t("masses.place")}</th>
     </tr></thead>
-    <tbody>${shown.map((row) => html`<${Row} key=${row.mass.link} row=${row} />`)}</tbody>
-  </table>
-  ${
-    rows.length > shown.length &&
-    html`<button type="button" class="button small more" onClick=${() => {
-      all.value = true;
-    }}>${t("masses.all", { count: rows.length })}</button>`
-  }</div>`;
+    <${LongList} items=${rows} keyOf=${nameOf} row="var(--row)" columns=${COLUMNS}
+      isKept=${(/** @type {MassRow} */ { mass }) => selected.value === mass.link}
+      draw=${(/** @type {MassRow} */ row, /** @type {number} */ at) =>
+        html`<${Row} key=${row.mass.link} row=${row} number=${at + 2} />`} />
+  </table></div>`;
 }
 
 /** What was selected elsewhere comes into view. @param {{current: HTMLElement | null}} element */
@@ -138,13 +137,13 @@ function SortHead({ order, by, words, unit, class: name }) {
     }}>${words}${unit && html` <small>${unit}</small>`}${on && html`<${Icon} name="chevronDown" size=${12} />`}</button></th>`;
 }
 
-/** @param {{row: MassRow}} props */
-function Row({ row }) {
+/** @param {{row: MassRow, number: number}} props `number` in the table, whose head is the first */
+function Row({ row, number }) {
   const { mass, share, link } = row;
   const chosen = selected.value === mass.link;
   const pick = () => selectPart(`link:${mass.link}`, "", "", "masses");
   const states = [chosen && "chosen", hovered.value === mass.link && "hovered"];
-  return html`<tr class=${states.filter(Boolean).join(" ")} onClick=${pick} onDblClick=${() => explain(mass.link)}
+  return html`<tr aria-rowindex=${number} class=${states.filter(Boolean).join(" ")} onClick=${pick} onDblClick=${() => explain(mass.link)}
     onPointerEnter=${() => {
       hovered.value = mass.link;
     }}>

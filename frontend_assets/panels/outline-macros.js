@@ -7,21 +7,29 @@ import { PlaceLink } from "../app/place-link.js";
 import { mayEdit } from "../app/state/connection.js";
 import { shownFile, showSource, writeSnippet } from "../app/state/source.js";
 import { t } from "../lib/i18n.js";
+import { LongList } from "../lib/long-list.js";
 import { callOf } from "../lib/outline.js";
 import { Icon } from "../lib/ui.js";
+
+/** @typedef {{key: string, macro: OutlineMacro}} Keyed */
 
 /** @param {{macros: OutlineMacro[], filter: string}} props */
 export function MacroList({ macros, filter }) {
   const open = useSignal("");
   if (macros.length === 0)
     return html`<p class="nothing">${filter ? t("filter.nothing", { words: filter }) : t("outline.no_macros")}</p>`;
-  return html`<ul class="outline-macros">${macros.map((macro, at) => {
-    const key = `${macro.name} ${macro.place.file} ${macro.place.line} ${at}`;
-    const toggle = () => {
-      open.value = open.value === key ? "" : key;
-    };
-    return html`<${MacroRow} key=${key} macro=${macro} open=${open.value === key} toggle=${toggle} />`;
-  })}</ul>`;
+  const rows = macros.map((macro, at) => ({
+    macro,
+    key: `${macro.name} ${macro.place.file} ${macro.place.line} ${at}`,
+  }));
+  /** @param {string} key */
+  const toggle = (key) => {
+    open.value = open.value === key ? "" : key;
+  };
+  return html`<ul class="outline-macros"><${LongList} items=${rows} keyOf=${(/** @type {Keyed} */ { key }) => key} row="var(--row)"
+    isKept=${(/** @type {Keyed} */ { key }) => key === open.value}
+    draw=${(/** @type {Keyed} */ { key, macro }) =>
+      html`<${MacroRow} key=${key} macro=${macro} open=${open.value === key} toggle=${() => toggle(key)} />`} /></ul>`;
 }
 
 /** @param {{macro: OutlineMacro, open: boolean, toggle: () => void}} props */

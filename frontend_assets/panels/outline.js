@@ -9,8 +9,10 @@ import { built, documentId, documentState } from "../app/state/document.js";
 import { fetchOutline, outline } from "../app/state/outline.js";
 import { showFile, shownFile } from "../app/state/source.js";
 import { t } from "../lib/i18n.js";
+import { LongList } from "../lib/long-list.js";
 import { fileRows, macrosOf, valuesOf } from "../lib/outline.js";
 import { baseName, shortPath } from "../lib/paths.js";
+import { siblingPlaces } from "../lib/pieces.js";
 import { EmptyState, Icon, SearchBox } from "../lib/ui.js";
 import { MacroList } from "./outline-macros.js";
 
@@ -74,6 +76,7 @@ function Files({ filter }) {
   const active = useSignal("0");
   const rows = fileRows(outline.value?.files ?? [], closed.value, filter);
   if (rows.length === 0 && filter !== "") return null;
+  const places = siblingPlaces(rows.map(({ level }) => level));
   /** @param {FileRow} row @param {boolean} open */
   const setOpen = ({ id }, open) => {
     const now = new Set(closed.value);
@@ -90,13 +93,16 @@ function Files({ filter }) {
     event.preventDefault();
     const id = rows[Math.min(Math.max(to, 0), rows.length - 1)]?.id ?? "0";
     active.value = id;
-    document.getElementById(rowId(id))?.focus();
+    const focus = () => document.getElementById(rowId(id))?.focus();
+    if (document.getElementById(rowId(id))) focus();
+    else requestAnimationFrame(focus);
   };
   return html`<${Part} id="files" count=${rows.length}>
-    <div class="outline-tree" role="tree" aria-label=${t("outline.files")} onKeyDown=${onKey}>${rows.map(
-      (row) =>
-        html`<${FileLine} key=${row.id} row=${row} focusable=${row.id === focusable} setOpen=${setOpen} />`,
-    )}</div><//>`;
+    <div class="outline-tree" role="tree" aria-label=${t("outline.files")} onKeyDown=${onKey}>
+      <${LongList} items=${rows} keyOf=${(/** @type {FileRow} */ { id }) => id} row="var(--row)"
+        isKept=${(/** @type {FileRow} */ { id }) => id === focusable}
+        draw=${(/** @type {FileRow} */ row, /** @type {number} */ at) =>
+          html`<${FileLine} key=${row.id} row=${row} place=${places[at]} focusable=${row.id === focusable} setOpen=${setOpen} />`} /></div><//>`;
 }
 
 /** @param {string} id */
@@ -133,13 +139,16 @@ function moved({ key }, rows, at, setOpen) {
   return keys[key]?.() ?? null;
 }
 
-/** @param {{row: FileRow, focusable: boolean, setOpen: (row: FileRow, open: boolean) => void}} props */
-function FileLine({ row, focusable, setOpen }) {
+/**
+ * @param {{row: FileRow, place: {at: number, of: number} | undefined, focusable: boolean,
+ *   setOpen: (row: FileRow, open: boolean) => void}} props
+ */
+function FileLine({ row, place, focusable, setOpen }) {
   const { file, level, expandable, expanded } = row;
   const root = documentState.value?.root ?? "";
   const icon = expanded ? "chevronDown" : "chevronRight";
   return html`<div id=${rowId(row.id)} class=${`tree-row ${shownFile.value === file.file ? "chosen" : ""}`} role="treeitem"
-    aria-level=${level} aria-expanded=${expandable ? expanded : null} aria-selected=${shownFile.value === file.file}
+    aria-level=${level} aria-posinset=${place?.at} aria-setsize=${place?.of} aria-expanded=${expandable ? expanded : null} aria-selected=${shownFile.value === file.file}
     tabindex=${focusable ? 0 : -1} style=${`--level:${level}`} title=${shortPath(file.file, root)} onClick=${() => showFile(file.file)}>
     <span class="twisty" onClick=${(/** @type {MouseEvent} */ event) => {
       event.stopPropagation();

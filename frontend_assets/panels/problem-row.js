@@ -1,6 +1,6 @@
 /** One problem: a click goes to its line and selects its part; below it why it matters and how it came. */
 
-/** @import { MacroCall, Place, Problem } from "../types/wire.d.ts" */
+/** @import { MacroCall, Place, Problem, SiteView } from "../types/wire.d.ts" */
 
 import { html, useId, useSignal } from "vendor/preact.js";
 import { mend } from "../app/actions.js";
@@ -18,12 +18,12 @@ import { Icon } from "../lib/ui.js";
 /** @type {Record<Problem["severity"], string>} */
 export const SEVERITY_ICONS = { error: "error", warning: "alert", info: "info" };
 
-/** @param {{problem: Problem}} props */
-export function ProblemRow({ problem }) {
+/** @param {{problem: Problem, id: string, at: number, of: number}} props `at`: its place in its list, from 1 */
+export function ProblemRow({ problem, id: key, at, of }) {
   const { severity, sentence, fix } = problem;
   const open = useSignal(false);
   const id = useId();
-  return html`<li class=${`problem ${severity}`}>
+  return html`<li class=${`problem ${severity}`} data-key=${key} aria-posinset=${at} aria-setsize=${of}>
     <span class="problem-icon"><${Icon} name=${SEVERITY_ICONS[severity]} /></span>
     <div class="problem-text">
       <button type="button" class="problem-main" onClick=${() => goTo(problem)}>
@@ -53,10 +53,25 @@ function Where({ place }) {
     ${place.line > 0 && html`<${PropertyLink} file=${place.file} line=${place.line} />`}`;
 }
 
+/** @type {{revision: number, sites: Map<string, SiteView>}} by file and line; kept for all rows until a site changes */
+let placed = { revision: -1, sites: new Map() };
+
+/** @param {string} file @param {number} line @returns {SiteView | undefined} the first that is written there */
+function siteAt(file, line) {
+  const revision = sitesRevision.value;
+  if (placed.revision !== revision) {
+    placed = { revision, sites: new Map() };
+    for (const one of allSites().values()) {
+      const key = `${one.line} ${one.file}`;
+      if (!placed.sites.has(key)) placed.sites.set(key, one);
+    }
+  }
+  return placed.sites.get(`${line} ${file}`);
+}
+
 /** @param {{file: string, line: number}} props */
 function PropertyLink({ file, line }) {
-  sitesRevision.value;
-  const there = [...allSites().values()].find((one) => one.file === file && one.line === line);
+  const there = siteAt(file, line);
   if (!there) return null;
   const go = () => {
     commandById("panel.properties")?.run();

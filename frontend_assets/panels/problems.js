@@ -12,13 +12,14 @@ import { documentState, problems } from "../app/state/document.js";
 import { notify } from "../app/state/view.js";
 import { copyText } from "../lib/clipboard.js";
 import { t } from "../lib/i18n.js";
+import { LongList } from "../lib/long-list.js";
 import { shortPath } from "../lib/paths.js";
 import {
   asText,
   byFile,
   counts,
   filtered,
-  keyOf,
+  keyed,
   mendable,
   SEVERITIES,
 } from "../lib/problem-list.js";
@@ -91,41 +92,46 @@ function SeverityChip({ severity, count, hidden }) {
     <${Icon} name=${SEVERITY_ICONS[severity]} size=${13} />${count}</button>`;
 }
 
+/** @typedef {{key: string, problem: Problem}} Keyed */
+
 /** @param {{files: readonly FileProblems[]}} props arrow keys move from row to row */
 function List({ files }) {
   const root = documentState.value?.root ?? "";
-  return html`<div class="problems scroll" role="region" aria-label=${t("problems.list")} onKeyDown=${onArrow}>
-    ${files.map(
-      ({ file, problems: those }) => html`<section key=${file} class="problem-file">
+  /** The row that the keys went to: it is drawn wherever the view is. */
+  const active = useSignal("");
+  const groups = files.map(({ file, problems: those }) => ({ file, rows: keyed(those) }));
+  const keys = groups.flatMap(({ rows }) => rows.map(({ key }) => key));
+  return html`<div class="problems scroll" role="region" aria-label=${t("problems.list")}
+    onKeyDown=${(/** @type {KeyboardEvent} */ event) => onArrow(event, keys, active)}>
+    ${groups.map(
+      ({ file, rows }) => html`<section key=${file} class="problem-file">
       <h3 title=${file}><${Icon} name=${file ? "fileCode" : "robot"} size=${13} />
         <span>${file ? shortPath(file, root) : t("problems.nowhere")}</span>
-        <span class="muted numbers">${those.length}</span></h3>
-      <ul>${rows(those)}</ul></section>`,
+        <span class="muted numbers">${rows.length}</span></h3>
+      <ul><${LongList} items=${rows} keyOf=${(/** @type {Keyed} */ { key }) => key} row="52px"
+        isKept=${(/** @type {Keyed} */ { key }) => key === active.value}
+        draw=${(/** @type {Keyed} */ { key, problem }, /** @type {number} */ at) =>
+          html`<${ProblemRow} key=${key} id=${key} problem=${problem} at=${at + 1} of=${rows.length} />`} /></ul></section>`,
     )}
   </div>`;
 }
 
-/** @param {readonly Problem[]} those two that say the same are told apart by their order */
-function rows(those) {
-  /** @type {Map<string, number>} */
-  const seen = new Map();
-  return those.map((problem) => {
-    const own = keyOf(problem);
-    const number = (seen.get(own) ?? 0) + 1;
-    seen.set(own, number);
-    return html`<${ProblemRow} key=${`${own}#${number}`} problem=${problem} />`;
-  });
+/** @param {KeyboardEvent} event @param {readonly string[]} keys of all rows @param {{value: string}} active */
+function onArrow(event, keys, active) {
+  const list = /** @type {HTMLElement} */ (event.currentTarget);
+  const own = document.activeElement?.closest(".problem")?.getAttribute("data-key") ?? "";
+  const at = keys.indexOf(own);
+  /** @type {Record<string, number>} */
+  const moves = { ArrowDown: at + 1, ArrowUp: at - 1, Home: 0, End: keys.length - 1 };
+  const to = moves[event.key];
+  if (to === undefined || at < 0 || !document.activeElement?.matches(".problem-main")) return;
+  event.preventDefault();
+  const next = keys[Math.min(Math.max(to, 0), keys.length - 1)] ?? "";
+  const focus = () => rowOf(list, next)?.focus();
+  active.value = next;
+  if (rowOf(list, next)) focus();
+  else requestAnimationFrame(focus);
 }
 
-/** @param {KeyboardEvent} event */
-function onArrow(event) {
-  const list = /** @type {HTMLElement} */ (event.currentTarget);
-  const all = /** @type {HTMLElement[]} */ ([...list.querySelectorAll(".problem-main")]);
-  const at = all.indexOf(/** @type {HTMLElement} */ (document.activeElement));
-  /** @type {Record<string, number>} */
-  const moves = { ArrowDown: at + 1, ArrowUp: at - 1, Home: 0, End: all.length - 1 };
-  const to = moves[event.key];
-  if (to === undefined || at < 0) return;
-  event.preventDefault();
-  all[Math.min(Math.max(to, 0), all.length - 1)]?.focus();
-}
+/** @param {HTMLElement} list @param {string} key @returns {HTMLElement | null} */
+const rowOf = (list, key) => list.querySelector(`[data-key="${CSS.escape(key)}"] .problem-main`);

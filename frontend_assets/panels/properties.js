@@ -2,7 +2,7 @@
 
 /** @import { SiteGroup } from "../lib/sites.js" */
 
-import { html, useEffect, useLayoutEffect, useRef, useSignal, useState } from "vendor/preact.js";
+import { html, useEffect, useSignal } from "vendor/preact.js";
 import { commandById, commandLabel } from "../app/commands.js";
 import { followChoices } from "../app/state/arguments.js";
 import {
@@ -16,9 +16,10 @@ import {
 import { followShaping, shaping } from "../app/state/origin.js";
 import { onlySelected, propertyFilter, selected, soughtSite } from "../app/state/view.js";
 import { t } from "../lib/i18n.js";
+import { LongList } from "../lib/long-list.js";
 import { baseName, shortPath } from "../lib/paths.js";
 import { remembered } from "../lib/remembered.js";
-import { countKinds, groupSites, inPieces, KINDS } from "../lib/sites.js";
+import { countKinds, groupSites, KINDS } from "../lib/sites.js";
 import { EmptyState, Icon, IconButton, SearchBox } from "../lib/ui.js";
 import { EffectLine } from "./effect-line.js";
 import { PropertyRow } from "./property-row.js";
@@ -26,6 +27,7 @@ import { PropertyRow } from "./property-row.js";
 /** @type {import("vendor/preact.js").Signal<string[]>} */
 const hiddenKinds = remembered("kinds.hidden", ["literal"], Array.isArray);
 const ROW_PX = 58;
+const HEADING_PX = 32;
 
 export function PropertiesPanel() {
   const folded = useSignal(/** @type {ReadonlySet<string>} */ (new Set()));
@@ -34,6 +36,7 @@ export function PropertiesPanel() {
   const counts = countKinds(siteOrder.value, sites);
   const filter = currentFilter(counts);
   const groups = groupSites(siteOrder.value, sites, filter);
+  const sought = soughtSite.value;
   useSought(folded);
   useEffect(followShaping, []);
   useEffect(followChoices, []);
@@ -55,17 +58,23 @@ export function PropertiesPanel() {
       <${SelectionChip} />
     </div>
     <div class="scroll">
-      ${groups.map(
-        (
-          group,
+      <${LongList} items=${groups} keyOf=${(/** @type {SiteGroup} */ { key }) => key} row=${roomOf(folded.value)}
+        isKept=${(/** @type {SiteGroup} */ { sites: ids }) => sought !== null && ids.includes(sought)}
+        draw=${(
+          /** @type {SiteGroup} */ group,
         ) => html`<${Group} key=${group.key} group=${group} folded=${folded.value.has(group.key)}
-        onToggle=${() => toggle(group.key)} />`,
-      )}
+          onToggle=${() => toggle(group.key)} />`} />
       ${groups.length === 0 && html`<${Nothing} counts=${counts} />`}
     </div>
     <${EffectLine} />
   </section>`;
 }
+
+/** @param {ReadonlySet<string>} folded keys @returns {(groups: SiteGroup[]) => string} how tall groups are about */
+const roomOf = (folded) => (groups) => {
+  const rows = groups.map(({ key, sites }) => (folded.has(key) ? 0 : sites.length));
+  return `${groups.length * HEADING_PX + rows.reduce((sum, one) => sum + one, 0) * ROW_PX}px`;
+};
 
 /** @param {ReadonlyMap<string, number>} counts @returns {import("../lib/sites.js").SiteFilter} */
 function currentFilter(counts) {
@@ -173,50 +182,18 @@ function Group({ group, folded, onToggle }) {
       <span class="group-file" title=${shortPath(group.file, root)}>
         ${readOnly && html`<${Icon} name="lock" size=${11} />`}${folded ? group.sites.length : group.group ? baseName(group.file) : ""}</span>
     </button></h3>
-    ${!folded && inPieces(group.sites).map((ids) => html`<${Piece} key=${ids[0]} ids=${ids} />`)}
+    ${!folded && html`<${Rows} ids=${group.sites} />`}
   </section>`;
 }
 
-/** Rows that are drawn while they are near the view: a robot may have thousands. @param {{ids: string[]}} props */
-function Piece({ ids }) {
-  const element = useRef(/** @type {HTMLElement | null} */ (null));
-  const [near, setNear] = useState(false);
-  const height = useRef(ids.length * ROW_PX);
-  const sought = soughtSite.value !== null && ids.includes(soughtSite.value);
-  // What is in view at first is drawn before the first picture, so that nothing moves after it.
-  useLayoutEffect(() => {
-    const list = element.current?.closest(".scroll");
-    const top = element.current?.getBoundingClientRect().top ?? Infinity;
-    if (list && top < list.getBoundingClientRect().bottom) setNear(true);
-  }, []);
-  useEffect(() => {
-    const piece = element.current;
-    if (!piece) return undefined;
-    const watcher = new IntersectionObserver(
-      ([entry]) => {
-        if (!entry) return;
-        if (!entry.isIntersecting) height.current = piece.offsetHeight;
-        setNear(entry.isIntersecting || piece.contains(document.activeElement));
-      },
-      { root: piece.closest(".scroll"), rootMargin: "500px 0px" },
-    );
-    watcher.observe(piece);
-    return () => watcher.disconnect();
-  }, []);
-  // The watcher sees the row only after it was scrolled to: until then it must stay drawn.
-  useEffect(() => {
-    if (sought) setNear(true);
-  }, [sought]);
-  const drawn = near || sought;
-  return html`<div ref=${element} style=${drawn ? "" : `height:${height.current}px`}>
-    ${
-      drawn &&
-      ids.map((id) => {
-        const one = site(id);
-        return one && html`<${PropertyRow} key=${id} site=${one} />`;
-      })
-    }
-  </div>`;
+/** @param {{ids: string[]}} props drawn while they are near the view, or sought: only then can one be scrolled to */
+function Rows({ ids }) {
+  const sought = soughtSite.value;
+  return html`<${LongList} items=${ids} keyOf=${String} row=${`${ROW_PX}px`} short=${0}
+    isKept=${(/** @type {string} */ id) => id === sought} draw=${(/** @type {string} */ id) => {
+      const one = site(id);
+      return one && html`<${PropertyRow} key=${id} site=${one} />`;
+    }} />`;
 }
 
 /** Brings a property into view that another part of the page asked for. @param {{value: ReadonlySet<string>}} folded */

@@ -1,12 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import {
-  countKinds,
-  groupSites,
-  inPieces,
-  isChanged,
-  shortName,
-} from "../../frontend_assets/lib/sites.js";
+import { countKinds, groupSites, isChanged, shortName } from "../../frontend_assets/lib/sites.js";
 
 /** @import { SiteView } from "../../frontend_assets/types/wire.d.ts" */
 
@@ -86,13 +80,6 @@ test("a site is changed only while the file on disk says something else", () => 
   assert.equal(isChanged(site("a")), false);
   assert.equal(isChanged(site("a", { saved_text: "2" })), true);
   assert.equal(isChanged(site("a", { saved_text: "1" })), false);
-});
-
-test("a thousand rows are drawn in pieces, none twice and none missing", () => {
-  const ids = Array.from({ length: 1000 }, (_, n) => String(n));
-  const pieces = inPieces(ids);
-  assert.ok(pieces.every((piece) => piece.length > 0 && piece.length <= 24));
-  assert.deepEqual(pieces.flat(), ids);
 });
 
 test("kinds are counted as they occur", () => {

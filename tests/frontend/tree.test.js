@@ -94,3 +94,12 @@ test("joints that form a ring or name unknown links neither hang the page nor lo
 test("the way up from a link ends at the root", () => {
   assert.deepEqual(ancestorsOf(ROVER, "lidar"), ["mast", "base"]);
 });
+
+test("a chain of ten thousand links is shown to its end, also what a filter finds there", () => {
+  const links = Array.from({ length: 10_000 }, (_, n) => (n === 0 ? "base" : `l${n}`));
+  const pairs = links.slice(1).map((name, n) => /** @type {[string, string]} */ ([links[n], name]));
+  const roots = linkTree(robot(links, pairs));
+  assert.equal(linkRows(roots, new Set(), "").at(-1)?.level, 10_000);
+  assert.equal(linkRows(roots, new Set(), "l9999").length, 10_000);
+  assert.deepEqual(linkRows(roots, new Set(), "nothing"), []);
+});
