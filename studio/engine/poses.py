@@ -8,13 +8,13 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
-from studio.description.poses.named_poses import NAME_LIMIT, NamedPose
-from studio.description.poses.poses_file import POSE_LIMIT, rounded
+from studio.description.poses.named_poses import NamedPose
+from studio.description.poses.poses_file import POSE_LIMIT, read_poses, rounded, write_poses
 from studio.engine.listeners import encode
 from studio.engine.messages.poses import Poses, PoseView
 from studio.engine.pose_reading import FoundPoses, read_poses_around
-from studio.engine.pose_shelf import PoseShelf
 from studio.engine.second_robot import argument_values
+from studio.engine.shelf import Shelf, ShelfKind
 from studio.engine.watching import FileWatch
 from studio.errors import CommandError
 
@@ -32,6 +32,7 @@ _WATCH_BEGINS_S: Final = 1.5
 _NAMES_SHOWN: Final = 12
 _SLACK: Final = 1e-6
 """rad or m by which a limit may be passed without a word: files round."""
+_SHELF: Final = ShelfKind("pose", read_poses, write_poses)
 
 _Kind: TypeAlias = Literal["own", "srdf", "initial"]
 
@@ -41,8 +42,7 @@ class PoseDesk:
 
     def __init__(self, document: Document, services: Services) -> None:
         self._document, self._services = document, services
-        self._shelf = PoseShelf(document.entry, document.location.served)
-        self._shelf.look()
+        self._shelf = Shelf(document.entry, document.location.served, _SHELF)
         self._found = FoundPoses()
         self._made_from: object = None
         """Arguments, packages and robot that they were looked for with; None: look anew."""
@@ -100,43 +100,28 @@ class PoseDesk:
             title = self._document.title
             raise CommandError(f"{title} has no joint that moves: there is no pose to keep.")
         self._shelf.look()
-        names = [pose.name for pose in self._shelf.poses]
+        names = [pose.name for pose in self._shelf.items]
         if command.replace and command.name in names:
             made = NamedPose(command.name, positions)
-            self._put(made if one.name == made.name else one for one in self._shelf.poses)
+            self._put(made if one.name == made.name else one for one in self._shelf.items)
             return
-        made = NamedPose(self._free(command.name), positions)
+        made = NamedPose(self._shelf.free_name(command.name), positions)
         if len(names) >= POSE_LIMIT:
             raise CommandError(f"There are {POSE_LIMIT} poses: delete one first.")
-        self._put((*self._shelf.poses, made))
+        self._put((*self._shelf.items, made))
 
     def rename(self, command: RenamePose) -> None:
         """Give one's own pose another name; errors as for `save`."""
-        known = self._own(command.name)
+        known = self._shelf.find(command.name)
         if command.new_name.strip() == known.name:
             return
-        renamed = replace(known, name=self._free(command.new_name))
-        self._put(renamed if one is known else one for one in self._shelf.poses)
+        renamed = replace(known, name=self._shelf.free_name(command.new_name))
+        self._put(renamed if one is known else one for one in self._shelf.items)
 
     def delete(self, command: DeletePose) -> None:
         """Forget one's own pose; errors as for `save`."""
-        known = self._own(command.name)
-        self._put(one for one in self._shelf.poses if one is not known)
-
-    def _own(self, name: str) -> NamedPose:
-        self._shelf.look()
-        for one in self._shelf.poses:
-            if one.name == name:
-                return one
-        raise CommandError(f'There is no pose "{name}" any more: choose another.')
-
-    def _free(self, wanted: str) -> str:
-        name = wanted.strip()
-        if not name or len(name) > NAME_LIMIT or not name.isprintable():
-            raise CommandError(f"A pose needs a name of one line, up to {NAME_LIMIT} letters.")
-        if any(one.name == name for one in self._shelf.poses):
-            raise CommandError(f'There is a pose "{name}" already: choose another name.')
-        return name
+        known = self._shelf.find(command.name)
+        self._put(one for one in self._shelf.items if one is not known)
 
     def _put(self, poses: Iterable[NamedPose]) -> None:
         self._shelf.put(tuple(poses))
@@ -193,7 +178,7 @@ class PoseDesk:
 
     def _fitting(self) -> Iterator[tuple[_Kind, NamedPose]]:
         """One's own, all of them; of those that were found the ones that mean this robot."""
-        for pose in self._shelf.poses:
+        for pose in self._shelf.items:
             yield "own", pose
         movable = frozenset(self._document.model.kinematics.movable)
         for pose in self._found.group_states:

@@ -7,13 +7,13 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Final
 
 from studio.description.editing.sources import Change
-from studio.description.editing.variants_file import NAME_LIMIT, VARIANT_LIMIT
+from studio.description.editing.variants_file import VARIANT_LIMIT, read_variants, write_variants
 from studio.engine import messages as m
 from studio.engine.comparison_desk import ComparisonDesk
 from studio.engine.listeners import encode
 from studio.engine.messages.variants import shown
 from studio.engine.recipes import Recipe, RecipeBook
-from studio.engine.variant_shelf import VariantShelf
+from studio.engine.shelf import Shelf, ShelfKind
 from studio.engine.watching import FileWatch
 from studio.errors import CommandError
 
@@ -29,6 +29,7 @@ _FIRST_S: Final = 0.02
 _PAUSE_S: Final = 0.15
 """Between two looks while somebody drags: a table that changes faster cannot be read."""
 _TEXTS_SHOWN: Final = 50
+_SHELF: Final = ShelfKind("variant", read_variants, write_variants)
 
 
 class VariantDesk:
@@ -45,8 +46,7 @@ class VariantDesk:
     ) -> None:
         self._document = document
         self._book = RecipeBook(document.sources, lambda: document.location)
-        self._shelf = VariantShelf(document.entry, document.location.served)
-        self._shelf.look()
+        self._shelf = Shelf(document.entry, document.location.served, _SHELF)
         self._comparison = ComparisonDesk(
             document, self._book, services.description_worker, want_meshes
         )
@@ -86,13 +86,13 @@ class VariantDesk:
         """
         present = self._book.present()
         if isinstance(command, m.SaveVariant):
-            name = self._free(command.name)
-            if len(self._shelf.variants) >= VARIANT_LIMIT:
+            name = self._shelf.free_name(command.name)
+            if len(self._shelf.items) >= VARIANT_LIMIT:
                 raise CommandError(f"There are {VARIANT_LIMIT} variants: delete one first.")
             made = self._book.as_variant(name, command.note.strip(), present)
-            self._put((*self._shelf.variants, made))
+            self._put((*self._shelf.items, made))
         else:
-            known = self._variant(command.name)
+            known = self._shelf.find(command.name)
             made = self._book.as_variant(known.name, known.note, present)
             self._replace(known.name, made)
         self._active = made.name
@@ -110,7 +110,7 @@ class VariantDesk:
             CommandError: There is no such variant.
         """
         if command.name:
-            variant = self._variant(command.name)
+            variant = self._shelf.find(command.name)
             wanted = self._book.of_variant(variant).arguments
             edits, left_out = self._book.edits_to(variant)
             label = f"Variant {variant.name}"
@@ -127,10 +127,10 @@ class VariantDesk:
 
     def rename(self, command: m.RenameVariant) -> None:
         """Give a variant another name and note; errors as for `save`."""
-        known = self._variant(command.name)
+        known = self._shelf.find(command.name)
         name = known.name
         if command.new_name.strip() != name:
-            name = self._free(command.new_name)
+            name = self._shelf.free_name(command.new_name)
         self._replace(known.name, replace(known, name=name, note=command.note.strip()))
         if self._active == known.name:
             self._active = name
@@ -139,8 +139,8 @@ class VariantDesk:
 
     def delete(self, name: str) -> None:
         """Forget a variant; errors as for `save`."""
-        known = self._variant(name)
-        self._put([one for one in self._shelf.variants if one.name != known.name])
+        known = self._shelf.find(name)
+        self._put([one for one in self._shelf.items if one.name != known.name])
         if self._active == name:
             self._active = ""
         self._tell()
@@ -153,7 +153,7 @@ class VariantDesk:
         """
         for side in sides or ():
             if side.kind == "variant":
-                self._variant(side.name)
+                self._shelf.find(side.name)
         self._comparison.choose(sides)
         self.doubt()
 
@@ -178,23 +178,7 @@ class VariantDesk:
         self.doubt()
 
     def _replace(self, name: str, new: Variant) -> None:
-        self._put([new if one.name == name else one for one in self._shelf.variants])
-
-    def _variant(self, name: str) -> Variant:
-        self._shelf.look()
-        for one in self._shelf.variants:
-            if one.name == name:
-                return one
-        raise CommandError(f'There is no variant "{name}" any more: choose another.')
-
-    def _free(self, wanted: str) -> str:
-        name = wanted.strip()
-        if not name or len(name) > NAME_LIMIT or not name.isprintable():
-            raise CommandError(f"A variant needs a name of one line, up to {NAME_LIMIT} letters.")
-        self._shelf.look()
-        if any(one.name == name for one in self._shelf.variants):
-            raise CommandError(f'There is a variant "{name}" already: choose another name.')
-        return name
+        self._put([new if one.name == name else one for one in self._shelf.items])
 
     async def _changed_on_disk(self, files: set[str]) -> None:
         if str(self._shelf.path) in files:
@@ -216,12 +200,12 @@ class VariantDesk:
     def _recipe_of(self, side: m.Side) -> Recipe | None:
         if side.kind == "saved":
             return self._book.saved()
-        known = next((one for one in self._shelf.variants if one.name == side.name), None)
+        known = next((one for one in self._shelf.items if one.name == side.name), None)
         return self._book.of_variant(known) if known else None
 
     def _look_up(self) -> None:
         """Find out which variant the robot is."""
-        names = {one.name: one for one in self._shelf.variants}
+        names = {one.name: one for one in self._shelf.items}
         if self._active not in names:
             self._active = ""
         if not names:
@@ -242,7 +226,7 @@ class VariantDesk:
     def _list(self) -> m.Variants:
         shelf = self._shelf
         return m.Variants(
-            variants=tuple(map(_view, shelf.variants)),
+            variants=tuple(map(_view, shelf.items)),
             active=self._active,
             modified=self._modified,
             path=str(shelf.path),

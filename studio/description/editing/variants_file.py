@@ -18,25 +18,34 @@ from typing import TYPE_CHECKING, Final
 import yaml
 
 from studio.description.editing.variants import TextName, Variant
+from studio.description.syntax.named_list import (
+    SIZE_LIMIT_BYTES,
+    VERSION,
+    ListKind,
+    NamedList,
+    is_null,
+    lines_of,
+)
 from studio.description.syntax.yaml_text import yaml_bytes
 from studio.description.values import SiteKind
 from studio.errors import VariantsFileError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Sequence
 
-SIZE_LIMIT_BYTES: Final = 1 << 20
 VARIANT_LIMIT: Final = 200
-NAME_LIMIT: Final = 100
 NOTE_LIMIT: Final = 2000
 _TEXT_LIMIT: Final = 100_000
 _ENTRY_LIMIT: Final = 5000
 """Arguments, or texts, of one variant."""
-_DEPTH_LIMIT: Final = 12
-_EVENT_LIMIT: Final = 200_000
 _NUMBER_LIMIT: Final = 100_000
-_VERSION: Final = 1
-_LOADER: Final = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+_KIND: Final = ListKind(
+    noun="variant",
+    error=VariantsFileError,
+    item_limit=VARIANT_LIMIT,
+    entry_limit=_ENTRY_LIMIT,
+    depth_limit=12,
+)
 _KEYS: Final = {
     "argument": SiteKind.ARG,
     "property": SiteKind.PROPERTY,
@@ -51,7 +60,7 @@ _ITEM: Final = re.compile(r"\s*-\s")
 _HEAD: Final = (
     "# Variants of {entry}: named sets of arguments and values on top of what the files say.\n"
     "# Written by the studio; edit it as you like.\n"
-    f"version: {_VERSION}\n"
+    f"version: {VERSION}\n"
 )
 
 
@@ -202,159 +211,62 @@ class _Reading:
     """One look at a file; every fault names its line."""
 
     def __init__(self, path: str, data: bytes) -> None:
-        self._path, self._data = path, data
+        self._list = NamedList(path, data, _KIND)
 
     def items(self) -> tuple[_Item, ...]:
-        root = self._root()
-        if root is None:
-            return ()
-        top = self._mapping(root, {"version", "variants"})
-        version = top.get("version")
-        if version is not None and self._text(version) != str(_VERSION):
-            raise self._fault(version, "is of another version of the studio")
-        listed = top.get("variants")
-        if listed is None or _is_null(listed):
-            return ()
-        if not isinstance(listed, yaml.SequenceNode):
-            raise self._fault(listed, "must be a list of variants")
-        items = tuple(self._item(node) for node in listed.value)
-        if len(items) > VARIANT_LIMIT:
-            raise self._fault(listed, f"holds more than {VARIANT_LIMIT} variants")
-        self._refuse_twins(listed, [item.variant.name for item in items])
-        return items
-
-    def _root(self) -> yaml.Node | None:
-        """The parsed file; nothing in it is followed, repeated or constructed."""
-        if len(self._data) > SIZE_LIMIT_BYTES:
-            limit_mb = SIZE_LIMIT_BYTES >> 20
-            raise VariantsFileError(self._path, f"it is larger than {limit_mb} MB")
-        try:
-            text = self._data.decode("utf-8-sig")
-            self._survey(text)
-            return yaml.compose(text, _LOADER)
-        except UnicodeDecodeError as error:
-            raise VariantsFileError(self._path, "it is not UTF-8 text") from error
-        except yaml.YAMLError as error:
-            raise VariantsFileError(self._path, f"it is no YAML ({_yaml_words(error)})") from error
-
-    def _survey(self, text: str) -> None:
-        """Refuse what a list of variants has no use for, before anything is made of it."""
-        depth = 0
-        for count, event in enumerate(yaml.parse(text, _LOADER)):
-            depth += isinstance(event, yaml.CollectionStartEvent)
-            depth -= isinstance(event, yaml.CollectionEndEvent)
-            if depth > _DEPTH_LIMIT or count > _EVENT_LIMIT:
-                raise self._fault(event, "is nested too deeply or too long")
-            if getattr(event, "anchor", None) or getattr(event, "tag", None) not in (None, "!"):
-                raise self._fault(event, "has an anchor, alias or tag, which no variant needs")
+        return tuple(map(self._item, self._list.items()))
 
     def _item(self, node: yaml.Node) -> _Item:
-        keys = self._mapping(node, {"name", "note", "arguments", "values"})
-        if "name" not in keys:
-            raise self._fault(node, "is a variant without a name")
-        name = self._text(keys["name"], NAME_LIMIT).strip()
-        if not name:
-            raise self._fault(keys["name"], "is an empty name")
+        keys = self._list.mapping(node, {"name", "note", "arguments", "values"})
         variant = Variant(
-            name=name,
-            note=self._text(keys["note"], NOTE_LIMIT) if "note" in keys else "",
+            name=self._list.name(node),
+            note=self._list.text(keys["note"], NOTE_LIMIT) if "note" in keys else "",
             arguments=self._arguments(keys.get("arguments")),
             texts=self._texts(keys.get("values")),
         )
-        return _Item(variant, node.start_mark.line, _last_line(node) + 1)
+        return _Item(variant, *lines_of(node))
 
     def _arguments(self, node: yaml.Node | None) -> dict[str, str | None]:
-        if node is None or _is_null(node):
+        if node is None or is_null(node):
             return {}
-        pairs = self._mapping(node, None)
+        pairs = self._list.mapping(node, None)
         return {
-            name: None if _is_null(value) else self._text(value) for name, value in pairs.items()
+            name: None if is_null(value) else self._list.text(value, _TEXT_LIMIT)
+            for name, value in pairs.items()
         }
 
     def _texts(self, node: yaml.Node | None) -> dict[TextName, str]:
-        if node is None or _is_null(node):
+        if node is None or is_null(node):
             return {}
         if not isinstance(node, yaml.SequenceNode) or len(node.value) > _ENTRY_LIMIT:
-            raise self._fault(node, f"must be a list of at most {_ENTRY_LIMIT} values")
+            raise self._list.fault(node, f"must be a list of at most {_ENTRY_LIMIT} values")
         found: dict[TextName, str] = {}
         for one in node.value:
             name, text = self._named_text(one)
             if name in found:
-                raise self._fault(one, f'sets "{name}" a second time')
+                raise self._list.fault(one, f'sets "{name}" a second time')
             found[name] = text
         return found
 
     def _named_text(self, node: yaml.Node) -> tuple[TextName, str]:
-        keys = self._mapping(node, {*_KEYS, *_WITHIN.values(), "file", "number", "text"})
+        keys = self._list.mapping(node, {*_KEYS, *_WITHIN.values(), "file", "number", "text"})
         kinds = [key for key in _KEYS if key in keys]
         if len(kinds) != 1 or "file" not in keys or "text" not in keys:
             what = ", ".join(_KEYS)
-            raise self._fault(node, f"needs a file, a text, and one of {what}")
+            raise self._list.fault(node, f"needs a file, a text, and one of {what}")
         kind = _KEYS[kinds[0]]
         within = keys.get(_WITHIN.get(kind, ""))
         name = TextName(
-            file=self._text(keys["file"], 4096),
+            file=self._list.text(keys["file"]),
             kind=kind,
-            name=self._text(keys[kinds[0]], 4096),
-            within=self._text(within, 4096) if within is not None else "",
+            name=self._list.text(keys[kinds[0]]),
+            within=self._list.text(within) if within is not None else "",
             number=self._number(keys.get("number")),
         )
-        return name, self._text(keys["text"])
+        return name, self._list.text(keys["text"], _TEXT_LIMIT)
 
     def _number(self, node: yaml.Node | None) -> int:
-        text = "1" if node is None else self._text(node, 20)
+        text = "1" if node is None else self._list.text(node, 20)
         if not re.fullmatch("[0-9]{1,6}", text) or not 1 <= int(text) <= _NUMBER_LIMIT:
-            raise self._fault(node, "is no number from 1 on")
+            raise self._list.fault(node, "is no number from 1 on")
         return int(text)
-
-    def _mapping(self, node: yaml.Node, allowed: set[str] | None) -> dict[str, yaml.Node]:
-        """The values by key; `allowed` None: any keys."""
-        if not isinstance(node, yaml.MappingNode) or len(node.value) > _ENTRY_LIMIT:
-            raise self._fault(node, "must be keys with values")
-        pairs = [(self._text(key, 4096), value) for key, value in node.value]
-        self._refuse_twins(node, [key for key, _ in pairs])
-        unknown = [key for key, _ in pairs if allowed is not None and key not in allowed]
-        if unknown:
-            raise self._fault(node, f'has the unknown key "{unknown[0]}"')
-        return dict(pairs)
-
-    def _text(self, node: yaml.Node, limit: int = _TEXT_LIMIT) -> str:
-        if not isinstance(node, yaml.ScalarNode):
-            raise self._fault(node, "must be one text")
-        text = str(node.value)
-        if len(text) > limit:
-            raise self._fault(node, f"is longer than {limit:,} characters")
-        return text
-
-    def _refuse_twins(self, node: yaml.Node, names: Iterable[str]) -> None:
-        seen: set[str] = set()
-        for name in names:
-            if name in seen:
-                raise self._fault(node, f'has "{name}" twice')
-            seen.add(name)
-
-    def _fault(self, where: yaml.Node | yaml.Event | None, reason: str) -> VariantsFileError:
-        line = where.start_mark.line + 1 if where is not None and where.start_mark else 1
-        return VariantsFileError(self._path, f"line {line} {reason}")
-
-
-def _is_null(node: yaml.Node) -> bool:
-    return isinstance(node, yaml.ScalarNode) and node.tag == "tag:yaml.org,2002:null"
-
-
-def _last_line(node: yaml.Node) -> int:
-    """The last line that a node has content on; a collection's own end lies behind its comments."""
-    match node:
-        case yaml.MappingNode() if node.value and not node.flow_style:
-            return max(_last_line(part) for pair in node.value for part in pair)
-        case yaml.SequenceNode() if node.value and not node.flow_style:
-            return max(_last_line(part) for part in node.value)
-        case _:
-            end = node.end_mark
-            return end.line - (end.column == 0 and end.line > node.start_mark.line)
-
-
-def _yaml_words(error: yaml.YAMLError) -> str:
-    mark = getattr(error, "problem_mark", None)
-    problem = getattr(error, "problem", None) or "it cannot be parsed"
-    return f"line {mark.line + 1}: {problem}" if mark else str(problem)

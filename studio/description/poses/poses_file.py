@@ -12,27 +12,36 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
-import yaml
-
-from studio.description.poses.named_poses import JOINT_LIMIT, NAME_LIMIT, NamedPose, position_of
+from studio.description.poses.named_poses import JOINT_LIMIT, NamedPose, position_of
+from studio.description.syntax.named_list import (
+    SIZE_LIMIT_BYTES,
+    VERSION,
+    ListKind,
+    NamedList,
+    lines_of,
+)
 from studio.description.syntax.yaml_text import yaml_bytes
 from studio.errors import EditError, PosesFileError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-SIZE_LIMIT_BYTES: Final = 1 << 20
+    import yaml
+
 POSE_LIMIT: Final = 200
-_DEPTH_LIMIT: Final = 6
-_EVENT_LIMIT: Final = 200_000
-_VERSION: Final = "1"
 _DIGITS: Final = 9
 """Behind the point: a nanometre."""
-_LOADER: Final = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+_KIND: Final = ListKind(
+    noun="pose",
+    error=PosesFileError,
+    item_limit=POSE_LIMIT,
+    entry_limit=JOINT_LIMIT,
+    depth_limit=6,
+)
 _HEAD: Final = (
     "# Poses of {entry}: named joint positions, rad or m.\n"
     "# Written by the studio; edit it as you like.\n"
-    f"version: {_VERSION}\n"
+    f"version: {VERSION}\n"
     "poses:\n"
 )
 
@@ -138,111 +147,23 @@ class _Reading:
     """One look at a file; every fault names its line."""
 
     def __init__(self, path: str, data: bytes) -> None:
-        self._path, self._data = path, data
+        self._path, self._list = path, NamedList(path, data, _KIND)
 
     def items(self) -> tuple[_Item, ...]:
-        root = self._root()
-        if root is None:
-            return ()
-        top = self._mapping(root, {"version", "poses"})
-        if "version" in top and self._text(top["version"]) != _VERSION:
-            raise self._fault(top["version"], "is of another version of the studio")
-        listed = top.get("poses")
-        if listed is None or _is_null(listed):
-            return ()
-        if not isinstance(listed, yaml.SequenceNode):
-            raise self._fault(listed, "must be a list of poses")
-        if len(listed.value) > POSE_LIMIT:
-            raise self._fault(listed, f"holds more than {POSE_LIMIT} poses")
-        items = tuple(self._item(node) for node in listed.value)
-        self._refuse_twins(listed, [item.pose.name for item in items])
-        return items
-
-    def _root(self) -> yaml.Node | None:
-        """The parsed file; nothing in it is followed, repeated or constructed."""
-        if len(self._data) > SIZE_LIMIT_BYTES:
-            raise PosesFileError(self._path, f"it is larger than {SIZE_LIMIT_BYTES >> 20} MB")
-        try:
-            text = self._data.decode("utf-8-sig")
-            self._survey(text)
-            return yaml.compose(text, _LOADER)
-        except UnicodeDecodeError as error:
-            raise PosesFileError(self._path, "it is not UTF-8 text") from error
-        except yaml.YAMLError as error:
-            raise PosesFileError(self._path, f"it is no YAML ({_yaml_words(error)})") from error
-
-    def _survey(self, text: str) -> None:
-        """Refuse what a list of poses has no use for, before anything is made of it."""
-        depth = 0
-        for count, event in enumerate(yaml.parse(text, _LOADER)):
-            depth += isinstance(event, yaml.CollectionStartEvent)
-            depth -= isinstance(event, yaml.CollectionEndEvent)
-            if depth > _DEPTH_LIMIT or count > _EVENT_LIMIT:
-                raise self._fault(event, "is nested too deeply or too long")
-            if getattr(event, "anchor", None) or getattr(event, "tag", None) not in (None, "!"):
-                raise self._fault(event, "has an anchor, alias or tag, which no pose needs")
+        return tuple(map(self._item, self._list.items()))
 
     def _item(self, node: yaml.Node) -> _Item:
-        keys = self._mapping(node, {"name", "joints"})
-        if "name" not in keys or "joints" not in keys:
-            raise self._fault(node, "is a pose without a name or without joints")
-        name = self._text(keys["name"]).strip()
-        if not name or len(name) > NAME_LIMIT:
-            raise self._fault(keys["name"], f"is no name of up to {NAME_LIMIT} letters")
-        joints = self._mapping(keys["joints"], None)
+        keys = self._list.mapping(node, {"name", "joints"})
+        if "joints" not in keys:
+            raise self._list.fault(node, "is a pose without joints")
+        joints = self._list.mapping(keys["joints"], None)
         positions = {joint: self._position(value) for joint, value in joints.items()}
-        line = node.start_mark.line
-        return _Item(
-            NamedPose(name, positions, file=self._path, line=line + 1), line, _last_line(node) + 1
-        )
+        start, end = lines_of(node)
+        pose = NamedPose(self._list.name(node), positions, file=self._path, line=start + 1)
+        return _Item(pose, start, end)
 
     def _position(self, node: yaml.Node) -> float:
-        value = position_of(self._text(node))
+        value = position_of(self._list.text(node))
         if value is None:
-            raise self._fault(node, "is no position in rad or m")
+            raise self._list.fault(node, "is no position in rad or m")
         return rounded(value)
-
-    def _mapping(self, node: yaml.Node, allowed: set[str] | None) -> dict[str, yaml.Node]:
-        """The values by key; `allowed` None: any keys."""
-        if not isinstance(node, yaml.MappingNode) or len(node.value) > JOINT_LIMIT:
-            raise self._fault(node, "must be keys with values")
-        pairs = [(self._text(key), value) for key, value in node.value]
-        self._refuse_twins(node, [key for key, _ in pairs])
-        unknown = [key for key, _ in pairs if allowed is not None and key not in allowed]
-        if unknown:
-            raise self._fault(node, f'has the unknown key "{unknown[0]}"')
-        return dict(pairs)
-
-    def _text(self, node: yaml.Node) -> str:
-        if not isinstance(node, yaml.ScalarNode) or len(node.value) > 1_000:
-            raise self._fault(node, "must be one short text")
-        return str(node.value)
-
-    def _refuse_twins(self, node: yaml.Node, names: Sequence[str]) -> None:
-        seen: set[str] = set()
-        for name in names:
-            if name in seen:
-                raise self._fault(node, f'has "{name}" twice')
-            seen.add(name)
-
-    def _fault(self, where: yaml.Node | yaml.Event, reason: str) -> PosesFileError:
-        line = where.start_mark.line + 1 if where.start_mark else 1
-        return PosesFileError(self._path, f"line {line} {reason}")
-
-
-def _is_null(node: yaml.Node) -> bool:
-    return isinstance(node, yaml.ScalarNode) and node.tag == "tag:yaml.org,2002:null"
-
-
-def _last_line(node: yaml.Node) -> int:
-    """The last line that a node has content on; a mapping's own end lies behind its comments."""
-    if isinstance(node, yaml.MappingNode) and node.value and not node.flow_style:
-        return max(_last_line(part) for pair in node.value for part in pair)
-    end = node.end_mark
-    return end.line - (end.column == 0 and end.line > node.start_mark.line)
-
-
-def _yaml_words(error: yaml.YAMLError) -> str:
-    mark = getattr(error, "problem_mark", None)
-    problem = getattr(error, "problem", None) or "it cannot be parsed"
-    return f"line {mark.line + 1}: {problem}" if mark else str(problem)

@@ -164,7 +164,7 @@ BOMB = b"a: &a [x, x]\nb: &b [*a, *a]\nvariants: [*b, *b]\n"
         (b"version: 2\n", "another version"),
         (b"robots: []\n", 'unknown key "robots"'),
         (b"variants:\n  - note: x\n", "line 2 is a variant without a name"),
-        (b"variants:\n  - name: ' '\n", "empty name"),
+        (b"variants:\n  - name: ' '\n", "line 2 is no name"),
         (b"variants:\n  - name: [x]\n", "must be one text"),
         (b"variants:\n  - name: a\n  - name: a\n", 'has "a" twice'),
         (b"variants:\n  - name: a\n    name: b\n", 'has "name" twice'),
@@ -177,7 +177,7 @@ BOMB = b"a: &a [x, x]\nb: &b [*a, *a]\nvariants: [*b, *b]\n"
             b"variants:\n  - {name: a, values: [{file: x, key: k, number: -1, text: y}]}\n",
             "no number from 1 on",
         ),
-        (b"variants:\n  - name: " + b"x" * 101, "longer than 100 characters"),
+        (b"variants:\n  - name: " + b"x" * 101, "line 2 is no name of up to 100 letters"),
         (
             b"variants:\n" + b"".join(b"  - name: %d\n" % n for n in range(VARIANT_LIMIT + 1)),
             "more",
