@@ -2,7 +2,7 @@
 
 /**
  * @import { Extension } from "vendor/codemirror.js"
- * @import { UrdfChanges, UrdfLine } from "../types/wire.d.ts"
+ * @import { DiffLineView, UrdfChanges } from "../types/wire.d.ts"
  */
 
 import {
@@ -133,7 +133,7 @@ export class UrdfText {
   }
 }
 
-/** @typedef {Pick<UrdfLine, "before" | "after" | "text"> & {kind: UrdfLine["kind"] | "gap"}} Row */
+/** @typedef {Pick<DiffLineView, "before" | "after" | "text"> & {kind: DiffLineView["kind"] | "gap"}} Row */
 /** Between two stretches: lines that are the same. @type {Row} */
 const GAP = { kind: "gap", before: null, after: null, text: "" };
 

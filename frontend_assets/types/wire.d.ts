@@ -184,7 +184,7 @@ export interface DeleteVariant {
   name: string;
 }
 
-/** A line with its numbers from 1 in the file and in the edited text, where it is in them. */
+/** A line with its numbers from 1 in the text before and after, where it is in them. */
 export interface DiffLineView {
   kind: "same" | "old" | "new";
   before: number | null;
@@ -1361,17 +1361,9 @@ export interface UrdfChanges {
   request: number;
   added: number;
   removed: number;
-  hunks: UrdfLine[][];
+  hunks: DiffLineView[][];
   left_out: number;
   fault: string;
-}
-
-/** A line with its numbers from 1 in the URDF of the disk and in the one of now. */
-export interface UrdfLine {
-  kind: "same" | "old" | "new";
-  before: number | null;
-  after: number | null;
-  text: string;
 }
 
 /** Answer to `apply_variant`; `left_out` says what found no place. */

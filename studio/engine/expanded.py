@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import asyncio
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from studio.description.editing.line_diff import LineDiff
 from studio.description.values import Expansion, OpenRequest
 from studio.engine.messages import expanded as m
-from studio.engine.urdf_lines import Difference, PartLines, difference, part_lines
+from studio.engine.messages.diff_lines import hunk_views
+from studio.engine.urdf_lines import PartLines, difference, part_lines
 from studio.errors import CommandError
 
 if TYPE_CHECKING:
@@ -53,11 +55,11 @@ class ExpandedDesk:
         if expansion is None:
             raise CommandError(f"{document.title} has not been expanded yet: mend its problems.")
         if not document.sources.unsaved_files and document.sources.arguments == self._arguments:
-            return _told(command.request, Difference(0, 0, (), 0))
+            return _told(command.request, LineDiff())
         async with self._turn:  # who asks meanwhile finds it done
             saved = await self._run_saved()
         if saved.fault:
-            return _told(command.request, Difference(0, 0, (), 0), saved.fault)
+            return _told(command.request, LineDiff(), saved.fault)
         root, parts = expansion.root_attributes, tuple(document.model.assembly.parts())
         found = await asyncio.to_thread(_compare, saved.lines, root, parts)
         return _told(command.request, found)
@@ -94,17 +96,16 @@ def _ordered(parts: Iterable[Part], expansion: Expansion) -> list[Part]:
 
 def _compare(
     before: list[PartLines], root: Iterable[tuple[str, str]], parts: Iterable[Part]
-) -> Difference:
+) -> LineDiff:
     return difference(before, part_lines(root, parts))
 
 
-def _told(request: int, found: Difference, fault: str = "") -> m.UrdfChanges:
-    hunks = tuple(tuple(m.UrdfLine(**asdict(line)) for line in hunk) for hunk in found.hunks)
+def _told(request: int, found: LineDiff, fault: str = "") -> m.UrdfChanges:
     return m.UrdfChanges(
         request=request,
         added=found.added,
         removed=found.removed,
-        hunks=hunks,
+        hunks=hunk_views(found),
         left_out=found.left_out,
         fault=fault,
     )

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import asyncio
-from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from studio.description.editing.file_diff import file_diff
 from studio.description.editing.saving import hindrance, write_copy
 from studio.description.editing.undo import Change
-from studio.engine.messages.keeping import Changes, DiffLineView, FileChanges
+from studio.engine.messages.diff_lines import hunk_views
+from studio.engine.messages.keeping import Changes, FileChanges
 from studio.errors import CommandError, NotSavedError
 
 if TYPE_CHECKING:
@@ -39,10 +39,7 @@ class SaveDesk:
                     file=file,
                     added=diff.added,
                     removed=diff.removed,
-                    hunks=tuple(
-                        tuple(DiffLineView.model_validate(asdict(line)) for line in hunk)
-                        for hunk in diff.hunks
-                    ),
+                    hunks=hunk_views(diff),
                     left_out=diff.left_out,
                     hindrance=reason,
                 )

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from difflib import SequenceMatcher
-from typing import TYPE_CHECKING, Final, Literal
+from typing import TYPE_CHECKING, Final
 from xml.etree import ElementTree
+
+from studio.description.editing.line_diff import DiffLine, LineDiff, line_diff
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
@@ -24,26 +26,6 @@ class PartLines:
 
     key: str
     lines: tuple[str, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class Line:
-    """A line with its numbers from 1 in the text before and after; None: it is not in that one."""
-
-    kind: Literal["same", "old", "new"]
-    before: int | None
-    after: int | None
-    text: str
-
-
-@dataclass(frozen=True, slots=True)
-class Difference:
-    """Stretches of lines, each with a few around it; `left_out`: lines of further ones."""
-
-    added: int
-    removed: int
-    hunks: tuple[tuple[Line, ...], ...]
-    left_out: int
 
 
 def part_lines(
@@ -67,21 +49,12 @@ def _lines(xml: str) -> tuple[str, ...]:
     return tuple(f"  {line}" for line in text.split("\n"))
 
 
-def difference(before: Sequence[PartLines], after: Sequence[PartLines]) -> Difference:
+def difference(before: Sequence[PartLines], after: Sequence[PartLines]) -> LineDiff:
     """Compare two robots."""
-    lines = list(_compared(before, after))
-    kinds = [line.kind for line in lines]
-    hunks = list(_hunks(lines))
-    shown = tuple(_cut(hunks))
-    return Difference(
-        added=kinds.count("new"),
-        removed=kinds.count("old"),
-        hunks=shown,
-        left_out=sum(map(len, hunks)) - sum(map(len, shown)),
-    )
+    return line_diff(list(_hunks(list(_compared(before, after)))), LINES_SHOWN)
 
 
-def _compared(before: Sequence[PartLines], after: Sequence[PartLines]) -> Iterator[Line]:
+def _compared(before: Sequence[PartLines], after: Sequence[PartLines]) -> Iterator[DiffLine]:
     """All lines of both; parts are told by their keys, then line by line."""
     keys = [part.key for part in before], [part.key for part in after]
     numbers = _Numbers()
@@ -100,7 +73,7 @@ class _Numbers:
     def __init__(self) -> None:
         self._before = self._after = 0
 
-    def part(self, old: Sequence[str], new: Sequence[str]) -> Iterator[Line]:
+    def part(self, old: Sequence[str], new: Sequence[str]) -> Iterator[DiffLine]:
         """The lines of a part that both have."""
         if old == new:
             yield from self.same(new)
@@ -114,27 +87,27 @@ class _Numbers:
             else:
                 yield from (*self.gone(old[i:j]), *self.come(new[k:m]))
 
-    def same(self, lines: Iterable[str]) -> Iterator[Line]:
+    def same(self, lines: Iterable[str]) -> Iterator[DiffLine]:
         """Lines of both."""
         for text in lines:
             self._before += 1
             self._after += 1
-            yield Line("same", self._before, self._after, text)
+            yield DiffLine("same", self._before, self._after, text)
 
-    def gone(self, lines: Iterable[str]) -> Iterator[Line]:
+    def gone(self, lines: Iterable[str]) -> Iterator[DiffLine]:
         """Lines of the text before only."""
         for text in lines:
             self._before += 1
-            yield Line("old", self._before, None, text)
+            yield DiffLine("old", self._before, None, text)
 
-    def come(self, lines: Iterable[str]) -> Iterator[Line]:
+    def come(self, lines: Iterable[str]) -> Iterator[DiffLine]:
         """Lines of the text after only."""
         for text in lines:
             self._after += 1
-            yield Line("new", None, self._after, text)
+            yield DiffLine("new", None, self._after, text)
 
 
-def _hunks(lines: Sequence[Line]) -> Iterator[tuple[Line, ...]]:
+def _hunks(lines: Sequence[DiffLine]) -> Iterator[tuple[DiffLine, ...]]:
     """The lines that differ with those around them, what nearly touches in one."""
     differing = [at for at, line in enumerate(lines) if line.kind != "same"]
     start = end = -1
@@ -147,12 +120,3 @@ def _hunks(lines: Sequence[Line]) -> Iterator[tuple[Line, ...]]:
         end = at + _AROUND + 1
     if start >= 0:
         yield tuple(lines[start:end])
-
-
-def _cut(hunks: Iterable[tuple[Line, ...]]) -> Iterator[tuple[Line, ...]]:
-    left = LINES_SHOWN
-    for hunk in hunks:
-        if left <= 0:
-            return
-        yield hunk[:left]
-        left -= len(hunk)

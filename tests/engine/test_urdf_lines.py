@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from studio.description.editing.line_diff import DiffLine
 from studio.description.values import Part
-from studio.engine.urdf_lines import LINES_SHOWN, Line, PartLines, difference, part_lines
+from studio.engine.urdf_lines import LINES_SHOWN, PartLines, difference, part_lines
 from studio.problems import Place
 
 ROOT = (("name", "r"),)
@@ -21,7 +22,7 @@ def lines(*parts: Part) -> list[PartLines]:
     return part_lines(ROOT, parts)
 
 
-def changed(before: list[PartLines], after: list[PartLines]) -> list[Line]:
+def changed(before: list[PartLines], after: list[PartLines]) -> list[DiffLine]:
     hunks = difference(before, after).hunks
     return [line for hunk in hunks for line in hunk if line.kind != "same"]
 
@@ -45,8 +46,8 @@ def test_equal_robots_do_not_differ():
 def test_a_changed_line_has_its_numbers_in_both():
     found = changed(lines(link("a"), link("b")), lines(link("a"), link("b", "2")))
     assert found == [
-        Line("old", 7, None, '    <box size="1" />'),
-        Line("new", None, 7, '    <box size="2" />'),
+        DiffLine("old", 7, None, '    <box size="1" />'),
+        DiffLine("new", None, 7, '    <box size="2" />'),
     ]
 
 

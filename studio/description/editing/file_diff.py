@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from difflib import SequenceMatcher
-from typing import TYPE_CHECKING, Final, Literal, TypeAlias
+from typing import TYPE_CHECKING, Final
 
 from studio.description.editing.editor_text import EditorText
+from studio.description.editing.line_diff import DiffLine, LineDiff, line_diff
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
-
-LineKind: TypeAlias = Literal["same", "old", "new"]
 
 LINES_SHOWN: Final = 1500
 """Of one file; of more than that nobody reads every one."""
@@ -21,39 +20,10 @@ _AROUND: Final = 3
 _LETTERS_SHOWN: Final = 1000
 
 
-@dataclass(frozen=True, slots=True)
-class DiffLine:
-    """A line with its numbers from 1 in the text before and after; None: it is not in that one."""
-
-    kind: LineKind
-    before: int | None
-    after: int | None
-    text: str
-
-
-@dataclass(frozen=True, slots=True)
-class FileDiff:
-    """Stretches of lines that differ, each with a few lines around it."""
-
-    added: int
-    removed: int
-    hunks: tuple[tuple[DiffLine, ...], ...]
-    left_out: int
-    """Lines of the hunks that are not among them."""
-
-
-def file_diff(before: bytes, after: bytes) -> FileDiff:
+def file_diff(before: bytes, after: bytes) -> LineDiff:
     """Compare two texts of one file, in whichever encoding each is."""
     old, new = _lines(before), _lines(after)
-    hunks = [tuple(_drawn(group, old, new)) for group in _groups(old, new)]
-    kinds = [line.kind for hunk in hunks for line in hunk]
-    shown = tuple(_cut(hunks))
-    return FileDiff(
-        added=kinds.count("new"),
-        removed=kinds.count("old"),
-        hunks=shown,
-        left_out=len(kinds) - sum(map(len, shown)),
-    )
+    return line_diff([tuple(_drawn(group, old, new)) for group in _groups(old, new)], LINES_SHOWN)
 
 
 def _lines(data: bytes) -> list[str]:
@@ -119,12 +89,3 @@ def _same(old: Sequence[str], start: int, end: int, further: int) -> Iterator[Di
     """Lines that both have, in the text after so many lines further down."""
     for at in range(start, end):
         yield DiffLine("same", at + 1, at + further + 1, old[at][:_LETTERS_SHOWN])
-
-
-def _cut(hunks: list[tuple[DiffLine, ...]]) -> Iterator[tuple[DiffLine, ...]]:
-    left = LINES_SHOWN
-    for hunk in hunks:
-        if left <= 0:
-            return
-        yield hunk[:left]
-        left -= len(hunk)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Literal
 
+from studio.engine.messages.diff_lines import DiffLineView
 from studio.engine.messages.message import CommandMessage, Message
 
 
@@ -13,15 +14,6 @@ class GetUrdfChanges(CommandMessage):
     type: Literal["get_urdf_changes"] = "get_urdf_changes"
 
 
-class UrdfLine(Message):
-    """A line with its numbers from 1 in the URDF of the disk and in the one of now."""
-
-    kind: Literal["same", "old", "new"]
-    before: int | None
-    after: int | None
-    text: str
-
-
 class UrdfChanges(Message):
     """Answer to `get_urdf_changes`: stretches of lines with a few around each."""
 
@@ -29,7 +21,7 @@ class UrdfChanges(Message):
     request: int
     added: int
     removed: int
-    hunks: tuple[tuple[UrdfLine, ...], ...]
+    hunks: tuple[tuple[DiffLineView, ...], ...]
     left_out: int
     """Lines of further stretches that are not among them."""
     fault: str

@@ -6,6 +6,7 @@ from typing import Literal, TypeAlias
 
 from pydantic import Field
 
+from studio.engine.messages.diff_lines import DiffLineView
 from studio.engine.messages.message import CommandMessage, Message
 
 
@@ -22,15 +23,6 @@ class GetChanges(CommandMessage):
     """What saving would change, file by file."""
 
     type: Literal["get_changes"] = "get_changes"
-
-
-class DiffLineView(Message):
-    """A line with its numbers from 1 in the file and in the edited text, where it is in them."""
-
-    kind: Literal["same", "old", "new"]
-    before: int | None
-    after: int | None
-    text: str
 
 
 class FileChanges(Message):

@@ -5,7 +5,8 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
-from studio.description.editing.file_diff import LINES_SHOWN, DiffLine, file_diff
+from studio.description.editing.file_diff import LINES_SHOWN, file_diff
+from studio.description.editing.line_diff import DiffLine
 
 TEN = "".join(f"line {number}\n" for number in range(1, 11))
 
