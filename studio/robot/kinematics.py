@@ -131,14 +131,6 @@ class Kinematics:
         wxyz = self._wxyz(world_from_links[..., :3, :3])
         return np.concatenate((wxyz, world_from_links[..., :3, 3]), axis=-1)
 
-    def joint_frames(self, positions: Floats) -> Floats:
-        """Pose of each movable joint's frame before it moves, (..., J, 4, 4)."""
-        world_from_links = self._chain(self._parent_from_child(positions))
-        return (
-            world_from_links[..., self._movable_parent, :, :]
-            @ self._motion.parent_from_joint[self._at]
-        )
-
     @property
     def axes(self) -> Floats:
         """Unit axis of each movable joint in its own frame, (J, 3); zero where none is given."""
@@ -216,7 +208,6 @@ class Kinematics:
         self._child = np.array([place[one.child] for one in joints], dtype=np.intp)
         parent = np.full(world + 1, world, dtype=np.intp)
         parent[self._child] = [place[one.parent] for one in joints]
-        self._movable_parent = parent[self._child[self._at]]
         self._jumps: list[NDArray[np.intp]] = []
         while np.any(parent != world):
             self._jumps.append(parent)
@@ -298,20 +289,6 @@ class _Motion(NamedTuple):
         return self._replace(parent_from_joint=parent_from_joint)
 
 
-def planar_motion(x_m: float, y_m: float, yaw_rad: float, axis: Floats) -> Floats:
-    """Motion (4, 4) of a planar joint: x and y in the plane across `axis`, then turned about it.
-
-    The plane's x and y are those of the joint frame turned by the shortest way that takes z to
-    `axis`, so that axis (0, 0, 1) moves along the frame's own x and y.
-    """
-    normal = unit_vectors(axis)
-    frame_from_plane = _shortest_turn_from_z(normal)
-    motion = np.eye(4)
-    motion[:3, :3] = _turn(normal, yaw_rad)
-    motion[:3, 3] = frame_from_plane @ np.array([x_m, y_m, 0.0])
-    return motion
-
-
 def floating_motion(xyz_m: Floats, wxyz: Floats) -> Floats:
     """Motion (4, 4) of a floating joint; the quaternion need not be normalised, but not zero."""
     w, x, y, z = wxyz / np.linalg.norm(wxyz)
@@ -323,18 +300,6 @@ def floating_motion(xyz_m: Floats, wxyz: Floats) -> Floats:
     ]
     motion[:3, 3] = xyz_m
     return motion
-
-
-def _turn(unit_axis: Floats, angle_rad: float) -> Floats:
-    cross = cross_matrices(unit_axis)
-    return np.eye(3) + math.sin(angle_rad) * cross + (1 - math.cos(angle_rad)) * cross @ cross
-
-
-def _shortest_turn_from_z(unit_axis: Floats) -> Floats:
-    if unit_axis[2] < -1 + 1e-12:
-        return np.diag([1.0, -1.0, -1.0])
-    cross = cross_matrices(np.array([-unit_axis[1], unit_axis[0], 0.0]))
-    return np.eye(3) + cross + cross @ cross / (1 + unit_axis[2])
 
 
 def _turns_as(one: Joint, other: Joint) -> bool:

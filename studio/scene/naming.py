@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from urllib.parse import quote, unquote
+from urllib.parse import quote
 
 ROBOT = "/robot"
 GRID = "/grid"
@@ -18,9 +18,3 @@ def link_node(link: str) -> str:
 def ghost_node(link: str) -> str:
     """The node that carries the pose of a link of the ghost."""
     return f"{GHOST}/{quote(link, safe=_KEPT)}"
-
-
-def link_of(node: str) -> str | None:
-    """The link that a node of the robot belongs to, or None."""
-    parts = node.split("/", 3)
-    return unquote(parts[2]) if len(parts) > 2 and parts[1] == ROBOT[1:] else None

@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from studio.robot.kinematics import Kinematics, floating_motion, planar_motion
+from studio.robot.kinematics import Kinematics, floating_motion
 from studio.robot.values import Joint, JointType, Limit, Link, Mimic, Origin, Robot
 from tests.support.expanded import assembled, expanded_robots
 from tests.support.yourdfpy_poses import poses_by_yourdfpy
@@ -268,29 +268,6 @@ def test_a_swing_reaches_both_limits_without_a_jump():
     turned = np.minimum(steps[:, 2], 2 * math.pi - steps[:, 2])
     assert steps[:, :2].max() < 0.02
     assert turned.max() < 0.02
-
-
-def test_joint_frames_stay_while_their_own_joint_moves():
-    kinematics = arm()
-    moved = kinematics.positions_with_mimic({"wheel": 1.0, "turn": 0.0, "slide": 0.2})
-    frames = kinematics.joint_frames(moved)
-    np.testing.assert_allclose(frames[2], pose_of(kinematics, "c", slide=0.2), atol=1e-12)
-    assert kinematics.axes.tolist() == [[1, 0, 0]] * 3
-
-
-def test_a_planar_motion_about_z_is_the_written_out_matrix():
-    c, s = math.cos(0.4), math.sin(0.4)
-    expected = [[c, -s, 0, 2], [s, c, 0, 3], [0, 0, 1, 0], [0, 0, 0, 1]]
-    np.testing.assert_allclose(planar_motion(2, 3, 0.4, np.array(Z)), expected, atol=1e-12)
-
-
-@pytest.mark.parametrize("axis", [(1.0, 0.0, 0.0), (0.0, 0.0, -2.0), (1.0, 2.0, 3.0)])
-def test_a_planar_motion_stays_in_its_plane(axis: tuple[float, float, float]):
-    normal = np.array(axis) / np.linalg.norm(axis)
-    motion = planar_motion(2, 3, 0.4, np.array(axis))
-    assert abs(motion[:3, 3] @ normal) < 1e-12
-    assert math.hypot(*motion[:3, 3]) == pytest.approx(math.hypot(2, 3))
-    np.testing.assert_allclose(motion[:3, :3] @ normal, normal, atol=1e-12)
 
 
 def test_a_floating_motion_is_the_written_out_matrix():

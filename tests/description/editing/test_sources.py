@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from studio.description.editing.sources import Sources
 from studio.description.editing.splice import apply, decode
 from studio.description.session import Session
-from studio.description.syntax.number_text import format_number, parse_number
+from studio.description.syntax.number_text import parse_number
 from studio.description.values import (
     Edit,
     EditRequest,
@@ -89,6 +89,22 @@ def test_a_drag_that_ends_where_it_began_leaves_no_step(sources: Sources, rover:
     for text in ("0.11", "0.1"):
         sources.edit_site(radius(rover), text, gesture="drag")
     assert (sources.undo_labels, sources.unsaved_count) == ((), 0)
+
+
+def test_thousands_of_edits_are_one_step_and_quick(tmp_path: Path):
+    """Quick, as the time limit of each test is; it was minutes when every edit moved all others."""
+    line, count = b'<link name="wheel"/>' + b" " * 180 + b"\n", 5_000
+    text, file = line * count, str(tmp_path / "a.urdf")
+    sources = Sources(lambda _: text, lambda path: path)
+    starts = range((count - 1) * len(line) + 12, 0, -len(line))
+    sources.edit_all([Edit(file, start, start + 5, b"roller") for start in starts], "Rename")
+    written = text.replace(b"wheel", b"roller")
+    assert (sources.text(file), sources.unsaved_count) == (written, count)
+    assert sources.kept().sound() == sources.kept()
+    sources.undo()
+    assert (sources.text(file), sources.unsaved_count, sources.undo_labels) == (text, 0, ())
+    sources.redo()
+    assert (sources.text(file), sources.undo_labels) == (written, ("Rename",))
 
 
 def test_redo_does_the_step_again(sources: Sources, rover: Path):
@@ -280,7 +296,7 @@ def test_edits_of_real_robots_keep_every_span_and_undo_gives_every_site_back(cor
         sources.adopt(opened, 0)
         numbers = [one for one in opened.changed_sites if parse_number(one.text) is not None]
         for before in numbers[:: max(1, len(numbers) // 5)]:
-            text = format_number((parse_number(before.text) or 0) * 1.37 + 0.1, before.text)
+            text = f"{(parse_number(before.text) or 0) * 1.37 + 0.1:.9g}"
             in_step(sources, session, (sources.edit_site(before.id, text),))
             assert sources.spans.site(before.id).text == text
             assert sources.saved_text(before.id) == before.text
