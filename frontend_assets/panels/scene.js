@@ -158,16 +158,13 @@ function LastGoodNotice() {
   return html`<div class="last-good" role="alert">
     <${Icon} name="error" size=${18} />
     <p><strong>${t("last_good")}</strong> ${problem?.sentence} <${PlaceLink} place=${problem?.place} /></p>
-    ${mayEdit.value && html`<${NoticeButton} problem=${problem} />`}
+    ${mayEdit.value && html`<${NoticeButtons} problem=${problem} />`}
   </div>`;
 }
 
-/** @param {{problem: import("../types/wire.d.ts").Problem | undefined}} props */
-function NoticeButton({ problem }) {
-  const fix = problem?.fix;
-  if (problem && fix && fix.action !== "undo") {
-    return html`<button type="button" class="button" onClick=${() => mend(problem)}>${fix.label}</button>`;
-  }
-  if (history.value.undo.length === 0) return null;
-  return html`<button type="button" class="button" onClick=${() => undo()}>${t("undo_edit")}</button>`;
+/** What mends it, and the way back. @param {{problem: import("../types/wire.d.ts").Problem | undefined}} props */
+function NoticeButtons({ problem }) {
+  const fix = problem?.fix?.action === "undo" ? null : problem?.fix;
+  return html`${problem && fix && html`<button type="button" class="button" onClick=${() => mend(problem)}>${fix.label}</button>`}
+    ${history.value.undo.length > 0 && html`<button type="button" class="button" onClick=${() => undo()}>${t("undo_edit")}</button>`}`;
 }

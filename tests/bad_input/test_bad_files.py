@@ -33,7 +33,6 @@ BAD: dict[str, str | bytes] = {
     "empty": "",
     "binary": bytes(range(256)) * 8,
     "utf-16": robot("").encode("utf-16"),
-    "cut off": '<robot name="r"><link name="base"',
     "missing include": robot('<xacro:include filename="not_there.xacro"/>'),
     "unknown package": robot('<xacro:include filename="$(find nowhere)/a.xacro"/>'),
     "include of a file outside": robot('<xacro:include filename="/etc/passwd"/>'),
@@ -110,6 +109,19 @@ def test_a_bad_file_is_one_sentence_and_the_next_file_opens(
             assert "Traceback" not in problem["sentence"]
             after, _ = await opened(made, good)
             assert list(after.model.robot.links) == ["l1", "base"]
+
+    asyncio.run(run())
+
+
+def test_a_file_that_was_cut_off_is_drawn_as_far_as_it_goes(package: Path, tmp_path: Path):
+    file = package / "urdf" / "cut.urdf.xacro"
+    file.write_text('<robot name="r"><link name="base"')
+
+    async def run() -> None:
+        async with engine(tmp_path / "data") as made:
+            document, ear = await opened(made, file)
+            assert list(document.model.robot.links) == ["base"]
+            assert "error" in {one["severity"] for one in ear.last("problems")["problems"]}
 
     asyncio.run(run())
 
