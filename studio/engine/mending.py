@@ -65,9 +65,7 @@ class MendingDesk:
         for edit in edits:
             if len(sources.text(edit.file)) + len(edit.new) > TEXT_LIMIT_BYTES:
                 raise EditError(f"{edit.file} would grow too large: mend it by hand.")
-        gesture = f"fix {next(self._mended)}"
-        for edit in edits:
-            sources.edit(edit, label, gesture, is_value=False)
+        sources.edit_all(edits, label, f"fix {next(self._mended)}")
         await self._document.follow(Change(label, edits))
 
 

@@ -86,18 +86,18 @@ class RewritingDesk:
             ReadOnlyTextError: A file may not be written.
             EditError: A file's encoding lacks a letter, or it would grow too large.
         """
-        words = _words(command)
-        edits = [
-            edit
-            for file, data in self._texts(asker)
-            for edit in replacements_in(file, data, words, command.replacement)
-        ]
-        if len(edits) != command.count:
-            raise CommandError("The texts have changed since: look at the places again.")
-        if len(edits) > REPLACED_LIMIT:
+        if command.count > REPLACED_LIMIT:
             raise CommandError(
                 f"These are more than {REPLACED_LIMIT} places: look for longer words."
             )
+        words, edits = _words(command), list[Edit]()
+        for file, data in self._texts(asker):
+            most = command.count - len(edits) + 1
+            edits += replacements_in(file, data, words, command.replacement, most)
+            if len(edits) > command.count:
+                break
+        if len(edits) != command.count:
+            raise CommandError("The texts have changed since: look at the places again.")
         await self._write(edits, f"Replace {_short(command.text)} → {_short(command.replacement)}")
 
     async def _ask(self, command: r.GetRenaming | r.Rename, asker: Listener) -> Renaming:
@@ -121,8 +121,7 @@ class RewritingDesk:
         """Make all edits, in order, one step of undo."""
         self._check(edits)
         sources, gesture = self._document.sources, f"rewrite {next(self._steps)}"
-        for edit in edits:
-            sources.edit(edit, label, gesture, is_value=False)
+        sources.edit_all(edits, label, gesture)
         arguments = None
         if renaming and renaming.kind is SubjectKind.ARG and renaming.old in sources.arguments:
             given = sources.arguments[renaming.old]

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import re
-from bisect import bisect_right
 from dataclasses import dataclass
 from itertools import islice
 from typing import TYPE_CHECKING, Final
@@ -28,13 +26,23 @@ class Words:
     match_case: bool = False
     whole_word: bool = False
 
-    @property
-    def pattern(self) -> re.Pattern[str]:
-        """Them as a pattern."""
-        plain = re.escape(self.text.replace("\r\n", "\n"))
-        if self.whole_word:
-            plain = rf"(?<!\w){plain}(?!\w)"
-        return re.compile(plain, 0 if self.match_case else re.IGNORECASE)
+    def spans(self, text: str) -> Iterator[tuple[int, int]]:
+        """Where they stand, [start, end) as indices, one behind the other.
+
+        Not by a regular expression: one that ignores case takes the length of both multiplied.
+        """
+        wanted = self._compared(self.text.replace("\r\n", "\n"))
+        looked_at, at = self._compared(text), 0
+        while (at := looked_at.find(wanted, at)) >= 0:
+            end = at + len(wanted)
+            is_found = not self.whole_word or _stands_alone(text, at, end)
+            if is_found:
+                yield at, end
+            at = end if is_found else at + 1
+
+    def _compared(self, text: str) -> str:
+        """The text, small when case is the same, of the same length: only one letter grows."""
+        return text if self.match_case else text.replace("\u0130", "i").lower()
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,49 +65,53 @@ class Matches:
 
 def matches_in(texts: Iterable[tuple[str, bytes]], words: Words, limit: int) -> Matches:
     """Look for words in the bytes of files, by name."""
-    pattern = words.pattern
     shown: list[Match] = []
     count = files = 0
     for file, data in texts:
         editor = EditorText(data)
-        found = [one.span() for one in pattern.finditer(editor.text)]
-        count += len(found)
-        files += bool(found)
-        shown += islice(_drawn(file, editor, found), max(0, limit - len(shown)))
+        spans = words.spans(editor.text)
+        first = list(islice(spans, max(0, limit - len(shown))))
+        shown += _drawn(file, editor, first)
+        here = len(first) + sum(1 for _ in spans)
+        count += here
+        files += here > 0
     return Matches(tuple(shown), count, files)
 
 
-def replacements_in(file: str, data: bytes, words: Words, text: str) -> list[Edit]:
+def replacements_in(
+    file: str, data: bytes, words: Words, text: str, most: int | None = None
+) -> list[Edit]:
     """The edits that write `text` wherever the words stand, the last place first.
+
+    Of more than `most` places the first ones.
 
     Raises:
         EditError: The file's encoding lacks a letter of it.
     """
     editor = EditorText(data)
-    spans = [one.span() for one in words.pattern.finditer(editor.text)]
-    places = [(editor.offset_of(start), editor.offset_of(end)) for start, end in spans]
-    return [editor.edit(file, start, end, text) for start, end in reversed(places)]
+    return editor.replacements(file, islice(words.spans(editor.text), most), text)
+
+
+def _stands_alone(text: str, start: int, end: int) -> bool:
+    """Whether no letter, digit or underscore goes on before or behind."""
+    around = (text[start - 1 : start] if start else "", text[end : end + 1])
+    return not any(one.isalnum() or one == "_" for one in around)
 
 
 def _drawn(file: str, editor: EditorText, spans: list[tuple[int, int]]) -> Iterator[Match]:
-    text = editor.text
-    starts = [0, *(one.end() for one in re.finditer("\n", text))]
+    text, number, counted = editor.text, 1, 0
     for start, end in spans:
-        number = bisect_right(starts, start)
-        begin = starts[number - 1]
+        number += text.count("\n", counted, start)
+        counted = start
+        begin = text.rfind("\n", 0, start) + 1
         line_end = text.find("\n", start)
         line_end = len(text) if line_end < 0 else line_end
-        from_ = max(_indented(text, begin, start), start - _SHOWN_BEFORE)
+        from_ = start - len(text[max(begin, start - _SHOWN_BEFORE) : start].lstrip())
         column = _units(editor, begin, start) + 1
         length = _units(editor, start, min(end, line_end))
         place = TextPlace(file, number, column, length)
         line = text[from_ : min(line_end, from_ + _SHOWN)].rstrip()
         yield Match(place, line, _units(editor, begin, from_) + 1)
-
-
-def _indented(text: str, begin: int, start: int) -> int:
-    """Behind the blanks that a line begins with."""
-    return begin + len(text[begin:start]) - len(text[begin:start].lstrip())
 
 
 def _units(editor: EditorText, start: int, end: int) -> int:

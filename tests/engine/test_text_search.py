@@ -50,3 +50,40 @@ def test_replacing_leaves_every_other_byte():
     edits = replacements_in("/f", TEXT, Words("wheel", match_case=True), "tyre\n")
     after = apply(TEXT, edits)
     assert after == TEXT.replace(b"wheel", b"tyre\r\n")
+
+
+def test_of_more_places_than_asked_for_the_first_are_replaced():
+    edits = replacements_in("/f", b"aXaXa", Words("x"), "-", 1)
+    assert apply(b"aXaXa", edits) == b"a-aXa"
+
+
+@pytest.mark.parametrize(
+    ("words", "text", "columns"),
+    [
+        (Words("i"), "\u0130 I i", [1, 3, 5]),
+        (Words("ÄÖ"), "äö ÄÖ", [1, 4]),
+        (Words("aa"), "aaaaa", [1, 3]),
+        (Words("aa", whole_word=True), "aaa aa_ aa aaä aa", [9, 16]),
+        (Words("\r\nx"), "a\nx\n", [2]),
+    ],
+)
+def test_letters_of_any_kind_are_found_in_any_case(words: Words, text: str, columns: list[int]):
+    assert [column for _, column, _ in found(words, text.encode())] == columns
+
+
+@pytest.mark.parametrize(
+    ("words", "data", "count"),
+    [
+        (Words("a" * 999 + "b"), b"a" * 4_000_000, 0),
+        (Words("a"), b" " * 3_900_000 + b"a" * 100_000, 100_000),
+        (Words("\n"), b"\n" * 300_000, 300_000),
+    ],
+)
+def test_a_text_made_to_take_long_does_not(words: Words, data: bytes, count: int):
+    """It is the time limit of a test that says so: each of these took a minute and more."""
+    assert matches_in([("/f", data)], words, 1000).count == count
+
+
+def test_many_places_behind_wide_letters_are_replaced_as_quickly():
+    data = "é\r\n".encode() * 100_000
+    assert apply(data, replacements_in("/f", data, Words("É"), "e")) == b"e\r\n" * 100_000

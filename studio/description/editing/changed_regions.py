@@ -11,55 +11,79 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Region:
-    """Bytes [start, end) now stand where [base_start, base_end) stood."""
+    """Other bytes, `growth` more of them, now stand where [base_start, base_end) stood."""
 
     base_start: int
     base_end: int
-    start: int
-    end: int
-
-    @property
-    def growth(self) -> int:
-        """How many bytes longer it is now."""
-        return (self.end - self.start) - (self.base_end - self.base_start)
-
-    def shifted(self, by: int) -> Region:
-        """The same region, `by` bytes further down in the text as it is now."""
-        return replace(self, start=self.start + by, end=self.end + by)
+    growth: int
 
 
 class ChangedRegions:
-    """The regions of one text against its base: disjoint, in order, each really different."""
+    """The regions of one text against its base: disjoint, in order, each really different.
+
+    A region does not say where it stands now: an edit above thousands of them would move them all.
+    It follows from those above it, counted on from the place that was looked at last.
+    """
 
     def __init__(self, base: bytes) -> None:
         self._base = base
-        self._regions: tuple[Region, ...] = ()
+        self._regions: list[Region] = []
+        self._at = self._shift = 0
+        """A place in the list, and how much the regions above it have grown together."""
 
     def __len__(self) -> int:
         """How many there are."""
         return len(self._regions)
 
-    def note(self, edit: Edit, text: bytes) -> None:
+    def note(self, edit: Edit, text: bytes | bytearray) -> None:
         """Take in an edit that made `text`; what it brought back to the base is no region."""
-        growth = len(edit.new) - (edit.end - edit.start)
-        before = [one for one in self._regions if one.end < edit.start]
-        behind = [one for one in self._regions if one.start > edit.end]
-        touched = self._regions[len(before) : len(self._regions) - len(behind)]
-        shift = sum(one.growth for one in before)
-        start = min([edit.start, *(one.start for one in touched)])
-        end = max([edit.end, *(one.end for one in touched)])
-        base_end = end - shift - sum(one.growth for one in touched)
-        merged = Region(start - shift, base_end, start, end + growth)
-        is_back = self._base[merged.base_start : base_end] == text[start : merged.end]
-        kept = [] if is_back else [merged]
-        self._regions = (*before, *kept, *(one.shifted(growth) for one in behind))
+        touched = self._touched(edit.start, edit.end)
+        start, end, shift = edit.start, edit.end, self._shift
+        growth = sum(one.growth for one in touched)
+        if touched:
+            start = min(start, touched[0].base_start + shift)
+            end = max(end, touched[-1].base_end + shift + growth)
+        merged = Region(
+            start - shift, end - shift - growth, growth + len(edit.new) - (edit.end - edit.start)
+        )
+        now = text[start : merged.base_end + shift + merged.growth]
+        is_back = self._base[merged.base_start : merged.base_end] == now
+        self._regions[self._at : self._at + len(touched)] = [] if is_back else [merged]
 
     def base_span(self, span: Span) -> Span | None:
         """Where a span stood in the base; None when a region cuts across an end of it."""
-        before = [one for one in self._regions if one.end < span.start]
-        touched = [one for one in self._regions if one.end >= span.start and one.start <= span.end]
-        if any(one.start < span.start or one.end > span.end for one in touched):
-            return None
-        start = span.start - sum(one.growth for one in before)
+        touched = self._touched(span.start, span.end)
         growth = sum(one.growth for one in touched)
+        if touched:
+            first, last = touched[0], touched[-1]
+            is_cut = first.base_start + self._shift < span.start
+            if is_cut or last.base_end + self._shift + growth > span.end:
+                return None
+        start = span.start - self._shift
         return replace(span, start=start, end=start + (span.end - span.start) - growth)
+
+    def _touched(self, start: int, end: int) -> list[Region]:
+        """The regions that meet [start, end) or an end of it, from `_at` on."""
+        self._seek(start)
+        touched: list[Region] = []
+        shift = self._shift
+        for at in range(self._at, len(self._regions)):
+            one = self._regions[at]
+            if one.base_start + shift > end:
+                break
+            touched.append(one)
+            shift += one.growth
+        return touched
+
+    def _seek(self, start: int) -> None:
+        """Go to the first region that ends at or behind a place."""
+        regions = self._regions
+        while self._at > 0 and regions[self._at - 1].base_end + self._shift >= start:
+            self._at -= 1
+            self._shift -= regions[self._at].growth
+        while self._at < len(regions):
+            one = regions[self._at]
+            if one.base_end + self._shift + one.growth >= start:
+                return
+            self._at += 1
+            self._shift += one.growth

@@ -12,11 +12,14 @@ import re
 from bisect import bisect_left, bisect_right
 from functools import cached_property
 from itertools import accumulate
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from studio.description.syntax.attribute_spans import text_encoding, writing_encoding
 from studio.description.values import Edit
 from studio.errors import EditError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
 
 _LINE_BREAK: Final = re.compile(r"\r\n|\r|\n")
 _BREAK_TO_COME: Final = re.compile(r"\r\n?|\n")
@@ -53,10 +56,7 @@ class EditorText:
         Raises:
             EditError: The offset lies outside the text, or within a character.
         """
-        index = self._raw_index(self.index_of(offset))
-        if self._encoding != "utf-8" or self.data.isascii():
-            return self._bom_bytes + index
-        return self._bom_bytes + len(self._raw[:index].encode("utf-8", "surrogateescape"))
+        return self._bom_bytes + self._bytes_between(0, self.index_of(offset))
 
     def offset_at(self, byte: int) -> int:
         """The editor's offset of the character that holds a byte; the nearest end outside."""
@@ -94,6 +94,33 @@ class EditorText:
         new = _BREAK_TO_COME.sub(self.line_break, text)
         return Edit(file, self.byte_at(start), self.byte_at(end), self._encoded(new))
 
+    def replacements(self, file: str, spans: Iterable[tuple[int, int]], text: str) -> list[Edit]:
+        """The edits that put `text` in the place of [start, end)s, the last place first.
+
+        Args:
+            file: Of this text.
+            spans: Indices into the shown text, one behind the other.
+            text: Its line breaks become the file's own.
+
+        Raises:
+            EditError: The encoding lacks a character of it.
+        """
+        new = self._encoded(_BREAK_TO_COME.sub(self.line_break, text))
+        edits: list[Edit] = []
+        byte = index = 0
+        for start, end in spans:
+            first = byte + self._bytes_between(index, start)
+            byte, index = first + self._bytes_between(start, end), end
+            edits.append(Edit(file, self._bom_bytes + first, self._bom_bytes + byte, new))
+        return edits[::-1]
+
+    def _bytes_between(self, start: int, end: int) -> int:
+        """How many bytes stand between two indices into `text`."""
+        raw_start, raw_end = self._raw_index(start), self._raw_index(end)
+        if self._is_of_single_bytes:
+            return raw_end - raw_start
+        return len(self._raw[raw_start:raw_end].encode("utf-8", "surrogateescape"))
+
     def _encoded(self, text: str) -> bytes:
         encoding = writing_encoding(self.data) if self._encoding == "utf-8" else self._encoding
         try:
@@ -105,11 +132,19 @@ class EditorText:
             ) from None
 
     def _raw_index(self, index: int) -> int:
-        if "\r\n" not in self._raw:
+        if not self._has_crlf:
             return index
         shown_starts, raw_starts = self._line_starts
         line = bisect_right(shown_starts, index) - 1
         return raw_starts[line] + index - shown_starts[line]
+
+    @cached_property
+    def _has_crlf(self) -> bool:
+        return "\r\n" in self._raw
+
+    @cached_property
+    def _is_of_single_bytes(self) -> bool:
+        return self._encoding != "utf-8" or self.data.isascii()
 
     @cached_property
     def _line_starts(self) -> tuple[list[int], list[int]]:

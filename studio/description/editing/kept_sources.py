@@ -44,12 +44,12 @@ class KeptSources:
 
     def _fits(self, steps: list[Step]) -> bool:
         """Whether steps can be done one after the other on the texts as they are."""
-        texts = {one.file: one.now for one in self.texts}
+        texts = {one.file: bytearray(one.now) for one in self.texts}
         for splice in (splice for step in steps for splice in step.splices):
             text, end = texts.get(splice.file), splice.start + len(splice.old)
-            if text is None or splice.start < 0 or text[splice.start : end] != splice.old:
+            if text is None or splice.start < 0 or bytes(text[splice.start : end]) != splice.old:
                 return False
-            texts[splice.file] = text[: splice.start] + splice.new + text[end:]
+            text[splice.start : end] = splice.new
         return True
 
 

@@ -7,6 +7,7 @@ it reads and writes files when asked, and waits for nothing.
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,7 +17,7 @@ from studio.description.editing.kept_sources import KeptSources, KeptText
 from studio.description.editing.merging import merge
 from studio.description.editing.saving import FileToSave, save_files
 from studio.description.editing.span_table import SpanTable
-from studio.description.editing.splice import decode, difference, edit_at, inverse
+from studio.description.editing.splice import decode, difference, edit_at
 from studio.description.editing.undo import ArgumentChange, Change, Splice, Step, UndoStack
 from studio.description.values import Edit
 from studio.errors import EditError, PackageError
@@ -131,7 +132,11 @@ class Sources:
             EditError: The edit lies outside the file.
             PackageError: The file cannot be read.
         """
-        self._push(edit, Step(name, gesture=gesture, is_value=is_value))
+        self._push((edit,), Step(name, gesture=gesture, is_value=is_value))
+
+    def edit_all(self, edits: Iterable[Edit], name: str, gesture: str = "") -> None:
+        """Apply edits, each to what those before it left, as one undo step; errors as `edit`."""
+        self._push(edits, Step(name, gesture=gesture, is_value=False))
 
     def edit_site(self, site_id: str, text: str, gesture: str = "") -> Edit:
         """Write a new text at a site, quoted and escaped as its place needs it.
@@ -174,12 +179,7 @@ class Sources:
         text = self._texts.get(site.place.file)
         if text is None or not len(text.regions):
             return None
-        span = self.spans.span(site_id)
-        base = text.regions.base_span(span)
-        if base is None:
-            return None
-        is_same = text.disk[base.start : base.end] == text.now[span.start : span.end]
-        return None if is_same else decode(text.disk, base)
+        return text.saved_text(self.spans.span(site_id))
 
     def current_text(self, site_id: str) -> str:
         """What stands at a site now, whether or not a run has seen it.
@@ -354,7 +354,7 @@ class Sources:
         """Make the disk's text the base and the text; the way there is a step to take back."""
         edit = difference(file, self._held(file).now, disk)
         if edit is not None:
-            self._push(edit, Step(f"Reload {Path(file).name}", is_value=False))
+            self._push((edit,), Step(f"Reload {Path(file).name}", is_value=False))
         self._texts[file] = HeldText(file, disk)
         self._conflicts.pop(file, None)
         return edit
@@ -362,24 +362,20 @@ class Sources:
     def _become(self, file: str, wanted: bytes, step: Step) -> tuple[Edit, ...]:
         """Make a text another one, place by place; the edits that did it, the last place first."""
         edits = edits_between(file, self._held(file).now, wanted)
-        splices = tuple(self._splice(edit) for edit in edits)
-        if splices:
-            self._steps.push(replace(step, splices=splices))
+        if edits:
+            self._push(edits, step)
         return edits
 
-    def _push(self, edit: Edit, step: Step) -> None:
-        self._steps.push(replace(step, splices=(self._splice(edit),)))
+    def _push(self, edits: Iterable[Edit], step: Step) -> None:
+        self._steps.push(replace(step, splices=tuple(self._apply(edits))))
 
-    def _splice(self, edit: Edit) -> Splice:
-        """Apply an edit; what it did."""
-        undone = inverse(self._held(edit.file).now, edit)
-        self._apply((edit,))
-        return Splice(edit.file, edit.start, undone.new, edit.new)
-
-    def _apply(self, edits: Iterable[Edit]) -> None:
-        for edit in edits:
-            self._held(edit.file).apply(edit)
-            self.spans.note((edit,))
+    def _apply(self, edits: Iterable[Edit]) -> list[Splice]:
+        """Apply edits; what each one did."""
+        splices: list[Splice] = []
+        for file, group in groupby(edits, key=lambda one: one.file):
+            splices += self._held(file).apply(edits_of_file := tuple(group))
+            self.spans.note(edits_of_file)
+        return splices
 
     def _carry_out(
         self, step: Step, edits: tuple[Edit, ...], arguments: Mapping[str, str | None]

@@ -67,11 +67,23 @@ def apply(data: bytes, edits: Iterable[Edit]) -> bytes:
     Raises:
         EditError: An edit lies outside the bytes.
     """
+    text = bytearray(data)
     for edit in edits:
-        if not 0 <= edit.start <= edit.end <= len(data):
-            raise EditError(f"{edit.file}: bytes {edit.start}-{edit.end} are not in the file.")
-        data = data[: edit.start] + edit.new + data[edit.end :]
-    return data
+        apply_to(text, edit)
+    return bytes(text)
+
+
+def apply_to(text: bytearray, edit: Edit) -> bytes:
+    """Apply an edit in place, which of thousands copies no whole text; the bytes that it took.
+
+    Raises:
+        EditError: It lies outside the bytes.
+    """
+    if not 0 <= edit.start <= edit.end <= len(text):
+        raise EditError(f"{edit.file}: bytes {edit.start}-{edit.end} are not in the file.")
+    taken = bytes(text[edit.start : edit.end])
+    text[edit.start : edit.end] = edit.new
+    return taken
 
 
 def inverse(data: bytes, edit: Edit) -> Edit:
