@@ -69,10 +69,17 @@ def check_size(files: Iterable[PackedFile], what: str) -> None:
     """
     total = 0
     for one in files:
-        total += len(one.source) if isinstance(one.source, bytes) else one.source.stat().st_size
+        total += _size_of(one.source)
         if total > ZIP_SIZE_LIMIT_BYTES:
             limit_mb = ZIP_SIZE_LIMIT_BYTES >> 20
             raise ExportError(what, f"its files are more than {limit_mb} MB together")
+
+
+def _size_of(source: Path | bytes) -> int:
+    try:
+        return len(source) if isinstance(source, bytes) else source.stat().st_size
+    except OSError:
+        return 0  # it went meanwhile, and will be left out
 
 
 def zip_chunks(files: Iterable[PackedFile], served: ServedRoots) -> Iterator[bytes]:
@@ -84,11 +91,16 @@ def zip_chunks(files: Iterable[PackedFile], served: ServedRoots) -> Iterator[byt
                 data, date = _read(one, served)
             except (OutsideRootsError, UnreadableFileError):
                 continue
-            entry = zipfile.ZipInfo(one.name, date)
+            entry = zipfile.ZipInfo(_spelled(one.name), date)
             entry.external_attr = 0o644 << 16
             archive.writestr(entry, data, zipfile.ZIP_DEFLATED)
             yield from sink.taken()
     yield from sink.taken()
+
+
+def _spelled(name: str) -> str:
+    """A name that a zip can hold: bytes that are no letters on this disk become question marks."""
+    return name.encode("utf-8", "replace").decode()
 
 
 _Date = tuple[int, int, int, int, int, int]

@@ -87,3 +87,15 @@ def test_what_is_too_much_is_refused_in_a_sentence(tmp_path: Path, monkeypatch: 
     folder = write_package(tmp_path / "arm", files={"a": "", "b": ""})
     with pytest.raises(ExportError, match="more than 1 files"):
         package_files(folder, "arm", ServedRoots([tmp_path]))
+
+
+def test_a_name_that_is_no_text_is_packed_with_question_marks(tmp_path: Path):
+    folder = write_package(tmp_path / "arm")
+    (folder / os.fsdecode(b"a\xff.txt")).write_text("x")
+    served = ServedRoots([tmp_path])
+    found = unzipped(package_files(folder, "arm", served), served)
+    assert found["arm/a?.txt"] == b"x"
+
+
+def test_the_size_is_checked_though_a_file_went_meanwhile(tmp_path: Path):
+    check_size([PackedFile("a", tmp_path / "gone"), PackedFile("b", b"x")], "arm")
