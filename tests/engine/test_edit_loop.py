@@ -17,7 +17,7 @@ from studio.description.values import Edit, Expansion, NoReply
 from studio.engine.edit_loop import EditLoop, Target
 from studio.packages.roots import ServedRoots
 from tests.support.descriptions import policy_for, robot, write
-from tests.support.loop_story import AT, ORIGIN, LoopStory, loop_story
+from tests.support.loop_story import AT, ORIGIN, LoopStory, NotedWorker, loop_story
 from tests.support.open_documents import Ear, until
 
 if TYPE_CHECKING:
@@ -134,7 +134,7 @@ def test_a_process_that_falls_in_the_midst_of_what_it_was_asked_is_asked_again(
         async with loop_story(tmp_path) as story:
             story.stop()  # it cannot answer before it falls
             waiting = asyncio.ensure_future(way(story))
-            await asyncio.sleep(0.05)
+            await story.until_asked()
             await story.fall()
             await waiting
             await story.edit("8")
@@ -149,7 +149,7 @@ def test_edits_made_while_a_process_falls_are_made_once(tmp_path: Path):
         async with loop_story(tmp_path) as story:
             story.stop()
             first = asyncio.ensure_future(story.edit("7"))
-            await asyncio.sleep(0.05)
+            await story.until_asked()
             edit = Edit(str(story.file), AT, AT, b"1")
             second = asyncio.ensure_future(story.splice(edit))
             await story.fall()
@@ -165,9 +165,9 @@ def test_an_edit_behind_a_question_whose_process_falls_is_made(tmp_path: Path):
         async with loop_story(tmp_path) as story:
             story.stop()
             asking = asyncio.ensure_future(story.ask())
-            await asyncio.sleep(0.05)
+            await story.until_asked()
             editing = asyncio.ensure_future(story.edit("7"))
-            await asyncio.sleep(0.05)
+            await asyncio.sleep(0)
             await story.fall()
             await asyncio.gather(asking, editing)
             story.check("14")
@@ -178,10 +178,10 @@ def test_an_edit_behind_a_question_whose_process_falls_is_made(tmp_path: Path):
 @kills_processes
 def test_an_edit_behind_a_question_that_took_too_long_is_made(tmp_path: Path):
     async def run() -> None:
-        async with loop_story(tmp_path, DescriptionWorker(timeout_s=3.0)) as story:
+        async with loop_story(tmp_path, NotedWorker(timeout_s=3.0)) as story:
             story.stop()
             asking = story.asked(ORIGIN)
-            await asyncio.sleep(0.05)
+            await story.until_asked()
             await story.edit("7")
             assert isinstance(await asking, NoReply)
             story.check("14")
@@ -195,7 +195,7 @@ def test_a_process_that_falls_while_it_opens_is_followed_by_another(tmp_path: Pa
         async with loop_story(tmp_path) as story:
             story.stop()
             opening = asyncio.ensure_future(story.loop.reopen())
-            await asyncio.sleep(0.05)
+            await story.until_asked()
             await story.fall()
             await opening
             await story.edit("8")
@@ -204,7 +204,7 @@ def test_a_process_that_falls_while_it_opens_is_followed_by_another(tmp_path: Pa
     asyncio.run(run())
 
 
-class FallingWorker(DescriptionWorker):
+class FallingWorker(NotedWorker):
     """Falls as soon as it looks at what edits patched."""
 
     fell = False

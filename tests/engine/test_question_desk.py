@@ -34,7 +34,7 @@ def test_an_edit_overtakes_the_questions_that_wait(tmp_path: Path):
         async with loop_story(tmp_path, worker) as story:
             story.stop()
             begun = story.asked(ORIGIN)
-            await asyncio.sleep(0.05)  # it is with the worker; the next ones are not
+            await story.until_asked()  # the next ones are not with the worker
             waiting = [story.asked(SiteEffectsQuery("?")), story.asked(OutlineQuery())]
             await asyncio.sleep(0)
             edits = [asyncio.ensure_future(story.edit(digit)) for digit in ("2", "3")]
@@ -55,7 +55,7 @@ def test_a_flood_of_one_viewer_costs_two_answers(tmp_path: Path):
             story.stop()
             viewer = Ear(Role.VIEWER)
             begun = story.asked(SiteEffectsQuery("0"), viewer)
-            await asyncio.sleep(0.05)
+            await story.until_asked()
             flood = [story.asked(SiteEffectsQuery(str(n)), viewer) for n in range(1, 65)]
             await asyncio.sleep(0)
             story.go_on()
@@ -109,7 +109,7 @@ def test_a_drag_that_begins_behind_a_run_holds_what_was_asked_before(tmp_path: P
         async with loop_story(tmp_path, worker) as story:
             story.stop()
             editing = asyncio.ensure_future(story.edit("2"))
-            await asyncio.sleep(0.05)
+            await story.until_asked()
             asking = story.asked(ORIGIN)
             await asyncio.sleep(0)
             dragging = asyncio.ensure_future(story.drag("3"))

@@ -8,10 +8,10 @@ import signal
 from contextlib import asynccontextmanager, suppress
 from typing import TYPE_CHECKING
 
-from studio.description.client import DescriptionWorker
+from studio.description.client import EXPANSION_TIMEOUT_S, DescriptionWorker
 from studio.description.editing.sources import Sources
 from studio.description.origins.origin_values import PartOrigin, PartOriginQuery
-from studio.description.values import Edit, EditRequest, Expansion
+from studio.description.values import Edit, Expansion
 from studio.engine.edit_loop import EditLoop, Target
 from studio.packages.roots import ServedRoots
 from tests.support.descriptions import policy_for, robot, write
@@ -23,6 +23,12 @@ if TYPE_CHECKING:
 
     from studio.description.queries import Query, Reply
     from studio.description.session import Answer
+    from studio.description.values import (
+        ArgumentsRequest,
+        EditRequest,
+        OpenRequest,
+        ReloadRequest,
+    )
     from studio.engine.edit_loop import Outcome
 
 SOURCE = robot(
@@ -34,18 +40,33 @@ ORIGIN = PartOriginQuery("link:left")
 
 
 class NotedWorker(DescriptionWorker):
-    """A worker that notes the edits and questions that it has answered."""
+    """A worker that notes what it was asked, and which edits and questions it has answered."""
 
-    def __init__(self) -> None:
-        super().__init__()
+    def __init__(self, timeout_s: float = EXPANSION_TIMEOUT_S) -> None:
+        super().__init__(timeout_s)
+        self.asked = 0
         self.answered: list[str] = []
 
+    async def open(self, request: OpenRequest) -> Answer:
+        self.asked += 1
+        return await super().open(request)
+
+    async def set_arguments(self, request: ArgumentsRequest) -> Answer:
+        self.asked += 1
+        return await super().set_arguments(request)
+
+    async def reload(self, request: ReloadRequest) -> Answer:
+        self.asked += 1
+        return await super().reload(request)
+
     async def edit(self, request: EditRequest) -> Answer:
+        self.asked += 1
         answer = await super().edit(request)
         self.answered.append("edit")
         return answer
 
     async def query(self, query: Query) -> Reply:
+        self.asked += 1
         reply = await super().query(query)
         self.answered.append(type(query).__name__)
         return reply
@@ -54,8 +75,9 @@ class NotedWorker(DescriptionWorker):
 class LoopStory:
     """A loop over one open robot, and what came of its runs."""
 
-    def __init__(self, file: Path, worker: DescriptionWorker) -> None:
+    def __init__(self, file: Path, worker: NotedWorker) -> None:
         roots = ServedRoots([file.parent])
+        self._worker, self._asked_before = worker, 0
         self.file = file
         self.outcomes: list[Outcome] = []
         self.sources = Sources(roots.read, roots.resolve, lambda _: True, {})
@@ -104,7 +126,12 @@ class LoopStory:
 
     def stop(self) -> None:
         """Have the process stand still: it answers nothing."""
+        self._asked_before = self._worker.asked
         os.kill(self.pid, signal.SIGSTOP)
+
+    async def until_asked(self) -> None:
+        """Wait until the process that stands still was asked something."""
+        await until(lambda: self._worker.asked > self._asked_before)
 
     def go_on(self) -> None:
         """Have it go on."""
@@ -132,12 +159,10 @@ def _is_there(pid: int) -> bool:
 
 
 @asynccontextmanager
-async def loop_story(
-    folder: Path, worker: DescriptionWorker | None = None
-) -> AsyncGenerator[LoopStory]:
+async def loop_story(folder: Path, worker: NotedWorker | None = None) -> AsyncGenerator[LoopStory]:
     """A story whose robot is open."""
     file = write(folder, {"a.xacro": SOURCE})
-    story = LoopStory(file, worker or DescriptionWorker())
+    story = LoopStory(file, worker or NotedWorker())
     try:
         await story.loop.reopen()
         yield story
