@@ -34,6 +34,9 @@ _FIXED_PIXELS = """() => {
 an idle one."""
 
 
+_NO_NOTE = "localStorage.setItem('studio.graphics.said', 'true')"
+"""That the processor draws is said over the 3D view, and would be in pictures of it."""
+
 _SEVERAL_FRAMES = """() => new Promise((done) => {
   const view = document.querySelector("iframe")?.contentWindow ?? window;
   const frame = (left) => view.requestAnimationFrame(() => (left ? frame(left - 1) : done()));
@@ -158,6 +161,7 @@ def studio_context(browser: Browser) -> BrowserContext:
     """A browser's session, in which pictures of the 3D view can be compared."""
     context = browser.new_context(viewport={"width": 1280, "height": 720}, reduced_motion="reduce")
     context.add_init_script(f"({_FIXED_PIXELS})()")
+    context.add_init_script(_NO_NOTE)
     return context
 
 
