@@ -34,7 +34,7 @@ _FIXED_PIXELS = """() => {
 an idle one."""
 
 
-_NO_NOTE = "localStorage.setItem('studio.graphics.said', 'true')"
+_NO_NOTE = "try { localStorage.setItem('studio.graphics.said', 'true') } catch {}"
 """That the processor draws is said over the 3D view, and would be in pictures of it."""
 
 _SEVERAL_FRAMES = """() => new Promise((done) => {
