@@ -317,6 +317,8 @@ def _read_numbers(written: str) -> tuple[float, ...] | None:
     Raises:
         ValueError: A word is no number.
     """
+    if "_" in written or not written.isascii():  # numbers to Python, to no other reader of URDF
+        raise ValueError(written)
     numbers = tuple(map(float, written.split()))
     finite = all(-_COORDINATE_LIMIT < one < _COORDINATE_LIMIT for one in numbers)
     return numbers if finite else None

@@ -118,6 +118,14 @@ def test_a_prefix_that_nobody_declared_does_not_matter():
             'link "arm", inertial: value of <mass> is "nan": write finite numbers.',
         ),
         (
+            f'<joint name="j" type="fixed">{ENDS}<limit upper="1_000"/></joint>',
+            'joint "j": upper of <limit> is "1_000": write numbers.',
+        ),
+        (
+            f'<joint name="j" type="fixed">{ENDS}<origin xyz="0 0 ٣"/></joint>',
+            'joint "j": xyz of <origin> is "0 0 ٣": write numbers.',
+        ),
+        (
             '<link name="arm"><inertial/></link>',
             'link "arm", inertial has no <mass>: write one.',
         ),

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import IO, TYPE_CHECKING
 
 from studio.errors import NotSavedError, PackageError, SaveConflictError
+from studio.packages.presence import is_writable
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -128,15 +129,16 @@ def _check(
 
 
 def _refuse_read_only(file: str, target: Path, *, allowed: bool) -> None:
-    if not allowed:
-        raise NotSavedError(file, "its folder was opened for reading only; save a copy elsewhere")
+    # What the system forbids comes first: it also makes that nothing is allowed.
     for path, sentence in (
         (target, "the file is read-only; make it writable first"),
         (target.parent, "its folder is read-only; make it writable first"),
     ):
         # Root may write everything, but a mode without write bits still says "leave it".
-        if not path.stat().st_mode & _WRITE_BITS or not os.access(path, os.W_OK):
+        if not path.stat().st_mode & _WRITE_BITS or not is_writable(path):
             raise NotSavedError(file, sentence)
+    if not allowed:
+        raise NotSavedError(file, "its folder was opened for reading only; save a copy elsewhere")
 
 
 def _write_beside(one: _Checked) -> Path:

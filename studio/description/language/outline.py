@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from studio.description.syntax.source_tree import SourceElement
 
 _CALLS_SHOWN: Final = 50
-_FILES_SHOWN: Final = 1_000
+_FILES_SHOWN: Final = 5_000
 _VALUES_SHOWN: Final = 10_000
 
 
