@@ -49,6 +49,7 @@ class Draft:
 
 
 _DECODER: Final = msgspec.json.Decoder(Draft)
+_BROKEN_JSON: Final = (msgspec.MsgspecError, UnicodeDecodeError, RecursionError)
 
 
 class DraftFile:
@@ -71,7 +72,7 @@ class DraftFile:
             return None
         except OSError as error:
             raise DraftError(str(self._path), _reason(error)) from error
-        except (msgspec.MsgspecError, UnicodeDecodeError) as error:
+        except _BROKEN_JSON as error:
             raise self._put_aside(f"it is broken ({error})") from error
         if draft.version != _VERSION:
             raise self._put_aside(f"it has the format {draft.version} of another studio")
@@ -85,8 +86,12 @@ class DraftFile:
         """
         fresh = self._path.with_suffix(".part")
         try:
+            data = msgspec.json.encode(draft)
+        except UnicodeEncodeError as error:
+            raise DraftError(draft.entry, "a file has a name that is no text") from error
+        try:
             with fresh.open("wb") as stream:
-                stream.write(msgspec.json.encode(draft))
+                stream.write(data)
                 stream.flush()
                 os.fsync(stream.fileno())
             fresh.replace(self._path)
@@ -172,8 +177,10 @@ def _left(path: Path) -> Draft | None:
         if lock is None:
             return None
         lock.close()  # at once: somebody may be about to open the file
+        if path.stat().st_size > _LIMIT_BYTES:
+            return None
         draft = _DECODER.decode(path.read_bytes())
-    except (OSError, msgspec.MsgspecError, UnicodeDecodeError):
+    except (OSError, *_BROKEN_JSON):
         return None  # whoever opens its file is told
     return draft if draft.version == _VERSION and draft.kept.unsaved_files else None
 

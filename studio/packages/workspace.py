@@ -15,7 +15,7 @@ from studio.packages.choices import folder_of_choice, load_choices, save_choices
 from studio.packages.discovery import FOLDER_LIMIT, Discovery, discover
 from studio.packages.entry_points import EntryPoint, entry_points
 from studio.packages.environment import RosEnvironment, is_install_space, is_installed
-from studio.packages.folder_memory import FolderMemory
+from studio.packages.folder_memory import FolderMemory, is_text
 from studio.packages.index import Indexed, PackageIndex, Standing
 from studio.packages.manifest import FILE_NAME
 from studio.packages.presence import is_file, is_folder, is_there
@@ -108,6 +108,9 @@ def open_location(
     """
     tell = progress or _tell_nobody
     real = Path(os.path.realpath(path))
+    if not is_text(str(real)):
+        shown = str(real).encode("utf-8", "replace").decode()
+        raise UnreadableFileError(shown, "has a name that is no text: rename it to open it.")
     roots = _roots_to_serve(real) if within is None else _roots_within(real, within)
     if is_file(real) and real.suffix.lower() == ".zip":
         real = _unpacked(real, data_folder, tell)

@@ -11,7 +11,7 @@ import pytest
 
 from studio.description.editing.kept_sources import KeptSources, KeptText
 from studio.description.editing.undo import ArgumentChange, Splice, Step
-from studio.engine.draft_store import Draft, draft_file, forget_drafts
+from studio.engine.draft_store import Draft, draft_file, forget_drafts, left_drafts
 from studio.errors import DraftError
 from tests.support.permissions import open_folder, unprivileged
 
@@ -80,6 +80,7 @@ def test_a_draft_that_was_removed_is_none(tmp_path: Path, taken: Taken):
         b' "version": 2}',
         b'{"entry": "/a", "at": "", "opened_with": {}, "kept": {"arguments": {}, "texts":'
         b' [{"file": "/a", "disk": "no base64!", "now": ""}]}}',
+        b'{"x": ' + b"[" * 100_000,
     ],
 )
 def test_what_is_no_draft_is_put_aside_with_a_sentence(data: bytes, tmp_path: Path, taken: Taken):
@@ -145,3 +146,21 @@ def test_drafts_are_forgotten_but_for_those_of_open_documents(tmp_path: Path, ta
     forget_drafts(tmp_path, [held, left])
     assert kept.read() == draft_of(held)
     assert taken(tmp_path, left).read() is None
+
+
+def test_a_name_that_no_draft_can_hold_is_said(tmp_path: Path, taken: Taken):
+    entry = tmp_path / "a.xacro"
+    place = taken(tmp_path, entry)
+    odd = KeptSources((KeptText(os.fsdecode(b"/p/\xff"), b"1", b"2"),), {})
+    with pytest.raises(DraftError, match="a name that is no text"):
+        place.write(draft_of(entry, odd))
+    assert place.read() is None
+
+
+def test_a_look_at_what_was_left_passes_over_broken_drafts(tmp_path: Path):
+    entry = tmp_path / "a.xacro"
+    with closing(draft_file(tmp_path, entry)) as place:
+        place.write(draft_of(entry))
+    (tmp_path / "drafts/deep-1.json").write_bytes(b'{"x": ' + b"[" * 100_000)
+    (tmp_path / "drafts/text-1.json").write_bytes(b"no draft")
+    assert left_drafts(tmp_path) == [draft_of(entry)]

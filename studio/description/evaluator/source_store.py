@@ -140,7 +140,8 @@ class SourceStore:
             sentence = f'"{pattern}" has wildcards in more than {WILDCARD_LEVELS} folders.'
             raise Refusal("too-many-wildcards", sentence)
         self.resolve(os.path.dirname(fixed) or ".")  # noqa: PTH120 - a text, not a Path
-        return sorted(glob.glob(pattern))  # noqa: PTH207 - as xacro does it
+        found = glob.glob(pattern)  # noqa: PTH207 - as xacro does it
+        return sorted(one for one in found if _is_text(one))
 
     def edit(self, edits: Iterable[Edit]) -> None:
         """Apply edits in order; either all or none.
@@ -223,3 +224,8 @@ def _unreadable(path: str, sentence: str) -> Fault:
         fault = Fault("file-unreadable", sentence)
     fault.unreadable = True
     return fault
+
+
+def _is_text(path: str) -> bool:
+    """Whether a message can carry a path: Linux allows names of any bytes."""
+    return path == path.encode("utf-8", "replace").decode()

@@ -74,8 +74,13 @@ def names_in(reading: Reading, folder: str) -> list[tuple[str, bool]]:
             found = [
                 (one.name, one.is_dir())
                 for one, _ in zip(entries, range(NAMES_LISTED), strict=False)
-                if not one.name.startswith(".")
+                # Linux allows names that are no text, which no message can carry.
+                if not one.name.startswith(".") and "\ufffd" not in _spelled(one.name)
             ]
     except OSError:
         return []
     return sorted(found, key=lambda one: (not one[1], one[0]))
+
+
+def _spelled(name: str) -> str:
+    return os.fsencode(name).decode("utf-8", "replace")

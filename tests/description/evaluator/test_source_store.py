@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import TYPE_CHECKING
 
 import pytest
@@ -83,4 +84,5 @@ def test_nothing_outside_the_roots_is_read_edited_or_laid_over(tmp_path: Path):
 
 def test_patterns_match_sorted_files(tmp_path: Path):
     write(tmp_path, {"b.x": "", "a.x": "", "c.y": ""})
+    (tmp_path / os.fsdecode(b"no text \xff.x")).touch()
     assert store_of(tmp_path).glob(f"{tmp_path}/*.x") == [f"{tmp_path}/{n}.x" for n in "ab"]
