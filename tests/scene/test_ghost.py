@@ -8,7 +8,6 @@ import pytest
 
 from studio.robot.values import Robot
 from studio.scene.ghost import GHOST_RGB
-from studio.scene.naming import link_of
 from tests.support.robots import rover
 from tests.support.viser_frames import told_of, types_of
 from tests.support.watched_scene import URI, poses_of, robot_with_mesh, sent_by, triangle, watched
@@ -32,10 +31,6 @@ def test_a_ghost_is_drawn_in_one_colour_see_through_and_without_shadow():
         assert len(shapes) == visuals
 
     watched(scenario)
-
-
-def test_a_ghost_is_no_link_that_can_be_clicked():
-    assert link_of("/ghost/base_link/0") is None
 
 
 def test_a_ghost_moves_by_itself_and_stands_where_it_is_put():
