@@ -9,7 +9,8 @@ const DEGREES_PER_RADIAN = 180 / Math.PI;
  */
 export function parseNumber(text) {
   const trimmed = text.trim();
-  return NUMBER.test(trimmed) ? Number(trimmed) : null;
+  const number = NUMBER.test(trimmed) ? Number(trimmed) : Number.NaN;
+  return Number.isFinite(number) ? number : null;
 }
 
 /**

@@ -15,7 +15,7 @@ test("only a plain number is read as one", () => {
   assert.equal(parseNumber(" 0.105 "), 0.105);
   assert.equal(parseNumber("-.5"), -0.5);
   assert.equal(parseNumber("1e-3"), 0.001);
-  for (const text of ["", "a", "1 2", "0x10", "1,5", "${1}", "Infinity", "1e"]) {
+  for (const text of ["", "a", "1 2", "0x10", "1,5", "${1}", "Infinity", "1e", "1e999", "nan"]) {
     assert.equal(parseNumber(text), null, text);
   }
 });
