@@ -3,8 +3,9 @@
 import { html } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
 import { later } from "../lib/later.js";
-import { Dialog } from "../lib/ui.js";
+import { Dialog, DialogAside } from "../lib/ui.js";
 import { GraphicsDialog } from "./graphics.js";
+import { DialogHelp } from "./help.js";
 import { LaunchDialog } from "./launch-dialog.js";
 import { MergeDialog } from "./merge-dialog.js";
 import { Palette } from "./palette.js";
@@ -24,7 +25,12 @@ const close = () => {
   dialog.value = null;
 };
 
+/** The window that is open, with the way to its help in its head. */
 export function Dialogs() {
+  return html`<${DialogAside.Provider} value=${DialogHelp}><${ShownDialog} /><//>`;
+}
+
+function ShownDialog() {
   const shown = dialog.value;
   switch (shown?.kind) {
     case "open":

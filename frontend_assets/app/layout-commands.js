@@ -9,6 +9,7 @@ import { effect } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
 import { openMenu } from "../lib/ui.js";
 import { addCommands, replaceCommands } from "./commands.js";
+import { helpTitle, openHelp } from "./help.js";
 import { layoutDesk } from "./layouts.js";
 import { PANELS, panelTitle } from "./panels.js";
 import { layoutInUse, ownLayouts } from "./state/own-layouts.js";
@@ -20,7 +21,12 @@ const NAMES_SHOWN = 3;
 
 /** @param {Dock} dock @param {HTMLElement} element that holds it */
 export function addLayoutCommands(dock, element) {
-  addCommands([...showCommands(dock), ...focusCommands(dock), ...placeCommands(dock)]);
+  addCommands([
+    ...showCommands(dock),
+    ...focusCommands(dock),
+    ...placeCommands(dock),
+    helpCommand(dock),
+  ]);
   effect(() => replaceCommands("layout.", layoutCommands()));
   element.addEventListener("contextmenu", (event) => {
     const id = dock.panelOfTab(event.target);
@@ -91,6 +97,20 @@ function placeCommands(dock) {
   ];
 }
 
+/** @param {Dock} dock @returns {Command} help on what one is at */
+function helpCommand(dock) {
+  return {
+    id: "help_panel",
+    icon: "help",
+    keys: ["F1"],
+    inText: true,
+    run: () => {
+      const id = dock.panelOfTab(document.activeElement) ?? dock.active() ?? "";
+      openHelp(id, dock.tab(id));
+    },
+  };
+}
+
 /** @returns {Command[]} the studio's own layout and each that was saved */
 function layoutCommands() {
   const names = ["", ...ownLayouts.value.map(({ name }) => name)];
@@ -139,6 +159,11 @@ function openPanelMenu(dock, id) {
         dock.show(id);
         dock.toggleMaximized();
       },
+    },
+    {
+      label: t("help.of", { page: helpTitle(id) }),
+      icon: "help",
+      run: () => openHelp(id, tab),
     },
     { label: t("panel.close"), icon: "close", run: () => dock.close(id) },
   ]);

@@ -11,6 +11,7 @@ import { clearSelection, redo, save, toggleAnimation, undo, watch, zeroJoints } 
 import { addCommands, onKey } from "./commands.js";
 import { listenToDrops } from "./drop.js";
 import { followGraphics } from "./graphics.js";
+import { helpCommands, helpTitle, openHelp } from "./help.js";
 import { followMissing } from "./launch-dialog.js";
 import { addLayoutCommands } from "./layout-commands.js";
 import { followSize } from "./layouts.js";
@@ -35,6 +36,8 @@ function startDock(element) {
   const dock = createDock(element, dockPanels(), {
     maximizeLabel: () => t("maximize"),
     restoreLabel: () => t("restore"),
+    helpLabel: (id) => t("help.of", { page: helpTitle(id) }),
+    onHelp: openHelp,
     icon: iconElement,
     onChange: () => arrangement?.keep(),
     onActive: (id) => {
@@ -111,6 +114,7 @@ function addPageCommands() {
       run: clearSelection,
     },
     { id: "keys", icon: "keyboard", keys: ["?"], run: () => show({ kind: "keys" }) },
+    ...helpCommands(),
     ...menuCommands(),
   ]);
 }

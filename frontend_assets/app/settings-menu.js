@@ -47,6 +47,8 @@ function settingsItems() {
   return [
     // The bar of a phone has no room for the palette's button.
     ...(size.value === "phone" ? [commandItem("palette", "search", t("palette.hint"))] : []),
+    ...(size.value === "phone" ? [commandItem("help_panel", "help")] : []),
+    commandItem("help", "help"),
     { ...commandItem("keys", "keyboard"), hint: "?" },
     { label: t("theme"), heading: true },
     ...themeItems(),

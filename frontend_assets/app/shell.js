@@ -14,11 +14,13 @@ import { PANELS, panelTitle } from "./panels.js";
 import { RestoredBar } from "./restored-bar.js";
 import { connection, role, turnedAway } from "./state/connection.js";
 import { documentId, documentState, gone } from "./state/document.js";
+import { help } from "./state/help.js";
 import { activePanel, dismiss, notices, size } from "./state/view.js";
 import { StatusBar } from "./status-bar.js";
 import { TopBar } from "./top-bar.js";
 
 const SAY_AFTER_MS = 600;
+const HelpPlace = later(async () => (await import("./help-sheet.js")).HelpPlace);
 const StartCard = later(async () => (await import("./start-card.js")).StartCard);
 
 /** @param {{onDock: (element: HTMLElement) => void}} props */
@@ -40,6 +42,7 @@ export function Shell({ onDock }) {
     ${documentId.value === "" && html`<${StartCard} />`}
     <${Notices} />
     <${Dialogs} />
+    ${help.value && html`<${HelpPlace} />`}
     <${DropLayer} />
   </div>`;
 }

@@ -1,11 +1,13 @@
 /** The dock: panels in tabs and splits. The one place that knows dockview, so that it can be replaced. */
 
-/** @import { DockviewApi, DockviewGroupPanel, IDockviewPanel } from "vendor/dockview.js" */
+/** @import { DockviewApi, IDockviewPanel } from "vendor/dockview.js" */
 /** @import { Arrangement } from "./arrangement.js" */
+/** @import { ActionOptions } from "./dock-actions.js" */
 /** @import { Place } from "./dock-places.js" */
 
 import { createDockview } from "vendor/dockview.js";
 import { fromDockview, toDockview } from "./arrangement.js";
+import { headerActions } from "./dock-actions.js";
 import { movePanel, placesFor } from "./dock-places.js";
 import { keepInPlace } from "./frame-place.js";
 import { keepScrolled } from "./scrolled.js";
@@ -44,8 +46,7 @@ const THEME = { name: "studio", className: "dockview-theme-studio", gap: 6 };
 /**
  * @param {HTMLElement} element
  * @param {Record<string, Panel>} panels
- * @param {{maximizeLabel: () => string, restoreLabel: () => string, onChange: () => void,
- *   onActive: (id: string | null) => void, icon: (name: string) => Element}} options
+ * @param {ActionOptions & {onChange: () => void, onActive: (id: string | null) => void}} options
  * @returns {Dock}
  */
 export function createDock(element, panels, options) {
@@ -57,7 +58,7 @@ export function createDock(element, panels, options) {
     noPanelsOverlay: "watermark",
     createComponent: ({ name }) => contentOf(panels[name], restores),
     createTabComponent: ({ name }) => tabOf(panels[name]),
-    createRightHeaderActionComponent: (group) => maximizeButton(group, options),
+    createRightHeaderActionComponent: (group) => headerActions(group, options),
   });
   element.addEventListener("keydown", (event) => onTabKey(api, event));
   const tabsChanged = keepTabsWhole(element);
@@ -166,36 +167,6 @@ function tabOf(panel) {
       end = panel?.mountTab(element) ?? end;
     },
     dispose: () => end(),
-  };
-}
-
-/**
- * @param {DockviewGroupPanel} group
- * @param {{maximizeLabel: () => string, restoreLabel: () => string, icon: (name: string) => Element}} options
- */
-function maximizeButton(group, { maximizeLabel, restoreLabel, icon }) {
-  const element = document.createElement("button");
-  element.type = "button";
-  element.className = "icon-button maximize";
-  let listening = { dispose() {} };
-  return {
-    element,
-    /** @param {{containerApi: DockviewApi}} parameters */
-    init({ containerApi }) {
-      const label = () => {
-        const big = group.api.isMaximized();
-        element.replaceChildren(icon(big ? "minimize" : "maximize"));
-        element.title = big ? restoreLabel() : maximizeLabel();
-        element.setAttribute("aria-label", element.title);
-      };
-      label();
-      listening = containerApi.onDidMaximizedGroupChange(label);
-      element.addEventListener("click", () => {
-        if (group.api.isMaximized()) group.api.exitMaximized();
-        else group.api.maximize();
-      });
-    },
-    dispose: () => listening.dispose(),
   };
 }
 

@@ -1,7 +1,15 @@
 /** Small parts that every panel is made of. */
 
 import { ICONS } from "vendor/icons.js";
-import { html, useEffect, useId, useLayoutEffect, useRef } from "vendor/preact.js";
+import {
+  createContext,
+  html,
+  useContext,
+  useEffect,
+  useId,
+  useLayoutEffect,
+  useRef,
+} from "vendor/preact.js";
 
 /** @import { ComponentChildren } from "vendor/preact.js" */
 
@@ -242,6 +250,9 @@ function onMenuKey(menu, event, close) {
   event.stopPropagation();
 }
 
+/** What stands in the head of every window beside the way out of it. */
+export const DialogAside = createContext(/** @type {(() => ComponentChildren) | null} */ (null));
+
 /**
  * A modal window. Escape and a click beside it close it.
  *
@@ -250,12 +261,14 @@ function onMenuKey(menu, event, close) {
 export function Dialog({ title, closeLabel, class: names, onClose, children }) {
   const element = useRef(/** @type {HTMLDialogElement | null} */ (null));
   const heading = useId();
+  const aside = useContext(DialogAside);
   // Before the next key press: what is typed right after a shortcut belongs to the dialog.
   useLayoutEffect(() => {
     const before = document.activeElement;
     element.current?.showModal();
     /** @type {HTMLElement | null | undefined} */ (
-      element.current?.querySelector("[data-first]")
+      element.current?.querySelector("[data-first]") ??
+        element.current?.querySelector(".dialog-close")
     )?.focus();
     return () => giveFocusBack(before);
   }, []);
@@ -267,7 +280,7 @@ export function Dialog({ title, closeLabel, class: names, onClose, children }) {
     onCancel=${onClose} onClick=${closeBeside}>
     <div class="dialog-body">
       <header><h2 id=${heading}>${title}</h2>
-        <${IconButton} icon="close" label=${closeLabel} class="dialog-close" onClick=${onClose} /></header>
+        ${aside && html`<${aside} />`}<${IconButton} icon="close" label=${closeLabel} class="dialog-close" onClick=${onClose} /></header>
       ${children}
     </div>
   </dialog>`;

@@ -28,5 +28,5 @@ function withModifier(event) {
 
 /** @param {KeyboardEvent} event */
 function isOurs({ key, ctrlKey, metaKey }) {
-  return key === "F6" || ((ctrlKey || metaKey) && OURS.has(key.toLowerCase()));
+  return key === "F6" || key === "F1" || ((ctrlKey || metaKey) && OURS.has(key.toLowerCase()));
 }

@@ -1,0 +1,198 @@
+/** The help at one side of the window: a page, the list of all, or what a search finds. */
+
+/** @import { Block, Part } from "../lib/help-text.js" */
+/** @import { Found, HelpText } from "../lib/help-search.js" */
+
+import { html, useEffect, useId, useLayoutEffect, useRef, useSignal } from "vendor/preact.js";
+import { searchHelp } from "../lib/help-search.js";
+import { plainHelp } from "../lib/help-text.js";
+import { language, t } from "../lib/i18n.js";
+import { shortcutText } from "../lib/keys.js";
+import { Icon, IconButton, SearchBox } from "../lib/ui.js";
+import { onMac } from "./commands.js";
+import { closeHelp, goBackInHelp, goToHelp, helpGroups, helpIcon, helpTitle } from "./help.js";
+import { helpBlocks, helpPicture } from "./help-texts.js";
+import { help, helpTrail } from "./state/help.js";
+import { theme } from "./state/view.js";
+
+/** @param {{page: string, side: string, modal: boolean}} props */
+export function HelpSheet({ page, side, modal }) {
+  const element = useRef(/** @type {HTMLDialogElement | null} */ (null));
+  const words = useSignal("");
+  const heading = useId();
+  const close = () => {
+    if (element.current) closeHelp(element.current);
+  };
+  useLayoutEffect(() => {
+    if (modal) element.current?.showModal();
+    else element.current?.show();
+  }, []);
+  // A page begins at its top, and is read and scrolled by keys at once.
+  useLayoutEffect(() => {
+    const text = element.current?.querySelector(".help-text");
+    text?.scrollTo(0, 0);
+    if (text instanceof HTMLElement) text.focus({ preventScroll: true });
+  }, [page]);
+  /** @param {KeyboardEvent} event */
+  const onKeyDown = (event) => {
+    if (event.defaultPrevented) return;
+    if (event.key === "Escape") close();
+    else if (event.altKey && event.key === "ArrowLeft") goBackInHelp();
+    else return;
+    event.preventDefault();
+    event.stopPropagation();
+  };
+  /** @param {string} to */
+  const go = (to) => {
+    words.value = "";
+    goToHelp(to);
+  };
+  const title = page === "" ? t("help.title") : helpTitle(page);
+  return html`<dialog ref=${element} class=${`help ${side}`} aria-labelledby=${heading} onKeyDown=${onKeyDown}
+    onCancel=${(/** @type {Event} */ event) => {
+      event.preventDefault();
+      close();
+    }}>
+    <header><h2 id=${heading}>${title}</h2>
+      ${page !== "" && html`<button type="button" class="button small" onClick=${() => go("")}>${t("help.all")}</button>`}
+      <${IconButton} icon="close" label=${t("help.close")} onClick=${close} /></header>
+    <${Search} words=${words} onChoose=${go} />
+    <div class="help-text" tabindex="0" role="region" aria-label=${title}>
+      ${words.value.trim() ? html`<${Results} words=${words.value} onChoose=${go} />` : html`<${Content} page=${page} onChoose=${go} />`}
+    </div>
+  </dialog>`;
+}
+
+/** @param {{words: import("vendor/preact.js").Signal<string>, onChoose: (page: string) => void}} props Enter takes the first that is found */
+function Search({ words, onChoose }) {
+  /** @param {KeyboardEvent} event */
+  const onKeyDown = async (event) => {
+    if (event.key !== "Enter") return;
+    event.preventDefault();
+    const [first] = searchHelp(await allTexts(), words.value);
+    if (first) onChoose(first.page);
+  };
+  return html`<div class="help-search" onKeyDown=${onKeyDown}><${SearchBox} label=${t("help.search")} value=${words.value}
+    onInput=${(/** @type {string} */ text) => {
+      words.value = text;
+    }} /></div>`;
+}
+
+/** @returns {Promise<HelpText[]>} */
+async function allTexts() {
+  const pages = Object.values(helpGroups()).flat();
+  return Promise.all(
+    pages.map(async (page) => ({
+      page,
+      title: helpTitle(page),
+      text: plainHelp(await helpBlocks(language.value, page)),
+    })),
+  );
+}
+
+/** @param {{words: string, onChoose: (page: string) => void}} props */
+function Results({ words, onChoose }) {
+  const found = useSignal(/** @type {Found[] | null} */ (null));
+  useEffect(() => {
+    let wanted = true;
+    allTexts().then((texts) => {
+      if (wanted) found.value = searchHelp(texts, words);
+    });
+    return () => {
+      wanted = false;
+    };
+  }, [words, language.value]);
+  if (found.value === null) return null;
+  if (found.value.length === 0)
+    return html`<p class="nothing" role="status">${t("filter.nothing", { words })}</p>`;
+  return html`<ul class="help-found" aria-label=${t("help.search")}>${found.value.map(
+    ({ page, title, excerpt }) => html`<li key=${page}>
+      <button type="button" class="help-entry" onClick=${() => onChoose(page)}><strong>${title}</strong><span>${excerpt}</span></button></li>`,
+  )}</ul>`;
+}
+
+/** @param {{page: string, onChoose: (page: string) => void}} props */
+function Content({ page, onChoose }) {
+  return page === ""
+    ? html`<${AllPages} onChoose=${onChoose} />`
+    : html`<${Back} /><${Page} key=${page} page=${page} onChoose=${onChoose} />`;
+}
+
+function Back() {
+  const last = helpTrail.value.at(-1);
+  if (!last) return null;
+  return html`<button type="button" class="text-button help-back" onClick=${goBackInHelp}>${t("help.back", { page: helpTitle(last) })}</button>`;
+}
+
+/** @param {{onChoose: (page: string) => void}} props */
+function AllPages({ onChoose }) {
+  return html`<nav aria-label=${t("help.all")}>${Object.entries(helpGroups()).map(
+    ([group, pages]) => html`<section key=${group}><h3>${t(`help.group.${group}`)}</h3>
+      <ul class="help-list">${pages.map(
+        (
+          page,
+        ) => html`<li key=${page}><button type="button" class="help-entry" onClick=${() => onChoose(page)}>
+          <${Icon} name=${helpIcon(page)} /><span>${helpTitle(page)}</span></button></li>`,
+      )}</ul></section>`,
+  )}</nav>`;
+}
+
+/** @param {{page: string, onChoose: (page: string) => void}} props */
+function Page({ page, onChoose }) {
+  const blocks = useSignal(/** @type {readonly Block[] | null} */ (null));
+  useEffect(() => {
+    let wanted = true;
+    helpBlocks(language.value, page).then((read) => {
+      if (wanted) blocks.value = read;
+    });
+    return () => {
+      wanted = false;
+    };
+  }, [page, language.value]);
+  if (blocks.value === null) return null;
+  if (blocks.value.length === 0)
+    return html`<p class="nothing" role="status">${t("help.lost")}</p>`;
+  return html`<article>${blocks.value.map((block) => drawnBlock(block, onChoose))}</article>`;
+}
+
+/** @param {Block} block @param {(page: string) => void} onChoose */
+function drawnBlock(block, onChoose) {
+  const drawn = (/** @type {readonly Part[]} */ parts) =>
+    parts.map((part) => drawnPart(part, onChoose));
+  switch (block.kind) {
+    case "picture":
+      return html`<img src=${helpPicture(block.name, theme.value)} alt=${block.alt} />`;
+    case "heading":
+      return html`<h3>${drawn(block.parts)}</h3>`;
+    case "list":
+      return html`<ul>${block.entries.map((entry) => html`<li>${drawn(entry)}</li>`)}</ul>`;
+    default:
+      return html`<p>${drawn(block.parts)}</p>`;
+  }
+}
+
+/** @param {Part} part @param {(page: string) => void} onChoose */
+function drawnPart(part, onChoose) {
+  switch (part.kind) {
+    case "strong":
+      return html`<strong>${part.text}</strong>`;
+    case "code":
+      return html`<code>${part.text}</code>`;
+    case "key":
+      return html`<kbd>${shortcutText(part.text, onMac)}</kbd>`;
+    case "icon":
+      return html`<${Icon} name=${part.text} size=${15} />`;
+    case "mark":
+      return html`<span class=${`help-mark ${part.text}`} aria-hidden="true"></span>`;
+    case "link":
+      return html`<button type="button" class="text-button" onClick=${() => onChoose(part.page)}>${part.text}</button>`;
+    default:
+      return part.text;
+  }
+}
+
+/** The sheet, where it is asked for; a window opened since then has it drawn anew over itself. */
+export function HelpPlace() {
+  const shown = help.value;
+  return shown && html`<${HelpSheet} key=${String(shown.modal)} ...${shown} />`;
+}

@@ -1,0 +1,215 @@
+"""Takes the pictures of the help: `python -m tests.support.help_pictures [name ...]`.
+
+One for each page that names one, in both themes, cut to the panel or window that it is about.
+Names take only those.
+"""
+
+from __future__ import annotations
+
+import base64
+import sys
+import tempfile
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from tests.support.browser import open_browser
+from tests.support.panel_pictures import PANEL_IDS, SHOW_PANEL, THEMES, Theme, tab_of
+from tests.support.readme_pictures import save_variant
+from tests.support.server import running_studio
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from playwright.sync_api import Browser, FloatRect, Locator, Page
+
+    from tests.support.studio_page import StudioPage
+
+FOLDER = Path(__file__).resolve().parents[2] / "frontend_assets/help/pictures"
+PANELS_WINDOW = (1060, 940)
+"""So narrow that a panel, cut to it, is nearly as wide as the help that shows it."""
+DIALOGS_WINDOW = (720, 640)
+_HIGHEST_PX = 380
+_STILL_MS = 1200
+_RUN = """async (id) => {
+  const script = document.querySelector('script[type="module"]').src;
+  (await import(new URL("commands.js", script))).commandById(id).run();
+}"""
+_SHOW_DIALOG = """async (kind) => {
+  const script = document.querySelector('script[type="module"]').src;
+  (await import(new URL("state/view.js", script))).dialog.value = { kind };
+}"""
+_TO_WEBP = """async (png) => {
+  const picture = new Image();
+  picture.src = png;
+  await picture.decode();
+  const canvas = new OffscreenCanvas(picture.width, picture.height);
+  canvas.getContext("2d").drawImage(picture, 0, 0);
+  const webp = await canvas.convertToBlob({ type: "image/webp", quality: 0.85 });
+  return btoa(String.fromCharCode(...new Uint8Array(await webp.arrayBuffer())));
+}"""
+_DOCK_OF = """(id) => {
+  const script = document.querySelector('script[type="module"]').src;
+  return import(new URL("panels.js", script)).then(({ panelTitle }) => {
+    const label = [...document.querySelectorAll(".dv-tabs-container .tab-label")]
+      .find((one) => one.textContent === panelTitle(id));
+    const { x, y, width, height } = label.closest(".dv-groupview").getBoundingClientRect();
+    return { x, y, width, height };
+  });
+}"""
+_BROKEN = """<?xml version="1.0"?>
+<robot name="cart" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:property name="wheel_radius" value="0.1"/>
+  <xacro:property name="spare" value="2"/>
+  <link name="base_link">
+    <visual><geometry><box size="0.4 0.3 0.1"/></geometry></visual>
+  </link>
+  <link name="wheel">
+    <visual><geometry><cylinder radius="${wheel_radius}" length="0.04"/></geometry></visual>
+  </link>
+  <joint name="wheel_joint" type="revolute">
+    <parent link="base_link"/>
+    <child link="wheel"/>
+    <axis xyz="0 1 0"/>
+  </joint>
+</robot>
+"""
+"""What has an error, a warning and notes."""
+
+
+class Camera:
+    """Writes what a page shows, for one theme."""
+
+    def __init__(self, tab: StudioPage, theme: Theme) -> None:
+        self.tab, self.page, self._theme = tab, tab.page, theme
+
+    def take(self, name: str, box: FloatRect, highest_px: int = _HIGHEST_PX) -> None:
+        """Cut the page to the box, no higher than a page of the help bears."""
+        self.page.mouse.move(2, 2)
+        self.page.wait_for_timeout(_STILL_MS)
+        clip: FloatRect = {**box, "height": min(box["height"], highest_px)}
+        png = base64.b64encode(self.page.screenshot(clip=clip)).decode()
+        webp = self.page.evaluate(_TO_WEBP, f"data:image/png;base64,{png}")
+        (FOLDER / f"{name}-{self._theme}.webp").write_bytes(base64.b64decode(webp))
+
+    def take_part(self, name: str, part: Locator) -> None:
+        box = part.bounding_box()
+        assert box is not None, name
+        self.take(name, box)
+
+
+def wanted(name: str) -> bool:
+    """Whether the command line asks for it."""
+    return not sys.argv[1:] or name in sys.argv[1:]
+
+
+def take_panels(camera: Camera) -> None:
+    """Each panel in front, cut to it."""
+    camera.page.get_by_role("treeitem", name="upper_arm", exact=True).click()
+    for panel in camera.page.evaluate(PANEL_IDS):
+        if wanted(panel) and panel != "problems":
+            camera.page.evaluate(SHOW_PANEL, panel)
+            camera.take(panel, camera.page.evaluate(_DOCK_OF, panel))
+
+
+def take_measuring(camera: Camera) -> None:
+    """The distance between two links, chosen in the tree; with the card over the 3D view."""
+    page = camera.page
+    page.evaluate(SHOW_PANEL, "displays")
+    page.evaluate(_RUN, "measure")
+    for name in ("left_finger", "mast"):
+        page.get_by_role("treeitem", name=name, exact=True).click()
+    camera.take("measuring", page.evaluate(_DOCK_OF, "scene"), highest_px=PANELS_WINDOW[1])
+
+
+def show_changes(camera: Camera) -> None:
+    """The window before saving, with one edit in it."""
+    camera.page.evaluate(SHOW_PANEL, "properties")
+    camera.tab.drag_slider("wheel_radius", 0.6)
+    camera.page.evaluate(_RUN, "save")
+
+
+def show_graphics(camera: Camera) -> None:
+    """The window that the note over a slow 3D view opens."""
+    camera.page.evaluate(_SHOW_DIALOG, "graphics")
+
+
+def search(camera: Camera) -> None:
+    camera.page.evaluate(_RUN, "palette")
+    camera.page.locator(".palette-input").fill("wheel")
+
+
+def run(command: str) -> Callable[[Camera], None]:
+    return lambda camera: camera.page.evaluate(_RUN, command)
+
+
+WINDOWS: dict[str, Callable[[Camera], None]] = {
+    "open": run("open"),
+    "arguments": run("arguments"),
+    "search": search,
+    "keys": run("keys"),
+    "layouts": run("layouts"),
+    "graphics": show_graphics,
+    "saving": show_changes,
+}
+
+
+def take_windows(camera: Camera) -> None:
+    """Each window over the page, cut to it."""
+    page = camera.page
+    for name, show in WINDOWS.items():
+        if wanted(name):
+            show(camera)
+            page.locator("dialog").wait_for()
+            camera.take_part(name, page.locator("dialog"))
+            page.keyboard.press("Escape")
+    if wanted("saving"):
+        page.evaluate(_RUN, "undo")
+    if wanted("export"):
+        page.get_by_role("button", name="Export", exact=True).click()
+        camera.take_part("export", page.get_by_role("menu"))
+
+
+def take_problems(page: Page, camera: Camera) -> None:
+    page.evaluate(SHOW_PANEL, "problems")
+    page.locator(".problem-row, [role=treeitem]").first.wait_for()
+    camera.take("problems", page.evaluate(_DOCK_OF, "problems"))
+
+
+def take_demo(browser: Browser, data: Path) -> None:
+    """All pages but that of the problems, of which the demo has none."""
+    with running_studio(["demo"], data) as studio:
+        for theme in THEMES:
+            with tab_of(browser, studio, theme, PANELS_WINDOW) as tab:
+                if theme == THEMES[0] and wanted("variants"):
+                    save_variant(tab, "Road", "small wheels")
+                camera = Camera(tab, theme)
+                take_panels(camera)
+                if wanted("measuring"):
+                    take_measuring(camera)
+            with tab_of(browser, studio, theme, DIALOGS_WINDOW) as tab:
+                take_windows(Camera(tab, theme))
+
+
+def take_broken(browser: Browser, data: Path) -> None:
+    """The problems of a robot that has some."""
+    path = data / "cart.urdf.xacro"
+    path.write_text(_BROKEN)
+    with running_studio(["open", str(path)], data / "studio") as studio:
+        for theme in THEMES:
+            with tab_of(browser, studio, theme, PANELS_WINDOW) as tab:
+                take_problems(tab.page, Camera(tab, theme))
+
+
+def main() -> None:
+    """Take them all anew."""
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    for browser in open_browser():
+        with tempfile.TemporaryDirectory() as data:
+            take_demo(browser, Path(data))
+        if wanted("problems"):
+            with tempfile.TemporaryDirectory() as data:
+                take_broken(browser, Path(data))
+
+
+if __name__ == "__main__":
+    main()
