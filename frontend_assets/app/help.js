@@ -57,9 +57,11 @@ export function goBackInHelp() {
   help.value = { ...help.value, page };
 }
 
-/** The focus goes back to where it was, unless it is somewhere else by now. @param {Element} sheet */
+/** The focus goes back to where it was, unless it is somewhere else by now. @param {HTMLDialogElement} sheet */
 export function closeHelp(sheet) {
   const hadFocus = sheet.contains(document.activeElement);
+  // As long as it lies over a window, nothing in that one can take the focus.
+  sheet.close();
   help.value = null;
   if (hadFocus && before instanceof HTMLElement && before.isConnected) before.focus();
   before = null;

@@ -21,7 +21,7 @@ export const OTHER_PAGES = {
 };
 /** Icons of these pages. @type {Record<string, string>} */
 export const ICON_OF = { ...OTHERS.tasks, ...OTHERS.words };
-/** The page about each window. @type {Record<string, string>} */
+/** The page about each window that has a head; the search finds its own help. @type {Record<string, string>} */
 export const OF_DIALOG = {
   open: "open",
   choose_package: "open",
@@ -30,7 +30,6 @@ export const OF_DIALOG = {
   save_as: "saving",
   merge: "saving",
   share: "export",
-  palette: "search",
   keys: "keys",
   layouts: "layouts",
   graphics: "graphics",
