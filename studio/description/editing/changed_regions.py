@@ -35,8 +35,11 @@ class ChangedRegions:
         """How many there are."""
         return len(self._regions)
 
-    def note(self, edit: Edit, text: bytes | bytearray) -> None:
-        """Take in an edit that made `text`; what it brought back to the base is no region."""
+    def note(self, edit: Edit, text: bytes | bytearray | None) -> None:
+        """Take in an edit that made `text`; what it brought back to the base is no region.
+
+        Without a text no region goes again.
+        """
         touched = self._touched(edit.start, edit.end)
         start, end, shift = edit.start, edit.end, self._shift
         growth = sum(one.growth for one in touched)
@@ -46,9 +49,15 @@ class ChangedRegions:
         merged = Region(
             start - shift, end - shift - growth, growth + len(edit.new) - (edit.end - edit.start)
         )
-        now = text[start : merged.base_end + shift + merged.growth]
-        is_back = self._base[merged.base_start : merged.base_end] == now
+        end = merged.base_end + shift + merged.growth
+        base = self._base[merged.base_start : merged.base_end]
+        is_back = text is not None and base == text[start:end]
         self._regions[self._at : self._at + len(touched)] = [] if is_back else [merged]
+
+    @property
+    def regions(self) -> tuple[Region, ...]:
+        """All of them, in order."""
+        return tuple(self._regions)
 
     def base_span(self, span: Span) -> Span | None:
         """Where a span stood in the base; None when a region cuts across an end of it."""

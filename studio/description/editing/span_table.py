@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import re
+from bisect import bisect_left
 from dataclasses import dataclass, replace
+from itertools import accumulate
 from typing import TYPE_CHECKING, Final
 
+from studio.description.editing.changed_regions import ChangedRegions
 from studio.description.values import SiteKind, Span
 from studio.errors import StaleEditError
 
@@ -38,6 +41,31 @@ class _Noted:
         return moved(span, edit)
 
 
+def _moved_by_each(name: str, span: Span | None, notes: Iterable[_Noted]) -> Span | None:
+    for noted in notes:
+        span = noted.moved(name, span)
+    return span
+
+
+class _Shifts:
+    """How far edits of one file, one after the other, move what none of them touched."""
+
+    def __init__(self, notes: Iterable[_Noted]) -> None:
+        changed = ChangedRegions(b"")
+        for noted in notes:
+            changed.note(noted.edit, None)
+        self._regions = changed.regions
+        self._ends = [one.base_end for one in self._regions]
+        self._shifts = [0, *accumulate(one.growth for one in self._regions)]
+
+    def of(self, span: Span) -> int | None:
+        """By how many bytes; None: an edit touched the span or an end of it."""
+        at = bisect_left(self._ends, span.start)
+        if at < len(self._regions) and self._regions[at].base_start <= span.end:
+            return None
+        return self._shifts[at]
+
+
 class SpanTable:
     """The sites of the last good run, and the edits since, which move their spans.
 
@@ -51,30 +79,39 @@ class SpanTable:
         self._spans: dict[str, dict[str, Span | None]] = {}
         """By file, where its sites were at the last good run; None: an edit cut across one."""
         self._since: list[_Noted] = []
+        self._shifts: dict[str, tuple[list[_Noted], _Shifts]] = {}
+        """By file, the edits since, and how far they move what they did not touch."""
 
     def adopt(self, changed: Iterable[Site], order: Iterable[str] | None, version: int) -> None:
         """Take over a run's sites: `changed` and `order` as in `Expansion`, true at `version`.
 
         Those that are not among `changed` moved with the edits until then.
         """
+        by_file: dict[str, list[_Noted]] = {}
         for noted in self._since:
             if noted.version <= version:
-                self._move(noted)
+                by_file.setdefault(noted.edit.file, []).append(noted)
+        for file, notes in by_file.items():
+            self._move(self._spans.get(file, {}), notes)
         for site in changed:
             self._sites[site.id] = site
             self._spans.setdefault(site.place.file, {})[site.id] = site.span
         if order is not None:
             self._keep_only(set(order))
         self._since = [noted for noted in self._since if noted.version > version]
+        self._shifts.clear()
 
-    def _move(self, noted: _Noted) -> None:
-        """Have the sites of a file stand where an edit left them."""
-        edit, spans = noted.edit, self._spans.get(noted.edit.file, {})
-        is_as_long = len(edit.new) == edit.end - edit.start
+    def _move(self, spans: dict[str, Span | None], notes: list[_Noted]) -> None:
+        """Have the sites of a file stand where edits left them."""
+        shifts = _Shifts(notes)
         for name, span in spans.items():
-            if span is None or span.end < edit.start or (is_as_long and span.start > edit.end):
+            if span is None:
                 continue
-            spans[name] = noted.moved(name, span)
+            shift = shifts.of(span)
+            if shift is None:
+                spans[name] = _moved_by_each(name, span, notes)
+            elif shift:
+                spans[name] = Span(span.start + shift, span.end + shift, span.syntax)
 
     def _keep_only(self, wanted: set[str]) -> None:
         self._sites = {one: site for one, site in self._sites.items() if one in wanted}
@@ -83,6 +120,7 @@ class SpanTable:
 
     def note(self, edits: Iterable[Edit]) -> int:
         """Note edits that were applied, in order; the version that they lead to."""
+        self._shifts.clear()
         for edit in edits:
             self.version += 1
             self._since.append(_Noted(self.version, edit))
@@ -96,6 +134,7 @@ class SpanTable:
     def wrote(self, site_id: str) -> None:
         """Say that the edit noted last wrote a site's text as its place spells it."""
         self._since[-1] = replace(self._since[-1], site=site_id)
+        self._shifts.clear()
 
     def site(self, site_id: str) -> Site:
         """A site as the last run had it.
@@ -119,12 +158,23 @@ class SpanTable:
         """
         file = self.site(site_id).place.file
         span = self._spans[file][site_id]
-        for noted in self._since:
-            if noted.edit.file == file:
-                span = noted.moved(site_id, span)
+        if span is not None and self._since:
+            notes, shifts = self._since_in(file)
+            shift = shifts.of(span)
+            if shift is None:
+                span = _moved_by_each(site_id, span, notes)
+            elif shift:
+                span = Span(span.start + shift, span.end + shift, span.syntax)
         if span is None:
             raise StaleEditError(site_id)
         return span
+
+    def _since_in(self, file: str) -> tuple[list[_Noted], _Shifts]:
+        known = self._shifts.get(file)
+        if known is None:
+            notes = [one for one in self._since if one.edit.file == file]
+            known = self._shifts[file] = (notes, _Shifts(notes))
+        return known
 
 
 def moved(span: Span, edit: Edit) -> Span | None:

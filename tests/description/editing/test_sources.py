@@ -311,3 +311,18 @@ def test_edits_of_real_robots_keep_every_span_and_undo_gives_every_site_back(cor
             assert sources.unsaved_files == ()
             turned += 1
     assert turned > 30
+
+
+def test_thousands_of_edits_move_the_sites_that_they_do_not_touch_in_a_moment(
+    tmp_path: Path, rover: Path, limits: Path
+):
+    """Quick, as the time limit of each test is: every edit was weighed with every site."""
+    sources = opened(tmp_path, rover, limits)
+    site, file, before = radius(rover), str(rover), sources.spans.span(radius(rover))
+    end = len(sources.text(file))
+    sources.edit_all([Edit(file, end, end, b" ") for _ in range(3_000)], "Blanks behind")
+    assert sources.spans.span(site) == before
+    sources.edit_all([Edit(file, 0, 0, b" ") for _ in range(3_000)], "Blanks before")
+    after = sources.spans.span(site)
+    assert (after.start, after.end) == (before.start + 3_000, before.end + 3_000)
+    assert sources.current_text(site) == "0.1"
