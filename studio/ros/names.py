@@ -1,0 +1,200 @@
+"""Names of ROS 2: what rcl and rosidl allow, and how a short name becomes a full one."""
+
+from __future__ import annotations
+
+import re
+
+from studio.errors import RosNameError
+
+NODE_NAME_CHARACTERS_MAX = 255
+NAMESPACE_CHARACTERS_MAX = 245
+TOPIC_NAME_CHARACTERS_MAX = 247
+
+_PART = re.compile(r"[A-Za-z_][A-Za-z0-9_]*", re.ASCII)
+_SUBSTITUTION = re.compile(r"\{([^{}]*)\}")
+_PACKAGE = re.compile(r"(?!.*__)(?!.*_$)[a-z][a-z0-9_]*", re.ASCII)
+_TYPE = re.compile(r"[A-Z][A-Za-z0-9]*", re.ASCII)
+_PARTS_OF_TYPES = {
+    "msg": "",
+    "srv": "Request|Response|Event",
+    "action": "Goal|Result|Feedback|FeedbackMessage"
+    "|(?:SendGoal|GetResult)(?:_(?:Request|Response|Event))?",
+}
+KINDS = tuple(_PARTS_OF_TYPES)
+
+
+def check_node_name(name: str) -> str:
+    """Give back the name of a node, without its namespace.
+
+    Raises:
+        RosNameError: rcl would refuse it.
+    """
+    _check_length(name, NODE_NAME_CHARACTERS_MAX)
+    if not name:
+        raise RosNameError(name, "a node needs a name")
+    _check_part(name, name)
+    return name
+
+
+def check_namespace(namespace: str) -> str:
+    """Give back a namespace, which begins with a slash and ends with none unless it is `/`.
+
+    Raises:
+        RosNameError: rcl would refuse it.
+    """
+    _check_length(namespace, NAMESPACE_CHARACTERS_MAX)
+    if not namespace.startswith("/"):
+        raise RosNameError(namespace, "a namespace begins with a slash")
+    if namespace != "/":
+        _check_parts(namespace, namespace[1:])
+    return namespace
+
+
+def as_namespace(text: str) -> str:
+    """Make a namespace of what a user gives: empty is `/`, and a missing first slash is added."""
+    return check_namespace(text if text.startswith("/") else f"/{text}")
+
+
+def check_topic_name(name: str) -> str:
+    """Give back the name of a topic, service or action: absolute, relative or private with `~`.
+
+    Raises:
+        RosNameError: rcl would refuse it.
+    """
+    if not name:
+        raise RosNameError(name, "a topic needs a name")
+    _check_length(name, TOPIC_NAME_CHARACTERS_MAX)
+    rest = name.removeprefix("~")
+    if rest != name and rest and not rest.startswith("/"):
+        raise RosNameError(name, "a slash follows ~")
+    body = rest.removeprefix("/")
+    if body or rest:
+        _check_parts(name, _SUBSTITUTION.sub(lambda found: _known(name, found[1]), body))
+    return name
+
+
+def expand(name: str, namespace: str = "/", node: str = "node") -> str:
+    """Make the fully qualified name of a topic, service or action of a node, nothing remapped.
+
+    Raises:
+        RosNameError: A name breaks a rule, also after `{node}` and `{ns}` were put in.
+    """
+    check_topic_name(name)
+    values = {
+        "node": check_node_name(node),
+        "ns": check_namespace(namespace),
+        "namespace": namespace,
+    }
+    filled = _SUBSTITUTION.sub(lambda found: values[found[1]].removeprefix("/"), name)
+    if name.startswith(("{ns}", "{namespace}")):
+        filled = "/" + filled.removeprefix("/")
+    if filled.startswith("~"):
+        filled = node_path(namespace, node) + filled[1:]
+    elif not filled.startswith("/"):
+        filled = f"{namespace.rstrip('/')}/{filled}"
+    return check_full_name(filled)
+
+
+def check_full_name(name: str) -> str:
+    """Give back a fully qualified name.
+
+    Raises:
+        RosNameError: It is not absolute, or a part of it breaks a rule.
+    """
+    _check_length(name, TOPIC_NAME_CHARACTERS_MAX)
+    if not name.startswith("/"):
+        raise RosNameError(name, "a fully qualified name begins with a slash")
+    _check_parts(name, name[1:])
+    return name
+
+
+def node_path(namespace: str, node: str) -> str:
+    """Join a namespace and the name of a node: `/` and `talker` to `/talker`."""
+    return f"{namespace.rstrip('/')}/{node}"
+
+
+def split_node_path(path: str) -> tuple[str, str]:
+    """Part `/ns/talker` into namespace and name.
+
+    Raises:
+        RosNameError: It names no node.
+    """
+    namespace, _, node = check_full_name(path).rpartition("/")
+    return namespace or "/", node
+
+
+def is_hidden(name: str) -> bool:
+    """Whether a part of the name begins with an underscore, as `/turn/_action/feedback` does."""
+    return any(part.startswith("_") for part in name.split("/"))
+
+
+def check_package_name(name: str) -> str:
+    """Give back the name of a package of interfaces.
+
+    Raises:
+        RosNameError: rosidl would refuse it.
+    """
+    if not _PACKAGE.fullmatch(name):
+        raise RosNameError(
+            name, "a package is named in lower case letters, digits and single underscores"
+        )
+    return name
+
+
+def split_type_name(name: str) -> tuple[str, str, str]:
+    """Part `std_msgs/msg/String` into package, kind and type; parts as `Turn_Goal` are types too.
+
+    Raises:
+        RosNameError: It is no full name of a type.
+    """
+    package, kind, base = name.split("/") if name.count("/") == 2 else ("", "", "")
+    if kind not in _PARTS_OF_TYPES:
+        raise RosNameError(
+            name, "a type is named package/msg/Type, package/srv/Type or package/action/Type"
+        )
+    check_package_name(package)
+    stem, _, part = base.partition("_")
+    if not _TYPE.fullmatch(stem) or (
+        "_" in base and not re.fullmatch(_PARTS_OF_TYPES[kind] or r"(?!)", part)
+    ):
+        raise RosNameError(name, "a type is named in letters and digits, the first a capital")
+    return package, kind, base
+
+
+def full_type_name(name: str, kind: str = "msg") -> str:
+    """Complete what users write: `std_msgs/String` or `std_msgs.msg.String`.
+
+    Raises:
+        RosNameError: It names no type.
+    """
+    parts = re.split(r"[./]", name)
+    if len(parts) == 2:
+        parts.insert(1, kind)
+    full = "/".join(parts)
+    split_type_name(full)
+    return full
+
+
+def _known(name: str, substitution: str) -> str:
+    if substitution not in {"node", "ns", "namespace"}:
+        raise RosNameError(name, "only {node}, {ns} and {namespace} are filled in")
+    return "x"
+
+
+def _check_parts(name: str, body: str) -> None:
+    for part in body.split("/"):
+        if not part:
+            raise RosNameError(name, "no slash stands at the end or beside another one")
+        _check_part(name, part)
+
+
+def _check_part(name: str, part: str) -> None:
+    if part[0].isdigit():
+        raise RosNameError(name, f'no part begins with a digit, as "{part}" does')
+    if not _PART.fullmatch(part):
+        raise RosNameError(name, f'only a-z, A-Z, 0-9 and _ are allowed, "{part}" has others')
+
+
+def _check_length(name: str, characters_max: int) -> None:
+    if len(name) > characters_max:
+        raise RosNameError(name, f"it is longer than {characters_max} characters")

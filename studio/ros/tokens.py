@@ -1,0 +1,143 @@
+"""Liveliness tokens: how nodes and endpoints say that they are there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from studio.errors import RosNameError, TokenError
+from studio.ros.keys import dds_type, parse_domain, ros_type
+from studio.ros.names import check_full_name, check_namespace, check_node_name, node_path
+from studio.ros.qos import QoSProfile, parse_qos, qos_text
+
+ADMIN_SPACE = "@ros2_lv"
+BACKENDS = "backends:"
+# What a reader of buffer-aware topics that takes plain memory only says.
+CPU_BACKENDS = "backends:cpu:"
+_NODE_CHUNKS = 9
+_ENDPOINT_CHUNKS = 13
+_ID_MAX = 2**64 - 1
+
+
+class EndpointKind(StrEnum):
+    """What a token stands for, by its letters on the wire."""
+
+    PUBLISHER = "MP"
+    SUBSCRIPTION = "MS"
+    SERVICE = "SS"
+    CLIENT = "SC"
+
+
+@dataclass(frozen=True, slots=True)
+class NodeToken:
+    """A node: `zid` is its Zenoh session, `nid` its number therein; names may repeat."""
+
+    domain: int
+    zid: str
+    nid: int
+    namespace: str
+    name: str
+    enclave: str = "/"
+
+    @property
+    def path(self) -> str:
+        """Namespace and name, `/ns/talker`."""
+        return node_path(self.namespace, self.name)
+
+    def __str__(self) -> str:
+        return _head(self, self.nid, "NN")
+
+
+@dataclass(frozen=True, slots=True)
+class EndpointToken:
+    """A publisher, subscription, service or client of a node.
+
+    `name` is fully qualified, the type of a service is that of the whole, `extra` are chunks
+    after the QoS, such as the backends of buffer-aware topics.
+    """
+
+    node: NodeToken
+    eid: int
+    kind: EndpointKind
+    name: str
+    type_name: str
+    type_hash: str
+    qos: QoSProfile
+    extra: tuple[str, ...] = ()
+
+    @property
+    def backends(self) -> str | None:
+        """The chunk that makes a topic of Lyrical buffer-aware, None without."""
+        return next((chunk for chunk in self.extra if chunk.startswith(BACKENDS)), None)
+
+    def __str__(self) -> str:
+        what = (self.name, dds_type(self.type_name), self.type_hash, qos_text(self.qos))
+        return "/".join([_head(self.node, self.eid, self.kind), *map(_mangled, what), *self.extra])
+
+
+def tokens_of_domain(domain: int) -> str:
+    """Give the key expression of every token of a domain."""
+    return f"{ADMIN_SPACE}/{domain}/**"
+
+
+def parse_token(token: str) -> NodeToken | EndpointToken:
+    """Read a token.
+
+    Raises:
+        TokenError: It is none of rmw_zenoh's.
+    """
+    chunks = token.split("/")
+    if chunks[0] != ADMIN_SPACE or len(chunks) < _NODE_CHUNKS:
+        raise TokenError(token, "it has too few parts")
+    if not all(chunks):
+        raise TokenError(token, "a part of it is empty")
+    try:
+        return _parse_chunks(token, chunks)
+    except RosNameError as error:
+        raise TokenError(token, str(error).rstrip(".")) from None
+
+
+def _parse_chunks(token: str, chunks: list[str]) -> NodeToken | EndpointToken:
+    node = NodeToken(
+        domain=parse_domain(chunks[1], chunks[1]),
+        zid=chunks[2],
+        nid=_number(token, chunks[3]),
+        enclave=_plain(chunks[6]),
+        namespace=check_namespace(_plain(chunks[7])),
+        name=check_node_name(_plain(chunks[8])),
+    )
+    eid = _number(token, chunks[4])
+    if chunks[5] == "NN":
+        return node
+    if chunks[5] not in set(EndpointKind) or len(chunks) < _ENDPOINT_CHUNKS:
+        raise TokenError(token, f"it is no endpoint of a known kind ({chunks[5][:20]})")
+    return EndpointToken(
+        node=node,
+        eid=eid,
+        kind=EndpointKind(chunks[5]),
+        name=check_full_name(_plain(chunks[9])),
+        type_name=ros_type(_plain(chunks[10])),
+        type_hash=_plain(chunks[11]),
+        qos=parse_qos(chunks[12]),
+        extra=tuple(chunks[_ENDPOINT_CHUNKS:]),
+    )
+
+
+def _head(node: NodeToken, eid: int, kind: str) -> str:
+    numbers = f"{node.domain}/{node.zid}/{node.nid}/{eid}/{kind}"
+    names = "/".join(map(_mangled, (node.enclave, node.namespace, node.name)))
+    return f"{ADMIN_SPACE}/{numbers}/{names}"
+
+
+def _number(token: str, text: str) -> int:
+    if not (text.isascii() and text.isdigit() and len(text) <= 20 and int(text) <= _ID_MAX):
+        raise TokenError(token, f'"{text[:30]}" is no number of a node or endpoint')
+    return int(text)
+
+
+def _mangled(text: str) -> str:
+    return text.replace("/", "%")
+
+
+def _plain(chunk: str) -> str:
+    return chunk.replace("%", "/")

@@ -1,0 +1,1 @@
+"""Interface texts in, types with hashes and classes of message values out."""

@@ -1,0 +1,276 @@
+"""All types that are known: the distribution's, those that the studio carries, and users' own."""
+
+from __future__ import annotations
+
+import threading
+from dataclasses import dataclass, field
+from functools import cache
+from typing import TYPE_CHECKING
+
+from studio.errors import InterfaceTextError, UnknownTypeError
+from studio.interfaces import carried_texts
+from studio.ros.names import split_type_name
+from studio.ros.types.calls import (
+    event_of,
+    feedback_message_of,
+    get_result_of,
+    send_goal_of,
+    whole_of,
+    whole_of_action,
+)
+from studio.ros.types.classes import MessageValue, make_class
+from studio.ros.types.definitions import Action, Interface, Message, Service, messages_of
+from studio.ros.types.hashes import type_hash
+from studio.ros.types.limits import check_sizes
+from studio.ros.types.parser import parse_interface
+from studio.ros.types.stores import MessageStore
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+# What nodes themselves speak: a text that says otherwise would cut them off from all others.
+_SETTLED = {
+    "action_msgs",
+    "builtin_interfaces",
+    "lifecycle_msgs",
+    "rcl_interfaces",
+    "rosgraph_msgs",
+    "service_msgs",
+    "type_description_interfaces",
+    "unique_identifier_msgs",
+}
+TEXTS_MAX = 20_000
+
+
+@dataclass(frozen=True, slots=True)
+class ServiceType:
+    """A service as nodes use it; the names are rclpy's."""
+
+    name: str
+    type_hash: str
+    Request: type[MessageValue]
+    Response: type[MessageValue]
+    Event: type[MessageValue]
+
+
+@dataclass(frozen=True, slots=True)
+class ActionType:
+    """An action as nodes use it; the names are rclpy's."""
+
+    name: str
+    type_hash: str
+    Goal: type[MessageValue]
+    Result: type[MessageValue]
+    Feedback: type[MessageValue]
+    SendGoal: ServiceType
+    GetResult: ServiceType
+    FeedbackMessage: type[MessageValue]
+
+
+@dataclass
+class _Known:
+    """The texts of a source, read: what each defines, and the messages therein by name."""
+
+    interfaces: dict[str, Interface] = field(default_factory=dict[str, Interface])
+    messages: dict[str, Message] = field(default_factory=dict[str, Message])
+    texts: dict[str, str] = field(default_factory=dict[str, str])
+
+    def take(self, interface: Interface, text: str) -> None:
+        self.interfaces[interface.name] = interface
+        self.texts[interface.name] = text
+        self.messages |= {message.name: message for message in _all_messages(interface)}
+
+
+class TypeLibrary:
+    """The types of one distribution; a user's own come before those it has, as in an overlay.
+
+    Any thread may ask; classes are made once, until `add_texts` changes what they are made of.
+    """
+
+    def __init__(self, distro: str) -> None:
+        self.distro = distro
+        self.generation = 0
+        self._store = MessageStore(distro)
+        self._carried = _carried()
+        self._own = _Known()
+        self._lock = threading.RLock()
+        self._classes: dict[str, type[MessageValue]] = {}
+        self._hashes: dict[str, str] = {}
+
+    def add_texts(self, texts: Mapping[str, str]) -> list[str]:
+        """Take up texts by the full names of their types, all or none; give the names.
+
+        What a type is made of may come later: until then it is unknown, with the reason.
+
+        Raises:
+            InterfaceTextError: A text breaks a rule, or makes a type too large or part of itself.
+            RosNameError: A name does.
+        """
+        read = [(parse_interface(name, text), text) for name, text in texts.items()]
+        with self._lock:
+            if len(self._own.texts.keys() | texts.keys()) > TEXTS_MAX:
+                raise InterfaceTextError("types", None, f"more than {TEXTS_MAX} were given")
+            tried = _Known({**self._own.interfaces}, {**self._own.messages}, {**self._own.texts})
+            for interface, text in read:
+                self._refuse_settled(interface)
+                tried.take(interface, text)
+            before, self._own = self._own, tried
+            try:
+                for interface, _ in read:
+                    self._check(interface)
+            except InterfaceTextError:
+                self._own = before
+                raise
+            self.generation += 1
+            self._classes.clear()
+            self._hashes.clear()
+        return list(texts)
+
+    def names(self) -> list[str]:
+        """Name every type, those of calls whole, in the order of the alphabet."""
+        names = {*self._carried.interfaces, *self._own.interfaces, *self._store.names()}
+        return sorted(names)
+
+    def text_of(self, name: str) -> str | None:
+        """Give the text of a type as it was written; None for those of the distribution."""
+        return self._own.texts.get(name) or self._carried.texts.get(name)
+
+    def interface(self, name: str) -> Interface:
+        """Give what a text defines: a message, service or action.
+
+        Raises:
+            UnknownTypeError: No such type is known.
+        """
+        known = self._own.interfaces.get(name)
+        if known is None and split_type_name(name)[1] != "msg":
+            known = self._carried.interfaces.get(name)
+        return known or self.find(name)
+
+    def find(self, name: str) -> Message:
+        """Give a message by its full name, parts of calls such as `T_Request` too.
+
+        Raises:
+            UnknownTypeError: No such message is known.
+        """
+        own = self._own.messages.get(name)
+        found = own or _richer(self._store.find(name), self._carried.messages.get(name))
+        if found is None:
+            raise UnknownTypeError(name)
+        return found
+
+    def message(self, name: str) -> type[MessageValue]:
+        """Give the class of a message's values; the same class each time.
+
+        Raises:
+            UnknownTypeError: It, or what it is made of, is not known.
+        """
+        with self._lock:
+            made = self._classes.get(name)
+            if made is None:
+                definition = self.find(name)
+                check_sizes(definition, self.find)
+                made = self._classes[name] = make_class(definition, self.message)
+            return made
+
+    def service(self, name: str) -> ServiceType:
+        """Give the classes and the hash of a service; parts of actions are services too.
+
+        Raises:
+            UnknownTypeError: It, or what it is made of, is not known.
+        """
+        self.find(name)
+        request, response, event = (
+            self.message(f"{name}_{part}") for part in ("Request", "Response", "Event")
+        )
+        return ServiceType(name, self.hash_of(name), request, response, event)
+
+    def action(self, name: str) -> ActionType:
+        """Give the classes and the hash of an action.
+
+        Raises:
+            UnknownTypeError: It, or what it is made of, is not known.
+        """
+        self.find(name)
+        parts = ("Goal", "Result", "Feedback", "FeedbackMessage")
+        goal, result, feedback, message = (self.message(f"{name}_{part}") for part in parts)
+        return ActionType(
+            name,
+            self.hash_of(name),
+            goal,
+            result,
+            feedback,
+            self.service(f"{name}_SendGoal"),
+            self.service(f"{name}_GetResult"),
+            message,
+        )
+
+    def hash_of(self, name: str) -> str:
+        """Give the RIHS01 hash of a message, service or action, also where keys carry none.
+
+        Raises:
+            UnknownTypeError: It, or what it is made of, is not known.
+        """
+        with self._lock:
+            found = self._hashes.get(name)
+            if found is None:
+                found = self._hashes[name] = type_hash(self.find(name), self.find)
+            return found
+
+    def _refuse_settled(self, interface: Interface) -> None:
+        if interface.name.partition("/")[0] not in _SETTLED:
+            return
+        for message in messages_of(interface):
+            try:
+                known = self.find(message.name)
+            except UnknownTypeError:
+                continue
+            if not _alike(known, message):
+                raise InterfaceTextError(
+                    interface.name,
+                    None,
+                    f"nodes of {self.distro} speak another form of it: leave it out",
+                )
+
+    def _check(self, interface: Interface) -> None:
+        for message in messages_of(interface):
+            try:
+                check_sizes(message, self.find)
+            except UnknownTypeError:
+                continue
+
+
+def _all_messages(interface: Interface) -> list[Message]:
+    match interface:
+        case Message():
+            return [interface]
+        case Service():
+            return [*messages_of(interface), event_of(interface), whole_of(interface)]
+        case Action():
+            calls = (send_goal_of(interface), get_result_of(interface))
+            return [
+                *messages_of(interface),
+                *(message for call in calls for message in _all_messages(call)),
+                feedback_message_of(interface),
+                whole_of_action(interface),
+            ]
+
+
+@cache
+def _carried() -> _Known:
+    known = _Known()
+    for name, text in carried_texts().items():
+        known.take(parse_interface(name, text), text)
+    return known
+
+
+def _richer(stored: Message | None, carried: Message | None) -> Message | None:
+    """Choose the carried one, with its defaults and comments, where both have the same fields."""
+    if stored is None or carried is None:
+        return stored or carried
+    return carried if _alike(stored, carried) else stored
+
+
+def _alike(one: Message, other: Message) -> bool:
+    return [(field.name, field.type) for field in one.fields] == [
+        (field.name, field.type) for field in other.fields
+    ]

@@ -1,0 +1,228 @@
+"""Our own reader of .msg, .srv and .action texts; comments are kept for display."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+
+from studio.errors import InterfaceTextError, RosNameError
+from studio.ros.names import check_package_name, split_type_name
+from studio.ros.types.definitions import (
+    PRIMITIVES,
+    STRINGS,
+    Action,
+    Constant,
+    Field,
+    FieldType,
+    Interface,
+    Message,
+    Service,
+    Shape,
+)
+from studio.ros.types.literals import parse_literal, parse_scalar
+
+TEXT_BYTES_MAX = 1_000_000
+MEMBERS_MAX = 2_000
+COUNT_MAX = 2**32 - 1
+_PARTS = {"msg": 1, "srv": 2, "action": 3}
+_TYPE = re.compile(
+    r"(?P<base>[A-Za-z][\w/]*)(?:<=(?P<string>\d+))?(?:\[(?P<count>(?:<=)?\d*)\])?", re.ASCII
+)
+_LINE = re.compile(r"(?P<type>\S+)\s+(?P<name>[A-Za-z]\w*)(?P<rest>.*)", re.ASCII)
+_FIELD_NAME = re.compile(r"(?!.*__)(?!.*_$)[a-z][a-z0-9_]*", re.ASCII)
+_CONSTANT_NAME = re.compile(r"[A-Z](?:[A-Z0-9_]?[A-Z0-9]+)*", re.ASCII)
+_HEADER = "std_msgs/msg/Header"
+
+
+def parse_interface(name: str, text: str) -> Interface:
+    """Read the text of a type by its full name, `package/msg/Type`, `/srv/` or `/action/`.
+
+    Raises:
+        InterfaceTextError: The text breaks a rule; name and line are told.
+        RosNameError: The name of the type does.
+    """
+    _, kind, base = split_type_name(name)
+    if "_" in base:
+        raise RosNameError(name, "a type is named in letters and digits, the first a capital")
+    if len(text) > TEXT_BYTES_MAX or len(text.encode(errors="replace")) > TEXT_BYTES_MAX:
+        raise InterfaceTextError(name, None, f"the text is longer than {TEXT_BYTES_MAX} bytes")
+    parts = _split(text)
+    if len(parts) != _PARTS[kind]:
+        raise InterfaceTextError(
+            name,
+            None,
+            f"a .{kind} has parts, {_PARTS[kind]} between lines of ---, not {len(parts)}",
+        )
+    if kind == "msg":
+        return _message(name, name, parts[0])
+    if kind == "srv":
+        request, response = (
+            _message(name, f"{name}_{part}", lines)
+            for part, lines in zip(("Request", "Response"), parts, strict=True)
+        )
+        return Service(name, request, response)
+    goal, result, feedback = (
+        _message(name, f"{name}_{part}", lines)
+        for part, lines in zip(("Goal", "Result", "Feedback"), parts, strict=True)
+    )
+    return Action(name, goal, result, feedback)
+
+
+def _split(text: str) -> list[list[tuple[int, str]]]:
+    """Part a text at its lines of `---`; lines are numbered from 1."""
+    parts: list[list[tuple[int, str]]] = [[]]
+    for number, line in enumerate(text.removeprefix("\ufeff").splitlines(), start=1):
+        if line.strip() == "---":
+            parts.append([])
+        else:
+            parts[-1].append((number, line))
+    return parts
+
+
+@dataclass
+class _Draft:
+    """What was read of one message so far; `above` are comments that wait for a member."""
+
+    package: str
+    fields: list[Field] = field(default_factory=list[Field])
+    constants: list[Constant] = field(default_factory=list[Constant])
+    above: list[str] = field(default_factory=list[str])
+    comment: str = ""
+
+    def take(self, line: str) -> None:
+        """Read one line.
+
+        Raises:
+            ValueError: It breaks a rule; half a sentence says which.
+        """
+        code, comment = _split_comment(line)
+        if not code.strip():
+            self._note(comment)
+        else:
+            self._member(code.strip(), comment or "")
+
+    def _note(self, comment: str | None) -> None:
+        """Keep a comment for what follows; the first, set off by an empty line, is the type's."""
+        if comment is not None:
+            self.above.append(comment)
+            return
+        if not (self.comment or self.fields or self.constants):
+            self.comment = "\n".join(self.above)
+        self.above.clear()
+
+    def _member(self, code: str, comment: str) -> None:
+        found = _LINE.fullmatch(code)
+        if not found:
+            raise ValueError(f'"{code[:60]}" is no type and name')
+        if len(self.fields) + len(self.constants) >= MEMBERS_MAX:
+            raise ValueError(f"a type has at most {MEMBERS_MAX} fields and constants")
+        kind = _field_type(found["type"], self.package)
+        said = "\n".join([*self.above, *([comment] if comment else [])])
+        self.above.clear()
+        rest = found["rest"].strip()
+        if rest.startswith("="):
+            self.constants.append(_constant(found["name"], kind, rest[1:].strip(), said))
+        elif rest and not found["rest"][0].isspace():
+            raise ValueError(f'"{found["name"]}{rest[:20]}" is no name of a field')
+        else:
+            self.fields.append(_field(found["name"], kind, rest, said))
+        self._check_unique(found["name"])
+
+    def _check_unique(self, name: str) -> None:
+        names = [one.name for one in (*self.fields, *self.constants)]
+        if names.count(name) > 1:
+            raise ValueError(f"{name} stands there twice")
+
+
+def _message(text_name: str, name: str, lines: list[tuple[int, str]]) -> Message:
+    draft = _Draft(name.partition("/")[0])
+    for number, line in lines:
+        try:
+            draft.take(line)
+        except (ValueError, RosNameError) as error:
+            raise InterfaceTextError(text_name, number, str(error).rstrip(".")) from None
+    draft.take("")
+    return Message(name, tuple(draft.fields), tuple(draft.constants), draft.comment)
+
+
+def _split_comment(line: str) -> tuple[str, str | None]:
+    """Part a line at the `#` that stands in no quotes; the comment is None without one."""
+    quote, place = "", 0
+    while place < len(line):
+        letter = line[place]
+        if quote and letter == "\\":
+            place += 1
+        elif quote:
+            quote = "" if letter == quote else quote
+        elif letter in "\"'" and _opens_value(line[:place]):
+            quote = letter
+        elif letter == "#":
+            return line[:place], line[place + 1 :].strip()
+        place += 1
+    return line, None
+
+
+def _opens_value(before: str) -> bool:
+    """Whether a quote there begins a value; an apostrophe within a bare text does not."""
+    return before[-1:] in set("=[, 	") and bool(before.strip())
+
+
+def _field_type(text: str, package: str) -> FieldType:
+    found = _TYPE.fullmatch(text)
+    if not found:
+        raise ValueError(f'"{text[:60]}" is no type')
+    base = _base(found["base"], package)
+    string_bound = _count(found["string"]) if found["string"] else 0
+    if found["string"] and (base not in STRINGS or not string_bound):
+        raise ValueError(f'"{text[:60]}" is no type: only strings have a bound, from 1 on')
+    count = found["count"]
+    if count is None:
+        return FieldType(base, string_bound=string_bound)
+    if not count:
+        return FieldType(base, Shape.SEQUENCE, string_bound=string_bound)
+    shape = Shape.BOUNDED if count.startswith("<=") else Shape.ARRAY
+    number = _count(count.removeprefix("<="))
+    if not number:
+        raise ValueError(f'"{text[:60]}" is no type: an array has one place at least')
+    return FieldType(base, shape, number, string_bound)
+
+
+def _count(digits: str) -> int:
+    if not digits or len(digits) > 10 or int(digits) > COUNT_MAX:
+        raise ValueError(f'"{digits[:20]}" is no length that an array may have')
+    return int(digits)
+
+
+def _base(text: str, package: str) -> str:
+    if text in PRIMITIVES:
+        return text
+    if text == "Header":
+        return _HEADER
+    parts = text.split("/")
+    if len(parts) == 1:
+        parts = [package, "msg", text]
+    elif len(parts) == 2:
+        parts = [parts[0], "msg", parts[1]]
+    check_package_name(parts[0])
+    name = "/".join(parts)
+    if parts[1] != "msg" or "_" in split_type_name(name)[2]:
+        raise ValueError(f'"{text[:60]}" is no message, and only those are fields')
+    return name
+
+
+def _field(name: str, kind: FieldType, default: str, comment: str) -> Field:
+    if not _FIELD_NAME.fullmatch(name):
+        raise ValueError(
+            f'"{name[:60]}" is no name of a field: lower case letters, digits, single underscores'
+        )
+    return Field(name, kind, parse_literal(default, kind) if default else None, comment)
+
+
+def _constant(name: str, kind: FieldType, value: str, comment: str) -> Constant:
+    if not _CONSTANT_NAME.fullmatch(name):
+        raise ValueError(f'"{name[:60]}" is no name of a constant: upper case letters and digits')
+    if kind.nested or kind.shape is not Shape.SINGLE or kind.string_bound:
+        raise ValueError(f"{name} is a {kind}, and constants are single plain values")
+    if not value and kind.base not in STRINGS:
+        raise ValueError(f"{name} has no value")
+    return Constant(name, kind.base, parse_scalar(value, kind), comment)

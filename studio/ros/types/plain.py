@@ -1,0 +1,221 @@
+"""Message values as plain dicts and YAML, as `ros2 topic echo` prints and `pub` takes them."""
+
+from __future__ import annotations
+
+import csv
+import io
+import sys
+from dataclasses import dataclass
+from itertools import islice
+from typing import Any, cast
+
+import numpy as np
+import yaml
+
+from studio.errors import MessageValueError
+from studio.ros.duration import NANOSECONDS
+from studio.ros.types.arrays import said
+from studio.ros.types.checking import check_scalar
+from studio.ros.types.classes import (
+    MessageValue,
+    attribute_name,
+    class_of_field,
+    definition_of,
+)
+from studio.ros.types.definitions import FLOATS, STRINGS, Field, FieldType, Shape
+
+YAML_CHARACTERS_MAX = 10_000_000
+_ABBREVIATED = {"float32": "float", "float64": "double", "bool": "boolean", "byte": "octet"}
+_HEADER = "std_msgs/msg/Header"
+_TIME = "builtin_interfaces/msg/Time"
+
+
+@dataclass(frozen=True, slots=True)
+class Brevity:
+    """What is left out: values of arrays, letters of texts, all beyond a length."""
+
+    no_arrays: bool = False
+    no_texts: bool = False
+    length_max: int | None = None
+
+
+WHOLE = Brevity()
+
+
+def to_dict(message: MessageValue, brevity: Brevity = WHOLE) -> dict[str, Any]:
+    """Make plain dicts, lists, numbers and texts of a message, by the names of its fields."""
+    return {
+        field.name: _plain(field.type, getattr(message, attribute_name(field.name)), brevity)
+        for field in definition_of(message).fields
+    }
+
+
+def to_yaml(message: MessageValue, brevity: Brevity = WHOLE, *, flow: bool = False) -> str:
+    """Write a message as `ros2 topic echo` does, less the line of `---`."""
+    return yaml.safe_dump(
+        to_dict(message, brevity),
+        allow_unicode=True,
+        sort_keys=False,
+        default_flow_style=flow,
+        width=sys.maxsize,
+    )
+
+
+def to_csv(message: MessageValue, brevity: Brevity = WHOLE) -> str:
+    """Write a message as one line of values, as `ros2 topic echo --csv` does."""
+    out = io.StringIO()
+    csv.writer(out, lineterminator="").writerow(_leaves(to_dict(message, brevity)))
+    return out.getvalue()
+
+
+def from_dict(
+    kind: type[MessageValue], values: object, *, now_ns: int | None = None
+) -> MessageValue:
+    """Make a message of plain values; what is not named keeps its default.
+
+    With `now_ns`, nanoseconds since the epoch, `now` stands for that time and a header may be
+    `auto`, as for `ros2 topic pub`.
+
+    Raises:
+        MessageValueError: A field does not exist or does not take its value; its path is named.
+    """
+    return _Reader(now_ns).message(kind, values, definition_of(kind).name)
+
+
+def from_yaml(kind: type[MessageValue], text: str, *, now_ns: int | None = None) -> MessageValue:
+    """Make a message of YAML, as a command line gives it; empty is all defaults.
+
+    Raises:
+        MessageValueError: It is no YAML, or a field does not take its value.
+    """
+    name = definition_of(kind).name
+    if len(text) > YAML_CHARACTERS_MAX:
+        raise MessageValueError(name, f"more than {YAML_CHARACTERS_MAX} characters were given")
+    try:
+        values = yaml.load(text, Loader=_Loader)
+    except (yaml.YAMLError, RecursionError, ValueError) as error:
+        said = " ".join(str(error).split())
+        raise MessageValueError(name, f"the text is no YAML ({said})") from None
+    return from_dict(kind, {} if values is None else values, now_ns=now_ns)
+
+
+class _Loader(yaml.SafeLoader):
+    """YAML without references: they make a short text as large as one likes."""
+
+    def compose_node(self, parent: Any, index: Any) -> Any:  # noqa: ANN401
+        if self.check_event(yaml.events.AliasEvent):  # pyright: ignore[reportUnknownMemberType]
+            raise yaml.YAMLError("references such as *name are not taken")
+        return super().compose_node(parent, index)
+
+
+@dataclass(frozen=True, slots=True)
+class _Reader:
+    now_ns: int | None
+
+    def message(self, kind: type[MessageValue], values: object, where: str) -> MessageValue:
+        """Make a message of a dict, or of a value that fits."""
+        if isinstance(values, kind):
+            return values
+        definition = definition_of(kind)
+        if definition.name == _TIME and values == "now" and self.now_ns is not None:
+            return kind(
+                **dict(zip(("sec", "nanosec"), divmod(self.now_ns, NANOSECONDS), strict=True))
+            )
+        if definition.name == _HEADER and values == "auto" and self.now_ns is not None:
+            values = {"stamp": "now"}
+        if not isinstance(values, dict):
+            raise MessageValueError(where, f"{said(values)} is no set of fields")
+        fields = {field.name: field for field in definition.fields}
+        given: dict[str, object] = {}
+        for name, value in cast("dict[object, object]", values).items():
+            field = fields.get(name) if isinstance(name, str) else None
+            if field is None:
+                known = ", ".join(fields) or "none"
+                raise MessageValueError(where, f"it has no field {said(name)}, its fields: {known}")
+            given[attribute_name(field.name)] = self._value(
+                kind, field, value, f"{where}.{field.name}"
+            )
+        return kind(**given)
+
+    def _value(self, kind: type[MessageValue], field: Field, value: Any, where: str) -> object:  # noqa: ANN401
+        if field.type.shape is Shape.SINGLE:
+            return self._single(kind, field, value, where)
+        if isinstance(value, (str, dict)) or not hasattr(value, "__iter__"):
+            raise MessageValueError(where, f"{said(value)} is no list of {field.type.base}")
+        if field.type.numeric:
+            return value
+        items = cast("list[object]", value)
+        return [
+            self._single(kind, field, item, f"{where}[{number}]")
+            for number, item in enumerate(items)
+        ]
+
+    def _single(self, kind: type[MessageValue], field: Field, value: object, where: str) -> object:
+        if field.type.nested:
+            return self.message(class_of_field(kind, field), value, where)
+        fitting = _fitted(field.type, value)
+        check_scalar(field.type, fitting, where)
+        return fitting
+
+
+def _fitted(kind: FieldType, value: object) -> object:
+    """Take what YAML makes of a bare word or number for what the field means."""
+    if kind.base in STRINGS and isinstance(value, (int, float)) and not isinstance(value, bool):
+        return str(value)
+    if kind.base in FLOATS and isinstance(value, int) and not isinstance(value, bool):
+        return float(value) if abs(value) < 2**1000 else value
+    if kind.base in FLOATS and isinstance(value, str):
+        return _float_word(value)
+    return value
+
+
+def _float_word(word: str) -> object:
+    """Read `1e-3`, `nan` and `-inf`, which YAML takes for texts."""
+    try:
+        return float(word)
+    except ValueError:
+        return word
+
+
+def _plain(kind: FieldType, value: Any, brevity: Brevity) -> Any:  # noqa: ANN401
+    if kind.shape is Shape.SINGLE:
+        return _plain_single(kind, value, brevity)
+    if brevity.no_arrays:
+        return _abbreviated(kind, len(value))
+    shown = value if brevity.length_max is None else islice(value, brevity.length_max)
+    items = [_plain_single(kind, item, brevity) for item in shown]
+    return [*items, "..."] if len(items) < len(value) else items
+
+
+def _plain_single(kind: FieldType, value: Any, brevity: Brevity) -> Any:  # noqa: ANN401
+    if kind.nested:
+        return to_dict(value, brevity)
+    if kind.base in STRINGS:
+        return _plain_text(value, brevity)
+    return cast("Any", value).item() if isinstance(value, np.generic) else value
+
+
+def _plain_text(value: str, brevity: Brevity) -> str:
+    if brevity.no_texts:
+        return f"<string length: <{len(value)}>>"
+    length_max = brevity.length_max
+    return value if length_max is None or len(value) <= length_max else f"{value[:length_max]}..."
+
+
+def _abbreviated(kind: FieldType, count: int) -> str:
+    base = _ABBREVIATED.get(kind.base, kind.base)
+    match kind.shape:
+        case Shape.ARRAY:
+            return f"<array type: {base}[{kind.count}]>"
+        case Shape.BOUNDED:
+            return f"<sequence type: {base}<{kind.count}>, length: {count}>"
+        case _:
+            return f"<sequence type: {base}, length: {count}>"
+
+
+def _leaves(value: object) -> list[object]:
+    if isinstance(value, dict):
+        return [leaf for one in cast("dict[str, object]", value).values() for leaf in _leaves(one)]
+    if isinstance(value, list):
+        return [leaf for one in cast("list[object]", value) for leaf in _leaves(one)]
+    return [value]
