@@ -92,6 +92,8 @@ class Camera:
         (FOLDER / f"{name}-{self._theme}.webp").write_bytes(base64.b64decode(webp))
 
     def take_part(self, name: str, part: Locator) -> None:
+        # It grows while what it shows arrives.
+        self.page.wait_for_timeout(_STILL_MS)
         box = part.bounding_box()
         assert box is not None, name
         self.take(name, box)
