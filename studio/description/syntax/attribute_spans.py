@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import codecs
 import re
+from functools import lru_cache
 
 from studio.description.values import Span
 from studio.errors import EditError
@@ -25,6 +26,8 @@ _ESCAPES = {"&": "&amp;", "<": "&lt;", "\t": "&#9;", "\n": "&#10;", "\r": "&#13;
 _QUOTES = {'"': "&quot;", "'": "&apos;"}
 
 
+# Asked for every site of a file, of which there may be tens of thousands: each time the same bytes.
+@lru_cache(maxsize=4)
 def text_encoding(data: bytes) -> str:
     """How the bytes are read: UTF-8 wherever they are, as xacro does; else as they declare."""
     try:

@@ -149,3 +149,9 @@ def test_a_byte_order_mark_moves_every_span_with_it():
     tree = parse_source("f", b'\xef\xbb\xbf<robot name="r"><p value="1"/></robot>')
     span = attribute_span(tree.data, tree.elements[1].offset, "value")
     assert tree.data[span.start : span.end] == b"1"
+
+
+def test_the_encoding_of_a_large_file_is_looked_up_once():
+    """Quick, as the time limit of each test is: every site of a file asks for it."""
+    data = b"<robot>" + b" " * 4_000_000 + b"</robot>"
+    assert {text_encoding(data) for _ in range(40_000)} == {"utf-8"}
