@@ -11,8 +11,8 @@ from studio.description.faults import Refusal
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-_BYTES_A_SECOND: Final = 300_000
-_MOST_READING_S: Final = 20.0
+_BYTES_A_SECOND: Final = 150_000
+_MOST_READING_S: Final = 30.0
 _CLOCK_EVERY: Final = 16
 """Steps between two looks at the clock; one may take a tenth of a second."""
 
