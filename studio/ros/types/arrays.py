@@ -113,5 +113,9 @@ def _list_keeper(where: str, kind: FieldType) -> Keep:
 
 def said(value: Any) -> str:  # noqa: ANN401  # of any type, known in part or not
     """Show a value within a sentence, cut where it is long."""
-    shown = repr(value)
+    try:
+        shown = repr(value)
+    except ValueError:
+        # Python writes no number of more than 4300 digits.
+        return "a number too long to show"
     return shown if len(shown) <= 60 else f"{shown[:57]}..."

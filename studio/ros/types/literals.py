@@ -18,8 +18,9 @@ from studio.ros.types.definitions import (
 _INTEGER = re.compile(r"[+-]?(0[xX][0-9a-fA-F]+|0[oO]?[0-7]+|0[bB][01]+|[0-9]+)", re.ASCII)
 _INTEGER_DIGITS_MAX = 70
 _TRUTH = {"true": True, "1": True, "false": False, "0": False}
-_QUOTED = re.compile(r'"(?:[^"\\]|\\.)*"|\'(?:[^\'\\]|\\.)*\'')
-_ITEM = re.compile(rf"\s*({_QUOTED.pattern}|[^,\"'\[\]]+?)\s*(,|$)")
+# Possessive throughout: nothing is tried twice, however long a hostile text is.
+_QUOTED = re.compile(r'"(?:[^"\\]|\\.)*+"|\'(?:[^\'\\]|\\.)*+\'')
+_ITEM = re.compile(rf"\s*+((?:{_QUOTED.pattern})|[^,\"'\[\]]++)\s*+(,|$)")
 _ESCAPE = re.compile(r"\\(.)")
 _ESCAPES = {"n": "\n", "t": "\t", "r": "\r"}
 
@@ -101,6 +102,6 @@ def _items(text: str) -> list[str]:
         found = _ITEM.match(body, place)
         if not found:
             raise ValueError(f"{body[place : place + 40]} is no list of values")
-        items.append(found[1])
+        items.append(found[1].strip())
         place = found.end()
     return items

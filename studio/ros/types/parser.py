@@ -23,6 +23,7 @@ from studio.ros.types.literals import parse_literal, parse_scalar
 
 TEXT_BYTES_MAX = 1_000_000
 MEMBERS_MAX = 2_000
+LINE_CHARACTERS_MAX = 10_000
 COUNT_MAX = 2**32 - 1
 _PARTS = {"msg": 1, "srv": 2, "action": 3}
 _TYPE = re.compile(
@@ -30,7 +31,8 @@ _TYPE = re.compile(
 )
 _LINE = re.compile(r"(?P<type>\S+)\s+(?P<name>[A-Za-z]\w*)(?P<rest>.*)", re.ASCII)
 _FIELD_NAME = re.compile(r"(?!.*__)(?!.*_$)[a-z][a-z0-9_]*", re.ASCII)
-_CONSTANT_NAME = re.compile(r"[A-Z](?:[A-Z0-9_]?[A-Z0-9]+)*", re.ASCII)
+# What rosidl asks for; its own pattern takes a time without end on long names.
+_CONSTANT_NAME = re.compile(r"(?!.*__)(?!.*_$)[A-Z][A-Z0-9_]*", re.ASCII)
 _HEADER = "std_msgs/msg/Header"
 
 
@@ -95,6 +97,8 @@ class _Draft:
         Raises:
             ValueError: It breaks a rule; half a sentence says which.
         """
+        if len(line) > LINE_CHARACTERS_MAX:
+            raise ValueError(f"the line is longer than {LINE_CHARACTERS_MAX} characters")
         code, comment = _split_comment(line)
         if not code.strip():
             self._note(comment)

@@ -25,6 +25,9 @@ from studio.ros.types.classes import (
 from studio.ros.types.definitions import FLOATS, STRINGS, Field, FieldType, Shape
 
 YAML_CHARACTERS_MAX = 10_000_000
+# From here on Python turns whole numbers neither into floats nor into texts.
+_HUGE = 2**1000
+_RARE_LINE_ENDS = frozenset("\r\x85\u2028\u2029\ufeff")
 _ABBREVIATED = {"float32": "float", "float64": "double", "bool": "boolean", "byte": "octet"}
 _HEADER = "std_msgs/msg/Header"
 _TIME = "builtin_interfaces/msg/Time"
@@ -52,8 +55,9 @@ def to_dict(message: MessageValue, brevity: Brevity = WHOLE) -> dict[str, Any]:
 
 def to_yaml(message: MessageValue, brevity: Brevity = WHOLE, *, flow: bool = False) -> str:
     """Write a message as `ros2 topic echo` does, less the line of `---`."""
-    return yaml.safe_dump(
+    return yaml.dump(
         to_dict(message, brevity),
+        Dumper=_Dumper,
         allow_unicode=True,
         sort_keys=False,
         default_flow_style=flow,
@@ -97,6 +101,18 @@ def from_yaml(kind: type[MessageValue], text: str, *, now_ns: int | None = None)
         said = " ".join(str(error).split())
         raise MessageValueError(name, f"the text is no YAML ({said})") from None
     return from_dict(kind, {} if values is None else values, now_ns=now_ns)
+
+
+class _Dumper(yaml.SafeDumper):
+    """YAML that reads back: texts with rare ends of lines are quoted with escapes."""
+
+    def represent_text(self, text: str) -> yaml.ScalarNode:
+        """Choose how a text is written; the plain way where that keeps every letter."""
+        style = '"' if _RARE_LINE_ENDS.intersection(text) else None
+        return yaml.ScalarNode("tag:yaml.org,2002:str", text, style=style)
+
+
+_Dumper.add_representer(str, _Dumper.represent_text)
 
 
 class _Loader(yaml.SafeLoader):
@@ -160,10 +176,10 @@ class _Reader:
 
 def _fitted(kind: FieldType, value: object) -> object:
     """Take what YAML makes of a bare word or number for what the field means."""
-    if kind.base in STRINGS and isinstance(value, (int, float)) and not isinstance(value, bool):
-        return str(value)
-    if kind.base in FLOATS and isinstance(value, int) and not isinstance(value, bool):
-        return float(value) if abs(value) < 2**1000 else value
+    if isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) < _HUGE:
+        if kind.base in STRINGS:
+            return str(value)
+        return float(value) if kind.base in FLOATS else value
     if kind.base in FLOATS and isinstance(value, str):
         return _float_word(value)
     return value

@@ -142,6 +142,22 @@ def test_huge_texts_are_refused():
         message("\n".join(f"int8 a{number}" for number in range(2001)))
 
 
+@pytest.mark.timeout(20)
+@pytest.mark.parametrize(
+    "text",
+    [
+        f"int8 {'A' * 5000}a=1",
+        f"int8 {'A_' * 2000}=1",
+        "int8[] a [" + "1" + " " * 9000 + "[]",
+        'string a "' + "\\" * 9000,
+        "string a " + '"' * 1_000_000,
+    ],
+)
+def test_no_text_takes_long(text: str):
+    with pytest.raises(InterfaceTextError):
+        message(text)
+
+
 @pytest.mark.parametrize("name", ["Thing", "p/msg/thing", "p/msg/A_Request", "../x/msg/T"])
 def test_a_bad_name_of_a_type_is_refused(name: str):
     with pytest.raises(RosNameError):

@@ -35,6 +35,12 @@ def test_a_message_is_printed_as_ros2_topic_echo_does():
     assert to_csv(value) == "0,0,,a,1.0,2.5"
 
 
+@pytest.mark.parametrize("text", ["a\x85 b", "\u2028", " \r\n", "\ufeff", "yes", "1e3", "- a", ""])
+def test_odd_texts_read_back(text: str):
+    string = made("std_msgs/msg/String")
+    assert from_yaml(string, to_yaml(string(data=text))).data == text
+
+
 def test_what_is_left_out_is_told():
     value = STATE(name=["abcdef"], position=[1, 2, 3])
     brief = to_dict(value, Brevity(no_arrays=True))
@@ -82,6 +88,8 @@ def test_now_and_auto_stand_for_the_time():
         ("[" * 5000, "is no YAML"),
         ("2026-99-99", "is no"),
         ("{1: 2}", "it has no field 1"),
+        ("{linear: {x: 0x" + "f" * 9000 + "}}", "x: a number too long to show"),
+        ("9" * 9000, "is no YAML"),
     ],
 )
 def test_a_mistake_is_named_with_its_path(text: str, sentence: str):
