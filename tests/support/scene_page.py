@@ -140,7 +140,7 @@ class ScenePage:
 
     def until(self, condition: str) -> None:
         """Wait until a JavaScript expression holds."""
-        self.frame.wait_for_function(condition, timeout=30_000)
+        self.frame.wait_for_function(condition, timeout=90_000)
 
     def place_of(self, node: str) -> tuple[float, float]:
         """Where on screen the middle of a geometry is."""

@@ -148,7 +148,8 @@ class StudioPage:
         return last
 
     def show_again(self, picture: bytes) -> None:
-        """Wait until the 3D view shows what it showed then."""
+        """Wait until the 3D view shows what it showed then, when nothing was pointed at."""
+        self.page.mouse.move(5, 5)
         wait_until("the picture of before", lambda: self.settle() == picture, _PICTURE_PATIENCE_S)
 
     def show_other_than(self, picture: bytes) -> bytes:

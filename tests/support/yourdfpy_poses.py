@@ -28,7 +28,7 @@ def poses_by_yourdfpy(
     except (KeyError, ValueError):
         return None
     actuated = set(robot.actuated_joint_names)
-    robot.update_cfg({name: value for name, value in positions.items() if name in actuated})
+    robot.update_cfg({name: float(value) for name, value in positions.items() if name in actuated})
     return {
         name: np.asarray(robot.get_transform(name), dtype=np.float64) for name in robot.link_map
     }
