@@ -11,6 +11,8 @@ from studio.description.faults import Refusal
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
+_USUAL_BYTES: Final = 1 << 20
+"""Of all files of a robot together; they have the usual time."""
 _BYTES_A_SECOND: Final = 150_000
 _MOST_READING_S: Final = 30.0
 _CLOCK_EVERY: Final = 16
@@ -33,7 +35,7 @@ class Limits:
 
 def reading_time_s(size_bytes: int) -> float:
     """What a run has more for so much source text: who writes at length has made no bomb."""
-    return min(size_bytes / _BYTES_A_SECOND, _MOST_READING_S)
+    return min(max(0, size_bytes - _USUAL_BYTES) / _BYTES_A_SECOND, _MOST_READING_S)
 
 
 class Budget:
