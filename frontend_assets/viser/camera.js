@@ -8,6 +8,9 @@ const FOCUS_FILL = 0.45;
 const FIELD_OF_VIEW_DEG = 42;
 const NEAREST_M = 0.05;
 const SMOOTH_S = 0.18;
+/** After so long, and so many pictures, without another mesh the robot is there, and what an edit
+ * adds moves no camera. */
+const ARRIVED = { ms: 5000, pictures: 10 };
 
 /** From the target towards the eye, in the root frame; top is tipped so that x points right.
  * @type {Record<string, [number, number, number]>} */
@@ -28,7 +31,10 @@ export class CameraView {
   #untouched = true;
   /** Width by height of the picture. */
   #aspect = 0;
+  /** The most meshes that stood in the scene at once. */
   #meshes = 0;
+  #lastArrival_ms = 0;
+  #picturesSince = 0;
   #usualSmoothTime = 0;
   /** @type {"rviz" | "trackpad"} */
   #mouse = "rviz";
@@ -126,21 +132,39 @@ export class CameraView {
     const before = this.#aspect;
     this.#aspect = width / height;
     if (!before || before === this.#aspect) return;
+    if (this.#isArriving()) {
+      this.#fitArrived(this.#direction());
+      return;
+    }
     const farther = Math.min(1, before) / Math.min(1, this.#aspect);
     const target = control.getTarget(this.#vector());
     const eye = control.getPosition(this.#vector()).sub(target).multiplyScalar(farther);
     if (farther !== 1) this.#move(eye.add(target), target, false);
   }
 
+  /** An edit that makes a mesh anew, or a hand that hides one, leaves the camera alone. */
   #fitWhileMeshesArrive() {
-    if (!this.#untouched || !this.#control()) return;
+    if (!this.#isArriving() || !this.#control()) return;
+    this.#picturesSince += 1;
     const meshes = this.#robot.meshCount();
-    if (meshes === this.#meshes) return;
+    if (meshes <= this.#meshes) return;
     const first = this.#meshes === 0;
     this.#meshes = meshes;
-    const direction = first ? this.#inScene(DIRECTIONS.iso ?? [1, 0, 0]) : this.#direction();
-    this.#look(this.#robot.corners(this.#robot.drawn), direction, FILL, false);
+    this.#lastArrival_ms = performance.now();
+    this.#picturesSince = 0;
+    this.#fitArrived(first ? this.#inScene(DIRECTIONS.iso ?? [1, 0, 0]) : this.#direction());
     document.documentElement.dataset.drawn = "";
+  }
+
+  #isArriving() {
+    if (!this.#untouched || this.#meshes === 0) return this.#untouched;
+    const rest_ms = performance.now() - this.#lastArrival_ms;
+    return rest_ms < ARRIVED.ms || this.#picturesSince < ARRIVED.pictures;
+  }
+
+  /** @param {Vector3} direction */
+  #fitArrived(direction) {
+    this.#look(this.#robot.corners(this.#robot.drawn), direction, FILL, false);
   }
 
   /** Look at points so that they fill a part of the picture and lie in its middle.

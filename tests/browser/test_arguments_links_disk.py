@@ -75,7 +75,7 @@ def test_a_robot_asks_for_what_it_needs_and_a_link_opens_it_with_its_edits(
         wait_until("it to be drawn", other.has_drawn_robot)
         for one in (tab, other):  # the camera is set at the first sight of a robot
             one.open(one.page.url)
-        wait_until("the same picture", lambda: tab.settle() == other.settle())
+        other.show_again(tab.plain_picture())
         other.seek("reach")
         assert number(other, "reach") == dragged
         assert (tab.errors, other.errors) == ([], [])

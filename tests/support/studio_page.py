@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 
 from playwright.sync_api import Error
 
+from tests.support.pictures import difference_words, look_the_same
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator
     from pathlib import Path
@@ -147,15 +149,37 @@ class StudioPage:
         wait_until("the 3D view to stand still", same)
         return last
 
-    def show_again(self, picture: bytes) -> None:
-        """Wait until the 3D view shows what it showed then, when nothing was pointed at."""
+    def plain_picture(self) -> bytes:
+        """The 3D view standing still, while nothing is pointed at."""
+        self.page.mouse.move(9, 9)
         self.page.mouse.move(5, 5)
-        wait_until("the picture of before", lambda: self.settle() == picture, _PICTURE_PATIENCE_S)
+        return self.settle()
+
+    def show_again(self, picture: bytes) -> None:
+        """Wait until the 3D view looks as it did then, when nothing was pointed at."""
+        now = self.plain_picture()
+
+        def same() -> bool:
+            nonlocal now
+            now = self.settle()
+            return look_the_same(picture, now)
+
+        try:
+            wait_until("the picture of before", same, _PICTURE_PATIENCE_S)
+        except ConditionNotMetError as error:
+            raise ConditionNotMetError(f"{error}: {difference_words(picture, now)}") from None
 
     def show_other_than(self, picture: bytes) -> bytes:
-        """Wait until the 3D view stands still and differs from then; its picture now."""
-        wait_until("another picture", lambda: self.settle() != picture, _PICTURE_PATIENCE_S)
-        return self.settle()
+        """Wait until the 3D view stands still and looks different from then; its picture now."""
+        other = picture
+
+        def differs() -> bool:
+            nonlocal other
+            other = self.settle()
+            return not look_the_same(picture, other)
+
+        wait_until("another picture", differs, _PICTURE_PATIENCE_S)
+        return other
 
 
 def studio_context(browser: Browser) -> BrowserContext:
