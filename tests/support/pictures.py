@@ -22,7 +22,7 @@ def differing(first: bytes, second: bytes) -> np.ndarray:
     one, other = (_levels(png) for png in (first, second))
     if one.shape != other.shape:
         return np.ones((1, 1), bool)
-    return (abs(one - other) > _SEEN_LEVELS).any(axis=2)
+    return np.any(abs(one - other) > _SEEN_LEVELS, axis=2, keepdims=False)
 
 
 def look_the_same(first: bytes, second: bytes) -> bool:
