@@ -157,7 +157,7 @@ def _package_paths(options: argparse.Namespace) -> tuple[Path, ...]:
 
 
 def _demo(options: argparse.Namespace, arguments: dict[str, str]) -> None:
-    from studio.engine.draft_store import forget_drafts
+    from studio.engine.keeping.draft_store import forget_drafts
     from studio.packages.working_copy import working_copy
     from studio.settings import repository_or_wheel
 
@@ -165,7 +165,7 @@ def _demo(options: argparse.Namespace, arguments: dict[str, str]) -> None:
     models = repository_or_wheel("models")
     package = working_copy(models, settings.data_folder, _DEMO_PACKAGE, fresh=options.fresh)
     if options.fresh:
-        from studio.engine.draft_store import forget_drafts
+        from studio.engine.keeping.draft_store import forget_drafts
 
         forget_drafts(settings.data_folder, package.rglob("*"))
     _launch(options, settings, package, arguments)
@@ -223,8 +223,8 @@ def _settings(options: argparse.Namespace) -> Settings:
 def _check(options: argparse.Namespace, arguments: dict[str, str]) -> int:
     import asyncio
 
-    from studio.engine.check_report import exit_code, report_json, report_lines
     from studio.engine.check_run import check_path
+    from studio.engine.checks.check_report import exit_code, report_json, report_lines
     from studio.settings import Settings, data_folder
     from studio.web.progress_bar import ProgressBar
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from studio.engine import messages as m
-from studio.engine.findings import Findings
+from studio.engine.checks.findings import Findings
 from studio.engine.listeners import Audience, Listener, tell
 from studio.engine.site_book import SiteBook
 from studio.engine.views import RobotViews

@@ -10,30 +10,30 @@ from typing import TYPE_CHECKING, Literal, TypeVar
 from studio.description.editing.sources import Change, Sources
 from studio.description.values import Expansion, Failure, NoReply
 from studio.engine.board import Board
-from studio.engine.checking import CheckDesk
-from studio.engine.disk import DiskDesk
-from studio.engine.drafts import DraftDesk
+from studio.engine.checks.checking import CheckDesk
+from studio.engine.checks.mending import MendingDesk
+from studio.engine.checks.robot_checking import RobotChecks
 from studio.engine.edit_loop import EditLoop, Outcome, Target
-from studio.engine.expanded import ExpandedDesk
-from studio.engine.exports import ExportDesk
-from studio.engine.history import HistoryDesk
-from studio.engine.inspection import InspectionDesk
-from studio.engine.language import LanguageDesk
-from studio.engine.mending import MendingDesk
-from studio.engine.mesh_desk import MeshDesk
+from studio.engine.keeping.disk import DiskDesk
+from studio.engine.keeping.drafts import DraftDesk
+from studio.engine.keeping.exports import ExportDesk
+from studio.engine.keeping.history import HistoryDesk
+from studio.engine.keeping.saving import SaveDesk
+from studio.engine.keeping.sharing import SharedFile, place_edits
+from studio.engine.meshes.mesh_desk import MeshDesk
 from studio.engine.messages import Built, Saved
 from studio.engine.model import Model
-from studio.engine.motion import Motion
-from studio.engine.origins import OriginDesk
 from studio.engine.packages_used import PackagesUsed
 from studio.engine.policy import target_of
-from studio.engine.poses import PoseDesk
-from studio.engine.rewriting import RewritingDesk
-from studio.engine.robot_checking import RobotChecks
-from studio.engine.saving import SaveDesk
-from studio.engine.sharing import SharedFile, place_edits
-from studio.engine.texts import TextDesk
-from studio.engine.variants import VariantDesk
+from studio.engine.posing.motion import Motion
+from studio.engine.posing.poses import PoseDesk
+from studio.engine.questions.expanded import ExpandedDesk
+from studio.engine.questions.inspection import InspectionDesk
+from studio.engine.questions.language import LanguageDesk
+from studio.engine.questions.origins import OriginDesk
+from studio.engine.questions.rewriting import RewritingDesk
+from studio.engine.questions.texts import TextDesk
+from studio.engine.states.variants import VariantDesk
 from studio.engine.watching import FileWatch
 from studio.errors import CommandError
 from studio.scene import DocumentScene

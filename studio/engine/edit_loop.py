@@ -18,7 +18,7 @@ from studio.description.values import (
     ReadPolicy,
     ReloadRequest,
 )
-from studio.engine.question_desk import QuestionDesk
+from studio.engine.questions.question_desk import QuestionDesk
 from studio.errors import WorkerDiedError
 
 if TYPE_CHECKING:

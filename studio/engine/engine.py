@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING
 from studio.engine import messages as m
 from studio.engine.dispatch import carry_out
 from studio.engine.document import Document
+from studio.engine.keeping.left_work import LeftWorkDesk
+from studio.engine.keeping.sharing import found_again, link_to, read_link
 from studio.engine.launching import form_at, form_of
-from studio.engine.left_work import LeftWorkDesk
 from studio.engine.library import Library
 from studio.engine.listeners import Audience, tell
 from studio.engine.services import Services
-from studio.engine.sharing import found_again, link_to, read_link
 from studio.engine.upload_desk import UploadDesk
 from studio.errors import CommandError, OutsideRootsError, UnknownDocumentError
 from studio.packages.listing import list_folder

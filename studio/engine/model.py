@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 
-from studio.engine.joints import JointPositions
+from studio.engine.posing.joints import JointPositions
 from studio.robot.assembly import Assembly, Change
 from studio.robot.kinematics import Kinematics
 from studio.robot.textured import mesh_uris

@@ -7,7 +7,7 @@ from urllib.parse import quote
 from fastapi import APIRouter
 from starlette.responses import Response, StreamingResponse
 
-from studio.engine.exports import Download
+from studio.engine.keeping.exports import Download
 from studio.web.surface import OpenDocuments
 
 _REFUSED: Final[dict[int | str, dict[str, Any]]] = {

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Protocol
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
 
-    from studio.engine.exports import Download, MeshNames
+    from studio.engine.keeping.exports import Download, MeshNames
     from studio.engine.listeners import Listener
     from studio.engine.messages import Command
     from studio.scene import Connection

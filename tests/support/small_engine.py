@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from starlette.requests import ClientDisconnect
 
-from studio.engine.exports import Download
+from studio.engine.keeping.exports import Download
 from studio.engine.listeners import tell
 from studio.engine.messages import (
     AnimateJoints,
@@ -31,7 +31,7 @@ from studio.scene.connection import SUBPROTOCOL
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator, Callable
 
-    from studio.engine.exports import MeshNames
+    from studio.engine.keeping.exports import MeshNames
     from studio.engine.listeners import Listener
     from studio.scene import Connection
 

@@ -1,0 +1,1 @@
+"""What becomes of edits: saved, exported, shared, kept; and the files beside a robot."""

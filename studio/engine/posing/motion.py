@@ -1,0 +1,84 @@
+"""The moving of a document's joints: by hand, and in a swing through their limits."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from studio.engine.posing.animation import Animation
+from studio.engine.posing.glide import Glide
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from studio.engine.board import Board
+    from studio.engine.model import Model
+
+
+class Motion:
+    """Moves the joints of one model and tells the board where they stand."""
+
+    def __init__(self, model: Model, board: Board) -> None:
+        self._model, self._board = model, board
+        self._animation = Animation(self._swing)
+        self._glide = Glide(self._move)
+        self._swing_start = model.joints.values
+
+    @property
+    def swinging(self) -> bool:
+        """Whether the joints swing now."""
+        return self._animation.running
+
+    def set(self, positions: Mapping[str, float]) -> None:
+        """Move joints, rad or m by name; ends a swing."""
+        self._stop_swinging()
+        self._move(positions)
+
+    def glide(self, positions: Mapping[str, float], duration_s: float) -> None:
+        """Move joints, rad or m by name, within a time; ends a swing."""
+        self._stop_swinging()
+        self._glide.start(self._model.joints.by_name(), positions, duration_s)
+
+    def zero(self) -> None:
+        """All joints to zero."""
+        self._stop_swinging()
+        self._model.joints.zero()
+        self._show()
+
+    def randomize(self) -> None:
+        """All joints to random positions."""
+        self._stop_swinging()
+        self._model.joints.randomize()
+        self._show()
+
+    def animate(self, *, running: bool) -> None:
+        """Swing the joints from where they are, or stop."""
+        self._glide.stop()
+        if running and not self.swinging:
+            self._swing_start = self._model.joints.values
+            self._animation.start()
+        elif not running:
+            self._animation.stop()
+        self._board.joints()
+
+    def close(self) -> None:
+        """End a swing without telling anybody."""
+        self._glide.stop()
+        self._animation.stop()
+
+    def _swing(self, time_s: float) -> None:
+        self._model.joints.swing(time_s, self._swing_start)
+        self._show()
+
+    def _move(self, positions: Mapping[str, float]) -> None:
+        self._model.joints.set(positions)
+        self._show()
+
+    def _stop_swinging(self) -> None:
+        self._glide.stop()
+        if self.swinging:
+            self._animation.stop()
+            self._board.joints()
+
+    def _show(self) -> None:
+        self._model.pose()
+        self._board.joint_frame()

@@ -1,0 +1,264 @@
+"""The named poses of an open document: found around it, one's own kept beside it, and applied."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Final, Literal, TypeAlias
+
+from studio.description.poses.named_poses import NamedPose
+from studio.description.poses.poses_file import POSE_LIMIT, read_poses, rounded, write_poses
+from studio.engine.keeping.shelf import Shelf, ShelfKind
+from studio.engine.listeners import encode
+from studio.engine.messages.poses import Poses, PoseView
+from studio.engine.posing.pose_reading import FoundPoses, read_poses_around
+from studio.engine.states.second_robot import argument_values
+from studio.engine.watching import FileWatch
+from studio.errors import CommandError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Sequence
+
+    from studio.engine.document import Document
+    from studio.engine.messages.poses import ApplyPose, DeletePose, RenamePose, SavePose
+    from studio.engine.services import Services
+    from studio.robot.kinematics import Kinematics
+
+_PAUSE_S: Final = 0.2
+"""Between two looks while somebody edits."""
+_WATCH_BEGINS_S: Final = 1.5
+_NAMES_SHOWN: Final = 12
+_SLACK: Final = 1e-6
+"""rad or m by which a limit may be passed without a word: files round."""
+_SHELF: Final = ShelfKind("pose", read_poses, write_poses)
+
+_Kind: TypeAlias = Literal["own", "srdf", "initial"]
+
+
+class PoseDesk:
+    """Knows all poses that fit the robot, and carries out what is asked of them."""
+
+    def __init__(self, document: Document, services: Services) -> None:
+        self._document, self._services = document, services
+        self._shelf = Shelf(document.entry, document.location.served, _SHELF)
+        self._found = FoundPoses()
+        self._made_from: object = None
+        """Arguments, packages and robot that they were looked for with; None: look anew."""
+        self._told: Poses | None = None
+        self._watch = FileWatch(self._changed_on_disk)
+        self._watch.watch({str(self._shelf.path)})
+        self._doubted = False
+        self._looking: asyncio.Task[None] | None = None
+        self._later: asyncio.Task[None] | None = None
+
+    def events(self) -> Iterable[Poses]:
+        """What a newcomer is told."""
+        yield self._list()
+
+    def doubt(self) -> None:
+        """The robot may be another one: look soon, and not too often."""
+        self._doubted = True
+        if self._looking is None or self._looking.done():
+            self._looking = asyncio.create_task(self._look_while_doubted())
+
+    async def close(self) -> None:
+        """End what runs for it."""
+        tasks = [task for task in (self._looking, self._later) if task]
+        for task in tasks:
+            task.cancel()
+        await asyncio.gather(*tasks, return_exceptions=True)
+        await self._watch.close()
+
+    def apply(self, command: ApplyPose) -> None:
+        """Move the joints to a pose, as far as their limits let them.
+
+        Raises:
+            CommandError: There is no such pose, or the robot has none of its joints.
+        """
+        pose = dict(self._keyed()).get(command.key)
+        if pose is None:
+            raise CommandError("This pose is not there any more: choose another.")
+        positions = _known(pose, frozenset(self._document.model.kinematics.free))
+        if not positions:
+            raise CommandError(f'This robot has no joint that "{pose.name}" moves.')
+        self._document.motion.glide(positions, command.duration_s)
+
+    def save(self, command: SavePose) -> None:
+        """Keep where the joints are.
+
+        Raises:
+            CommandError: The name is empty, too long or taken, or nothing moves.
+            PosesFileError: The file as it is cannot be read.
+            NotSavedError: It cannot be written.
+        """
+        model = self._document.model
+        now = model.joints.by_name()
+        positions = {name: rounded(now[name]) for name in model.kinematics.free}
+        if not positions:
+            title = self._document.title
+            raise CommandError(f"{title} has no joint that moves: there is no pose to keep.")
+        self._shelf.look()
+        names = [pose.name for pose in self._shelf.items]
+        if command.replace and command.name in names:
+            made = NamedPose(command.name, positions)
+            self._put(made if one.name == made.name else one for one in self._shelf.items)
+            return
+        made = NamedPose(self._shelf.free_name(command.name), positions)
+        if len(names) >= POSE_LIMIT:
+            raise CommandError(f"There are {POSE_LIMIT} poses: delete one first.")
+        self._put((*self._shelf.items, made))
+
+    def rename(self, command: RenamePose) -> None:
+        """Give one's own pose another name; errors as for `save`."""
+        known = self._shelf.find(command.name)
+        if command.new_name.strip() == known.name:
+            return
+        renamed = replace(known, name=self._shelf.free_name(command.new_name))
+        self._put(renamed if one is known else one for one in self._shelf.items)
+
+    def delete(self, command: DeletePose) -> None:
+        """Forget one's own pose; errors as for `save`."""
+        known = self._shelf.find(command.name)
+        self._put(one for one in self._shelf.items if one is not known)
+
+    def _put(self, poses: Iterable[NamedPose]) -> None:
+        self._shelf.put(tuple(poses))
+        self._tell()
+
+    async def _changed_on_disk(self, files: set[str]) -> None:
+        if files - {str(self._shelf.path)}:
+            self._made_from = None
+        self._shelf.look()
+        self.doubt()
+
+    async def _look_while_doubted(self) -> None:
+        while self._doubted:
+            self._doubted = False
+            await self._look()
+            self._tell()
+            await asyncio.sleep(_PAUSE_S)
+
+    async def _look(self) -> None:
+        """Read the files around the robot, unless nothing changed that could make a difference."""
+        document = self._document
+        if document.expansion is None:
+            return
+        # Also those that nobody passed: an SRDF asks for the same prefixes, and has no defaults.
+        values = argument_values(document.board.book.sites.values())
+        arguments, name = values | document.sources.arguments, document.model.robot.name
+        made_from = (arguments, id(document.location.index), name)
+        if made_from == self._made_from:
+            return
+        self._made_from = made_from
+        self._found = await read_poses_around(
+            document.location,
+            document.target,
+            arguments,
+            name,
+            self._services.description_worker,
+        )
+        watched = {str(self._shelf.path), *self._found.files}
+        self._watch.watch(watched)
+        self._look_again_at(watched, await asyncio.to_thread(_stamps, watched))
+        self._shelf.look()
+
+    def _look_again_at(self, files: set[str], stamps: dict[str, int]) -> None:
+        """What changes before the watch stands is told by nobody: see once, a moment later."""
+
+        async def look() -> None:
+            await asyncio.sleep(_WATCH_BEGINS_S)
+            if await asyncio.to_thread(_stamps, files) != stamps:
+                await self._changed_on_disk(files)
+
+        if self._later:
+            self._later.cancel()
+        self._later = asyncio.create_task(look())
+
+    def _fitting(self) -> Iterator[tuple[_Kind, NamedPose]]:
+        """One's own, all of them; of those that were found the ones that mean this robot."""
+        for pose in self._shelf.items:
+            yield "own", pose
+        movable = frozenset(self._document.model.kinematics.movable)
+        for pose in self._found.group_states:
+            if _means(pose, movable):
+                yield "srdf", pose
+        for pose in self._found.initial:
+            if _means(pose, movable):
+                yield "initial", pose
+
+    def _keyed(self) -> Iterator[tuple[str, NamedPose]]:
+        return ((_key(kind, pose), pose) for kind, pose in self._fitting())
+
+    def _list(self) -> Poses:
+        views, shelf = _Views(self._document.model.kinematics), self._shelf
+        return Poses(
+            poses=tuple(views.view(kind, pose) for kind, pose in self._fitting()),
+            path=str(shelf.path),
+            only_here=shelf.only_here,
+            trouble=shelf.trouble,
+        )
+
+    def _tell(self) -> None:
+        news = self._list()
+        if news != self._told:
+            self._told = news
+            self._document.board.audience.post(encode(news))
+
+
+def _stamps(files: Iterable[str]) -> dict[str, int]:
+    """When each file was written last; those that are not there are left out."""
+    found: dict[str, int] = {}
+    for file in files:
+        with contextlib.suppress(OSError):
+            found[file] = Path(file).stat().st_mtime_ns
+    return found
+
+
+def _key(kind: _Kind, pose: NamedPose) -> str:
+    return f"own:{pose.name}" if kind == "own" else f"{kind}:{pose.file}:{pose.group}:{pose.name}"
+
+
+def _means(pose: NamedPose, movable: frozenset[str]) -> bool:
+    """Whether a pose is one of this robot: it has at least half of the joints."""
+    known = sum(name in movable for name in pose.positions)
+    return known > 0 and 2 * known >= len(pose.positions)
+
+
+def _known(pose: NamedPose, free: frozenset[str]) -> dict[str, float]:
+    return {name: value for name, value in pose.positions.items() if name in free}
+
+
+class _Views:
+    """Makes what the page is told of poses of one robot."""
+
+    def __init__(self, kinematics: Kinematics) -> None:
+        self._kinematics = kinematics
+        self._free = frozenset(kinematics.free)
+        self._movable = frozenset(kinematics.movable)
+
+    def view(self, kind: _Kind, pose: NamedPose) -> PoseView:
+        known = _known(pose, self._free)
+        strangers = [name for name in pose.positions if name not in self._movable]
+        strangers += pose.unread
+        return PoseView(
+            key=_key(kind, pose),
+            name=pose.name,
+            group=pose.group,
+            kind=kind,
+            file=pose.file,
+            line=pose.line,
+            positions=known,
+            unknown=_shown(strangers),
+            unknown_count=len(strangers),
+            beyond=_shown([name for name, value in known.items() if self._stops(name, value)]),
+        )
+
+    def _stops(self, joint: str, position: float) -> bool:
+        """Whether its limits do not let a joint go there."""
+        return abs(self._kinematics.clamp(joint, position) - position) > _SLACK
+
+
+def _shown(names: Sequence[str]) -> tuple[str, ...]:
+    return tuple(names[:_NAMES_SHOWN])
