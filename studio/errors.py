@@ -28,6 +28,8 @@ StudioError
         MeshError
     SceneError
     WireError
+        WireSettingsError
+        NoRouterError
         RosNameError
         TokenError
         AttachmentError
@@ -258,6 +260,23 @@ class SceneError(StudioError):
 
 class WireError(StudioError):
     """What came from ROS, or should go to it, is not as ROS 2 wants it."""
+
+
+class WireSettingsError(WireError):
+    """What the options or the environment say of the wire cannot be; the text says what to set."""
+
+
+class NoRouterError(WireError):
+    """No Zenoh router answers where one was looked for."""
+
+    def __init__(self, endpoints: tuple[str, ...], reason: str) -> None:
+        self.endpoints = endpoints
+        self.reason = reason
+        places = ", ".join(endpoints) or "the configured address"
+        super().__init__(
+            f"No Zenoh router answers at {places}: start one there (studio router, or "
+            "ros2 run rmw_zenoh_cpp rmw_zenohd), or name another with --connect."
+        )
 
 
 class RosNameError(WireError):

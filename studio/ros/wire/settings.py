@@ -1,0 +1,77 @@
+"""WireSettings: which domain, router and distribution, by options first and the environment next."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from studio.errors import WireSettingsError
+from studio.ros.profiles import JAZZY, WireProfile
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+ROUTER_ENDPOINT = "tcp/127.0.0.1:7447"
+"""Where rmw_zenoh's router listens, on this machine."""
+DOMAIN_MAX = 232
+"""The highest ROS_DOMAIN_ID that every middleware of ROS takes."""
+
+
+@dataclass(frozen=True, slots=True)
+class WireSettings:
+    """How to reach a ROS 2 system.
+
+    Attributes:
+        connect: Zenoh endpoints of routers, such as `tcp/127.0.0.1:7447`.
+        domain: The ROS_DOMAIN_ID.
+        profile: The distribution whose types and keys are spoken.
+        config_file: Of Zenoh, taken whole; what stands here comes on top.
+        overrides: Zenoh's keys, such as `transport/link/tls/root_ca_certificate`, and JSON5.
+    """
+
+    connect: tuple[str, ...] = (ROUTER_ENDPOINT,)
+    domain: int = 0
+    profile: WireProfile = JAZZY
+    config_file: str | None = None
+    overrides: Mapping[str, str] = field(default_factory=dict[str, str])
+
+
+def wire_settings(
+    connect: tuple[str, ...] = (),
+    domain: int | None = None,
+    profile: WireProfile = JAZZY,
+    environment: Mapping[str, str] = os.environ,
+) -> WireSettings:
+    """Settings as rmw_zenoh finds them; what is given comes before the environment.
+
+    ROS_DOMAIN_ID, ZENOH_SESSION_CONFIG_URI (a file) and ZENOH_CONFIG_OVERRIDE (`key=json5;...`;
+    pairs without `=` are passed over) are read.
+
+    Raises:
+        WireSettingsError: ROS_DOMAIN_ID is no number of a domain.
+    """
+    named = environment.get("ROS_DOMAIN_ID", "").strip()
+    config_file = environment.get("ZENOH_SESSION_CONFIG_URI", "").strip() or None
+    return WireSettings(
+        connect=connect or (() if config_file else (ROUTER_ENDPOINT,)),
+        domain=_domain(named) if domain is None else domain,
+        profile=profile,
+        config_file=config_file,
+        overrides=_pairs(environment.get("ZENOH_CONFIG_OVERRIDE", "")),
+    )
+
+
+def _domain(text: str) -> int:
+    if not text:
+        return 0
+    if not (text.isascii() and text.isdigit() and int(text) <= DOMAIN_MAX):
+        raise WireSettingsError(
+            f"ROS_DOMAIN_ID is {text!r}: set it to a number from 0 to {DOMAIN_MAX}."
+        )
+    return int(text)
+
+
+def _pairs(text: str) -> dict[str, str]:
+    split = (pair.partition("=") for pair in text.split(";"))
+    return {key.strip(): value.strip() for key, equals, value in split if equals and key.strip()}
