@@ -1,4 +1,4 @@
-"""WireSettings: which domain, router and distribution, by options first and the environment next."""
+"""WireSettings: which domain, router and distribution: options first, then the environment."""
 
 from __future__ import annotations
 
