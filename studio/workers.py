@@ -19,16 +19,18 @@ from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
 import msgspec
 
 from studio.errors import WorkerDiedError, WorkerTimeoutError
-from studio.system import ignore_interrupt, limit_memory
+from studio.system import ignore_interrupt, kept_waiting_s, limit_memory
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import AsyncGenerator, Callable
 
 _LENGTH = struct.Struct("<I")
 _OBJECTS_WITHIN_REQUEST = 500_000
 """New objects of one request that garbage collection waits for: about 50 MB."""
 _OBJECTS_KEPT = 50_000
 """New objects since the last collection that are left to the next request."""
+_PATIENCE = 5
+"""So many times its time a process on a busy machine may be kept waiting in addition."""
 _ENVELOPE = msgspec.msgpack.Decoder(tuple[str, msgspec.Raw])
 
 Answer = TypeVar("Answer")
@@ -92,7 +94,7 @@ class Worker:
         Args:
             request: One of the codec's types.
             answer: What the answer must be.
-            timeout_s: Time for the answer.
+            timeout_s: Time for the answer, without what a busy machine kept the process waiting.
             starts: A process that is not running is started; else that is an error, for a request
                 that means something only to the process that knows those before.
 
@@ -105,7 +107,7 @@ class Worker:
                 raise WorkerDiedError(self.name, await self._end())
             process = await self._ensure_process()
             try:
-                async with asyncio.timeout(timeout_s):  # wait_for would make it a task's turn later
+                async with _time_to_run(process.pid, timeout_s):
                     body = await self._exchange(process, request)
                 message = self._codec.unpack(body)
             except TimeoutError as error:
@@ -165,6 +167,32 @@ class Worker:
         with contextlib.suppress(ProcessLookupError):
             process.kill()
         return await process.wait()
+
+
+@contextlib.asynccontextmanager
+async def _time_to_run(pid: int, timeout_s: float) -> AsyncGenerator[None]:
+    """Time out when a process had so long to run, however many others run beside it.
+
+    Not by `wait_for`: an answer would come a task's turn later.
+    """
+    loop = asyncio.get_running_loop()
+    began, had_waited = loop.time(), kept_waiting_s(pid)
+
+    def look() -> None:
+        nonlocal timer
+        kept_s = min(kept_waiting_s(pid) - had_waited, _PATIENCE * timeout_s)
+        left_s = began + timeout_s + kept_s - loop.time()
+        if left_s > 0.01:
+            timer = loop.call_later(left_s, look)
+        else:
+            limit.reschedule(loop.time())
+
+    timer = loop.call_later(timeout_s, look)
+    try:
+        async with asyncio.timeout(None) as limit:
+            yield
+    finally:
+        timer.cancel()
 
 
 class WorkerPool:

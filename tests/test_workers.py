@@ -3,13 +3,24 @@
 from __future__ import annotations
 
 import asyncio
+import os
+import subprocess
+import sys
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
 
 import pytest
 
 from studio.description.codec import CODEC
 from studio.description.values import Edit, EditRequest, Failure
-from studio.errors import WorkerDiedError
+from studio.errors import WorkerDiedError, WorkerTimeoutError
+from studio.system import kept_waiting_s
 from studio.workers import Worker
+from tests.support import spending_worker
+from tests.support.spending_worker import Spend, Spent
+
+if TYPE_CHECKING:
+    from collections.abc import Generator
 
 REQUEST = EditRequest((Edit("/nowhere", 0, 0, b""),))
 
@@ -45,5 +56,53 @@ def test_a_request_that_means_nothing_to_a_new_process_starts_none():
         with pytest.raises(WorkerDiedError):
             await worker.ask(REQUEST, Failure, 30, starts=False)
         assert (worker.pid, worker.generation) == (None, 1)
+
+    asyncio.run(run())
+
+
+def spender() -> Worker:
+    return Worker("spending", "tests.support.spending_worker", spending_worker.CODEC)
+
+
+@contextmanager
+def neighbours(pid: int, count: int) -> Generator[None]:
+    """Processes without end that share one processor with this one."""
+    core = min(os.sched_getaffinity(0))
+    os.sched_setaffinity(pid, {core})
+    busy = f"import os; os.sched_setaffinity(0, {{{core}}})\nwhile True: pass"
+    others = [subprocess.Popen([sys.executable, "-c", busy]) for _ in range(count)]
+    try:
+        yield
+    finally:
+        for other in others:
+            other.kill()
+            other.wait()
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells how long a process waited")
+def test_a_busy_machine_takes_none_of_the_time_that_a_request_has():
+    async def run() -> None:
+        worker = spender()
+        await worker.ask(Spend(), Spent, 30)
+        assert worker.pid is not None
+        with neighbours(worker.pid, 3):
+            began_s = asyncio.get_running_loop().time()
+            before_s = kept_waiting_s(worker.pid)
+            await worker.ask(Spend(working_s=0.5), Spent, 0.8)
+            assert kept_waiting_s(worker.pid) > before_s
+            assert asyncio.get_running_loop().time() - began_s > 0.8
+        await worker.close()
+
+    asyncio.run(run())
+
+
+def test_who_sleeps_or_works_beyond_its_time_is_ended():
+    async def run() -> None:
+        worker = spender()
+        await worker.ask(Spend(), Spent, 30)
+        for late in (Spend(sleeping_s=60.0), Spend(working_s=60.0)):
+            with pytest.raises(WorkerTimeoutError):
+                await worker.ask(late, Spent, 0.3)
+        await worker.close()
 
     asyncio.run(run())

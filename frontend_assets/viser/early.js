@@ -3,6 +3,10 @@
 // viser reconnects only while its document has the focus; in a frame of our page it seldom has.
 document.hasFocus = () => true;
 
+// Asked for while the address is whole: viser soon leaves out what it holds.
+const fixesPixels = new URLSearchParams(location.search).has("fixedDpr");
+if (fixesPixels) document.documentElement.dataset.pixels = "fixed";
+
 // How much is drawn (quality.js): as the person chose, else lightly where the processor draws or where
 // pictures came too slowly before. Smooth edges are chosen once and for all when the canvas is made;
 // without them a picture at rest is drawn finer instead (still.js).

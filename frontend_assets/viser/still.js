@@ -7,7 +7,7 @@ const FINER = 2;
 
 /**
  * Drawn lightly, a moving picture has one sample a pixel; the picture that comes to rest
- * is drawn once more with four. Not when the address fixes the pixels of a picture (`fixedDpr`).
+ * is drawn once more with four. Not when the address fixed the pixels of a picture (`early.js`).
  */
 export class Still {
   #door;
@@ -22,7 +22,7 @@ export class Still {
   constructor(door) {
     this.#door = door;
     if (!isLight()) return;
-    if (new URLSearchParams(location.search).has("fixedDpr")) return;
+    if (document.documentElement.dataset.pixels === "fixed") return;
     door.onPicture((renderer) => {
       this.#renderer = renderer;
       this.#wait();

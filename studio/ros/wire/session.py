@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import json
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, cast
 
 import zenoh
 
@@ -52,7 +52,7 @@ class WireSession:
     def close(self) -> None:
         """End the session and all that was declared on it; again is harmless."""
         if not self.zenoh.is_closed():
-            self.zenoh.close()
+            cast("Any", self.zenoh).close()
 
 
 def open_session(settings: WireSettings, types: TypeLibrary | None = None) -> WireSession:
@@ -79,7 +79,7 @@ def zenoh_config(settings: WireSettings) -> zenoh.Config:
     try:
         config = _base(settings)
         for key, json5 in settings.overrides.items():
-            config.insert_json5(key, json5)
+            _set(config, key, json5)
     except (zenoh.ZError, OSError) as error:
         reason = str(error).split(" at /")[0]
         raise WireSettingsError(f"Zenoh's configuration is refused: {reason}.") from None
@@ -91,10 +91,14 @@ def _base(settings: WireSettings) -> zenoh.Config:
         config = zenoh.Config.from_file(settings.config_file)
     else:
         config = zenoh.Config()
-        config.insert_json5("mode", '"client"')
-        config.insert_json5("scouting/multicast/enabled", "false")
-        config.insert_json5("timestamping/enabled", "true")
-        config.insert_json5("queries_default_timeout", str(SERVICE_TIMEOUT_MS))
+        _set(config, "mode", '"client"')
+        _set(config, "scouting/multicast/enabled", "false")
+        _set(config, "timestamping/enabled", "true")
+        _set(config, "queries_default_timeout", str(SERVICE_TIMEOUT_MS))
     if settings.connect:
-        config.insert_json5("connect/endpoints", json.dumps(settings.connect))
+        _set(config, "connect/endpoints", json.dumps(settings.connect))
     return config
+
+
+def _set(config: zenoh.Config, key: str, json5: str) -> None:
+    cast("Any", config).insert_json5(key, json5)  # which says nothing of what it returns
