@@ -117,7 +117,12 @@ test("one change makes one text of another", () => {
 });
 
 /** Where the checks are that name their findings by codes. */
-const CHECKS = ["robot/checks", "description/checks", "robot/structure.py", "engine/checks/checking.py"];
+const CHECKS = [
+  "robot/checks",
+  "description/checks",
+  "robot/structure.py",
+  "engine/checks/checking.py",
+];
 const READERS = ["recovery.py", "open_elements.py", "broken_tags.py"];
 
 /** @param {string} path below studio/ @returns {string[]} the sources there */
