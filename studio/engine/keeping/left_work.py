@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from studio.engine.keeping.draft_store import forget_drafts, left_drafts
 from studio.engine.listeners import tell
+from studio.engine.lookout import Lookout
 from studio.engine.messages.keeping import LeftWork, LeftWorkEntry
 from studio.engine.roles import Role
 from studio.packages.presence import is_file
@@ -25,8 +26,7 @@ class LeftWorkDesk:
         self._engine, self._data_folder = engine, data_folder
         self._presenters: set[Listener] = set()
         self._told: LeftWork | None = None
-        self._looking: asyncio.Task[None] | None = None
-        self._doubted = False
+        self._lookout = Lookout(self._look)
 
     def attach(self, listener: Listener) -> None:
         """Let a presenter hear of it, now and whenever it changes."""
@@ -41,9 +41,7 @@ class LeftWorkDesk:
 
     def doubt(self) -> None:
         """Documents were opened or closed: look again, beside."""
-        self._doubted = True
-        if self._looking is None or self._looking.done():
-            self._looking = asyncio.create_task(self._look_while_doubted())
+        self._lookout.doubt()
 
     async def forget(self, path: str) -> None:
         """Give the work on a served file up.
@@ -57,14 +55,7 @@ class LeftWorkDesk:
 
     async def close(self) -> None:
         """End what runs for it."""
-        if self._looking:
-            self._looking.cancel()
-            await asyncio.gather(self._looking, return_exceptions=True)
-
-    async def _look_while_doubted(self) -> None:
-        while self._doubted:
-            self._doubted = False
-            await self._look()
+        await self._lookout.close()
 
     async def _look(self) -> None:
         told = await asyncio.to_thread(_left_work, self._data_folder, self._engine.served)

@@ -12,6 +12,7 @@ from studio.description.poses.named_poses import NamedPose
 from studio.description.poses.poses_file import POSE_LIMIT, read_poses, rounded, write_poses
 from studio.engine.keeping.shelf import Shelf, ShelfKind
 from studio.engine.listeners import encode
+from studio.engine.lookout import Lookout
 from studio.engine.messages.poses import Poses, PoseView
 from studio.engine.posing.pose_reading import FoundPoses, read_poses_around
 from studio.engine.states.second_robot import argument_values
@@ -49,8 +50,7 @@ class PoseDesk:
         self._told: Poses | None = None
         self._watch = FileWatch(self._changed_on_disk)
         self._watch.watch({str(self._shelf.path)})
-        self._doubted = False
-        self._looking: asyncio.Task[None] | None = None
+        self._lookout = Lookout(self._look, pause_s=_PAUSE_S)
         self._later: asyncio.Task[None] | None = None
 
     def events(self) -> Iterable[Poses]:
@@ -59,16 +59,14 @@ class PoseDesk:
 
     def doubt(self) -> None:
         """The robot may be another one: look soon, and not too often."""
-        self._doubted = True
-        if self._looking is None or self._looking.done():
-            self._looking = asyncio.create_task(self._look_while_doubted())
+        self._lookout.doubt()
 
     async def close(self) -> None:
         """End what runs for it."""
-        tasks = [task for task in (self._looking, self._later) if task]
-        for task in tasks:
-            task.cancel()
-        await asyncio.gather(*tasks, return_exceptions=True)
+        await self._lookout.close()
+        if self._later:
+            self._later.cancel()
+            await asyncio.gather(self._later, return_exceptions=True)
         await self._watch.close()
 
     def apply(self, command: ApplyPose) -> None:
@@ -133,14 +131,11 @@ class PoseDesk:
         self._shelf.look()
         self.doubt()
 
-    async def _look_while_doubted(self) -> None:
-        while self._doubted:
-            self._doubted = False
-            await self._look()
-            self._tell()
-            await asyncio.sleep(_PAUSE_S)
-
     async def _look(self) -> None:
+        await self._find()
+        self._tell()
+
+    async def _find(self) -> None:
         """Read the files around the robot, unless nothing changed that could make a difference."""
         document = self._document
         if document.expansion is None:

@@ -11,6 +11,7 @@ from studio.description.editing.variants_file import VARIANT_LIMIT, read_variant
 from studio.engine import messages as m
 from studio.engine.keeping.shelf import Shelf, ShelfKind
 from studio.engine.listeners import encode
+from studio.engine.lookout import Lookout
 from studio.engine.messages.variants import shown
 from studio.engine.states.comparison_desk import ComparisonDesk
 from studio.engine.states.recipes import Recipe, RecipeBook
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
     from studio.engine.services import Services
 
 _FIRST_S: Final = 0.02
+"""The edit that gave cause goes out first."""
 _PAUSE_S: Final = 0.15
 """Between two looks while somebody drags: a table that changes faster cannot be read."""
 _TEXTS_SHOWN: Final = 50
@@ -55,8 +57,7 @@ class VariantDesk:
         self._told: m.Variants | None = None
         self._watch = FileWatch(self._changed_on_disk)
         self._watch.watch({str(self._shelf.path)})
-        self._doubted = False
-        self._looking: asyncio.Task[None] | None = None
+        self._lookout = Lookout(self._look, first_s=_FIRST_S, pause_s=_PAUSE_S)
 
     def events(self) -> Iterable[m.Event]:
         """What a newcomer is told."""
@@ -65,15 +66,11 @@ class VariantDesk:
 
     def doubt(self) -> None:
         """Something may have changed: look soon, and not too often."""
-        self._doubted = True
-        if self._looking is None or self._looking.done():
-            self._looking = asyncio.create_task(self._look_while_doubted())
+        self._lookout.doubt()
 
     async def close(self) -> None:
         """End what runs for it."""
-        if self._looking:
-            self._looking.cancel()
-            await asyncio.gather(self._looking, return_exceptions=True)
+        await self._lookout.close()
         await asyncio.gather(self._watch.close(), self._comparison.close())
 
     def save(self, command: m.SaveVariant | m.UpdateVariant) -> m.VariantSaved:
@@ -187,15 +184,11 @@ class VariantDesk:
             self._comparison.remake()
         self.doubt()
 
-    async def _look_while_doubted(self) -> None:
-        await asyncio.sleep(_FIRST_S)  # the edit that gave cause goes out first
-        while self._doubted:
-            self._doubted = False
-            self._look_up()
-            self._tell()
-            await self._comparison.follow(self._book.present, self._recipe_of)
-            self._watch.watch({str(self._shelf.path), *self._comparison.files})
-            await asyncio.sleep(_PAUSE_S)
+    async def _look(self) -> None:
+        self._look_up()
+        self._tell()
+        await self._comparison.follow(self._book.present, self._recipe_of)
+        self._watch.watch({str(self._shelf.path), *self._comparison.files})
 
     def _recipe_of(self, side: m.Side) -> Recipe | None:
         if side.kind == "saved":
