@@ -1,0 +1,159 @@
+"""Every error the studio raises, in one tree.
+
+StudioError
+    SettingsError
+        PortTakenError
+        DataFolderError
+    PackageError
+        PackageNotFoundError
+        OutsideRootsError
+        UnreadableFileError
+        UnsafeArchiveError
+        ExportError
+        NotMadeError
+        UploadError
+    DescriptionError
+        ExpansionError
+            RefusedError
+        EditError
+            StaleEditError
+            StaleTextError
+            ReadOnlyTextError
+            SaveConflictError
+            NotSavedError
+            DraftError
+        VariantsFileError
+        PosesFileError
+    RobotError
+        MeshError
+    SceneError
+    WireError
+        WireSettingsError
+        NoRouterError
+        RosNameError
+        TokenError
+        AttachmentError
+        InterfaceError
+            InterfaceTextError
+            UnknownTypeError
+        MessageValueError
+        CdrError
+    WorkerError
+        WorkerTimeoutError
+        WorkerDiedError
+    AccessError
+        NotAllowedError
+    CommandError
+        UnknownDocumentError
+        SupersededError
+
+Each keeps its data and says in one sentence what is wrong, where, and what to do.
+"""
+
+from __future__ import annotations
+
+from studio.errors.files import (
+    DataFolderError,
+    ExportError,
+    NotMadeError,
+    OutsideRootsError,
+    PackageError,
+    PackageNotFoundError,
+    PortTakenError,
+    SettingsError,
+    UnreadableFileError,
+    UnsafeArchiveError,
+    UploadError,
+)
+from studio.errors.models import (
+    DescriptionError,
+    DraftError,
+    EditError,
+    ExpansionError,
+    MeshError,
+    NotSavedError,
+    PosesFileError,
+    ReadOnlyTextError,
+    RefusedError,
+    RobotError,
+    SaveConflictError,
+    SceneError,
+    StaleEditError,
+    StaleTextError,
+    VariantsFileError,
+)
+from studio.errors.root import (
+    StudioError,
+)
+from studio.errors.serving import (
+    AccessError,
+    CommandError,
+    NotAllowedError,
+    SupersededError,
+    UnknownDocumentError,
+    WorkerDiedError,
+    WorkerError,
+    WorkerTimeoutError,
+)
+from studio.errors.wire import (
+    AttachmentError,
+    CdrError,
+    InterfaceError,
+    InterfaceTextError,
+    MessageValueError,
+    NoRouterError,
+    RosNameError,
+    TokenError,
+    UnknownTypeError,
+    WireError,
+    WireSettingsError,
+)
+
+__all__ = [
+    "AccessError",
+    "AttachmentError",
+    "CdrError",
+    "CommandError",
+    "DataFolderError",
+    "DescriptionError",
+    "DraftError",
+    "EditError",
+    "ExpansionError",
+    "ExportError",
+    "InterfaceError",
+    "InterfaceTextError",
+    "MeshError",
+    "MessageValueError",
+    "NoRouterError",
+    "NotAllowedError",
+    "NotMadeError",
+    "NotSavedError",
+    "OutsideRootsError",
+    "PackageError",
+    "PackageNotFoundError",
+    "PortTakenError",
+    "PosesFileError",
+    "ReadOnlyTextError",
+    "RefusedError",
+    "RobotError",
+    "RosNameError",
+    "SaveConflictError",
+    "SceneError",
+    "SettingsError",
+    "StaleEditError",
+    "StaleTextError",
+    "StudioError",
+    "SupersededError",
+    "TokenError",
+    "UnknownDocumentError",
+    "UnknownTypeError",
+    "UnreadableFileError",
+    "UnsafeArchiveError",
+    "UploadError",
+    "VariantsFileError",
+    "WireError",
+    "WireSettingsError",
+    "WorkerDiedError",
+    "WorkerError",
+    "WorkerTimeoutError",
+]
