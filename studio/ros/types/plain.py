@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import csv
 import io
-import sys
 from dataclasses import dataclass
 from itertools import islice
 from typing import Any, cast
 
 import numpy as np
-import yaml
 
 from studio.errors import MessageValueError
 from studio.ros.duration import NANOSECONDS
@@ -23,11 +21,10 @@ from studio.ros.types.classes import (
     definition_of,
 )
 from studio.ros.types.definitions import FLOATS, STRINGS, Field, FieldType, Shape
+from studio.ros.types.yaml_texts import read_yaml, write_yaml
 
-YAML_CHARACTERS_MAX = 10_000_000
 # From here on Python turns whole numbers neither into floats nor into texts.
 _HUGE = 2**1000
-_RARE_LINE_ENDS = frozenset("\r\x85\u2028\u2029\ufeff")
 _ABBREVIATED = {"float32": "float", "float64": "double", "bool": "boolean", "byte": "octet"}
 _HEADER = "std_msgs/msg/Header"
 _TIME = "builtin_interfaces/msg/Time"
@@ -55,14 +52,7 @@ def to_dict(message: MessageValue, brevity: Brevity = WHOLE) -> dict[str, Any]:
 
 def to_yaml(message: MessageValue, brevity: Brevity = WHOLE, *, flow: bool = False) -> str:
     """Write a message as `ros2 topic echo` does, less the line of `---`."""
-    return yaml.dump(
-        to_dict(message, brevity),
-        Dumper=_Dumper,
-        allow_unicode=True,
-        sort_keys=False,
-        default_flow_style=flow,
-        width=sys.maxsize,
-    )
+    return write_yaml(to_dict(message, brevity), flow=flow)
 
 
 def to_csv(message: MessageValue, brevity: Brevity = WHOLE) -> str:
@@ -93,35 +83,11 @@ def from_yaml(kind: type[MessageValue], text: str, *, now_ns: int | None = None)
         MessageValueError: It is no YAML, or a field does not take its value.
     """
     name = definition_of(kind).name
-    if len(text) > YAML_CHARACTERS_MAX:
-        raise MessageValueError(name, f"more than {YAML_CHARACTERS_MAX} characters were given")
     try:
-        values = yaml.load(text, Loader=_Loader)
-    except (yaml.YAMLError, RecursionError, ValueError) as error:
-        said = " ".join(str(error).split())
-        raise MessageValueError(name, f"the text is no YAML ({said})") from None
+        values = read_yaml(text)
+    except ValueError as error:
+        raise MessageValueError(name, str(error)) from None
     return from_dict(kind, {} if values is None else values, now_ns=now_ns)
-
-
-class _Dumper(yaml.SafeDumper):
-    """YAML that reads back: texts with rare ends of lines are quoted with escapes."""
-
-    def represent_text(self, text: str) -> yaml.ScalarNode:
-        """Choose how a text is written; the plain way where that keeps every letter."""
-        style = '"' if _RARE_LINE_ENDS.intersection(text) else None
-        return yaml.ScalarNode("tag:yaml.org,2002:str", text, style=style)
-
-
-_Dumper.add_representer(str, _Dumper.represent_text)
-
-
-class _Loader(yaml.SafeLoader):
-    """YAML without references: they make a short text as large as one likes."""
-
-    def compose_node(self, parent: Any, index: Any) -> Any:  # noqa: ANN401
-        if self.check_event(yaml.events.AliasEvent):  # pyright: ignore[reportUnknownMemberType]
-            raise yaml.YAMLError("references such as *name are not taken")
-        return super().compose_node(parent, index)
 
 
 @dataclass(frozen=True, slots=True)
