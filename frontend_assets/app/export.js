@@ -104,7 +104,7 @@ export function exportCommands() {
 const VIEW = ["page", ...SCALES.map((scale) => `picture_${scale}`), "picture_clear"];
 
 /** @returns {MenuItem[]} */
-function exportItems() {
+export function exportItems() {
   return [
     { label: t("export.files"), heading: true },
     ...Object.keys(FILES).map(exportItem),

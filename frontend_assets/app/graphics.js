@@ -54,33 +54,36 @@ export function chooseGraphics(choice) {
 
 /** @returns {Command[]} */
 export function graphicsCommands() {
-  return GRAPHICS.map((choice) => ({
+  const choices = GRAPHICS.map((choice) => ({
     id: `graphics.${choice}`,
     icon: "system",
     enabled: () => graphicsChoice.value !== choice,
     run: () => chooseGraphics(choice),
   }));
+  return [...choices, { id: "graphics_details", icon: "info", run: showDetails }];
+}
+
+function showDetails() {
+  dialog.value = { kind: "graphics" };
 }
 
 /** @returns {MenuItem[]} */
 export function graphicsItems() {
-  return GRAPHICS.map((choice) => ({
+  const choices = GRAPHICS.map((choice) => ({
     label: t(`graphics.${choice}`),
     checked: graphicsChoice.value === choice,
     run: () => chooseGraphics(choice),
   }));
+  return [...choices, { label: `${t("graphics.details")}…`, icon: "info", run: showDetails }];
 }
 
 /** Over the 3D view, once: that it is drawn lightly, and the way back. */
 export function GraphicsNotice() {
   if (graphicsSaid.value || graphicsChoice.value !== "automatic" || !graphics.value?.light)
     return null;
-  const details = () => {
-    dialog.value = { kind: "graphics" };
-  };
   return html`<div class="graphics-notice" role="status"><${Icon} name="system" size=${15} />
     <span>${t("graphics.notice")}</span>
-    <button type="button" class="text-button" onClick=${details}>${t("graphics.details")}</button>
+    <button type="button" class="text-button" onClick=${showDetails}>${t("graphics.details")}</button>
     <button type="button" class="text-button" onClick=${() => chooseGraphics("full")}>${t("graphics.draw_fully")}</button>
     <${IconButton} icon="close" size=${14} label=${t("dismiss")} onClick=${() => {
       graphicsSaid.value = true;

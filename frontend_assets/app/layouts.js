@@ -13,6 +13,8 @@ import { size } from "./state/view.js";
 const PHONE_BELOW_PX = 700;
 const LOW_BELOW_PX = 480;
 const WIDE_FROM_PX = 1000;
+/** Of the height for what stands below the 3D view: some fifteen lines of text in a usual window. */
+const LOW_SHARE = 0.42;
 const VERSION = 4;
 
 /** @param {number} width px @param {number} height px @returns {"wide" | "medium" | "phone"} */
@@ -32,7 +34,7 @@ export function modelLayout(kind, width, height) {
   if (kind === "phone") return [{ tabs: Object.keys(PANELS), size: width }];
   if (kind === "medium") {
     const right = Math.round(Math.min(340, width * 0.42));
-    const low = Math.round(height * 0.38);
+    const low = Math.round(height * LOW_SHARE);
     const left = [
       { tabs: ["scene"], size: height - low },
       {
@@ -45,7 +47,7 @@ export function modelLayout(kind, width, height) {
       { tabs: ["properties", "origin", "joints", "frames"], size: right },
     ];
   }
-  const low = Math.round(Math.min(340, height * 0.36));
+  const low = Math.round(Math.min(430, height * LOW_SHARE));
   const scene = { tabs: ["scene"], size: height - low };
   const below = { tabs: ["source", "variants", "problems", "frames", "masses", "urdf"], size: low };
   const left = Math.round(Math.min(300, width * 0.22));

@@ -10,8 +10,10 @@ import { baseName, placeText, shortPath } from "../lib/paths.js";
 import { commandById, commandLabel, commands, onMac } from "./commands.js";
 import { compareWith } from "./menu-commands.js";
 import { panelTitle } from "./panels.js";
+import { applyPose } from "./poses.js";
 import { mayEdit } from "./state/connection.js";
 import { allSites, documentState, movable, problems, robot, siteOrder } from "./state/document.js";
+import { poses } from "./state/poses.js";
 import { selectPart } from "./state/selection.js";
 import { showFile, shownFile, showSource } from "./state/source.js";
 import { variants } from "./state/variants.js";
@@ -30,6 +32,7 @@ export function allChoices() {
     ...commandChoices(),
     ...linkChoices(),
     ...jointChoices(),
+    ...poseChoices(),
     ...variantChoices(),
     ...propertyChoices(),
     ...fileChoices(0),
@@ -122,6 +125,20 @@ function propertyChoice(site) {
       soughtSite.value = site.id;
     },
   };
+}
+
+/** @returns {Choice[]} */
+function poseChoices() {
+  if (!mayEdit.value) return [];
+  return poses.value.poses.map(({ key, name, group, file }) => ({
+    rank: "pose",
+    key: `pose ${key}`,
+    icon: "joints",
+    label: t("palette.pose", { name }),
+    hint: group || baseName(file),
+    does: t("palette.does.pose"),
+    run: () => void applyPose(key),
+  }));
 }
 
 /** @returns {Choice[]} */

@@ -6,7 +6,7 @@ import { shortcutText } from "../lib/keys.js";
 import { Icon, IconButton, MenuButton } from "../lib/ui.js";
 import { closeDocument, goTo, redo, reload, save, undo } from "./actions.js";
 import { commandById, onMac } from "./commands.js";
-import { ExportMenu } from "./export.js";
+import { ExportMenu, exportItems } from "./export.js";
 import { HistoryMenu } from "./history-menu.js";
 import { PanelsMenu, SettingsMenu } from "./settings-menu.js";
 import { mayEdit, role } from "./state/connection.js";
@@ -93,6 +93,17 @@ function documentItems() {
       disabled: none,
       run: () => commandById("copy_link")?.run(),
     },
+    // The bar of a phone has no room for the menu's own button.
+    ...(size.value === "phone"
+      ? [
+          {
+            label: `${t("export")}…`,
+            icon: "download",
+            disabled: documentId.value === "",
+            more: exportItems,
+          },
+        ]
+      : []),
     { label: t("command.reload"), icon: "reload", disabled: none, run: reload },
     { label: t("document.close"), icon: "close", disabled: none, run: closeDocument },
   ];

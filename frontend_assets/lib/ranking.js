@@ -7,6 +7,7 @@ export const RANKS = /** @type {const} */ ([
   "panel",
   "link",
   "joint",
+  "pose",
   "variant",
   "property",
   "file",

@@ -2,10 +2,11 @@
 
 const HEADERS = ".dv-tabs-and-actions-container";
 const TABS = ".dv-tabs-container";
-/** From the most words to the least: all, all closer together, that of the tab in front, none. */
+/** From the most words to the least: all, all closer together, all without icons, that of the tab in front, none. */
 const STEPS = [
   [],
   ["close-tabs"],
+  ["close-tabs", "bare-tabs"],
   ["close-tabs", "tight-tabs"],
   ["close-tabs", "tight-tabs", "icon-tabs"],
 ];

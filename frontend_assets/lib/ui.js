@@ -85,6 +85,7 @@ export function ProgressBar({ label, done, total }) {
  * @typedef {object} MenuItem
  * @property {string} label
  * @property {() => void} [run]
+ * @property {() => MenuItem[]} [more] a list of further choices that takes the place of this one
  * @property {string} [icon]
  * @property {string} [hint] shown small at the right
  * @property {boolean} [checked] a tick: one of several choices
@@ -138,7 +139,14 @@ export function openMenu(button, label, items) {
     button.setAttribute("aria-expanded", "false");
     if (hadFocus && button.isConnected) button.focus();
   };
-  element.append(...items.map((item) => menuEntry(item, close)));
+  /** @type {MenuHandle | null} */
+  let next = null;
+  const choose = (/** @type {MenuItem} */ item) => {
+    close();
+    if (item.more) next = openMenu(button, item.label, item.more());
+    else item.run?.();
+  };
+  element.append(...items.map((item) => menuEntry(item, choose)));
   // Inside a modal dialog everything outside of it is inert, top layer or not.
   (button.closest("dialog") ?? document.body).append(element);
   element.showPopover();
@@ -146,11 +154,16 @@ export function openMenu(button, label, items) {
   button.setAttribute("aria-expanded", "true");
   listenForEnd(element, button, close, stop.signal);
   entries(element)[0]?.focus();
-  return { close };
+  return {
+    close: () => {
+      close();
+      next?.close();
+    },
+  };
 }
 
-/** @param {MenuItem} item @param {() => void} close @returns {HTMLElement} */
-function menuEntry(item, close) {
+/** @param {MenuItem} item @param {(item: MenuItem) => void} choose @returns {HTMLElement} */
+function menuEntry(item, choose) {
   const entry = document.createElement(item.heading ? "div" : "button");
   entry.className = item.heading ? "menu-heading" : "menu-item";
   const text = document.createElement("span");
@@ -166,10 +179,7 @@ function menuEntry(item, close) {
     entry.disabled = item.disabled ?? false;
     entry.setAttribute("role", item.checked === undefined ? "menuitem" : "menuitemradio");
     if (item.checked !== undefined) entry.setAttribute("aria-checked", String(item.checked));
-    entry.addEventListener("click", () => {
-      close();
-      item.run?.();
-    });
+    entry.addEventListener("click", () => choose(item));
   }
   return entry;
 }

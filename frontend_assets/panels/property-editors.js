@@ -172,7 +172,7 @@ function ChoiceHead(props) {
   return html`<select class="box choice" aria-label=${site.name} value=${text} disabled=${!mayEdit.value} title=${text} onChange=${choose}>
     ${all.map((choice) => html`<option key=${choice} value=${choice}>${choice === "" ? "''" : choice}</option>`)}
     ${site.kind === "arg" && html`<option value=${OTHER}>${t("launch.other")}</option>`}
-  </select><span class="unit">${site.widget.unit}</span>`;
+  </select>${site.widget.unit && html`<span class="unit">${site.widget.unit}</span>`}`;
 }
 
 const AXES = ["x", "y", "z", "w"];

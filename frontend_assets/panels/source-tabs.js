@@ -13,14 +13,15 @@ import { Icon, IconButton, MenuButton } from "../lib/ui.js";
 import { ACTIONS } from "./source-actions.js";
 import { findInFiles } from "./source-search.js";
 
-/** @param {{find: () => void, goToLine: () => void, fold: () => void, unfold: () => void}} props what the menu offers for the text in front */
-export function SourceTabs({ find, ...more }) {
+/** @param {{find: () => void, goToLine: () => void, fold: () => void, unfold: () => void, children: import("vendor/preact.js").ComponentChildren}} props what the menu offers for the text in front, and what stands beside the tabs */
+export function SourceTabs({ find, children, ...more }) {
   const names = tabNames(openFiles.value);
   const ready = shownFile.value !== "";
   return html`<div class="source-bar">
     <div class="source-tabs" role="tablist" aria-label=${t("source.files")} onKeyDown=${onTabKey}>
       ${openFiles.value.map((file) => html`<${FileTab} key=${file} file=${file} ...${names.get(file)} />`)}
     </div>
+    ${children}
     <${MenuButton} label=${t("source.all_files")} items=${fileItems}><${Icon} name="chevronDown" /><//>
     <${IconButton} icon="search" label=${t("source.find")} disabled=${!ready} onClick=${find}
       hint=${`${t("source.find")} (${shortcutText("Mod+F", onMac)})`} />

@@ -25,7 +25,7 @@ import {
 } from "../app/state/source.js";
 import { theme } from "../app/state/view.js";
 import { language, t } from "../lib/i18n.js";
-import { baseName, shortPath } from "../lib/paths.js";
+import { baseName } from "../lib/paths.js";
 import { recall, remember } from "../lib/remembered.js";
 import { marksOf } from "../lib/text-problems.js";
 import { EmptyState, Icon, ProgressBar } from "../lib/ui.js";
@@ -48,12 +48,13 @@ export function SourcePanel() {
     if (texts.view) run(texts.view);
   };
   return html`<section class="panel-body source" aria-label=${t("panel.source")}>
-    <${SourceTabs} find=${onView(openSearchPanel)} goToLine=${onView(gotoLine)} fold=${onView(foldAll)} unfold=${onView(unfoldAll)} />
+    <${SourceTabs} find=${onView(openSearchPanel)} goToLine=${onView(gotoLine)} fold=${onView(foldAll)} unfold=${onView(unfoldAll)}>
+      ${shown?.link && html`<${Place} />`}
+    <//>
     <${SourceSearch} />
     ${shown?.link?.readOnly && html`<p class="source-note"><${Icon} name="lock" size=${13} />${shown.link.readOnly}</p>`}
     <div class="source-editor" ref=${host} hidden=${!shown?.link} role="tabpanel" aria-label=${baseName(file)}></div>
     ${!shown?.link && html`<${Waiting} file=${file} reason=${shown?.reason ?? ""} />`}
-    ${shown?.link && html`<${Foot} />`}
   </section>`;
 }
 
@@ -68,13 +69,11 @@ function Waiting({ file, reason }) {
   return html`<${ProgressBar} label=${t("loading")} done=${0} total=${0} />`;
 }
 
-/** Which file it is, and where in it one is. */
-function Foot() {
+/** Where in the file one is: beside its name, since a line of its own would be a line of the text less. */
+function Place() {
   const place = cursorPlace.value;
-  const root = documentState.value?.root ?? "";
-  return html`<div class="source-foot">
-    <span class="source-path" title=${shownFile.value}><bdi>${shortPath(shownFile.value, root)}</bdi></span>
-    ${!mayEdit.value && html`<span class="muted"><${Icon} name="lock" size=${11} /> ${t("source.look_only")}</span>`}
+  return html`<div class="source-place">
+    ${!mayEdit.value && html`<span title=${t("source.look_only")}><${Icon} name="lock" size=${12} /><span class="hidden-words">${t("source.look_only")}</span></span>`}
     ${place && html`<span class="numbers">${t("source.place", { line: place.line, column: place.column })}</span>`}
   </div>`;
 }

@@ -112,7 +112,7 @@ def test_broken_text_is_underlined_and_the_last_good_model_stays(tab: StudioPage
 
 def test_a_slider_writes_into_the_text_and_leaves_cursor_and_scroll(tab: StudioPage):
     go_to(tab, "wheel_radius")
-    place = tab.page.locator(".source-foot .numbers")
+    place = tab.page.locator(".source-place .numbers")
     put_cursor_behind(tab, "<xacro:property")
     scroller = tab.page.locator(".cm-scroller")
     before = (place.inner_text(), scroller.evaluate("one => one.scrollTop"))

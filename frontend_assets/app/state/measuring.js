@@ -8,8 +8,9 @@
 
 import { batch, computed, effect, signal, untracked } from "vendor/preact.js";
 import { anchorOfPart, measured, sameAnchor } from "../../lib/measuring.js";
-import { remembered } from "../../lib/remembered.js";
-import { robot } from "./document.js";
+import { recall, remember, remembered } from "../../lib/remembered.js";
+import { readMeasures } from "../../lib/stored-measures.js";
+import { documentState, robot } from "./document.js";
 import { followFrames, linkPoses } from "./frames.js";
 import { selection } from "./selection.js";
 
@@ -107,4 +108,25 @@ effect(() => {
     const anchor = untracked(() => anchorOfPart(robot.value?.joints ?? [], chosen.part));
     if (anchor) untracked(() => addEnd(anchor));
   });
+});
+
+/** The file whose measures these are. */
+let measuredPath = "";
+const measuresKey = () => `measures.${measuredPath}`;
+
+// They are this browser's own, and there again when the page is loaded anew.
+effect(() => {
+  const path = documentState.value?.path ?? "";
+  if (path === "" || path === measuredPath) return;
+  measuredPath = path;
+  untracked(() => {
+    measures.value = readMeasures(recall(measuresKey())).map((ends) => {
+      count += 1;
+      return { id: count, ends };
+    });
+  });
+});
+effect(() => {
+  const ends = measures.value.map((measure) => measure.ends);
+  if (measuredPath !== "") remember(measuresKey(), ends.length > 0 ? ends : undefined);
 });
