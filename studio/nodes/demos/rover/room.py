@@ -96,7 +96,7 @@ def _to_posts(x: float, y: float, directions: Floats) -> Floats:
 
 def _near_a_wall(xs: NDArray[np.floating], ys: NDArray[np.floating]) -> NDArray[np.bool_]:
     """Shape (rows, columns): the cells that a wall or post reaches into."""
-    half_cell = MAP_CELL_M / 2
+    half_cell = MAP_CELL_M / 2 + 1e-9  # a wall between two cells takes both
     near = np.zeros((len(ys), len(xs)), dtype=np.bool_)
     for x0, y0, x1, y1 in WALLS_M:
         columns = (xs >= min(x0, x1) - half_cell) & (xs <= max(x0, x1) + half_cell)
