@@ -131,6 +131,12 @@ class Kinematics:
         wxyz = self._wxyz(world_from_links[..., :3, :3])
         return np.concatenate((wxyz, world_from_links[..., :3, 3]), axis=-1)
 
+    def wxyz_xyz_in_parents(self, positions: Floats) -> Floats:
+        """Pose of every link in its parent link, (..., L, 7), as `wxyz_xyz`; roots: identity."""
+        parent_from_links = self._parent_from_child(positions)[..., :-1, :, :]
+        wxyz = wxyz_from_matrices(parent_from_links[..., :3, :3])
+        return np.concatenate((wxyz, parent_from_links[..., :3, 3]), axis=-1)
+
     @property
     def axes(self) -> Floats:
         """Unit axis of each movable joint in its own frame, (J, 3); zero where none is given."""
