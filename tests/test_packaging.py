@@ -64,7 +64,7 @@ def source_of(name: str) -> Path | None:
 def test_the_wheel_holds_the_program_the_page_and_the_models(names: list[str]):
     assert {
         "studio/__init__.py",
-        "studio/cli.py",
+        "studio/cli/main.py",
         "studio/_frontend_assets/index.html",
         "studio/_models/rover_description/package.xml",
         "studio/_models/rover_description/urdf/rover.urdf.xacro",

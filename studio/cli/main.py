@@ -1,0 +1,77 @@
+"""One run of `studio`: the command is looked up, read and carried out."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from typing import TYPE_CHECKING
+
+import studio
+from studio.cli.commands import COMMANDS
+from studio.cli.mappings import part_mappings
+from studio.cli.values import shield_values
+from studio.errors import StudioError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+_EXAMPLES = """\
+examples:
+  studio demo                              look at the sample rover, drag its properties
+  studio open                              open what was opened last
+  studio open robot.urdf.xacro             open a file
+  studio open ~/ws/src                     open a workspace, a package folder or a .zip
+  studio open ur.urdf.xacro ur_type:=ur10e name:=ur
+                                           pass arguments as to xacro
+  studio check ~/ws/src                    say what is wrong with every robot there
+  studio xacro robot.urdf.xacro > robot.urdf
+                                           expand as the xacro command does
+"""
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run one command; answers its exit code: 0 where it has none, 2 after a sentence on stderr."""
+    words = sys.argv[1:] if argv is None else list(argv)
+    options = _read(words)
+    try:
+        return options.run(options) or 0
+    except StudioError as error:
+        print(f"studio: {error}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        return 130
+    except BrokenPipeError:  # the reader of our output has gone, as `head` does
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+
+
+def _read(words: list[str]) -> argparse.Namespace:
+    asked = next((word for word in words if not word.startswith("-")), None)
+    mappings: list[str] = []
+    if any(command.takes_mappings for command in COMMANDS if command.name == asked):
+        words, mappings = part_mappings(words)
+    options = _parser(asked).parse_args(shield_values(words))
+    options.mappings = mappings
+    return options
+
+
+def _parser(asked: str | None) -> argparse.ArgumentParser:
+    """Make the parser of all commands; only the one that was asked for is filled in."""
+    parser = argparse.ArgumentParser(
+        prog="studio",
+        description="See and tweak robot descriptions in the browser.",
+        epilog=_EXAMPLES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("--version", action="version", version=f"studio {studio.__version__}")
+    parsers = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
+    for command in COMMANDS:
+        own = parsers.add_parser(
+            command.name,
+            help=command.summary,
+            formatter_class=argparse.RawDescriptionHelpFormatter,
+        )
+        if command.name == asked:
+            command.add_to(own)
+    return parser

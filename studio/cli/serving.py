@@ -1,0 +1,95 @@
+"""Options of commands that read robot descriptions and start the server, and what they mean."""
+
+from __future__ import annotations
+
+import argparse
+import gc
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from studio.settings import DEFAULT_HOST, DEFAULT_PORT
+
+if TYPE_CHECKING:
+    from studio.settings import Settings
+
+_HIGHEST_PORT = 65535
+
+
+def add_server_options(parser: argparse.ArgumentParser) -> None:
+    """Options of every command that starts the server."""
+    parser.add_argument(
+        "--host", default=DEFAULT_HOST, help="address to listen on (default: this machine only)"
+    )
+    parser.add_argument(
+        "--port", type=_port, help=f"port to listen on (default: {DEFAULT_PORT} or the next free)"
+    )
+    parser.add_argument("--no-browser", action="store_true", help="open no browser window")
+    parser.add_argument(
+        "--no-token", action="store_true", help="ask nobody for the token; this machine only"
+    )
+    parser.add_argument(
+        "--viewer-link", action="store_true", help="print an address for those who only look, too"
+    )
+    add_read_options(parser)
+
+
+def add_read_options(parser: argparse.ArgumentParser) -> None:
+    """Options of every command that reads robot descriptions."""
+    parser.add_argument(
+        "--package-path",
+        action="append",
+        default=[],
+        metavar="DIR",
+        help="also find packages here, read-only; may be given again",
+    )
+    parser.add_argument(
+        "--data-dir", type=Path, metavar="DIR", help="where working copies and caches live"
+    )
+    parser.add_argument(
+        "--trust",
+        action="store_true",
+        help="for your own files, on this machine only: $(env) sees every environment variable, "
+        "not only those of ROS; expressions and what may be read stay as they are",
+    )
+
+
+def _port(text: str) -> int:
+    number = int(text)
+    if not 0 <= number <= _HIGHEST_PORT:
+        raise argparse.ArgumentTypeError(f"{number} is no port: 0 to {_HIGHEST_PORT}")
+    return number
+
+
+def package_paths(options: argparse.Namespace) -> tuple[Path, ...]:
+    """All `--package-path`, each of which may hold several, as PATH does."""
+    parts = (part for given in options.package_path for part in given.split(os.pathsep))
+    return tuple(Path(part).expanduser() for part in parts if part)
+
+
+def server_settings(options: argparse.Namespace) -> Settings:
+    """What the options of a command that starts the server come to."""
+    from studio.settings import Settings, data_folder
+    from studio.web.credentials import new_token
+
+    return Settings(
+        host=options.host,
+        port=options.port,
+        token=None if options.no_token else new_token(),
+        data_folder=data_folder(options.data_dir),
+        package_paths=package_paths(options),
+        trusted=options.trust,
+        open_browser=not options.no_browser,
+    )
+
+
+def serve(
+    options: argparse.Namespace, settings: Settings, path: Path, arguments: dict[str, str]
+) -> None:
+    """Open a path and serve its page until the command is stopped."""
+    gc.disable()  # all that is imported lives on: looking through it meanwhile costs a third
+    from studio.web.launch import Opening, launch
+
+    gc.freeze()
+    gc.enable()
+    launch(settings, Opening(path, arguments), viewer_link=options.viewer_link)
