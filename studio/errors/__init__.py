@@ -30,6 +30,8 @@ StudioError
     WireError
         WireSettingsError
         NoRouterError
+        ForeignEndpointError
+        RouterNotStartedError
         RosNameError
         TokenError
         AttachmentError
@@ -38,6 +40,21 @@ StudioError
             UnknownTypeError
         MessageValueError
         CdrError
+        ParameterError
+            ParameterNotDeclaredError
+            ParameterAlreadyDeclaredError
+            ParameterImmutableError
+            ParameterUninitializedError
+            InvalidParameterTypeError
+            InvalidParameterValueError
+            ParameterFileError
+        CallError
+            NotServedError
+            NoAnswerError
+            ActionServerGoneError
+        GoalStateError
+        TransitionError
+        TypeDescriptionError
     WorkerError
         WorkerTimeoutError
         WorkerDiedError
@@ -52,6 +69,23 @@ Each keeps its data and says in one sentence what is wrong, where, and what to d
 
 from __future__ import annotations
 
+from studio.errors.calls import (
+    ActionServerGoneError,
+    CallError,
+    GoalStateError,
+    InvalidParameterTypeError,
+    InvalidParameterValueError,
+    NoAnswerError,
+    NotServedError,
+    ParameterAlreadyDeclaredError,
+    ParameterError,
+    ParameterFileError,
+    ParameterImmutableError,
+    ParameterNotDeclaredError,
+    ParameterUninitializedError,
+    TransitionError,
+    TypeDescriptionError,
+)
 from studio.errors.files import (
     DataFolderError,
     ExportError,
@@ -98,11 +132,13 @@ from studio.errors.serving import (
 from studio.errors.wire import (
     AttachmentError,
     CdrError,
+    ForeignEndpointError,
     InterfaceError,
     InterfaceTextError,
     MessageValueError,
     NoRouterError,
     RosNameError,
+    RouterNotStartedError,
     TokenError,
     UnknownTypeError,
     WireError,
@@ -111,7 +147,9 @@ from studio.errors.wire import (
 
 __all__ = [
     "AccessError",
+    "ActionServerGoneError",
     "AttachmentError",
+    "CallError",
     "CdrError",
     "CommandError",
     "DataFolderError",
@@ -120,23 +158,36 @@ __all__ = [
     "EditError",
     "ExpansionError",
     "ExportError",
+    "ForeignEndpointError",
+    "GoalStateError",
     "InterfaceError",
     "InterfaceTextError",
+    "InvalidParameterTypeError",
+    "InvalidParameterValueError",
     "MeshError",
     "MessageValueError",
+    "NoAnswerError",
     "NoRouterError",
     "NotAllowedError",
     "NotMadeError",
     "NotSavedError",
+    "NotServedError",
     "OutsideRootsError",
     "PackageError",
     "PackageNotFoundError",
+    "ParameterAlreadyDeclaredError",
+    "ParameterError",
+    "ParameterFileError",
+    "ParameterImmutableError",
+    "ParameterNotDeclaredError",
+    "ParameterUninitializedError",
     "PortTakenError",
     "PosesFileError",
     "ReadOnlyTextError",
     "RefusedError",
     "RobotError",
     "RosNameError",
+    "RouterNotStartedError",
     "SaveConflictError",
     "SceneError",
     "SettingsError",
@@ -145,6 +196,8 @@ __all__ = [
     "StudioError",
     "SupersededError",
     "TokenError",
+    "TransitionError",
+    "TypeDescriptionError",
     "UnknownDocumentError",
     "UnknownTypeError",
     "UnreadableFileError",

@@ -26,6 +26,29 @@ class NoRouterError(WireError):
         )
 
 
+class ForeignEndpointError(WireError):
+    """The endpoint of a router is held by a program that does not speak Zenoh."""
+
+    def __init__(self, endpoint: str) -> None:
+        super().__init__(
+            f"Something that is no Zenoh router holds {endpoint}: end it, or name another place "
+            "with --router or --connect."
+        )
+        self.endpoint = endpoint
+
+
+class RouterNotStartedError(WireError):
+    """A router cannot listen where it should; `held` says that another program does."""
+
+    def __init__(self, endpoint: str, reason: str, *, held: bool) -> None:
+        why = "another program listens there" if held else reason.rstrip(".! ")
+        super().__init__(
+            f"No router was started at {endpoint} ({why}): name another place with --listen "
+            "or --router."
+        )
+        self.endpoint, self.reason, self.held = endpoint, reason, held
+
+
 class RosNameError(WireError):
     """A name, namespace, type name or key breaks a rule of ROS 2."""
 

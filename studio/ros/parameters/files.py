@@ -1,0 +1,109 @@
+"""Files of parameters, as `ros2 param dump` writes them and `--params-file` reads them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, cast
+
+from studio.errors import InvalidParameterTypeError, ParameterFileError
+from studio.ros.parameters.parameter import Parameter
+from studio.ros.parameters.values import ParameterType
+from studio.ros.types.arrays import said
+from studio.ros.types.yaml_texts import read_yaml, write_yaml
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+PARAMETERS_KEY = "ros__parameters"
+LEVELS_MAX = 64
+
+
+def write_parameters(node: str, parameters: Mapping[str, Parameter]) -> str:
+    """Write the parameters of a node by its full name; those without a value are left out."""
+    tree: dict[str, Any] = {}
+    for name in sorted(parameters):
+        if parameters[name].type_ is not ParameterType.NOT_SET:
+            _insert(tree, name, parameters[name].value)
+    return write_yaml({node: {PARAMETERS_KEY: tree}})
+
+
+def read_parameters(text: str, node: str, where: str = "The file of parameters") -> list[Parameter]:
+    """Read what a file says of the node of that full name; `where` names the file in errors.
+
+    A name may be whole (`/ns/node`), in levels (`ns: node:`), or hold `*` for one part and `**`
+    for any number of them. What stands further below in the file comes before what stands above.
+
+    Raises:
+        ParameterFileError: It is no such file, or a value is none that a parameter can hold.
+    """
+    try:
+        tree = read_yaml(text)
+    except ValueError as error:
+        raise ParameterFileError(where, str(error)) from None
+    if not isinstance(tree, dict):
+        raise ParameterFileError(where, f"names of nodes are expected, not {said(tree)}")
+    found: dict[str, Parameter] = {}
+    for path, values in _sections(cast("dict[object, object]", tree), "", where):
+        if _matches(path.strip("/").split("/"), node.strip("/").split("/")):
+            for name, value in _flat(values, "", where, 0):
+                found[name] = _made(name, value, where)
+    return list(found.values())
+
+
+def _insert(tree: dict[str, Any], name: str, value: object) -> None:
+    """Put `a.b` into the group `a`, or under its whole name where `a` holds a value itself."""
+    group, _, rest = name.partition(".")
+    below = tree.setdefault(group, {}) if rest else None
+    if isinstance(below, dict) and all(name.split(".")):
+        _insert(cast("dict[str, Any]", below), rest, value)
+    else:
+        tree[name] = value
+
+
+def _sections(tree: dict[object, object], above: str, where: str) -> Iterator[tuple[str, object]]:
+    """Walk down levels of names to each `ros__parameters`."""
+    if above.count("/") > LEVELS_MAX:
+        raise ParameterFileError(where, f"names lie deeper than {LEVELS_MAX} levels")
+    for key, value in tree.items():
+        if key == PARAMETERS_KEY:
+            yield above, value
+        elif isinstance(value, dict):
+            path = f"{above}/{str(key).strip('/')}"
+            yield from _sections(cast("dict[object, object]", value), path, where)
+        else:
+            name = f"{above}/{key}"
+            raise ParameterFileError(where, f"{name} needs a {PARAMETERS_KEY} with its values")
+
+
+def _flat(values: object, above: str, where: str, level: int) -> Iterator[tuple[str, object]]:
+    if not isinstance(values, dict):
+        raise ParameterFileError(where, f"{PARAMETERS_KEY} holds {said(values)}, no parameters")
+    if level > LEVELS_MAX:
+        raise ParameterFileError(where, f"parameters lie deeper than {LEVELS_MAX} levels")
+    for key, value in cast("dict[object, object]", values).items():
+        name = f"{above}{key}"
+        if isinstance(value, dict):
+            yield from _flat(cast("object", value), f"{name}.", where, level + 1)
+        else:
+            yield name, value
+
+
+def _made(name: str, value: object, where: str) -> Parameter:
+    if value is None:
+        raise ParameterFileError(where, f"the parameter {name} has no value")
+    try:
+        return Parameter(name, value=value)
+    except InvalidParameterTypeError as error:
+        raise ParameterFileError(where, str(error).rstrip(".")) from None
+
+
+def _matches(pattern: list[str], parts: list[str]) -> bool:
+    """Whether a name in parts fits; every `**` doubles no work, as each is tried from the left."""
+    reached = {0}
+    for one in pattern:
+        if one == "**":
+            reached = set(range(min(reached), len(parts) + 1)) if reached else set[int]()
+        else:
+            reached = {
+                place + 1 for place in reached if place < len(parts) and one in ("*", parts[place])
+            }
+    return len(parts) in reached

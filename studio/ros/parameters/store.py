@@ -1,0 +1,300 @@
+"""ParameterStore: the parameters that a node declared, with their types, ranges and values."""
+
+from __future__ import annotations
+
+import threading
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from studio.errors import (
+    InvalidParameterTypeError,
+    InvalidParameterValueError,
+    ParameterAlreadyDeclaredError,
+    ParameterError,
+    ParameterImmutableError,
+    ParameterNotDeclaredError,
+    ParameterUninitializedError,
+)
+from studio.ros.parameters.callbacks import ParameterCallbacks
+from studio.ros.parameters.messages import ParameterMessages, usual_messages
+from studio.ros.parameters.parameter import Parameter
+from studio.ros.parameters.ranges import misfit
+from studio.ros.parameters.values import ParameterType
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Mapping
+
+    from studio.ros.types.classes import MessageValue
+
+NAME_CHARACTERS_MAX = 1_000
+
+
+@dataclass(frozen=True, slots=True)
+class ParameterChange:
+    """What one step changed, as `/parameter_events` tells it."""
+
+    new: tuple[Parameter, ...] = ()
+    changed: tuple[Parameter, ...] = ()
+    deleted: tuple[Parameter, ...] = ()
+
+
+@dataclass(slots=True)
+class _Declared:
+    """A parameter and its descriptor; the descriptor's type is the one it keeps."""
+
+    parameter: Parameter
+    descriptor: MessageValue
+
+
+@dataclass(slots=True)
+class _Step:
+    """What is about to be set, sorted by what it will be."""
+
+    new: list[Parameter] = field(default_factory=list[Parameter])
+    changed: list[Parameter] = field(default_factory=list[Parameter])
+    deleted: list[Parameter] = field(default_factory=list[Parameter])
+
+
+class ParameterStore:
+    """The parameters of one node; any thread may ask.
+
+    Attributes:
+        overrides: Values given at the start, which come before those in the code.
+        callbacks: Who is asked and told of changes.
+    """
+
+    def __init__(
+        self,
+        tell: Callable[[ParameterChange], None],
+        *,
+        messages: ParameterMessages | None = None,
+        overrides: Mapping[str, Parameter] | None = None,
+        allow_undeclared: bool = False,
+    ) -> None:
+        self.messages = messages or usual_messages()
+        self.overrides = dict(overrides or {})
+        self.callbacks = ParameterCallbacks()
+        self._tell = tell
+        self._allow_undeclared = allow_undeclared
+        self._declared: dict[str, _Declared] = {}
+        # A callback may read, and set others: the lock lets its own thread in again.
+        self._lock = threading.RLock()
+
+    def declare(
+        self,
+        name: str,
+        value: Any = None,  # noqa: ANN401  # a value, a type or a Parameter
+        descriptor: MessageValue | None = None,
+        *,
+        ignore_override: bool = False,
+    ) -> Parameter:
+        """Declare a parameter by a value, or by its type alone as `Parameter.Type.STRING`.
+
+        Raises:
+            ParameterAlreadyDeclaredError: There is one of that name.
+            InvalidParameterTypeError: An override is of another type.
+            InvalidParameterValueError: The value is refused.
+        """
+        with self._lock:
+            if name in self._declared:
+                raise ParameterAlreadyDeclaredError(name)
+            _check_name(name)
+            own = self._descriptor(name, value, descriptor)
+            default = _default(name, value)
+            given = default if ignore_override else self.overrides.get(name, default)
+            self._check(given, own)
+            result = self.callbacks.ask([given], self.messages.SetParametersResult(successful=True))
+            if not result.successful:
+                raise InvalidParameterValueError(name, result.reason)
+            self._declared[name] = _Declared(given, own)
+        self._tell(ParameterChange(new=(given,)))
+        self.callbacks.after([given])
+        return given
+
+    def undeclare(self, name: str) -> None:
+        """Take a parameter away.
+
+        Raises:
+            ParameterNotDeclaredError: There is none of that name.
+            ParameterImmutableError: It may only be read.
+        """
+        with self._lock:
+            known = self._find(name)
+            if known.descriptor.read_only:
+                raise ParameterImmutableError(name)
+            del self._declared[name]
+        self._tell(ParameterChange(deleted=(Parameter(name),)))
+
+    def has(self, name: str) -> bool:
+        """Whether there is a parameter of that name."""
+        return name in self._declared
+
+    def get(self, name: str) -> Parameter:
+        """Give a parameter.
+
+        Raises:
+            ParameterNotDeclaredError: There is none of that name.
+            ParameterUninitializedError: It was declared by its type and never set.
+        """
+        with self._lock:
+            known = self._declared.get(name)
+            if known is None and self._allow_undeclared:
+                return Parameter(name)
+            known = self._find(name)
+            unset = known.parameter.type_ is ParameterType.NOT_SET
+            if unset and not known.descriptor.dynamic_typing:
+                raise ParameterUninitializedError(name)
+            return known.parameter
+
+    def all(self) -> dict[str, Parameter]:
+        """Give every parameter in the order of the alphabet."""
+        with self._lock:
+            return {name: self._declared[name].parameter for name in sorted(self._declared)}
+
+    def describe(self, name: str) -> MessageValue:
+        """Give the descriptor of a parameter.
+
+        Raises:
+            ParameterNotDeclaredError: There is none of that name.
+        """
+        with self._lock:
+            if name not in self._declared and self._allow_undeclared:
+                return self.messages.ParameterDescriptor(name=name)
+            return self._find(name).descriptor
+
+    def set(self, parameters: Iterable[Parameter]) -> list[MessageValue]:
+        """Set parameters one after another; a refused one hinders no other.
+
+        Raises:
+            ParameterNotDeclaredError: One is not declared; those before it are set.
+        """
+        return [self.set_atomically([parameter]) for parameter in parameters]
+
+    def set_atomically(self, parameters: Iterable[Parameter]) -> MessageValue:
+        """Set all or none, and give one SetParametersResult.
+
+        Raises:
+            ParameterNotDeclaredError: One is not declared; none is set.
+        """
+        with self._lock:
+            wanted = self.callbacks.before(list(parameters))
+            step = self._sorted(wanted)
+            result = self._judge(wanted)
+            if not result.successful:
+                return result
+            self._apply(step)
+        self._tell(ParameterChange(tuple(step.new), tuple(step.changed), tuple(step.deleted)))
+        self.callbacks.after(wanted)
+        return result
+
+    def _descriptor(self, name: str, value: object, given: MessageValue | None) -> MessageValue:
+        """Complete a descriptor of our own: its name, and the type that the parameter keeps."""
+        made = self.messages.ParameterDescriptor(name=name)
+        if given is None:
+            made.dynamic_typing = value is None
+        else:
+            for attribute in _DESCRIPTOR_FIELDS:
+                setattr(made, attribute, getattr(given, attribute))
+        if not made.dynamic_typing:
+            kind = value if isinstance(value, ParameterType) else _default(name, value).type_
+            if kind is ParameterType.NOT_SET:
+                raise InvalidParameterTypeError(
+                    name, "give a value, a type, or a descriptor with dynamic_typing=True"
+                )
+            made.type = int(kind)
+        return made
+
+    def _find(self, name: str) -> _Declared:
+        known = self._declared.get(name)
+        if known is None:
+            raise ParameterNotDeclaredError(name)
+        return known
+
+    def _sorted(self, wanted: list[Parameter]) -> _Step:
+        step = _Step()
+        for parameter in wanted:
+            known = self._declared.get(parameter.name)
+            if known is None and not self._allow_undeclared:
+                raise ParameterNotDeclaredError(parameter.name)
+            deletes = parameter.type_ is ParameterType.NOT_SET
+            if deletes and known is not None:
+                step.deleted.append(parameter)
+            elif not deletes:
+                was_set = known and known.parameter.type_ is not ParameterType.NOT_SET
+                (step.changed if was_set else step.new).append(parameter)
+        return step
+
+    def _judge(self, wanted: list[Parameter]) -> Any:  # noqa: ANN401  # a SetParametersResult
+        agreed = self.messages.SetParametersResult(successful=True)
+        try:
+            for parameter in wanted:
+                known = self._declared.get(parameter.name)
+                if known is not None:
+                    self._check_change(parameter, known.descriptor)
+        except ParameterError as error:
+            return self.messages.SetParametersResult(successful=False, reason=str(error))
+        return self.callbacks.ask(wanted, agreed)
+
+    def _check_change(self, parameter: Parameter, descriptor: MessageValue) -> None:
+        if descriptor.read_only:
+            raise ParameterImmutableError(parameter.name)
+        deletes = parameter.type_ is ParameterType.NOT_SET
+        if deletes and not descriptor.dynamic_typing:
+            raise InvalidParameterTypeError(
+                parameter.name, f"it keeps the type {_words(descriptor)} and cannot be taken away"
+            )
+        self._check(parameter, descriptor)
+
+    def _check(self, parameter: Parameter, descriptor: MessageValue) -> None:
+        kind = parameter.type_
+        unset = kind is ParameterType.NOT_SET
+        if not (descriptor.dynamic_typing or unset) and kind != descriptor.type:
+            raise InvalidParameterTypeError(
+                parameter.name, f"it is {_words(descriptor)}, {kind.words} was given"
+            )
+        reason = misfit(parameter, descriptor)
+        if reason is not None:
+            raise InvalidParameterValueError(parameter.name, f"{reason}.")
+
+    def _apply(self, step: _Step) -> None:
+        for parameter in (*step.new, *step.changed):
+            known = self._declared.get(parameter.name)
+            if known is None:
+                descriptor = self.messages.ParameterDescriptor(
+                    name=parameter.name, dynamic_typing=True
+                )
+                known = self._declared[parameter.name] = _Declared(parameter, descriptor)
+            known.parameter = parameter
+            if known.descriptor.dynamic_typing:
+                known.descriptor.type = int(parameter.type_)
+        for parameter in step.deleted:
+            del self._declared[parameter.name]
+
+
+_DESCRIPTOR_FIELDS = (
+    "description",
+    "additional_constraints",
+    "read_only",
+    "dynamic_typing",
+    "floating_point_range",
+    "integer_range",
+)
+
+
+def _default(name: str, value: object) -> Parameter:
+    if isinstance(value, ParameterType):
+        return Parameter(name)
+    if isinstance(value, Parameter):
+        return Parameter(name, value.type_, value.value)
+    return Parameter(name, value=value)
+
+
+def _words(descriptor: MessageValue) -> str:
+    return ParameterType(descriptor.type).words
+
+
+def _check_name(name: str) -> None:
+    if not name or len(name) > NAME_CHARACTERS_MAX:
+        raise InvalidParameterValueError(
+            name, f"a parameter has a name of 1 to {NAME_CHARACTERS_MAX} characters."
+        )
