@@ -4,19 +4,25 @@ from __future__ import annotations
 
 import itertools
 import json
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Self
 
 import zenoh
 
 from studio.errors import NoRouterError, WireSettingsError
 from studio.ros.types.library import TypeLibrary
+from studio.ros.wire.door import close, insert
 
 if TYPE_CHECKING:
     from studio.ros.profiles import WireProfile
+    from studio.ros.wire.router import EmbeddedRouter
     from studio.ros.wire.settings import WireSettings
 
 SERVICE_TIMEOUT_MS = 600_000
 """How long rmw_zenoh lets a service take."""
+_OPEN_TIMEOUT_MS = 5_000
+"""How long a port that says nothing is listened to; Zenoh's own is twice that."""
+_RETRY = {"period_init_ms": 250, "period_max_ms": 1_000, "period_increase_factor": 2}
+"""A session finds a router that has come back within a second."""
 
 
 class WireSession:
@@ -26,12 +32,21 @@ class WireSession:
         zenoh: The session itself.
         zid: Its id, as tokens carry it.
         types: Of the distribution and of the user, shared by all nodes.
+        router: The router of our own that this session was opened with, None when it joined
+            one that was there.
     """
 
-    def __init__(self, session: zenoh.Session, settings: WireSettings, types: TypeLibrary) -> None:
+    def __init__(
+        self,
+        session: zenoh.Session,
+        settings: WireSettings,
+        types: TypeLibrary,
+        router: EmbeddedRouter | None = None,
+    ) -> None:
         self.zenoh = session
         self.settings = settings
         self.types = types
+        self.router = router
         self.zid = str(session.info.zid())
         self._ids = itertools.count()
 
@@ -50,13 +65,29 @@ class WireSession:
         return next(self._ids)
 
     def close(self) -> None:
-        """End the session and all that was declared on it; again is harmless."""
-        if not self.zenoh.is_closed():
-            cast("Any", self.zenoh).close()
+        """End the session, all that was declared on it, and our router; again is harmless."""
+        close(self.zenoh)
+        if self.router is not None:
+            self.router.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
 
 
-def open_session(settings: WireSettings, types: TypeLibrary | None = None) -> WireSession:
-    """Join as a client of a router.
+def open_session(
+    settings: WireSettings,
+    types: TypeLibrary | None = None,
+    router: EmbeddedRouter | None = None,
+) -> WireSession:
+    """Join as a client of a router; `open_wire` also starts one where it is missing.
+
+    Args:
+        settings: Where the router is, and what is spoken there.
+        types: A library that is shared; one of the distribution is made without.
+        router: Of our own, closed with the session.
 
     Raises:
         NoRouterError: None answers at the endpoints.
@@ -65,7 +96,7 @@ def open_session(settings: WireSettings, types: TypeLibrary | None = None) -> Wi
     config = zenoh_config(settings)
     library = types or TypeLibrary(settings.profile.distro)
     try:
-        return WireSession(zenoh.open(config), settings, library)
+        return WireSession(zenoh.open(config), settings, library, router)
     except zenoh.ZError as error:
         raise NoRouterError(settings.connect, str(error)) from None
 
@@ -79,7 +110,7 @@ def zenoh_config(settings: WireSettings) -> zenoh.Config:
     try:
         config = _base(settings)
         for key, json5 in settings.overrides.items():
-            _set(config, key, json5)
+            insert(config, key, json5)
     except (zenoh.ZError, OSError) as error:
         reason = str(error).split(" at /")[0]
         raise WireSettingsError(f"Zenoh's configuration is refused: {reason}.") from None
@@ -91,14 +122,12 @@ def _base(settings: WireSettings) -> zenoh.Config:
         config = zenoh.Config.from_file(settings.config_file)
     else:
         config = zenoh.Config()
-        _set(config, "mode", '"client"')
-        _set(config, "scouting/multicast/enabled", "false")
-        _set(config, "timestamping/enabled", "true")
-        _set(config, "queries_default_timeout", str(SERVICE_TIMEOUT_MS))
+        insert(config, "mode", '"client"')
+        insert(config, "scouting/multicast/enabled", "false")
+        insert(config, "timestamping/enabled", "true")
+        insert(config, "queries_default_timeout", str(SERVICE_TIMEOUT_MS))
+        insert(config, "transport/unicast/open_timeout", str(_OPEN_TIMEOUT_MS))
+        insert(config, "connect/retry", json.dumps(_RETRY))
     if settings.connect:
-        _set(config, "connect/endpoints", json.dumps(settings.connect))
+        insert(config, "connect/endpoints", json.dumps(settings.connect))
     return config
-
-
-def _set(config: zenoh.Config, key: str, json5: str) -> None:
-    cast("Any", config).insert_json5(key, json5)  # which says nothing of what it returns

@@ -1,0 +1,57 @@
+"""What answers at an endpoint: nothing, Zenoh, or something else that holds the port."""
+
+from __future__ import annotations
+
+import secrets
+import socket
+from enum import StrEnum
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from studio.ros.wire.endpoints import Endpoint
+
+CONNECT_TIMEOUT_S = 3.0
+ANSWER_TIMEOUT_S = 4.0
+_INIT = 0x01
+_IS_ANSWER = 0x20
+_MESSAGE_ID = 0x1F
+_PROTOCOL_VERSION = 9
+# A client (2) with an id of 16 bytes, one less than which stands in the upper half.
+_CLIENT_WITH_LONG_ID = 0xF2
+
+
+class Answer(StrEnum):
+    """What was found at an endpoint."""
+
+    NOBODY = "nobody"
+    ZENOH = "zenoh"
+    OTHER = "other"
+    UNKNOWN = "unknown"
+    """Something is there that only Zenoh itself can talk to, or nothing: one must try."""
+
+
+def probe(endpoint: Endpoint) -> Answer:
+    """Knock at an endpoint and leave; takes 7 s at most, and 1 ms on this machine."""
+    if not endpoint.is_stream:
+        return Answer.UNKNOWN
+    try:
+        link = socket.create_connection((endpoint.host, endpoint.port), CONNECT_TIMEOUT_S)
+    except OSError:
+        return Answer.NOBODY
+    with link:
+        if endpoint.protocol == "tls":
+            return Answer.UNKNOWN
+        return Answer.ZENOH if _answers_as_zenoh(link) else Answer.OTHER
+
+
+def _answers_as_zenoh(link: socket.socket) -> bool:
+    """Send the first message of Zenoh's handshake; only Zenoh knows the second."""
+    link.settimeout(ANSWER_TIMEOUT_S)
+    message = bytes((_INIT, _PROTOCOL_VERSION, _CLIENT_WITH_LONG_ID)) + secrets.token_bytes(16)
+    try:
+        link.sendall(len(message).to_bytes(2, "little") + message)
+        # Zenoh takes what comes first for a length, so that one byte more than it says suffices.
+        answer = link.recv(3, socket.MSG_WAITALL)
+    except OSError:
+        return False
+    return len(answer) == 3 and answer[2] & _MESSAGE_ID == _INIT and bool(answer[2] & _IS_ANSWER)

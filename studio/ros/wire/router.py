@@ -1,0 +1,126 @@
+"""The router of our own: a Zenoh router inside this process, where rmw_zenohd would run."""
+
+from __future__ import annotations
+
+import json
+import signal
+import threading
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Self
+
+import zenoh
+
+from studio.errors import RouterNotStartedError
+from studio.ros.wire.door import close, insert
+from studio.ros.wire.endpoints import Endpoint, parse_endpoint
+from studio.ros.wire.probing import Answer, probe
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+_ACCEPT_TIMEOUT_MS = 5_000
+"""A peer that begins a handshake and falls silent is let go after this."""
+
+
+@dataclass(frozen=True, slots=True)
+class RouterChoice:
+    """What `--router` says.
+
+    Attributes:
+        starts: Whether a router is started where none answers.
+        endpoint: Where, None for the endpoint that is connected to.
+    """
+
+    starts: bool = True
+    endpoint: Endpoint | None = None
+
+
+def router_choice(text: str) -> RouterChoice:
+    """Read `auto`, `off` or an endpoint.
+
+    Raises:
+        WireSettingsError: It is none of these.
+    """
+    if text in {"auto", "off"}:
+        return RouterChoice(starts=text == "auto")
+    return RouterChoice(endpoint=parse_endpoint(text))
+
+
+class EmbeddedRouter:
+    """A router that listens at one endpoint until it is closed."""
+
+    def __init__(self, session: zenoh.Session, endpoint: Endpoint) -> None:
+        self._session = session
+        self.endpoint = endpoint
+        self.zid = str(session.info.zid())
+
+    def close(self) -> None:
+        """Hang up on everybody; again is harmless."""
+        close(self._session)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+
+def start_router(endpoint: Endpoint, overrides: Mapping[str, str] | None = None) -> EmbeddedRouter:
+    """Listen at an endpoint.
+
+    Args:
+        endpoint: Where.
+        overrides: Keys of Zenoh's configuration and JSON5, such as its TLS keys.
+
+    Raises:
+        RouterNotStartedError: The endpoint is held by another program, or cannot be listened at.
+    """
+    try:
+        return EmbeddedRouter(zenoh.open(_router_config(endpoint, overrides or {})), endpoint)
+    except zenoh.ZError as error:
+        reason = str(error).split(" at /")[0]
+        raise RouterNotStartedError(endpoint.text, reason, held=_is_held(endpoint)) from None
+
+
+def run_router(
+    listen: str, ready: Callable[[str], None], overrides: Mapping[str, str] | None = None
+) -> None:
+    """Run a router until Ctrl-C or SIGTERM; for the main thread of a process.
+
+    Args:
+        listen: The endpoint.
+        ready: Given the endpoint once others may connect.
+        overrides: See `start_router`.
+
+    Raises:
+        WireSettingsError: `listen` is no endpoint.
+        RouterNotStartedError: See `start_router`.
+    """
+    asked_to_end = threading.Event()
+
+    def end(_number: int, _frame: object) -> None:
+        asked_to_end.set()
+
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, end)
+    with start_router(parse_endpoint(listen), overrides) as router:
+        ready(router.endpoint.text)
+        asked_to_end.wait()
+
+
+def _is_held(endpoint: Endpoint) -> bool:
+    return probe(endpoint) not in {Answer.NOBODY, Answer.UNKNOWN}
+
+
+def _router_config(endpoint: Endpoint, overrides: Mapping[str, str]) -> zenoh.Config:
+    config = zenoh.Config()
+    insert(config, "mode", '"router"')
+    insert(config, "listen/endpoints", json.dumps([endpoint.text]))
+    # Zenoh would wait half a second for others that it finds by itself; nobody is to find it.
+    insert(config, "scouting/delay", "0")
+    insert(config, "scouting/multicast/enabled", "false")
+    insert(config, "transport/unicast/accept_timeout", str(_ACCEPT_TIMEOUT_MS))
+    insert(config, "transport/unicast/max_sessions", "10000")
+    for key, json5 in overrides.items():
+        insert(config, key, json5)
+    return config

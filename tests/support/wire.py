@@ -1,0 +1,77 @@
+"""Real Zenoh on free ports of this machine: a router, sessions, and waiting for what they say."""
+
+from __future__ import annotations
+
+import socket
+import time
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from studio.ros.profiles import profile_named
+from studio.ros.wire.endpoints import parse_endpoint
+from studio.ros.wire.router import start_router
+from studio.ros.wire.session import open_session
+from studio.ros.wire.settings import WireSettings
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Generator
+
+    from studio.ros.types.library import TypeLibrary
+    from studio.ros.wire.router import EmbeddedRouter
+    from studio.ros.wire.session import WireSession
+
+PATIENCE_S = 30.0
+_POLL_S = 0.005
+
+
+class ConditionNotMetError(AssertionError):
+    """Something awaited did not come in time."""
+
+
+def wait_until(what: str, condition: Callable[[], bool], patience_s: float = PATIENCE_S) -> None:
+    """Ask again and again until it holds."""
+    end_s = time.monotonic() + patience_s
+    while not condition():
+        if time.monotonic() > end_s:
+            raise ConditionNotMetError(what)
+        time.sleep(_POLL_S)
+
+
+def free_endpoint(protocol: str = "tcp") -> str:
+    """An endpoint of this machine at which nobody listens; never the one of rmw_zenoh."""
+    with socket.socket() as found:
+        found.bind(("127.0.0.1", 0))
+        return f"{protocol}/127.0.0.1:{found.getsockname()[1]}"
+
+
+@contextmanager
+def running_router() -> Generator[str]:
+    """A router in this process, for as long as the block; gives its endpoint."""
+    with router_at(free_endpoint()) as router:
+        yield router.endpoint.text
+
+
+def router_at(endpoint: str) -> EmbeddedRouter:
+    """A router that is closed by hand or by `with`, to kill it and start it anew."""
+    return start_router(parse_endpoint(endpoint))
+
+
+def open_test_session(
+    endpoint: str, domain: int = 0, distro: str = "jazzy", types: TypeLibrary | None = None
+) -> WireSession:
+    """A session of one's own at a router; close it, or use `with`."""
+    settings = WireSettings(connect=(endpoint,), domain=domain, profile=profile_named(distro))
+    return open_session(settings, types)
+
+
+@contextmanager
+def session_pair(
+    domain: int = 0, distro: str = "jazzy"
+) -> Generator[tuple[WireSession, WireSession]]:
+    """Two sessions at a router of their own, as two processes would have."""
+    with (
+        running_router() as endpoint,
+        open_test_session(endpoint, domain, distro) as one,
+        open_test_session(endpoint, domain, distro, one.types) as other,
+    ):
+        yield one, other
