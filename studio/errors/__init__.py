@@ -58,6 +58,10 @@ StudioError
     WorkerError
         WorkerTimeoutError
         WorkerDiedError
+    FrameError
+        UnknownFrameError
+        UnconnectedFramesError
+        TransformError
     AccessError
         NotAllowedError
     CommandError
@@ -98,6 +102,12 @@ from studio.errors.files import (
     UnreadableFileError,
     UnsafeArchiveError,
     UploadError,
+)
+from studio.errors.frames import (
+    FrameError,
+    TransformError,
+    UnconnectedFramesError,
+    UnknownFrameError,
 )
 from studio.errors.models import (
     DescriptionError,
@@ -159,6 +169,7 @@ __all__ = [
     "ExpansionError",
     "ExportError",
     "ForeignEndpointError",
+    "FrameError",
     "GoalStateError",
     "InterfaceError",
     "InterfaceTextError",
@@ -196,9 +207,12 @@ __all__ = [
     "StudioError",
     "SupersededError",
     "TokenError",
+    "TransformError",
     "TransitionError",
     "TypeDescriptionError",
+    "UnconnectedFramesError",
     "UnknownDocumentError",
+    "UnknownFrameError",
     "UnknownTypeError",
     "UnreadableFileError",
     "UnsafeArchiveError",
