@@ -1,0 +1,1 @@
+"""Actions: goals in; acceptance, feedback, status and one result out, on both ends."""

@@ -1,0 +1,1 @@
+"""Managed nodes: transitions in, states and events out, on both ends."""
