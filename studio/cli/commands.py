@@ -51,4 +51,9 @@ COMMANDS = (
         takes_mappings=True,
     ),
     Command("xacro", "xacro", "print the URDF, byte for byte as xacro does", takes_mappings=True),
+    Command("interface", "interface", "list and show message, service and action types"),
+    Command("pkg", "pkg", "list the packages of opened folders and what they start"),
+    Command("daemon", "daemon", "says that none is needed"),
+    Command("launch", "launch", "start the nodes of a launch file (not served yet)"),
+    Command("bag", "bag", "record and play topics (not served yet)"),
 )

@@ -51,7 +51,10 @@ def _read(words: list[str]) -> argparse.Namespace:
     mappings: list[str] = []
     if any(command.takes_mappings for command in COMMANDS if command.name == asked):
         words, mappings = part_mappings(words)
-    options = _parser(asked).parse_args(shield_values(words))
+    parser = _parser(asked)
+    options, rest = parser.parse_known_args(shield_values(words))
+    if rest and not getattr(options, "takes_rest", False):
+        parser.error(f"unrecognized arguments: {' '.join(rest)}")
     options.mappings = mappings
     return options
 

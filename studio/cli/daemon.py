@@ -1,0 +1,32 @@
+"""`studio daemon`: there is none; the graph is asked for anew by each command."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from studio.cli.verbs import Verbs
+
+if TYPE_CHECKING:
+    import argparse
+
+    from studio.cli.verbs import Run
+
+_SENTENCES = {
+    "start": "No daemon is needed: each command reads the graph live from the router.",
+    "stop": "There is no daemon to stop: nothing is cached, a node that ends is gone at once.",
+    "status": "The daemon is not running, and none is needed.",
+}
+
+
+def add(parser: argparse.ArgumentParser) -> None:
+    """Give the parser the verbs of `daemon`."""
+    verbs = Verbs(parser)
+    for name, sentence in _SENTENCES.items():
+        verbs.add(name, _saying(sentence), sentence[0].lower() + sentence[1:].rstrip("."))
+
+
+def _saying(sentence: str) -> Run:
+    def run(_options: argparse.Namespace) -> None:
+        print(sentence)
+
+    return run

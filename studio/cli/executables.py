@@ -1,0 +1,31 @@
+"""What can be started: the demo nodes under the course's names, and opened packages' own."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from studio.packages.executables import executables_of
+
+if TYPE_CHECKING:
+    from studio.packages.index import PackageIndex
+
+
+def executables_of_all(index: PackageIndex) -> dict[str, dict[str, str]]:
+    """Give by package and name the file or module of all that can be started."""
+    found = demo_executables()
+    for name in index.names:
+        own = executables_of(index.best(name, Path.cwd()), name)
+        if own:
+            found[name] = {**own, **found.get(name, {})}
+    return found
+
+
+def demo_packages() -> set[str]:
+    """Name the packages whose nodes the studio itself has."""
+    return set(demo_executables())
+
+
+def demo_executables() -> dict[str, dict[str, str]]:
+    """Give the modules of the demo nodes by package and executable."""
+    return {}

@@ -1,0 +1,103 @@
+"""`studio interface`: which types there are, and what they are made of."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from studio.cli.interface_types import add_type_options, known_types
+from studio.cli.verbs import Verbs
+from studio.errors import UnknownTypeError
+from studio.ros.names import full_type_name
+from studio.ros.profiles import profile_named
+
+if TYPE_CHECKING:
+    import argparse
+
+    from studio.ros.types.library import TypeLibrary
+
+_TITLES = {"msg": "Messages", "srv": "Services", "action": "Actions"}
+
+
+def add(parser: argparse.ArgumentParser) -> None:
+    """Give the parser the verbs of `interface`."""
+    verbs = Verbs(parser)
+    for name, run, summary in (
+        ("list", _list, "name every type that is known"),
+        ("packages", _packages, "name the packages that define types"),
+    ):
+        verb = verbs.add(name, run, summary)
+        _add_kinds(verb)
+        _add_common(verb)
+    package = verbs.add("package", _package, "name the types of one package")
+    package.add_argument("package_name", metavar="PACKAGE")
+    _add_common(package)
+    show = verbs.add("show", _show, "print a type with the fields of all that it is made of")
+    show.add_argument("type", metavar="TYPE", help="for example geometry_msgs/msg/Pose")
+    show.add_argument("--no-comments", action="store_true", help="leave all comments out")
+    show.add_argument("--all-comments", action="store_true", help="those of nested types, too")
+    _add_common(show)
+    proto = verbs.add("proto", _proto, "print a value of a type as YAML, to fill in")
+    proto.add_argument("type", metavar="TYPE")
+    proto.add_argument("--no-quotes", action="store_true", help="leave the outer quotes out")
+    _add_common(proto)
+
+
+def _add_kinds(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("-m", "--only-msgs", action="append_const", dest="kinds", const="msg")
+    parser.add_argument("-s", "--only-srvs", action="append_const", dest="kinds", const="srv")
+    parser.add_argument("-a", "--only-actions", action="append_const", dest="kinds", const="action")
+
+
+def _add_common(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--distro", default="jazzy", help="of which ROS 2 (default: jazzy)")
+    add_type_options(parser)
+
+
+def _library(options: argparse.Namespace) -> TypeLibrary:
+    return known_types(options, profile_named(options.distro).distro)
+
+
+def _list(options: argparse.Namespace) -> None:
+    names = _library(options).names()
+    for kind in options.kinds or _TITLES:
+        print(f"{_TITLES[kind]}:")
+        for name in names:
+            if f"/{kind}/" in name:
+                print(f"    {name}")
+
+
+def _packages(options: argparse.Namespace) -> None:
+    kinds = options.kinds or list(_TITLES)
+    names = (name.split("/") for name in _library(options).names())
+    print(*sorted({package for package, kind, _ in names if kind in kinds}), sep="\n")
+
+
+def _package(options: argparse.Namespace) -> int:
+    wanted = f"{options.package_name}/"
+    names = [name for name in _library(options).names() if name.startswith(wanted)]
+    if not names:
+        raise UnknownTypeError(options.package_name, f"no package {options.package_name} has types")
+    print(*names, sep="\n")
+    return 0
+
+
+def _show(options: argparse.Namespace) -> None:
+    from studio.cli.type_text import Comments, type_text
+
+    comments = Comments.OWN
+    if options.no_comments:
+        comments = Comments.NONE
+    elif options.all_comments:
+        comments = Comments.ALL
+    library = _library(options)
+    print(type_text(library, full_type_name(options.type), comments), end="")
+
+
+def _proto(options: argparse.Namespace) -> None:
+    from studio.ros.types.definitions import messages_of
+    from studio.ros.types.plain import to_yaml
+
+    library = _library(options)
+    asked = messages_of(library.interface(full_type_name(options.type)))[0]
+    text = to_yaml(library.message(asked.name)())
+    print(text if options.no_quotes else f'"{text}"', end="" if options.no_quotes else "\n")

@@ -1,0 +1,75 @@
+"""The packages that a command sees: of the folder it runs in, those opened last, and of ROS."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from studio.packages.discovery import discover
+from studio.packages.environment import RosEnvironment
+from studio.packages.folder_memory import FolderMemory
+from studio.packages.index import Indexed, PackageIndex
+from studio.packages.recent import last_opened
+from studio.packages.roots import ServedRoots, is_too_wide, package_folder_of, served_roots_for
+from studio.settings import data_folder, repository_or_wheel
+
+if TYPE_CHECKING:
+    import argparse
+    from collections.abc import Iterable
+
+
+def add_package_options(parser: argparse.ArgumentParser) -> None:
+    """Options of every verb that looks for packages."""
+    parser.add_argument(
+        "--package-path",
+        action="append",
+        default=[],
+        metavar="DIR",
+        help="find packages here, too; may be given again",
+    )
+    parser.add_argument("--data-dir", type=Path, metavar="DIR", help="where caches live")
+
+
+def opened_packages(options: argparse.Namespace) -> PackageIndex:
+    """Find the packages of `--package-path`, the current workspace, the last one and ROS."""
+    folder = data_folder(options.data_dir)
+    given = [Path(part) for one in options.package_path for part in one.split(os.pathsep) if part]
+    named = [Path(os.path.realpath(one.expanduser())) for one in given]
+    roots = dict.fromkeys([*named, *_workspace_of(Path.cwd()), *_last(folder)])
+    environment = RosEnvironment.from_variables(os.environ)
+    prefixes = environment.prefixes
+    own = (repository_or_wheel("models"),)
+    memory = FolderMemory(None, ServedRoots((*roots, *environment.folders, *own)))
+    found = [
+        *_found([*roots, *own, *environment.sources], memory, is_prefix=False),
+        *_found(prefixes, memory, is_prefix=True),
+    ]
+    return PackageIndex({one.folder: one for one in reversed(found)}.values())
+
+
+def _found(folders: Iterable[Path], memory: FolderMemory, *, is_prefix: bool) -> list[Indexed]:
+    return [
+        Indexed.found(package, order=order)
+        for order, folder in enumerate(folders)
+        if not is_too_wide(folder)
+        for package in discover(folder, memory, is_prefix=is_prefix).packages
+    ]
+
+
+def _workspace_of(folder: Path) -> tuple[Path, ...]:
+    """The packages around a folder: beside the package it lies in, or below its `src`."""
+    if is_too_wide(folder):
+        return ()
+    package = package_folder_of(folder)
+    if package is not None:
+        return served_roots_for(package / "package.xml")
+    if (folder / "src").is_dir():
+        return (folder / "src",)
+    holds_packages = next(folder.glob("*/package.xml"), None) is not None
+    return (folder,) if holds_packages or folder.name == "src" else ()
+
+
+def _last(data: Path) -> tuple[Path, ...]:
+    last = last_opened(data)
+    return _workspace_of(Path(last.path).parent) if last is not None else ()

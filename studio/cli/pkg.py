@@ -1,0 +1,84 @@
+"""`studio pkg`: the packages of opened folders, what they are and what they start."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from studio.cli.opened import add_package_options, opened_packages
+from studio.cli.unserved import refuse
+from studio.cli.verbs import Verbs
+from studio.errors import PackageNotFoundError
+from studio.packages.manifest import FILE_NAME, SIZE_LIMIT_BYTES
+from studio.packages.roots import ServedRoots
+
+if TYPE_CHECKING:
+    import argparse
+
+    from studio.packages.index import PackageIndex
+
+
+def add(parser: argparse.ArgumentParser) -> None:
+    """Give the parser the verbs of `pkg`."""
+    verbs = Verbs(parser)
+    add_package_options(verbs.add("list", _list, "name the packages of opened folders"))
+    xml = verbs.add("xml", _xml, "print the package.xml of a package")
+    xml.add_argument("package_name", metavar="PACKAGE")
+    xml.add_argument("-t", "--tag", help="only what stands in this tag")
+    add_package_options(xml)
+    executables = verbs.add("executables", _executables, "name what packages start")
+    executables.add_argument("package_name", metavar="PACKAGE", nargs="?")
+    executables.add_argument(
+        "--full-path", action="store_true", help="print the file that each is in"
+    )
+    add_package_options(executables)
+    prefix = verbs.add("prefix", _prefix, "print the folder of a package")
+    prefix.add_argument("package_name", metavar="PACKAGE")
+    add_package_options(prefix)
+    refuse(verbs, "create", "make a new package", "pkg create")
+
+
+def _list(options: argparse.Namespace) -> None:
+    from studio.cli.executables import demo_packages
+
+    print(*sorted(opened_packages(options).names | demo_packages()), sep="\n")
+
+
+def _xml(options: argparse.Namespace) -> int:
+    folder = _folder(opened_packages(options), options.package_name)
+    text = ServedRoots([folder]).read(folder / FILE_NAME, SIZE_LIMIT_BYTES).decode(errors="replace")
+    if options.tag is None:
+        print(text, end="" if text.endswith("\n") else "\n")
+        return 0
+    return _print_tag(text, options.tag)
+
+
+def _print_tag(text: str, tag: str) -> int:
+    from studio.packages.manifest_tags import texts_of_tag
+
+    found = texts_of_tag(text.encode(), tag)
+    print(*found, sep="\n" if found else "")
+    return 0 if found else 1
+
+
+def _executables(options: argparse.Namespace) -> int:
+    from studio.cli.executables import executables_of_all
+
+    index = opened_packages(options)
+    found = executables_of_all(index)
+    if options.package_name is not None:
+        if options.package_name not in found and options.package_name not in index:
+            raise PackageNotFoundError(options.package_name, str(Path.cwd()))
+        found = {options.package_name: found.get(options.package_name, {})}
+    for package, executables in sorted(found.items()):
+        for name, place in sorted(executables.items()):
+            print(place if options.full_path else f"{package} {name}")
+    return 0
+
+
+def _prefix(options: argparse.Namespace) -> None:
+    print(_folder(opened_packages(options), options.package_name))
+
+
+def _folder(index: PackageIndex, name: str) -> Path:
+    return index.best(name, Path.cwd())
