@@ -16,7 +16,7 @@ import { siblingPlaces } from "../lib/pieces.js";
 import { whenPlaced } from "../lib/seen.js";
 import { TextBox } from "../lib/slider.js";
 import { ancestorsOf, linkRows } from "../lib/tree.js";
-import { EmptyState, Icon, SearchBox } from "../lib/ui.js";
+import { EmptyState, Icon, LongName, SearchBox } from "../lib/ui.js";
 import { LinkDetails } from "./link-details.js";
 
 /**
@@ -315,7 +315,7 @@ function TreeRow({ row, place, current, setOpen, onPick }) {
     }}>
     <${Twisty} row=${row} setOpen=${setOpen} />
     ${row.icon && html`<${Icon} name=${row.icon} size=${15} />`}
-    <span class="tree-label" title=${row.label}>${row.label}</span>
+    <span class="tree-label" title=${row.label}><${LongName} text=${row.label} /></span>
     ${row.meta && html`<span class=${`tree-meta ${row.warn ? "warn" : ""}`} title=${row.meta}>${row.meta}</span>`}
     ${row.slider && html`<${ShareSlider} ...${row.slider} />`}
     ${row.number && html`<${NumberBox} ...${row.number} />`}

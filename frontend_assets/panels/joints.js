@@ -27,7 +27,7 @@ export function JointsPanel() {
   const filter = useSignal("");
   const words = filter.value.trim().toLowerCase();
   const shown = movable.value.filter(({ name }) => name.toLowerCase().includes(words));
-  return html`<section class="panel-body" aria-label=${t("panel.joints")}>
+  return html`<section class="panel-body joints-panel" aria-label=${t("panel.joints")}>
     <div class="panel-bar">
       <${SearchBox} label=${t("joints.filter")} value=${filter.value} onInput=${(
         /** @type {string} */ text,

@@ -109,7 +109,7 @@ function Table({ rows, order }) {
       <${SortHead} order=${order} by="density" words=${t("masses.density")} unit="kg/m³" class="number" />
       <th scope="col" class="number" title=${t("masses.com.hint")}>${t("masses.com")} <small>m</small></th>
       <${SortHead} order=${order} by="moment" words=${t("masses.moments")} unit="kg m²" class="number" />
-      <th scope="col">${t("masses.place")}</th>
+      <th scope="col" class="where">${t("masses.place")}</th>
     </tr></thead>
     <${LongList} items=${rows} keyOf=${nameOf} row="var(--row)" columns=${COLUMNS}
       isKept=${(/** @type {MassRow} */ { mass }) => selected.value === mass.link}

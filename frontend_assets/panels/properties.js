@@ -46,7 +46,7 @@ export function PropertiesPanel() {
     if (!now.delete(key)) now.add(key);
     folded.value = now;
   };
-  return html`<section class="panel-body" aria-label=${t("panel.properties")}>
+  return html`<section class="panel-body properties-panel" aria-label=${t("panel.properties")}>
     <div class="panel-bar">
       <${SearchBox} label=${t("properties.filter")} value=${propertyFilter.value} onInput=${(
         /** @type {string} */ text,
