@@ -109,8 +109,14 @@ function documentItems() {
   ];
 }
 
-/** @param {string} path @returns {string} the folder's own name */
-const folderOf = (path) => path.split(/[/\\]/).at(-2) ?? "";
+/** Folders that every package has: they tell nobody which robot it is. */
+const USUAL = new Set(["urdf", "xacro", "robot", "robots", "model", "models", "description", "src"]);
+
+/** @param {string} path @returns {string} the name of the nearest folder that tells robots apart */
+function folderOf(path) {
+  const folders = path.split(/[/\\]/).slice(0, -1);
+  return folders.findLast((name) => !USUAL.has(name.toLowerCase())) ?? folders.at(-1) ?? "";
+}
 
 /** @param {string} id of a command @returns {string} its key, as keyboards are labelled */
 function keyOf(id) {
