@@ -110,7 +110,16 @@ function documentItems() {
 }
 
 /** Folders that every package has: they tell nobody which robot it is. */
-const USUAL = new Set(["urdf", "xacro", "robot", "robots", "model", "models", "description", "src"]);
+const USUAL = new Set([
+  "urdf",
+  "xacro",
+  "robot",
+  "robots",
+  "model",
+  "models",
+  "description",
+  "src",
+]);
 
 /** @param {string} path @returns {string} the name of the nearest folder that tells robots apart */
 function folderOf(path) {
