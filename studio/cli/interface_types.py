@@ -11,10 +11,11 @@ from studio.packages.manifest import FILE_NAME, SIZE_LIMIT_BYTES, package_name
 from studio.packages.roots import ServedRoots, package_folder_of
 from studio.ros.names import KINDS, split_type_name
 from studio.ros.types.folders import read_text, texts_of_package
-from studio.ros.types.library import TypeLibrary
 
 if TYPE_CHECKING:
     import argparse
+
+    from studio.ros.types.library import TypeLibrary
 
 
 def add_type_options(parser: argparse.ArgumentParser) -> None:
@@ -38,6 +39,8 @@ def known_types(options: argparse.Namespace, distro: str) -> TypeLibrary:
         UnreadableFileError: What `--interfaces` names is not there, or holds no types.
         InterfaceTextError: A text given by `--interfaces` breaks a rule.
     """
+    from studio.ros.types.library import TypeLibrary
+
     library = TypeLibrary(distro)
     index = opened_packages(options)
     for name in sorted(index.names):

@@ -1,0 +1,1 @@
+"""`studio topic`: who publishes what, what is said, how often and how large; and to say it."""

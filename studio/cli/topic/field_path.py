@@ -1,0 +1,78 @@
+"""One field of a message by its path, such as `pose.position.x` or `ranges[0]`."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Any, cast
+
+import numpy as np
+
+from studio.errors import MessageValueError
+from studio.ros.types.classes import MessageValue, attribute_name, definition_of
+from studio.ros.types.plain import WHOLE, Brevity, to_yaml
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+_PART = re.compile(r"(\w+)((?:\[-?\d+\])*)", re.ASCII)
+_INDEX_DIGITS_MAX = 10
+
+
+def field_at(message: MessageValue, path: str) -> object:
+    """Find a field of a message, of the messages therein, or a place of an array.
+
+    Raises:
+        MessageValueError: There is no such field or place.
+    """
+    found: object = message
+    for part in path.split("."):
+        match = _PART.fullmatch(part)
+        if match is None:
+            raise MessageValueError(path, f'"{part}" is no name of a field')
+        found = _field(found, match[1], path)
+        for index in re.findall(r"-?\d+", match[2]):
+            found = _place(found, index, path)
+    return found
+
+
+def field_text(value: object, brevity: Brevity = WHOLE) -> str:
+    """Write what a path led to, as `ros2 topic echo --field` does: YAML, or the value alone."""
+    if isinstance(value, MessageValue):
+        return to_yaml(value, brevity).rstrip("\n")
+    if isinstance(value, np.ndarray):
+        return _list_text(cast("Any", value).tolist(), brevity)
+    if isinstance(value, list):
+        return _list_text(cast("list[object]", value), brevity)
+    return str(value)
+
+
+def _field(value: object, name: str, path: str) -> object:
+    if not isinstance(value, MessageValue):
+        raise MessageValueError(path, f'nothing is named "{name}" in a plain value')
+    names = [field.name for field in definition_of(value).fields]
+    if name not in names:
+        kind = definition_of(value).name
+        raise MessageValueError(path, f'{kind} has no field "{name}", its fields: {names}')
+    return getattr(value, attribute_name(name))
+
+
+def _place(value: object, index: str, path: str) -> object:
+    if len(index) > _INDEX_DIGITS_MAX or not isinstance(value, (list, np.ndarray)):
+        raise MessageValueError(path, f"[{index[:20]}] is no place in it")
+    places = cast("Sequence[object]", value)
+    if not -len(places) <= int(index) < len(places):
+        raise MessageValueError(path, f"it has {len(places)} places, [{index}] is none of them")
+    return places[int(index)]
+
+
+def _list_text(values: list[Any], brevity: Brevity) -> str:
+    if brevity.no_arrays:
+        return f"<sequence, length: {len(values)}>"
+    limit = len(values) if brevity.length_max is None else brevity.length_max
+    words = [
+        "{" + to_yaml(one, brevity, flow=True).strip().removeprefix("{").removesuffix("}") + "}"
+        if isinstance(one, MessageValue)
+        else repr(one)
+        for one in values[:limit]
+    ]
+    return f"[{', '.join([*words, *(['...'] if len(values) > limit else [])])}]"

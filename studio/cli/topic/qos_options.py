@@ -1,0 +1,90 @@
+"""Quality of service out of options, and the one that suits what others offer."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from studio.errors import SettingsError
+from studio.ros.qos import (
+    DurabilityPolicy,
+    HistoryPolicy,
+    LivelinessPolicy,
+    QoSProfile,
+    ReliabilityPolicy,
+    as_profile,
+    qos_profile_best_available,
+    qos_profile_parameters,
+    qos_profile_sensor_data,
+    qos_profile_services_default,
+    qos_profile_system_default,
+)
+
+if TYPE_CHECKING:
+    import argparse
+    from collections.abc import Sequence
+    from enum import IntEnum
+
+_PROFILES = {
+    "unknown": QoSProfile(depth=10),
+    "default": QoSProfile(depth=10),
+    "system_default": qos_profile_system_default,
+    "sensor_data": qos_profile_sensor_data,
+    "services_default": qos_profile_services_default,
+    "parameters": qos_profile_parameters,
+    "best_available": qos_profile_best_available,
+}
+_POLICIES: dict[str, type[IntEnum]] = {
+    "history": HistoryPolicy,
+    "reliability": ReliabilityPolicy,
+    "durability": DurabilityPolicy,
+    "liveliness": LivelinessPolicy,
+}
+
+
+def add_qos_options(parser: argparse.ArgumentParser) -> None:
+    """Let a verb be told its quality of service, in ros2's words."""
+    parser.add_argument("--qos-profile", choices=sorted(_PROFILES), help="a profile by its name")
+    parser.add_argument("--qos-depth", type=int, metavar="N", help="how many samples wait")
+    for name, policies in _POLICIES.items():
+        words = [policy.name.lower() for policy in policies if policy.name != "UNKNOWN"]
+        parser.add_argument(f"--qos-{name}", choices=words, help=f"{name} alone")
+
+
+def is_given(options: argparse.Namespace) -> bool:
+    """Whether an option says anything of it."""
+    names = ("profile", "depth", *_POLICIES)
+    return any(getattr(options, f"qos_{name}") is not None for name in names)
+
+
+def given_profile(options: argparse.Namespace, base: QoSProfile) -> QoSProfile:
+    """Give what the options say, of a profile by name or else of `base`.
+
+    Raises:
+        SettingsError: The depth is less than 0.
+    """
+    named = options.qos_profile
+    profile = as_profile(base if named is None else _PROFILES[named])
+    if options.qos_depth is not None:
+        if options.qos_depth < 0:
+            raise SettingsError(f"--qos-depth {options.qos_depth}: give 0 or more.")
+        profile.depth = options.qos_depth
+    for name, policies in _POLICIES.items():
+        word = getattr(options, f"qos_{name}")
+        if word is not None:
+            setattr(profile, name, policies[word.upper()])
+    return profile
+
+
+def matching_profile(offered: Sequence[QoSProfile]) -> QoSProfile:
+    """Choose what receives from all who offer: as reliable and lasting as the least of them."""
+    reliable = bool(offered) and all(
+        one.reliability is not ReliabilityPolicy.BEST_EFFORT for one in offered
+    )
+    lasting = bool(offered) and all(
+        one.durability is DurabilityPolicy.TRANSIENT_LOCAL for one in offered
+    )
+    return QoSProfile(
+        depth=10,
+        reliability=ReliabilityPolicy.RELIABLE if reliable else ReliabilityPolicy.BEST_EFFORT,
+        durability=DurabilityPolicy.TRANSIENT_LOCAL if lasting else DurabilityPolicy.VOLATILE,
+    )

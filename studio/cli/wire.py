@@ -1,0 +1,99 @@
+"""Options of the verbs that speak with ROS nodes, and the session that they come to."""
+
+from __future__ import annotations
+
+import os
+import signal
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from studio.cli.interface_types import add_type_options, known_types
+
+if TYPE_CHECKING:
+    import argparse
+    from collections.abc import Generator
+
+    from studio.ros.profiles import WireProfile
+    from studio.ros.wire.session import WireSession
+
+LOOKING = "off"
+STARTING = "auto"
+_DISTRO = "jazzy"
+
+
+def add_wire_options(parser: argparse.ArgumentParser, router: str = LOOKING) -> None:
+    """Let a verb speak with nodes; `router` is what it does by itself where no router answers."""
+    wire = parser.add_argument_group("ROS 2 over Zenoh")
+    wire.add_argument(
+        "--connect",
+        action="append",
+        default=[],
+        metavar="ENDPOINT",
+        help="the router, for example tcp/192.0.2.7:7447 (default: tcp/127.0.0.1:7447)",
+    )
+    wire.add_argument(
+        "--domain", type=int, metavar="N", help="the domain (default: ROS_DOMAIN_ID, else 0)"
+    )
+    wire.add_argument(
+        "--router",
+        default=router,
+        metavar="auto|off|ENDPOINT",
+        help="where no router answers: auto starts one in this process for as long as it runs, "
+        f"off says so and ends (default here: {router})",
+    )
+    wire.add_argument(
+        "--distro", help="humble, jazzy or kilted (default: ROS_DISTRO where known, else jazzy)"
+    )
+    wire.add_argument(
+        "--spin-time",
+        type=float,
+        default=0.0,
+        metavar="SECONDS",
+        help="look for others for at least this long",
+    )
+    wire.add_argument("--no-daemon", action="store_true", help="as is: there is no daemon")
+    add_type_options(parser)
+
+
+@contextmanager
+def opened_wire(options: argparse.Namespace) -> Generator[WireSession]:
+    """Open the session of a verb, closed at its end; SIGTERM then ends it as Ctrl-C does.
+
+    Raises:
+        NoRouterError: None answers, and none may be started.
+        WireSettingsError: An option or the environment says what cannot be.
+    """
+    from studio.ros.wire.opening import open_wire
+    from studio.ros.wire.settings import wire_settings
+
+    profile = profile_of(options)
+    settings = wire_settings(tuple(options.connect), options.domain, profile)
+    types = known_types(options, profile.distro)
+    with _ended_by_sigterm(), open_wire(settings, options.router, types) as wire:
+        yield wire
+
+
+def profile_of(options: argparse.Namespace) -> WireProfile:
+    """Find the distribution that is spoken.
+
+    Raises:
+        RosNameError: `--distro` names none that is known.
+    """
+    from studio.ros.profiles import PROFILES, profile_named
+
+    if options.distro is not None:
+        return profile_named(options.distro)
+    named = os.environ.get("ROS_DISTRO", "")
+    return PROFILES.get(named, PROFILES[_DISTRO])
+
+
+@contextmanager
+def _ended_by_sigterm() -> Generator[None]:
+    def end(_number: int, _frame: object) -> None:
+        raise SystemExit(128 + signal.SIGTERM)
+
+    before = signal.signal(signal.SIGTERM, end)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
