@@ -16,6 +16,7 @@ from studio.packages.discovery import FOLDER_LIMIT, Discovery, discover
 from studio.packages.entry_points import EntryPoint, entry_points
 from studio.packages.environment import RosEnvironment, is_install_space, is_installed
 from studio.packages.folder_memory import FolderMemory, is_text
+from studio.packages.from_wire import FOLDER as FROM_WIRE
 from studio.packages.index import Indexed, PackageIndex, Standing
 from studio.packages.manifest import FILE_NAME
 from studio.packages.presence import is_file, is_folder, is_there
@@ -57,8 +58,9 @@ class Location:
 
     @property
     def is_unpacked(self) -> bool:
-        """Whether it was sent, unpacked or pasted: somebody else's, most likely."""
-        return any(self.root.is_relative_to(self.data_folder / one) for one in (UPLOADS, UNTITLED))
+        """Whether it was sent, unpacked, pasted or heard: somebody else's, most likely."""
+        folders = (UPLOADS, UNTITLED, FROM_WIRE)
+        return any(self.root.is_relative_to(self.data_folder / one) for one in folders)
 
     @property
     def title(self) -> str:

@@ -1,0 +1,53 @@
+"""Descriptions from ROS are kept as files, whatever their text and their source are."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+
+from studio.errors import NotMadeError
+from studio.packages.from_wire import FOLDER, keep_description
+from studio.settings import SOURCE_SIZE_LIMIT_BYTES
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+ROBOT = '<robot name="r"><link name="a"/></robot>'
+
+
+def test_a_description_is_kept_and_a_newer_one_takes_its_place(tmp_path: Path):
+    file = keep_description(tmp_path, "/robot_description", ROBOT)
+    assert file.read_text() == ROBOT
+    newer = ROBOT.replace("a", "b")
+    assert keep_description(tmp_path, "/robot_description", newer) == file
+    assert file.read_text() == newer
+    assert [one.name for one in file.parent.iterdir()] == ["robot_description.urdf"]
+
+
+def test_the_same_text_again_touches_nothing(tmp_path: Path):
+    file = keep_description(tmp_path, "/r", ROBOT)
+    before = file.stat().st_mtime_ns, file.stat().st_ino
+    keep_description(tmp_path, "/r", ROBOT)
+    assert (file.stat().st_mtime_ns, file.stat().st_ino) == before
+
+
+@pytest.mark.parametrize("source", ["/../../etc/passwd", "/", "a" * 4000, "/ns/robot\0x", "ü🤖"])
+def test_no_source_leads_out_of_the_folder(tmp_path: Path, source: str):
+    file = keep_description(tmp_path, source, ROBOT)
+    assert (tmp_path / FOLDER).resolve() == file.resolve().parent.parent
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("", "no <robot>"),
+        ("hello", "no <robot>"),
+        (ROBOT + " " * SOURCE_SIZE_LIMIT_BYTES, "too long"),
+    ],
+    ids=("nothing", "a word", "too long"),
+)
+def test_what_is_no_robot_is_refused(tmp_path: Path, text: str, reason: str):
+    with pytest.raises(NotMadeError, match=reason):
+        keep_description(tmp_path, "/robot_description", text)
+    assert not (tmp_path / FOLDER).exists()
