@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 # `char` of a .msg is an unsigned byte by the time that it is described.
-_TYPE_IDS = {
+TYPE_IDS = {
     "int8": 2, "uint8": 3, "char": 3, "int16": 4, "uint16": 5, "int32": 6, "uint32": 7,
     "int64": 8, "uint64": 9, "float32": 10, "float64": 11, "bool": 15, "byte": 16,
     "string": 17, "wstring": 18,
@@ -64,7 +64,7 @@ def _described(message: Message) -> Described:
 
 def _described_field(field: Field) -> Described:
     kind = field.type
-    base = _NESTED if kind.nested else _TYPE_IDS[kind.base]
+    base = _NESTED if kind.nested else TYPE_IDS[kind.base]
     if kind.string_bound:
         base += _BOUNDED_STRING_MORE
     described = {

@@ -126,6 +126,14 @@ class TypeLibrary:
             self._hashes.clear()
         return list(texts)
 
+    def copy(self) -> TypeLibrary:
+        """Give a library of the same types, in which texts can be tried."""
+        made = TypeLibrary(self.distro)
+        with self._lock:
+            own = self._own
+        made._own = _Known({**own.interfaces}, {**own.messages}, {**own.texts})
+        return made
+
     def names(self) -> list[str]:
         """Name every type, those of calls whole, in the order of the alphabet."""
         names = {*self._carried.interfaces, *self._own.interfaces, *self._store.names()}
