@@ -3,9 +3,25 @@
 // viser reconnects only while its document has the focus; in a frame of our page it seldom has.
 document.hasFocus = () => true;
 
-// Asked for while the address is whole: viser soon leaves out what it holds.
-const fixesPixels = new URLSearchParams(location.search).has("fixedDpr");
-if (fixesPixels) document.documentElement.dataset.pixels = "fixed";
+/** What the page around remembers, as lib/remembered.js writes it. */
+const recall = (key) => {
+  try {
+    return JSON.parse(localStorage.getItem(`studio.${key}`) ?? "null");
+  } catch {
+    return null;
+  }
+};
+
+// Who compares pictures wants the same pixels however busy the machine is: neither viser's fewer of
+// them while it is slow, nor our finer ones at rest (still.js).
+{
+  const asked = new URLSearchParams(location.search);
+  if (recall("pixels.fixed") === true && !asked.has("fixedDpr")) {
+    asked.set("fixedDpr", "1");
+    history.replaceState(null, "", `?${asked}`);
+  }
+  if (asked.has("fixedDpr")) document.documentElement.dataset.pixels = "fixed";
+}
 
 // How much is drawn (quality.js): as the person chose, else lightly where the processor draws or where
 // pictures came too slowly before. Smooth edges are chosen once and for all when the canvas is made;
@@ -18,14 +34,6 @@ if (fixesPixels) document.documentElement.dataset.pixels = "fixed";
   gl?.getExtension("WEBGL_lose_context")?.loseContext();
   const isSoftware = /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
 
-  /** What the page around remembers, as lib/remembered.js writes it. */
-  const recall = (key) => {
-    try {
-      return JSON.parse(localStorage.getItem(`studio.${key}`) ?? "null");
-    } catch {
-      return null;
-    }
-  };
   const choice = recall("graphics");
   const isWeak = isSoftware || recall("graphics.slow") === true;
   const isLight = choice === "light" || (choice !== "full" && isWeak);

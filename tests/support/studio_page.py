@@ -28,16 +28,12 @@ _HAS_VISUALS = """() => {
   return Object.keys(nodes ?? {}).some((name) => name.includes("/visual/"));
 }"""
 
-_FIXED_PIXELS = """() => {
-  if (location.pathname.includes("/viser") && !location.search.includes("fixedDpr"))
-    history.replaceState(null, "", `${location.pathname}?${location.search.slice(1)}&fixedDpr=1`);
-}"""
-"""Viser draws fewer pixels while it is slow: a picture of a busy machine would differ from one of
-an idle one."""
-
-
-_NO_NOTE = "try { localStorage.setItem('studio.graphics.said', 'true') } catch {}"
-"""That the processor draws is said over the 3D view, and would be in pictures of it."""
+_AS_A_TEST = """try {
+  localStorage.setItem("studio.pixels.fixed", "true");
+  localStorage.setItem("studio.graphics.said", "true");
+} catch {}"""
+"""A picture of a busy machine has the pixels of one of an idle one; and that the processor draws is
+not said over the 3D view, where it would be in pictures of it."""
 
 _SEVERAL_FRAMES = """() => new Promise((done) => {
   const view = document.querySelector("iframe")?.contentWindow ?? window;
@@ -185,8 +181,7 @@ class StudioPage:
 def studio_context(browser: Browser) -> BrowserContext:
     """A browser's session, in which pictures of the 3D view can be compared."""
     context = browser.new_context(viewport={"width": 1280, "height": 720}, reduced_motion="reduce")
-    context.add_init_script(f"({_FIXED_PIXELS})()")
-    context.add_init_script(_NO_NOTE)
+    context.add_init_script(_AS_A_TEST)
     return context
 
 
