@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import threading
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar, cast
 
 import zenoh
@@ -13,6 +15,7 @@ if TYPE_CHECKING:
 SAMPLES_WAITING_MAX = 65_536
 """Of a queue that loses nothing; Zenoh makes room for them only as they come."""
 _HEARTBEAT_S = 0.5
+_CLOSE_TIMEOUT_S = 1.0
 
 ItemT_co = TypeVar("ItemT_co", covariant=True)
 
@@ -209,6 +212,14 @@ def declare_querier(session: zenoh.Session, key: str, timeout_s: float) -> Askin
     )
 
 
+def standing_tokens(session: zenoh.Session, tokens: str, timeout_s: float) -> Iterator[str]:
+    """Ask for the tokens that stand now; ends with the last answer or the time-out."""
+    replies = session.liveliness().get(tokens, queue(), timeout=timeout_s)
+    for reply in cast("Iterator[zenoh.Reply]", replies):
+        if reply.ok is not None:
+            yield str(reply.ok.key_expr)
+
+
 def watch_transports(session: zenoh.Session) -> Incoming[zenoh.TransportEvent]:
     """Collect what opens and closes between this session and others, what is open first."""
     info = session.info
@@ -228,6 +239,17 @@ def insert(config: zenoh.Config, key: str, json5: str) -> None:
 
 
 def close(session: zenoh.Session) -> None:
-    """End a session and all that was declared on it; again is harmless."""
-    if not session.is_closed():
+    """End a session and all that was declared on it, within a second; again is harmless.
+
+    Zenoh waits for whoever began a handshake and fell silent; that goes on without us.
+    """
+    if session.is_closed():
+        return
+    closing = threading.Thread(target=_close, args=(session,), name="zenoh-close", daemon=True)
+    closing.start()
+    closing.join(_CLOSE_TIMEOUT_S)
+
+
+def _close(session: zenoh.Session) -> None:
+    with contextlib.suppress(zenoh.ZError):  # it says that somebody was slower than it waits
         cast("Any", session).close()

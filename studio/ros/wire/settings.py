@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
+
+import yaml
 
 from studio.errors import WireSettingsError
 from studio.ros.profiles import JAZZY, WireProfile
@@ -16,6 +18,7 @@ ROUTER_ENDPOINT = "tcp/127.0.0.1:7447"
 """Where rmw_zenoh's router listens, on this machine."""
 DOMAIN_MAX = 232
 """The highest ROS_DOMAIN_ID that every middleware of ROS takes."""
+_CONNECT = "connect/endpoints"
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,19 +49,21 @@ def wire_settings(
     """Settings as rmw_zenoh finds them; what is given comes before the environment.
 
     ROS_DOMAIN_ID, ZENOH_SESSION_CONFIG_URI (a file) and ZENOH_CONFIG_OVERRIDE (`key=json5;...`;
-    pairs without `=` are passed over) are read.
+    pairs without `=` are passed over) are read; routers named in the last are those to connect to.
 
     Raises:
-        WireSettingsError: ROS_DOMAIN_ID is no number of a domain.
+        WireSettingsError: ROS_DOMAIN_ID is no number of a domain, or the endpoints are no list.
     """
     named = environment.get("ROS_DOMAIN_ID", "").strip()
     config_file = environment.get("ZENOH_SESSION_CONFIG_URI", "").strip() or None
+    overrides = _pairs(environment.get("ZENOH_CONFIG_OVERRIDE", ""))
+    routers = _endpoints(overrides.pop(_CONNECT, "[]"))
     return WireSettings(
-        connect=connect or (() if config_file else (ROUTER_ENDPOINT,)),
+        connect=connect or routers or (() if config_file else (ROUTER_ENDPOINT,)),
         domain=_domain(named) if domain is None else domain,
         profile=profile,
         config_file=config_file,
-        overrides=_pairs(environment.get("ZENOH_CONFIG_OVERRIDE", "")),
+        overrides=overrides,
     )
 
 
@@ -75,3 +80,18 @@ def _domain(text: str) -> int:
 def _pairs(text: str) -> dict[str, str]:
     split = (pair.partition("=") for pair in text.split(";"))
     return {key.strip(): value.strip() for key, equals, value in split if equals and key.strip()}
+
+
+def _endpoints(json5: str) -> tuple[str, ...]:
+    """Read a list of texts; the commas and quotes that JSON5 allows are YAML's, too."""
+    try:
+        found: object = yaml.safe_load(json5)
+    except yaml.YAMLError:
+        found = None
+    places = cast("list[object]", found) if isinstance(found, list) else []
+    if not isinstance(found, list) or not all(isinstance(place, str) for place in places):
+        raise WireSettingsError(
+            f"ZENOH_CONFIG_OVERRIDE sets {_CONNECT} to {json5!r}: "
+            'write a list such as ["tcp/192.0.2.7:7447"].'
+        )
+    return tuple(str(place) for place in places)

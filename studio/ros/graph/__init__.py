@@ -1,0 +1,1 @@
+"""Liveliness tokens in; the nodes, topics, services and actions of a domain out."""

@@ -1,0 +1,208 @@
+"""Graph: who is there in a domain, kept by a thread of its own, asked from any."""
+
+from __future__ import annotations
+
+import threading
+import time
+from typing import TYPE_CHECKING, Self
+
+import zenoh
+
+from studio.ros.graph import actions
+from studio.ros.graph.table import GraphTable, Taken
+from studio.ros.names import check_full_name
+from studio.ros.tokens import EndpointKind, tokens_of_domain
+from studio.ros.wire.door import standing_tokens, watch_tokens
+from studio.ros.wire.reading import ReadingThread
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from studio.ros.graph.endpoints import GraphEndpoint, GraphNode
+    from studio.ros.wire.session import WireSession
+
+NamesAndTypes = list[tuple[str, list[str]]]
+"""What rclpy gives for topics, services and actions: names in order, each with its types."""
+
+DOUBT_TIMEOUT_S = 1.0
+SETTLE_TIMEOUT_S = 3.0
+
+
+class Graph:
+    """The nodes and endpoints of a session's domain, from the moment it is made until `close`.
+
+    It begins empty: `settle` waits for what stood before, `wait_for` for what is to come.
+    """
+
+    def __init__(self, wire: WireSession) -> None:
+        self._wire = wire
+        self._table = GraphTable()
+        self._changed = threading.Condition()
+        self._version = 0
+        self._listeners: list[Callable[[], None]] = []
+        tokens = watch_tokens(wire.zenoh, tokens_of_domain(wire.domain))
+        self._thread = ReadingThread("ros-graph", tokens, self._take)
+
+    def close(self) -> None:
+        """Stop watching; again is harmless."""
+        self._thread.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    @property
+    def version(self) -> int:
+        """A number that grows with every change."""
+        return self._version
+
+    @property
+    def malformed(self) -> tuple[int, str | None]:
+        """How many tokens were none, and what was wrong with the last."""
+        with self._changed:
+            return self._table.malformed, self._table.last_malformed
+
+    def on_change(self, listener: Callable[[], None]) -> Callable[[], None]:
+        """Call a listener, from the graph's thread, after each batch of changes; gives its end.
+
+        It must be quick and raise nothing: it holds up the graph, though nothing else.
+        """
+        with self._changed:
+            self._listeners.append(listener)
+        return lambda: self._forget_listener(listener)
+
+    def wait_for(self, condition: Callable[[], bool], timeout_s: float | None = None) -> bool:
+        """Wait until a condition on this graph holds; False when it does not in time."""
+        with self._changed:
+            return self._changed.wait_for(condition, timeout_s)
+
+    def settle(self, timeout_s: float = SETTLE_TIMEOUT_S) -> bool:
+        """Wait until all that stands now has been taken in; False when that lasts too long."""
+        end_s = time.monotonic() + timeout_s
+        standing = set(
+            standing_tokens(self._wire.zenoh, tokens_of_domain(self._wire.domain), timeout_s)
+        )
+        with self._changed:
+            return self._changed.wait_for(
+                lambda: all(map(self._table.was_told, standing)), end_s - time.monotonic()
+            )
+
+    def nodes(self) -> list[GraphNode]:
+        """Every node, in the order of their paths; two of one name are two."""
+        with self._changed:
+            return self._table.nodes()
+
+    def node(self, path: str) -> GraphNode | None:
+        """The node of a path; of several, the first."""
+        return next((node for node in self.nodes() if node.path == path), None)
+
+    def duplicate_nodes(self) -> dict[str, int]:
+        """Paths that more than one node has, and how many do."""
+        paths = [node.path for node in self.nodes()]
+        return {path: count for path in sorted(set(paths)) if (count := paths.count(path)) > 1}
+
+    def endpoints_of(self, node: GraphNode) -> list[GraphEndpoint]:
+        """What a node has, in the order of their names."""
+        with self._changed:
+            return self._table.endpoints_of(node)
+
+    def publishers(self, topic: str) -> list[GraphEndpoint]:
+        """Who publishes a topic; the name is fully qualified, here and below."""
+        return self._endpoints(EndpointKind.PUBLISHER, topic)
+
+    def subscriptions(self, topic: str) -> list[GraphEndpoint]:
+        """Who subscribes to a topic."""
+        return self._endpoints(EndpointKind.SUBSCRIPTION, topic)
+
+    def servers(self, service: str) -> list[GraphEndpoint]:
+        """Who serves a service; more than one is a fault of that system."""
+        return self._endpoints(EndpointKind.SERVICE, service)
+
+    def clients(self, service: str) -> list[GraphEndpoint]:
+        """Who calls a service."""
+        return self._endpoints(EndpointKind.CLIENT, service)
+
+    def count(self, kind: EndpointKind, name: str) -> int:
+        """How many publishers, subscriptions, servers or clients of a name there are."""
+        with self._changed:
+            return self._table.count(kind, name)
+
+    def topics(self) -> NamesAndTypes:
+        """Topics that somebody publishes or subscribes to, hidden ones too."""
+        return self._names_and_types(EndpointKind.PUBLISHER, EndpointKind.SUBSCRIPTION)
+
+    def services(self) -> NamesAndTypes:
+        """Services that somebody serves, hidden ones too."""
+        return self._names_and_types(EndpointKind.SERVICE)
+
+    def actions(self) -> NamesAndTypes:
+        """Actions that somebody serves, by the services and topics that they are made of."""
+        return actions.names_and_types(self.services())
+
+    def action_servers(self, action: str) -> list[GraphNode]:
+        """The nodes that serve an action."""
+        return [found.node for found in self.servers(actions.goal_service(action))]
+
+    def action_clients(self, action: str) -> list[GraphNode]:
+        """The nodes that may send goals to an action."""
+        return [found.node for found in self.clients(actions.goal_service(action))]
+
+    def endpoint_of_gid(self, gid: bytes) -> GraphEndpoint | None:
+        """Whose sample or request it is, None when nobody's token says that."""
+        with self._changed:
+            return self._table.endpoint_of_gid(gid)
+
+    def wait_for_service(
+        self, name: str, type_name: str | None = None, timeout_s: float | None = None
+    ) -> bool:
+        """Wait until somebody serves a service, with that type if one is given."""
+        return self.wait_for(lambda: self.has_server(name, type_name), timeout_s)
+
+    def has_server(self, name: str, type_name: str | None = None) -> bool:
+        """Whether somebody serves a service, with that type if one is given."""
+        return any(type_name in {None, server.type_name} for server in self.servers(name))
+
+    def _endpoints(self, kind: EndpointKind, name: str) -> list[GraphEndpoint]:
+        check_full_name(name)
+        with self._changed:
+            return self._table.endpoints(kind, name)
+
+    def _names_and_types(self, *kinds: EndpointKind) -> NamesAndTypes:
+        found: dict[str, set[str]] = {}
+        with self._changed:
+            for kind in kinds:
+                for name, same_name in self._table.named(kind).items():
+                    types = {one.type_name for one in same_name.values()}
+                    found.setdefault(name, set()).update(types)
+        return [(name, sorted(found[name])) for name in sorted(found)]
+
+    def _forget_listener(self, listener: Callable[[], None]) -> None:
+        with self._changed:
+            if listener in self._listeners:
+                self._listeners.remove(listener)
+
+    def _take(self, samples: list[zenoh.Sample]) -> None:
+        """Take a batch in; the graph's thread only."""
+        with self._changed:
+            results = {str(one.key_expr): self._take_one(one) for one in samples}
+        doubtful = [token for token, taken in results.items() if taken is Taken.DOUBTFUL]
+        standing = {token for token in doubtful if self._stands(token)}
+        with self._changed:
+            for token in doubtful:
+                self._table.settle_doubt(token, stands=token in standing)
+            self._version += 1
+            self._changed.notify_all()
+            listeners = list(self._listeners)
+        for listener in listeners:
+            listener()
+
+    def _take_one(self, sample: zenoh.Sample) -> Taken:
+        token = str(sample.key_expr)
+        if sample.kind == zenoh.SampleKind.DELETE:
+            return self._table.delete(token)
+        return self._table.put(token)
+
+    def _stands(self, token: str) -> bool:
+        return token in standing_tokens(self._wire.zenoh, token, DOUBT_TIMEOUT_S)
