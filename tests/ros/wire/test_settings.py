@@ -1,0 +1,44 @@
+from __future__ import annotations
+
+import pytest
+
+from studio.errors import WireSettingsError
+from studio.ros.wire.settings import ROUTER_ENDPOINT, wire_settings
+
+FAR = "tcp/192.0.2.7:7447"
+
+
+def test_without_options_and_environment_the_router_of_this_machine_is_meant():
+    found = wire_settings(environment={})
+    assert (found.connect, found.domain, found.overrides) == ((ROUTER_ENDPOINT,), 0, {})
+
+
+def test_options_come_before_the_environment():
+    environment = {
+        "ROS_DOMAIN_ID": "7",
+        "ZENOH_CONFIG_OVERRIDE": 'connect/endpoints=["tcp/192.0.2.9:1"]',
+    }
+    assert wire_settings((FAR,), 3, environment=environment).connect == (FAR,)
+    assert wire_settings((FAR,), 3, environment=environment).domain == 3
+    assert wire_settings(environment=environment).domain == 7
+
+
+@pytest.mark.parametrize("written", [f'["{FAR}"]', f"['{FAR}',]", f' [ "{FAR}" ] '])
+def test_routers_named_in_the_override_are_those_to_connect_to(written: str):
+    """Else a router of our own would be started where nobody asked for one."""
+    override = f'mode="client";connect/endpoints={written};transport/shared_memory/enabled=false'
+    found = wire_settings(environment={"ZENOH_CONFIG_OVERRIDE": override})
+    assert found.connect == (FAR,)
+    assert set(found.overrides) == {"mode", "transport/shared_memory/enabled"}
+
+
+@pytest.mark.parametrize("written", ["7447", "{a: 1}", "[1]", "[", ""])
+def test_routers_that_are_no_list_are_refused(written: str):
+    with pytest.raises(WireSettingsError, match="write a list such as"):
+        wire_settings(environment={"ZENOH_CONFIG_OVERRIDE": f"connect/endpoints={written}"})
+
+
+@pytest.mark.parametrize("written", ["-1", "233", "one", "1.5"])
+def test_a_domain_that_is_none_is_refused(written: str):
+    with pytest.raises(WireSettingsError, match="ROS_DOMAIN_ID"):
+        wire_settings(environment={"ROS_DOMAIN_ID": written})
