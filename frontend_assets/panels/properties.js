@@ -66,7 +66,7 @@ export function PropertiesPanel() {
           onToggle=${() => toggle(group.key)} />`} />
       ${groups.length === 0 && html`<${Nothing} counts=${counts} />`}
     </div>
-    <${EffectLine} />
+    ${siteOrder.value.length > 0 && html`<${EffectLine} />`}
   </section>`;
 }
 
@@ -149,9 +149,9 @@ function SelectionChip() {
 function Nothing({ counts }) {
   const words = propertyFilter.value.trim();
   if (siteOrder.value.length === 0) {
-    return robot.value
-      ? html`<${EmptyState} icon="properties" title=${t("properties.none")} />`
-      : null;
+    if (!robot.value && documentState.value?.phase !== "failed") return null;
+    const title = t(robot.value ? "properties.none" : "properties.no_robot");
+    return html`<${EmptyState} icon="properties" title=${title} />`;
   }
   const everywhere = new Set(KINDS);
   const others = groupSites(siteOrder.value, allSites(), {

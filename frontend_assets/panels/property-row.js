@@ -132,6 +132,9 @@ function Name({ site, changed }) {
     }`;
 }
 
+/** Characters of a result that fit beside its kind. */
+const ONE_LINE = 40;
+
 /** @param {{site: SiteView, text: string}} props what an expression came to */
 function Result({ site, text }) {
   if (!isExpression(text) || site.value === "") return null;
@@ -139,6 +142,10 @@ function Result({ site, text }) {
   const value = several
     ? site.values.slice(0, 4).join(", ") + (site.values.length > 4 ? ", …" : "")
     : resultText(site);
+  // A path, say: its end tells most, and what comes before it is known from the others.
+  if (value.length > ONE_LINE && !/\s/.test(value)) {
+    return html`<p class="result path" title=${value}><span class="numbers">= </span><span class="result-path"><bdi>${value}</bdi></span></p>`;
+  }
   return html`<p class="result"><span class="numbers">= ${value}</span>
     <span class="muted"> · ${several ? t("property.values", { count: site.values.length }) : t("property.expression")}</span></p>`;
 }

@@ -89,7 +89,7 @@ function Cover() {
   const work = progress.value.get("expand") ?? progress.value.get("index");
   const file = documentState.value?.title ?? "";
   return html`<div class="scene-cover" role="status">
-    <div class="card">
+    <div class="message-card">
       <h2>${file ? t("opening.file", { file }) : t("opening")}</h2>
       <p>${work?.label ?? t("opening.hint")}</p>
       <${ProgressBar} label=${t("opening")} done=${work?.done ?? 0} total=${work?.total ?? 0} />
@@ -102,7 +102,7 @@ function Welcome() {
     dialog.value = { kind: "open" };
   };
   return html`<div class="scene-cover">
-    <div class="card">
+    <div class="message-card">
       <h2>${t("welcome")}</h2>
       <p>${role.value === "presenter" ? t("welcome.hint") : t("welcome.viewer")}</p>
       ${
@@ -122,7 +122,7 @@ function Failed() {
   };
   const again = () => state && openPath(state.path, { ...state.arguments });
   return html`<div class="scene-cover">
-    <div class="card bad" role="alert">
+    <div class="message-card bad" role="alert">
       <h2><${Icon} name="error" size=${20} />${t("failed", { file: state?.title ?? "" })}</h2>
       <p>${problem?.sentence ?? t("failed.unknown")}</p>
       ${problem?.place && html`<p><${PlaceLink} place=${problem.place} /></p>`}
