@@ -1,0 +1,186 @@
+"""MarkerLayout: where the numbers of a visualization_msgs/MarkerArray lie."""
+
+from __future__ import annotations
+
+import struct
+from dataclasses import dataclass
+from itertools import accumulate
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from studio.ros.duration import NANOSECONDS
+from studio.ros.fast.bytes_reader import BytesReader
+from studio.ros.fast.marker_columns import MarkerTexts, Texture
+from studio.ros.fast.skeleton import Places, Skeleton, places_of
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+TYPE_NAME = "visualization_msgs/msg/MarkerArray"
+POSE_AND_SCALE_BYTES = 80
+# Colour, lifetime, and whether the frame is locked: a byte, and three that fill up.
+COLOR_TO_LOCKED_BYTES = 28
+POINT_BYTES, COLOR_BYTES, UV_BYTES = 24, 16, 8
+_MARKER_BYTES_LEAST = 187
+# On the wire a quaternion is x, y, z, w.
+_WXYZ = [6, 3, 4, 5]
+# An empty resource, an image of no time, frame, format and bytes, and no coordinates.
+NO_TEXTURE = {order: struct.pack(f"{order}I4xiII4xI4xII", 1, 0, 0, 1, 1, 0, 0) for order in "<>"}
+# No text, no resource of a mesh, and a file of no name and bytes.
+NO_MESH = {order: struct.pack(f"{order}I4xI4xI4xI", 1, 1, 1, 0) for order in "<>"}
+
+
+class Runs:
+    """Items that markers hold in lists: where each list begins, in bytes, and how long it is."""
+
+    __slots__ = ("begins", "counts")
+
+    def __init__(self) -> None:
+        self.begins: list[int] = []
+        self.counts: list[int] = []
+
+    def read(self, reader: BytesReader, each_bytes: int, number_bytes: int) -> None:
+        """Pass over the next list."""
+        count = reader.count(each_bytes)
+        begin = reader.numbers(number_bytes, count * each_bytes) if count else reader.at
+        self.begins.append(begin)
+        self.counts.append(count)
+
+    def add_none(self, at: int) -> None:
+        """Note an empty list."""
+        self.begins.append(at)
+        self.counts.append(0)
+
+    def starts(self) -> NDArray[np.intp]:
+        """Where the items of each list begin among all, and at last their number."""
+        return np.array([0, *accumulate(self.counts)], dtype=np.intp)
+
+    def item_bytes(self, starts: NDArray[np.intp], each_bytes: int) -> Places:
+        """Where every item of every list begins, in bytes."""
+        shifts = np.array(self.begins, dtype=np.intp) - each_bytes * starts[:-1]
+        return np.repeat(shifts, self.counts) + each_bytes * np.arange(starts[-1])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class MarkerLayout:
+    """Places of numbers, in units of their own size behind the header, and all that is no number.
+
+    `points`, `point_colors` and `uvs` are the places of the items of all markers.
+    """
+
+    texts: tuple[MarkerTexts, ...]
+    stamps: Places
+    ids: Places
+    positions: Places
+    rotations: Places
+    scales: Places
+    colors: Places
+    lifetimes: Places
+    locked: Places
+    points: Places
+    point_starts: NDArray[np.intp]
+    point_colors: Places
+    point_color_starts: NDArray[np.intp]
+    uvs: Places
+    uv_starts: NDArray[np.intp]
+    skeleton: Skeleton
+
+
+class MarkerWalk:
+    """One walk through a message, marker by marker."""
+
+    def __init__(self, raw: bytes) -> None:
+        self._reader = BytesReader(raw, TYPE_NAME)
+        self._no_texture = NO_TEXTURE[self._reader.order]
+        self._no_mesh = NO_MESH[self._reader.order]
+        self._texts: list[MarkerTexts] = []
+        self._stamps: list[int] = []
+        self._ids: list[int] = []
+        self._poses: list[int] = []
+        self._points, self._colors, self._uvs = Runs(), Runs(), Runs()
+
+    def run(self) -> MarkerLayout:
+        """Walk from the first byte to the last.
+
+        Raises:
+            CdrError: The bytes are no such message.
+        """
+        for _ in range(self._reader.count(_MARKER_BYTES_LEAST)):
+            self._marker()
+        return self._layout()
+
+    def _marker(self) -> None:
+        reader = self._reader
+        self._stamps.append(reader.numbers(4, 8))
+        frame, namespace = reader.text(), reader.text()
+        self._ids.append(reader.numbers(4, 12))
+        self._poses.append(reader.numbers(8, POSE_AND_SCALE_BYTES))
+        reader.numbers(4, COLOR_TO_LOCKED_BYTES)
+        self._points.read(reader, POINT_BYTES, 8)
+        self._colors.read(reader, COLOR_BYTES, 4)
+        texture = self._texture()
+        self._texts.append(MarkerTexts(frame, namespace, *self._mesh(), *texture))
+
+    def _texture(self) -> tuple[str, Texture | None]:
+        """Read the picture of a marker, which hardly one has, and what places it."""
+        reader = self._reader
+        if reader.raw.startswith(self._no_texture, reader.at):
+            reader.at += len(self._no_texture)
+            self._uvs.add_none(reader.at)
+            return "", None
+        resource = reader.text()
+        sec, nanosec = struct.unpack_from(f"{reader.order}iI", reader.raw, reader.numbers(4, 8))
+        stamp_ns = sec * NANOSECONDS + nanosec
+        texture = Texture(stamp_ns, reader.text(), reader.text(), self._bytes())
+        self._uvs.read(reader, UV_BYTES, 4)
+        return resource, None if texture == (0, "", "", b"") else texture
+
+    def _mesh(self) -> tuple[str, str, str, bytes, bool]:
+        reader = self._reader
+        if reader.raw.startswith(self._no_mesh, reader.at + -reader.at % 4):
+            reader.numbers(4, len(self._no_mesh))
+            return "", "", "", b"", self._truth()
+        return reader.text(), reader.text(), reader.text(), self._bytes(), self._truth()
+
+    def _bytes(self) -> bytes:
+        count = self._reader.count(1)
+        begin = self._reader.numbers(1, count)
+        return self._reader.raw[begin : begin + count]
+
+    def _truth(self) -> bool:
+        return self._reader.raw[self._reader.numbers(1, 1)] != 0
+
+    def _layout(self) -> MarkerLayout:
+        places = np.array(self._poses, dtype=np.intp)
+        after = places + POSE_AND_SCALE_BYTES
+        stamps, ids = places_of(self._stamps, 2, 4), places_of(self._ids, 3, 4)
+        point_starts, color_starts, uv_starts = (
+            runs.starts() for runs in (self._points, self._colors, self._uvs)
+        )
+        points = self._points.item_bytes(point_starts, POINT_BYTES)
+        colors = places_of(self._colors.item_bytes(color_starts, COLOR_BYTES), 4, 4)
+        uvs = places_of(self._uvs.item_bytes(uv_starts, UV_BYTES), 2, 4)
+        numbers = (
+            stamps, ids, places_of(places, 20, 4), places_of(after, 7, 4),
+            places_of(points, 6, 4), colors, uvs,
+        )  # fmt: skip
+        return MarkerLayout(
+            texts=tuple(self._texts),
+            stamps=stamps,
+            ids=ids,
+            positions=places_of(places, 3, 8),
+            rotations=places_of(places, _WXYZ, 8),
+            scales=places_of(places, [7, 8, 9], 8),
+            colors=places_of(after, 4, 4),
+            lifetimes=places_of(after, [4, 5], 4),
+            # A single byte, of which there are as many as bytes behind the header.
+            locked=places_of(after, [24], 1)[:, 0],
+            points=places_of(points, 3, 8),
+            point_starts=point_starts,
+            point_colors=colors,
+            point_color_starts=color_starts,
+            uvs=uvs,
+            uv_starts=uv_starts,
+            skeleton=Skeleton(self._reader.raw, numbers),
+        )
