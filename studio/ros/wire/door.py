@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import threading
-from typing import TYPE_CHECKING, Any, Protocol, TypeVar, cast
+from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar, cast
 
 import zenoh
 import zenoh.ext
@@ -17,7 +17,7 @@ SAMPLES_WAITING_MAX = 65_536
 _HEARTBEAT_S = 0.5
 _CLOSE_TIMEOUT_S = 1.0
 
-ItemT_co = TypeVar("ItemT_co", covariant=True)
+ItemT = TypeVar("ItemT")
 
 
 class Declared(Protocol):
@@ -28,18 +28,39 @@ class Declared(Protocol):
         ...
 
 
-class Incoming(Declared, Protocol[ItemT_co]):
-    """What collects samples or queries; iterating waits, and ends when it is undeclared."""
+class _Source(Protocol):
+    @property
+    def handler(self) -> Any: ...  # noqa: ANN401
+    def undeclare(self) -> None: ...
 
-    def try_recv(self) -> ItemT_co | None:
-        """Take the oldest one, None when there is none."""
-        ...
 
-    def recv(self) -> ItemT_co:
-        """Wait for one without holding the interpreter; ZError when it is undeclared."""
-        ...
+class Incoming(Generic[ItemT]):
+    """What collects samples or queries; read by one thread, taken back by any.
 
-    def __iter__(self) -> Iterator[ItemT_co]: ...
+    Zenoh's own may not be read and taken back at the same time, their handlers may.
+    """
+
+    def __init__(self, source: object) -> None:
+        self._source = cast("_Source", source)
+        self._handler = cast("zenoh.Handler[ItemT]", self._source.handler)
+        self._taken_back = threading.Lock()
+
+    def try_recv(self) -> ItemT | None:
+        """Take the oldest one, None when there is none or no more will come."""
+        try:
+            return self._handler.try_recv()
+        except zenoh.ZError:
+            return None
+
+    def __iter__(self) -> Iterator[ItemT]:
+        """Wait for one after the other, without holding the interpreter, until the end."""
+        return iter(self._handler)
+
+    def undeclare(self) -> None:
+        """Take it back, which ends iterating; again is harmless."""
+        if self._taken_back.acquire(blocking=False):
+            with contextlib.suppress(zenoh.ZError):  # its session has ended
+                self._source.undeclare()
 
 
 class Outgoing(Declared, Protocol):
@@ -104,16 +125,13 @@ def queue() -> zenoh.handlers.FifoChannel[Any]:
 
 
 def declare_token(session: zenoh.Session, token: str) -> Declared:
-    """Show a node or endpoint to all who watch."""
+    """Show a node or endpoint to all who watch, for as long as what is given back is kept."""
     return cast("Declared", session.liveliness().declare_token(token))
 
 
 def watch_tokens(session: zenoh.Session, tokens: str) -> Incoming[zenoh.Sample]:
     """Collect the tokens of a key expression, those that stand first."""
-    return cast(
-        "Incoming[zenoh.Sample]",
-        session.liveliness().declare_subscriber(tokens, queue(), history=True),
-    )
+    return Incoming(session.liveliness().declare_subscriber(tokens, queue(), history=True))
 
 
 def declare_publisher(
@@ -165,7 +183,7 @@ def declare_subscription(
     """
     ring: zenoh.handlers.RingChannel[zenoh.Sample] = zenoh.handlers.RingChannel(capacity)
     if wanted is None:
-        return cast("Incoming[zenoh.Sample]", session.declare_subscriber(key, ring))
+        return Incoming(session.declare_subscriber(key, ring))
     recovery = zenoh.ext.RecoveryConfig(periodic_queries=None, heartbeat=True)
     found = zenoh.ext.declare_advanced_subscriber(
         session,
@@ -175,28 +193,13 @@ def declare_subscription(
         recovery=recovery if reliable else None,
         subscriber_detection=True,
     )
-    return _AdvancedSubscription(found)
-
-
-class _AdvancedSubscription:
-    """Zenoh's own cannot be iterated over without its handler being asked for each time."""
-
-    def __init__(self, found: zenoh.ext.AdvancedSubscriber[zenoh.Handler[zenoh.Sample]]) -> None:
-        self._found = found
-        self.try_recv = found.handler.try_recv
-        self.recv = found.handler.recv
-
-    def __iter__(self) -> Iterator[zenoh.Sample]:
-        return iter(self._found.handler)
-
-    def undeclare(self) -> None:
-        cast("Any", self._found).undeclare()
+    return Incoming(found)
 
 
 def declare_queryable(session: zenoh.Session, key: str, capacity: int) -> Incoming[Asked]:
     """Declare a complete queryable whose oldest query is dropped when `capacity` is reached."""
     ring: zenoh.handlers.RingChannel[zenoh.Query] = zenoh.handlers.RingChannel(capacity)
-    return cast("Incoming[Asked]", session.declare_queryable(key, ring, complete=True))
+    return Incoming(session.declare_queryable(key, ring, complete=True))
 
 
 def declare_querier(session: zenoh.Session, key: str, timeout_s: float) -> Asking:
@@ -222,11 +225,7 @@ def standing_tokens(session: zenoh.Session, tokens: str, timeout_s: float) -> It
 
 def watch_transports(session: zenoh.Session) -> Incoming[zenoh.TransportEvent]:
     """Collect what opens and closes between this session and others, what is open first."""
-    info = session.info
-    return cast(
-        "Incoming[zenoh.TransportEvent]",
-        info.declare_transport_events_listener(queue(), history=True),
-    )
+    return Incoming(session.info.declare_transport_events_listener(queue(), history=True))
 
 
 def insert(config: zenoh.Config, key: str, json5: str) -> None:

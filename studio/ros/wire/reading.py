@@ -5,8 +5,6 @@ from __future__ import annotations
 import threading
 from typing import TYPE_CHECKING, Generic, TypeVar
 
-import zenoh
-
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -33,11 +31,7 @@ class ReadingThread(Generic[ItemT]):
 
     def close(self) -> None:
         """Take the source back and end; again is harmless, and so is a session that has ended."""
-        if self._thread.is_alive():
-            try:
-                self._source.undeclare()
-            except zenoh.ZError:
-                return  # with its session, so that the thread ends by itself
+        self._source.undeclare()
         if self._thread is not threading.current_thread():
             self._thread.join(_END_TIMEOUT_S)
 

@@ -1,0 +1,216 @@
+"""The graph over real Zenoh: who comes, goes, is killed, and returns with the router."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from contextlib import ExitStack
+from typing import TYPE_CHECKING
+
+import pytest
+
+from studio.ros.graph.graph import Graph
+from studio.ros.qos import QoSProfile
+from studio.ros.tokens import EndpointKind, EndpointToken, NodeToken
+from studio.ros.wire.door import declare_token
+from tests.support.wire import free_endpoint, open_test_session, router_at, running_router
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from studio.ros.wire.door import Declared
+    from studio.ros.wire.session import WireSession
+
+PATIENCE_S = 15.0
+STRING = "std_msgs/msg/String"
+
+
+@pytest.fixture(scope="module")
+def router() -> Iterator[str]:
+    with running_router() as endpoint:
+        yield endpoint
+
+
+@pytest.fixture
+def robot(router: str) -> Iterator[WireSession]:
+    with open_test_session(router) as wire:
+        yield wire
+
+
+@pytest.fixture
+def graph(router: str) -> Iterator[Graph]:
+    with open_test_session(router) as wire, Graph(wire) as found:
+        yield found
+
+
+def node_of(wire: WireSession, name: str = "talker", namespace: str = "/") -> NodeToken:
+    return NodeToken(wire.domain, wire.zid, wire.next_id(), namespace, name)
+
+
+def endpoint_of(
+    wire: WireSession,
+    node: NodeToken,
+    name: str,
+    kind: EndpointKind = EndpointKind.PUBLISHER,
+    type_name: str = STRING,
+) -> EndpointToken:
+    return EndpointToken(
+        node, wire.next_id(), kind, name, type_name, "RIHS01_df", QoSProfile(depth=10)
+    )
+
+
+def show(wire: WireSession, *tokens: NodeToken | EndpointToken) -> list[Declared]:
+    return [declare_token(wire.zenoh, str(token)) for token in tokens]
+
+
+def test_a_node_and_its_publisher_appear_with_all_that_they_say(robot: WireSession, graph: Graph):
+    node = node_of(robot, namespace="/arm")
+    held = show(robot, node, endpoint_of(robot, node, "/arm/chatter"))
+    assert graph.wait_for(lambda: graph.topics() == [("/arm/chatter", [STRING])], PATIENCE_S)
+    (publisher,) = graph.publishers("/arm/chatter")
+    assert (publisher.node_name, publisher.node_namespace) == ("talker", "/arm")
+    assert (publisher.topic_type, publisher.topic_type_hash) == (STRING, "RIHS01_df")
+    assert publisher.qos_profile.depth == 10
+    assert graph.count(EndpointKind.PUBLISHER, "/arm/chatter") == 1
+    assert graph.count(EndpointKind.SUBSCRIPTION, "/arm/chatter") == 0
+    assert graph.endpoint_of_gid(publisher.gid) == publisher
+    assert held
+
+
+def test_who_looks_later_settles_on_what_stands(robot: WireSession, router: str):
+    node = node_of(robot)
+    held = show(robot, node, *(endpoint_of(robot, node, f"/topic_{at}") for at in range(200)))
+    with open_test_session(router) as wire, Graph(wire) as first:
+        assert first.wait_for(lambda: len(first.topics()) == 200, PATIENCE_S)
+        with Graph(wire) as second:
+            assert second.settle(PATIENCE_S)
+            assert second.topics() == first.topics()
+    assert len(held) == 201
+
+
+def test_an_endpoint_that_is_taken_back_vanishes(robot: WireSession, graph: Graph):
+    node = node_of(robot)
+    _, publisher = show(robot, node, endpoint_of(robot, node, "/chatter"))
+    assert graph.wait_for(lambda: bool(graph.publishers("/chatter")), PATIENCE_S)
+    publisher.undeclare()
+    assert graph.wait_for(lambda: not graph.publishers("/chatter"), PATIENCE_S)
+    assert graph.node("/talker") is not None
+
+
+def test_nodes_of_another_domain_are_not_there(robot: WireSession, router: str, graph: Graph):
+    with open_test_session(router, domain=7) as other:
+        held = [*show(other, node_of(other, "far")), *show(robot, node_of(robot, "near"))]
+        assert graph.wait_for(lambda: graph.node("/near") is not None, PATIENCE_S)
+        assert graph.node("/far") is None
+    assert len(held) == 2
+
+
+def test_two_nodes_of_one_name_are_told(robot: WireSession, router: str, graph: Graph):
+    with open_test_session(router) as other:
+        held = [*show(robot, node_of(robot)), *show(other, node_of(other))]
+        assert graph.wait_for(lambda: graph.duplicate_nodes() == {"/talker": 2}, PATIENCE_S)
+    assert graph.wait_for(lambda: not graph.duplicate_nodes(), PATIENCE_S)
+    assert held
+
+
+def test_an_action_is_known_by_its_services(robot: WireSession, graph: Graph):
+    node = node_of(robot, "turtle")
+    parts = {"send_goal": "_SendGoal", "get_result": "_GetResult"}
+    held = show(
+        robot,
+        node,
+        *(
+            endpoint_of(
+                robot,
+                node,
+                f"/turn/_action/{part}",
+                EndpointKind.SERVICE,
+                f"turtlesim/action/Turn{suffix}",
+            )
+            for part, suffix in parts.items()
+        ),
+    )
+    assert graph.wait_for(lambda: len(graph.services()) == 2, PATIENCE_S)
+    assert graph.actions() == [("/turn", ["turtlesim/action/Turn"])]
+    assert [one.name for one in graph.action_servers("/turn")] == ["turtle"]
+    assert graph.action_clients("/turn") == []
+    assert held
+
+
+def test_a_service_is_waited_for_by_its_type_too(robot: WireSession, graph: Graph):
+    assert not graph.wait_for_service("/add", timeout_s=0)
+    node = node_of(robot, "adder")
+    add = "example_interfaces/srv/AddTwoInts"
+    held = show(robot, node, endpoint_of(robot, node, "/add", EndpointKind.SERVICE, add))
+    assert graph.wait_for_service("/add", add, PATIENCE_S)
+    assert not graph.has_server("/add", "std_srvs/srv/Trigger")
+    assert held
+
+
+def test_a_listener_hears_of_changes_until_it_is_taken_back(robot: WireSession, graph: Graph):
+    versions: list[int] = []
+    end = graph.on_change(lambda: versions.append(graph.version))
+    held = show(robot, node_of(robot, "one"))
+    assert graph.wait_for(lambda: graph.node("/one") is not None, PATIENCE_S)
+    end()
+    held += show(robot, node_of(robot, "two"))
+    assert graph.wait_for(lambda: graph.node("/two") is not None, PATIENCE_S)
+    assert versions == versions[:1]
+    assert held
+
+
+def test_tokens_that_are_none_are_counted(robot: WireSession, graph: Graph):
+    held = declare_token(robot.zenoh, "@ros2_lv/0/aa/0/0/XX/%/%/talker")
+    assert graph.wait_for(lambda: graph.malformed[0] == 1, PATIENCE_S)
+    held.undeclare()
+
+
+NODE_OF_ITS_OWN = """
+import sys
+from studio.ros.tokens import NodeToken
+from studio.ros.wire.door import declare_token
+from tests.support.wire import open_test_session
+wire = open_test_session(sys.argv[1])
+token = declare_token(wire.zenoh, str(NodeToken(0, wire.zid, wire.next_id(), "/", "victim")))
+sys.stdin.read()
+"""
+
+
+def test_a_node_that_is_killed_vanishes(router: str, graph: Graph):
+    process = subprocess.Popen(
+        [sys.executable, "-c", NODE_OF_ITS_OWN, router], stdin=subprocess.PIPE
+    )
+    with process:
+        try:
+            assert graph.wait_for(lambda: graph.node("/victim") is not None, PATIENCE_S)
+        finally:
+            process.kill()
+    assert graph.wait_for(lambda: graph.node("/victim") is None, PATIENCE_S)
+
+
+def test_everything_goes_with_the_router_and_returns_with_the_next():
+    endpoint = free_endpoint()
+    with ExitStack() as stack:
+        first = stack.enter_context(router_at(endpoint))
+        robot = stack.enter_context(open_test_session(endpoint))
+        graph = stack.enter_context(Graph(stack.enter_context(open_test_session(endpoint))))
+        node = node_of(robot)
+        held = show(robot, node, endpoint_of(robot, node, "/chatter"))
+        assert graph.wait_for(lambda: bool(graph.topics()), PATIENCE_S)
+        first.close()
+        assert graph.wait_for(lambda: not graph.nodes(), PATIENCE_S)
+        stack.enter_context(router_at(endpoint))
+        assert graph.wait_for(lambda: bool(graph.topics()), PATIENCE_S)
+        assert [one.name for one in graph.nodes()] == ["talker"]
+        assert len(held) == 2
+
+
+def test_a_closed_graph_keeps_what_it_knew_and_may_be_closed_again(
+    robot: WireSession, graph: Graph
+):
+    held = show(robot, node_of(robot))
+    assert graph.wait_for(lambda: graph.node("/talker") is not None, PATIENCE_S)
+    graph.close()
+    graph.close()
+    assert [one.name for one in graph.nodes()] == ["talker"]
+    assert held
