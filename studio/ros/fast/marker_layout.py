@@ -54,12 +54,14 @@ class Runs:
 
     def starts(self) -> NDArray[np.intp]:
         """Where the items of each list begin among all, and at last their number."""
-        return np.array([0, *accumulate(self.counts)], dtype=np.intp)
+        return np.fromiter(accumulate(self.counts, initial=0), dtype=np.intp)
 
     def item_bytes(self, starts: NDArray[np.intp], each_bytes: int) -> Places:
         """Where every item of every list begins, in bytes."""
         shifts = np.array(self.begins, dtype=np.intp) - each_bytes * starts[:-1]
-        return np.repeat(shifts, self.counts) + each_bytes * np.arange(starts[-1])
+        return np.repeat(shifts, self.counts) + each_bytes * np.arange(
+            int(starts[-1]), dtype=np.intp
+        )
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -65,6 +65,9 @@ def test_any_message_reads_as_the_codec_reads_it(value: Any, little: bool):  # n
 @settings(max_examples=60, deadline=None)
 @given(values_of(MARKERS))
 def test_what_was_read_is_written_as_it_was(value: Any):  # noqa: ANN401
+    for one in value.markers:
+        for time in (one.header.stamp, one.lifetime, one.texture.header.stamp):
+            time.nanosec %= 10**9
     read = FAST.decode(CODEC.encode(value))
     assert_same(marker_columns(CODEC.decode(FAST.encode(read))), read)
 

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -31,19 +32,20 @@ def columns(*children: str, x: float = 0.0) -> TransformColumns:
     )
 
 
-@settings(max_examples=80)
+@settings(max_examples=80, deadline=None)
 @given(values_of(TF), st.booleans())
-def test_any_message_reads_as_the_codec_reads_it(value: object, little: bool):
-    written = CODEC.encode(value, little_endian=little)  # pyright: ignore
+def test_any_message_reads_as_the_codec_reads_it(value: Any, little: bool):  # noqa: ANN401
+    written = CODEC.encode(value, little_endian=little)
     for codec in (TransformCodec(), FAST, FAST):
         assert_same(codec.decode(written), transform_columns(CODEC.decode(written)))
 
 
-@settings(max_examples=80)
+@settings(max_examples=80, deadline=None)
 @given(values_of(TF))
-def test_what_was_read_is_written_as_it_was(value: object):
-    written = CODEC.encode(value)  # pyright: ignore
-    read = FAST.decode(written)
+def test_what_was_read_is_written_as_it_was(value: Any):  # noqa: ANN401
+    for one in value.transforms:
+        one.header.stamp.nanosec %= 10**9
+    read = FAST.decode(CODEC.encode(value))
     again = CODEC.decode(FAST.encode(read))
     assert_same(transform_columns(again), read)
 
@@ -77,13 +79,13 @@ def test_a_message_that_ends_too_early_is_refused(cut: int):
         TransformCodec().decode(whole[:cut])
 
 
-@settings(max_examples=300)
+@settings(max_examples=300, deadline=None)
 @given(st.sampled_from([b"", b"\0\1\0\0", b"\0\0\0\0"]), st.binary(max_size=300))
 def test_any_bytes_are_read_as_the_codec_reads_them_or_refused_with_it(head: bytes, body: bytes):
     assert_alike(head + body)
 
 
-@settings(max_examples=300)
+@settings(max_examples=300, deadline=None)
 @given(st.integers(0, 400), st.integers(0, 255))
 def test_a_byte_that_changed_is_read_as_the_codec_reads_it_or_refused_with_it(at: int, byte: int):
     raw = bytearray(TransformCodec().encode(columns("wheel", "arm", "x")))
