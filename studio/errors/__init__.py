@@ -55,6 +55,11 @@ StudioError
         GoalStateError
         TransitionError
         TypeDescriptionError
+        NodeError
+            NotJoinedError
+            AlreadyJoinedError
+            DestroyedError
+            ExternalShutdownException
     WorkerError
         WorkerTimeoutError
         WorkerDiedError
@@ -126,6 +131,13 @@ from studio.errors.models import (
     StaleTextError,
     VariantsFileError,
 )
+from studio.errors.nodes import (
+    AlreadyJoinedError,
+    DestroyedError,
+    ExternalShutdownException,
+    NodeError,
+    NotJoinedError,
+)
 from studio.errors.root import (
     StudioError,
 )
@@ -158,16 +170,19 @@ from studio.errors.wire import (
 __all__ = [
     "AccessError",
     "ActionServerGoneError",
+    "AlreadyJoinedError",
     "AttachmentError",
     "CallError",
     "CdrError",
     "CommandError",
     "DataFolderError",
     "DescriptionError",
+    "DestroyedError",
     "DraftError",
     "EditError",
     "ExpansionError",
     "ExportError",
+    "ExternalShutdownException",
     "ForeignEndpointError",
     "FrameError",
     "GoalStateError",
@@ -179,7 +194,9 @@ __all__ = [
     "MessageValueError",
     "NoAnswerError",
     "NoRouterError",
+    "NodeError",
     "NotAllowedError",
+    "NotJoinedError",
     "NotMadeError",
     "NotSavedError",
     "NotServedError",

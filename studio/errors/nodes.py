@@ -1,0 +1,40 @@
+"""Errors of nodes: used before the wire was joined, after they were destroyed, or wrongly."""
+
+from __future__ import annotations
+
+from studio.errors.wire import WireError
+
+
+class NodeError(WireError):
+    """A node, or what carries out its work, cannot do what was asked."""
+
+
+class NotJoinedError(NodeError):
+    """A node was made, or work was asked for, before `init` or after `shutdown`."""
+
+    def __init__(self) -> None:
+        super().__init__(
+            "The wire is not joined: call init() before a node is made, and shutdown() last."
+        )
+
+
+class AlreadyJoinedError(NodeError):
+    """`init` was called twice."""
+
+    def __init__(self) -> None:
+        super().__init__("The wire is joined already: call init() once, or shutdown() before.")
+
+
+class DestroyedError(NodeError):
+    """Something was used after it was destroyed."""
+
+    def __init__(self, what: str) -> None:
+        super().__init__(f"The {what} was destroyed: make it again, or keep it longer.")
+        self.what = what
+
+
+class ExternalShutdownException(NodeError):  # noqa: N818  # the name that rclpy's users catch
+    """The process was told to end while a node was spinning."""
+
+    def __init__(self) -> None:
+        super().__init__("The node was told to end.")

@@ -1,0 +1,176 @@
+"""Clock: the time of the system, a steady one, or that of ROS, which /clock may tell."""
+
+from __future__ import annotations
+
+import threading
+import time
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import TYPE_CHECKING
+
+from studio.ros.duration import Duration
+from studio.ros.node.time import ClockType, Time
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+
+class ClockChange(IntEnum):
+    """What a jump changed besides the time."""
+
+    ROS_TIME_NO_CHANGE = 1
+    ROS_TIME_ACTIVATED = 2
+    ROS_TIME_DEACTIVATED = 3
+    SYSTEM_TIME_NO_CHANGE = 4
+
+
+@dataclass(frozen=True, slots=True)
+class TimeJump:
+    """A step of a clock that was told from outside; `delta` is below zero for one backwards."""
+
+    clock_change: ClockChange
+    delta: Duration
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class JumpThreshold:
+    """Which jumps to be told of; None for none of that direction."""
+
+    min_forward: Duration | None = None
+    min_backward: Duration | None = None
+    on_clock_change: bool = True
+
+    def is_met_by(self, jump: TimeJump) -> bool:
+        """Whether a jump is one of these."""
+        if jump.clock_change in {
+            ClockChange.ROS_TIME_ACTIVATED,
+            ClockChange.ROS_TIME_DEACTIVATED,
+        }:
+            return self.on_clock_change
+        forward, backward = self.min_forward, self.min_backward
+        return (forward is not None and jump.delta >= forward > Duration()) or (
+            backward is not None and jump.delta <= backward < Duration()
+        )
+
+
+class JumpHandle:
+    """What keeps a callback on jumps; `unregister` ends it."""
+
+    def __init__(
+        self,
+        clock: Clock,
+        threshold: JumpThreshold,
+        before: Callable[[], None] | None,
+        after: Callable[[TimeJump], None] | None,
+    ) -> None:
+        self._clock, self.threshold, self.before, self.after = clock, threshold, before, after
+
+    def unregister(self) -> None:
+        """Be told no more; again is harmless."""
+        self._clock.forget(self)
+
+
+class Clock:
+    """Tells instants of its kind; that of ROS follows the system until /clock takes over."""
+
+    def __init__(self, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> None:
+        self._clock_type = clock_type
+        self._told_ns: int | None = None
+        self._moved = threading.Condition()
+        self._handles: list[JumpHandle] = []
+        self._watchers: list[Callable[[], None]] = []
+
+    @property
+    def clock_type(self) -> ClockType:
+        """Its kind."""
+        return self._clock_type
+
+    @property
+    def ros_time_is_active(self) -> bool:
+        """Whether /clock tells the time."""
+        return self._told_ns is not None
+
+    def now(self) -> Time:
+        """Give this instant."""
+        return Time(nanoseconds=self.now_ns(), clock_type=self._clock_type)
+
+    def now_ns(self) -> int:
+        """Give this instant in nanoseconds."""
+        told_ns = self._told_ns
+        if told_ns is not None:
+            return told_ns
+        steady = self._clock_type is ClockType.STEADY_TIME
+        return time.monotonic_ns() if steady else time.time_ns()
+
+    def create_jump_callback(
+        self,
+        threshold: JumpThreshold,
+        *,
+        pre_callback: Callable[[], None] | None = None,
+        post_callback: Callable[[TimeJump], None] | None = None,
+    ) -> JumpHandle:
+        """Be told before and after jumps that meet a threshold."""
+        handle = JumpHandle(self, threshold, pre_callback, post_callback)
+        with self._moved:
+            self._handles.append(handle)
+        return handle
+
+    def forget(self, handle: JumpHandle) -> None:
+        """Tell a callback no more."""
+        with self._moved:
+            if handle in self._handles:
+                self._handles.remove(handle)
+
+    def tell(self, now_ns: int | None) -> None:
+        """Set the time as /clock tells it; None gives the clock back to the system.
+
+        Raises:
+            ValueError: It is no clock of ROS time.
+        """
+        if self._clock_type is not ClockType.ROS_TIME:
+            raise ValueError("only a clock of ROS time is told the time")
+        jump = self._jump_to(now_ns)
+        with self._moved:
+            met = [handle for handle in self._handles if handle.threshold.is_met_by(jump)]
+        for handle in met:
+            if handle.before is not None:
+                handle.before()
+        with self._moved:
+            self._told_ns = now_ns
+            watchers = tuple(self._watchers)
+            self._moved.notify_all()
+        for handle in met:
+            if handle.after is not None:
+                handle.after(jump)
+        for watcher in watchers:
+            watcher()
+
+    def watch(self, watcher: Callable[[], None]) -> None:
+        """Call back whenever the time is told; it must not wait."""
+        with self._moved:
+            self._watchers.append(watcher)
+
+    def unwatch(self, watcher: Callable[[], None]) -> None:
+        """Call back no more; again is harmless."""
+        with self._moved:
+            if watcher in self._watchers:
+                self._watchers.remove(watcher)
+
+    def wait(self, timeout_s: float) -> None:
+        """Wait until the time is told anew, or that long."""
+        with self._moved:
+            self._moved.wait(timeout_s)
+
+    def wake(self) -> None:
+        """End all waits, as if the time were told."""
+        with self._moved:
+            self._moved.notify_all()
+
+    def _jump_to(self, now_ns: int | None) -> TimeJump:
+        before_ns, was_told = self.now_ns(), self._told_ns is not None
+        if now_ns is None:
+            delta_ns, change = time.time_ns() - before_ns, ClockChange.ROS_TIME_DEACTIVATED
+        else:
+            delta_ns = now_ns - before_ns
+            change = ClockChange.ROS_TIME_NO_CHANGE if was_told else ClockChange.ROS_TIME_ACTIVATED
+        return TimeJump(change, Duration(nanoseconds=delta_ns))

@@ -1,0 +1,141 @@
+"""Context: what the nodes of a process share: the session, the drain, and whether to go on."""
+
+from __future__ import annotations
+
+import contextlib
+import threading
+from typing import TYPE_CHECKING
+
+from studio.errors import AlreadyJoinedError, NotJoinedError
+from studio.ros.messages import shared_types
+from studio.ros.messages.shared import types_of
+from studio.ros.node.drain import Drain, Source
+from studio.ros.wire.opening import open_wire
+from studio.ros.wire.settings import wire_settings
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from studio.ros.wire.session import WireSession
+    from studio.ros.wire.settings import WireSettings
+
+
+class Context:
+    """Joined by `init`, or made `over` a session that is open; `shutdown` ends it.
+
+    `ok` turns false at once when the process is told to end, while the session stays open until
+    `shutdown`, so that a node can say good-bye.
+    """
+
+    def __init__(self) -> None:
+        self._lock = threading.RLock()
+        self._wire: WireSession | None = None
+        self._drain: Drain | None = None
+        self._owns_wire = True
+        self._ok = False
+        self._ending: list[Callable[[], None]] = []
+        self._closing: list[Callable[[], None]] = []
+
+    @classmethod
+    def over(cls, wire: WireSession, *, owns_wire: bool = False) -> Context:
+        """Make a joined one over an open session, which `shutdown` closes if it owns it."""
+        context = cls()
+        context._join(wire, owns_wire=owns_wire)
+        return context
+
+    def init(self, settings: WireSettings | None = None, router: str = "auto") -> None:
+        """Join the wire.
+
+        Args:
+            settings: Which router and domain; those of the environment without.
+            router: `auto` starts a router where none answers, `off` starts none.
+
+        Raises:
+            AlreadyJoinedError: It is joined.
+            WireError: The router cannot be joined, or none may be started.
+        """
+        with self._lock:
+            if self._wire is not None:
+                raise AlreadyJoinedError
+            given = settings or wire_settings()
+            types = shared_types() if settings is None else types_of(given.profile.distro)
+            self._join(open_wire(given, router, types), owns_wire=True)
+
+    @property
+    def wire(self) -> WireSession:
+        """The session that all share.
+
+        Raises:
+            NotJoinedError: It is not joined.
+        """
+        if self._wire is None:
+            raise NotJoinedError
+        return self._wire
+
+    @property
+    def drain(self) -> Drain:
+        """The thread that takes in what comes.
+
+        Raises:
+            NotJoinedError: It is not joined.
+        """
+        if self._drain is None:
+            raise NotJoinedError
+        return self._drain
+
+    def forget_source(self, source: Source) -> None:
+        """Take in no more of what comes to a source; harmless after the end."""
+        drain = self._drain
+        if drain is not None:
+            drain.remove(source)
+
+    def ok(self) -> bool:
+        """Whether it is joined, and nobody told it to end."""
+        return self._ok
+
+    def on_end(self, callback: Callable[[], None]) -> None:
+        """Call back once when it is told to end, at once if it was; it must not wait."""
+        with self._lock:
+            if self._ok:
+                self._ending.append(callback)
+                return
+        callback()
+
+    def on_close(self, callback: Callable[[], None]) -> None:
+        """Call back once before the session is closed."""
+        with self._lock:
+            self._closing.append(callback)
+
+    def end(self) -> None:
+        """Tell all that spin to end; the session stays open. Safe in a handler of signals."""
+        self._ok = False
+        while self._ending:
+            with contextlib.suppress(IndexError):
+                self._ending.pop()()
+
+    def shutdown(self) -> None:
+        """End, and close the session; again is harmless."""
+        self.end()
+        with self._lock:
+            closing, self._closing = self._closing, []
+            drain, wire = self._drain, self._wire
+            self._drain = self._wire = None
+        for callback in closing:
+            callback()
+        if drain is not None:
+            drain.stop()
+        if wire is not None and self._owns_wire:
+            wire.close()
+
+    def _join(self, wire: WireSession, *, owns_wire: bool) -> None:
+        self._wire, self._owns_wire = wire, owns_wire
+        self._drain = Drain()
+        self._ok = True
+
+
+_default = Context()
+
+
+def default_context() -> Context:
+    """Give the context of those who name none."""
+    return _default

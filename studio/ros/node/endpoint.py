@@ -1,0 +1,66 @@
+"""Endpoint: what a publisher, subscription, service and client of a node have in common."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from studio.ros.gid import gid_of
+from studio.ros.keys import DataKey
+from studio.ros.tokens import EndpointKind, EndpointToken, NodeToken
+from studio.ros.wire.door import declare_token
+
+if TYPE_CHECKING:
+    from studio.ros.qos import QoSProfile
+    from studio.ros.wire.door import Declared
+    from studio.ros.wire.session import WireSession
+
+
+class Endpoint:
+    """A token on the wire and the key it stands for.
+
+    Attributes:
+        token: As it is shown to all.
+        gid: The 16 bytes that name it in every sample.
+        key: The data key.
+    """
+
+    def __init__(self, wire: WireSession, token: EndpointToken) -> None:
+        self.wire = wire
+        self.token = token
+        self.gid = gid_of(str(token))
+        self.key = str(DataKey(wire.domain, token.name, token.type_name, token.type_hash))
+        self._shown: Declared | None = None
+
+    def show(self) -> None:
+        """Show the token, after what it stands for was declared."""
+        self._shown = declare_token(self.wire.zenoh, str(self.token))
+
+    def hide(self, *declared: Declared) -> None:
+        """Take back the token, then what it stands for; nothing when the session is closed."""
+        shown, self._shown = self._shown, None
+        if shown is None or self.wire.zenoh.is_closed():
+            return
+        for one in (shown, *declared):
+            one.undeclare()
+
+
+def endpoint_of(
+    wire: WireSession,
+    node: NodeToken,
+    kind: EndpointKind,
+    named: tuple[str, str, str],
+    qos: QoSProfile,
+) -> Endpoint:
+    """Number an endpoint and write its token.
+
+    Args:
+        wire: The session.
+        node: Whose endpoint it is.
+        kind: Publisher, subscription, service or client.
+        named: Its full name, the name of its type, and the hash as computed.
+        qos: As asked for.
+    """
+    name, type_name, computed = named
+    type_hash = wire.profile.type_hash(computed)
+    token = EndpointToken(node, wire.next_id(), kind, name, type_name, type_hash, qos)
+    return Endpoint(wire, token)

@@ -1,0 +1,276 @@
+"""Executor: carries out the work of nodes, one piece at a time."""
+
+from __future__ import annotations
+
+import inspect
+import threading
+import time
+from collections import deque
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from studio.errors import ExternalShutdownException
+from studio.ros.node.task import Task
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Coroutine
+
+    from studio.ros.node.context import Context
+    from studio.ros.node.future import Future
+    from studio.ros.node.node import Node
+    from studio.ros.node.work import CallbackGroup, Work
+
+_WAIT_MAX_S = 3_600.0
+
+
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """What is to be carried out, and the work it is taken from; a task has none."""
+
+    run: Callable[[], object]
+    work: Work | None = None
+
+
+class Executor:
+    """Carries out what is ready, in the order in which it became so.
+
+    Work says when it became ready; nothing is looked through to find it. `SingleThreadedExecutor`
+    runs pieces in the thread that spins, `MultiThreadedExecutor` in threads of its own.
+    """
+
+    def __init__(self, *, context: Context) -> None:
+        self.context = context
+        self.is_shut_down = False
+        self._changed = threading.Condition()
+        self._nodes: list[Node] = []
+        self._ready: deque[Work | Task] = deque()
+        self._held: dict[CallbackGroup, deque[Work]] = {}
+        self._due: set[Work] = set()
+        context.on_end(self.wake)
+
+    def add_node(self, node: Node) -> bool:
+        """Carry out a node's work, which another executor does no more; whether it is new."""
+        with self._changed:
+            if self.is_shut_down or node in self._nodes:
+                return False
+            self._nodes.append(node)
+        node.executor = self
+        for work in node.all_work:
+            self.adopt(work)
+        return True
+
+    def remove_node(self, node: Node) -> None:
+        """Leave a node's work alone."""
+        with self._changed:
+            if node not in self._nodes:
+                return
+            self._nodes.remove(node)
+        if node.executor is self:
+            node.executor = None
+        for work in node.all_work:
+            self.forget(work)
+
+    def get_nodes(self) -> list[Node]:
+        """Give the nodes whose work is carried out."""
+        with self._changed:
+            return list(self._nodes)
+
+    def adopt(self, work: Work) -> None:
+        """Carry out a piece of work of a node."""
+        if work.is_timed:
+            with self._changed:
+                self._due.add(work)
+                self._changed.notify()
+        if work.is_ready:
+            self.announce(work)
+
+    def forget(self, work: Work) -> None:
+        """Carry it out no more."""
+        with self._changed:
+            self._due.discard(work)
+            if work.is_queued:
+                work.is_queued = False
+                for queue in (self._ready, *self._held.values()):
+                    if work in queue:
+                        queue.remove(work)
+
+    def announce(self, work: Work) -> None:
+        """Take note that work is ready; from any thread."""
+        with self._changed:
+            if not work.is_queued:
+                work.is_queued = True
+                self._ready.append(work)
+            self._changed.notify()
+
+    def create_task(
+        self,
+        callback: Callable[..., object] | Coroutine[Any, Any, Any],
+        *args: Any,  # noqa: ANN401
+        **named: Any,  # noqa: ANN401
+    ) -> Task:
+        """Carry out a function or coroutine; the task becomes what it returns."""
+        task = Task(callback, *args, executor=self, **named)
+        self.resume(task)
+        return task
+
+    def resume(self, task: Task) -> None:
+        """Go on with a task; from any thread."""
+        with self._changed:
+            self._ready.append(task)
+            self._changed.notify()
+
+    def wake(self) -> None:
+        """Look again whether to go on; from any thread."""
+        with self._changed:
+            self._changed.notify_all()
+
+    def spin(self) -> None:
+        """Carry out work until the context ends or the executor is shut down.
+
+        Raises:
+            ExternalShutdownException: The process was told to end.
+        """
+        while self.context.ok() and not self.is_shut_down:
+            self.spin_once()
+
+    def spin_once(self, timeout_sec: float | None = None) -> None:
+        """Carry out one piece of work, or none when none is ready in time.
+
+        Raises:
+            ExternalShutdownException: The process was told to end.
+        """
+        self._spin_once(timeout_sec, None)
+
+    def spin_until_future_complete(
+        self, future: Future[Any], timeout_sec: float | None = None
+    ) -> None:
+        """Carry out work until a future is done, or that long.
+
+        Raises:
+            ExternalShutdownException: The process was told to end.
+        """
+        future.listen(self.wake)
+        for left_s in _left(timeout_sec):
+            if future.done() or not self.context.ok() or self.is_shut_down:
+                return
+            self._spin_once(left_s, future.done)
+
+    def spin_once_until_future_complete(
+        self, future: Future[Any], timeout_sec: float | None = None
+    ) -> None:
+        """Carry out one piece of work unless a future is done."""
+        future.listen(self.wake)
+        self._spin_once(timeout_sec, future.done)
+
+    def shutdown(self, timeout_sec: float | None = None) -> bool:
+        """Carry out no more; nodes are let go of, not destroyed. Whether all pieces ended."""
+        del timeout_sec
+        self.is_shut_down = True
+        for node in self.get_nodes():
+            self.remove_node(node)
+        self.wake()
+        return True
+
+    def _spin_once(self, timeout_s: float | None, enough: Callable[[], bool] | None) -> None:
+        piece = self._next(timeout_s, enough)
+        if piece is not None:
+            self._carry_out(piece)
+
+    def _next(self, timeout_s: float | None, enough: Callable[[], bool] | None) -> Piece | None:
+        """Wait for a piece, None when the time is over, `enough` says so or the executor ends."""
+        end_s = None if timeout_s is None or timeout_s < 0 else time.monotonic() + timeout_s
+        with self._changed:
+            while True:
+                self._queue_due()
+                piece = self._pop()
+                if piece is not None:
+                    return piece
+                if self.is_shut_down or (enough is not None and enough()):
+                    return None
+                if not self.context.ok():
+                    raise ExternalShutdownException
+                now_s = time.monotonic()
+                if end_s is not None and now_s >= end_s:
+                    return None
+                self._changed.wait(self._pause_s(now_s, end_s))
+
+    def _pop(self) -> Piece | None:
+        while self._ready:
+            work = self._ready.popleft()
+            if isinstance(work, Task):
+                return Piece(work.step)
+            piece = self._piece_of(work)
+            if piece is not None:
+                return piece
+        return None
+
+    def _piece_of(self, work: Work) -> Piece | None:
+        if not work.group.begin():
+            self._held.setdefault(work.group, deque()).append(work)
+            return None
+        work.is_queued = False
+        run = work.take()
+        if run is None:
+            self._release(work.group)
+            return None
+        if work.is_ready:
+            work.is_queued = True
+            self._ready.append(work)
+        return Piece(run, work)
+
+    def _carry_out(self, piece: Piece) -> None:
+        """Run a piece; what an asynchronous callback awaits keeps its group taken."""
+        suspended = False
+        try:
+            result = piece.run()
+            if inspect.iscoroutine(result):
+                task = Task(result, executor=self)
+                if piece.work is not None:
+                    work = piece.work
+                    task.listen(lambda: self._end(work))
+                    suspended = True
+                task.step()
+        finally:
+            if piece.work is not None and not suspended:
+                self._end(piece.work)
+
+    def _end(self, work: Work) -> None:
+        with self._changed:
+            self._release(work.group)
+
+    def _release(self, group: CallbackGroup) -> None:
+        """Let the next work of a group run, which is held no more."""
+        group.end()
+        held = self._held.get(group)
+        if held:
+            self._ready.append(held.popleft())
+            self._changed.notify()
+        if not held:
+            self._held.pop(group, None)
+
+    def _queue_due(self) -> None:
+        for work in self._due:
+            if not work.is_queued and work.is_ready:
+                work.is_queued = True
+                self._ready.append(work)
+
+    def _pause_s(self, now_s: float, end_s: float | None) -> float:
+        times_s = [due_s for work in self._due if (due_s := work.due_s) is not None]
+        if end_s is not None:
+            times_s.append(end_s)
+        return min(_WAIT_MAX_S, max(0.0, min(times_s, default=now_s + _WAIT_MAX_S) - now_s))
+
+
+class SingleThreadedExecutor(Executor):
+    """Carries out work in the thread that spins."""
+
+
+def _left(timeout_s: float | None) -> Any:  # noqa: ANN401
+    """Give what is left of a time, again and again, until it is over; None for ever."""
+    if timeout_s is None or timeout_s < 0:
+        while True:
+            yield None
+    end_s = time.monotonic() + timeout_s
+    yield timeout_s
+    while (left_s := end_s - time.monotonic()) > 0:
+        yield left_s

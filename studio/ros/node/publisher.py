@@ -1,0 +1,84 @@
+"""Publisher: sends the messages of a topic, numbered and stamped as rmw_zenoh does."""
+
+from __future__ import annotations
+
+import threading
+import time
+from typing import TYPE_CHECKING
+
+from studio.errors import DestroyedError
+from studio.ros.attachment import Attachment
+from studio.ros.node.codecs import check_kind, codec_of
+from studio.ros.qos import DEPTH_DEFAULT, DurabilityPolicy, HistoryPolicy, ReliabilityPolicy
+from studio.ros.types.classes import definition_of
+from studio.ros.wire.door import declare_publisher
+
+if TYPE_CHECKING:
+    from studio.ros.node.endpoint import Endpoint
+    from studio.ros.qos import QoSProfile
+    from studio.ros.types.classes import MessageValue
+    from studio.ros.wire.door import Outgoing
+
+
+class Publisher:
+    """One topic's sender; any thread may publish."""
+
+    def __init__(self, endpoint: Endpoint, msg_type: type[MessageValue]) -> None:
+        self.endpoint = endpoint
+        self.msg_type = msg_type
+        self._definition = definition_of(msg_type)
+        self._codec = codec_of(msg_type)
+        self._lock = threading.Lock()
+        self._sequence = 0
+        self._outgoing: Outgoing | None = _declared(endpoint)
+        endpoint.show()
+
+    @property
+    def topic_name(self) -> str:
+        """The full name of the topic."""
+        return self.endpoint.token.name
+
+    topic = topic_name
+
+    @property
+    def qos_profile(self) -> QoSProfile:
+        """As asked for."""
+        return self.endpoint.token.qos
+
+    def publish(self, msg: MessageValue | bytes | bytearray) -> None:
+        """Send a message, or one that is written as CDR already.
+
+        Raises:
+            MessageValueError: It is of another type, or a field holds what it does not take.
+            DestroyedError: The publisher was destroyed.
+        """
+        payload = msg if isinstance(msg, bytes | bytearray) else self._written(msg)
+        with self._lock:
+            if self._outgoing is None:
+                raise DestroyedError(f"publisher of {self.topic_name}")
+            self._sequence += 1
+            attachment = Attachment(self._sequence, time.time_ns(), self.endpoint.gid)
+            self._outgoing.put(payload, attachment=attachment.pack())
+
+    def destroy(self) -> None:
+        """Take it back; again is harmless."""
+        with self._lock:
+            outgoing, self._outgoing = self._outgoing, None
+        if outgoing is not None:
+            self.endpoint.hide(outgoing)
+
+    def _written(self, msg: MessageValue) -> bytearray:
+        return self._codec.encode(check_kind(self._definition, msg))
+
+
+def _declared(endpoint: Endpoint) -> Outgoing:
+    qos = endpoint.token.qos
+    reliable = qos.reliability is not ReliabilityPolicy.BEST_EFFORT
+    latched = qos.durability is DurabilityPolicy.TRANSIENT_LOCAL
+    return declare_publisher(
+        endpoint.wire.zenoh,
+        endpoint.key,
+        blocking=reliable and qos.history is HistoryPolicy.KEEP_ALL,
+        reliable=reliable,
+        kept=(qos.depth or DEPTH_DEFAULT) if latched else None,
+    )

@@ -1,0 +1,139 @@
+"""Spinning: joining and leaving the wire, and carrying out a node's work, as rclpy's functions."""
+
+from __future__ import annotations
+
+import atexit
+import threading
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any, Self
+
+from studio.ros.node.context import Context, default_context
+from studio.ros.node.executor import Executor, SingleThreadedExecutor
+from studio.ros.node.node import Node
+
+if TYPE_CHECKING:
+    from collections.abc import Generator, Sequence
+
+    from studio.ros.node.future import Future
+    from studio.ros.wire.settings import WireSettings
+
+_lock = threading.Lock()
+_executors: dict[Context, Executor] = {}
+
+
+class Joined:
+    """What `init` gives: `with init():` shuts down at its end."""
+
+    def __init__(self, context: Context) -> None:
+        self.context = context
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.context.shutdown()
+
+
+def init(
+    *,
+    args: Sequence[str] | None = None,
+    context: Context | None = None,
+    domain_id: int | None = None,
+    settings: WireSettings | None = None,
+    router: str = "auto",
+) -> Joined:
+    """Join the wire; nodes are made after.
+
+    Raises:
+        AlreadyJoinedError: It is joined.
+        WireError: The router cannot be joined.
+    """
+    joined = context or default_context()
+    joined.init(settings, router)
+    atexit.register(joined.shutdown)
+    return Joined(joined)
+
+
+def ok(*, context: Context | None = None) -> bool:
+    """Whether the wire is joined, and nobody told the process to end."""
+    return (context or default_context()).ok()
+
+
+def shutdown(*, context: Context | None = None, uninstall_handlers: bool | None = None) -> None:
+    """Destroy all nodes and leave the wire; again is harmless."""
+    ended = context or default_context()
+    with _lock:
+        executor = _executors.pop(ended, None)
+    if executor is not None:
+        executor.shutdown()
+    ended.shutdown()
+
+
+try_shutdown = shutdown
+
+
+def get_global_executor(context: Context | None = None) -> Executor:
+    """Give the executor of those who name none."""
+    wanted = context or default_context()
+    with _lock:
+        found = _executors.get(wanted)
+        if found is None or found.is_shut_down:
+            found = _executors[wanted] = SingleThreadedExecutor(context=wanted)
+        return found
+
+
+def create_node(node_name: str, **options: Any) -> Node:  # noqa: ANN401
+    """Make a node; the options are those of `Node`."""
+    return Node(node_name, **options)
+
+
+def spin(node: Node, executor: Executor | None = None) -> None:
+    """Carry out a node's work until the process is told to end.
+
+    Raises:
+        ExternalShutdownException: The process was told to end.
+    """
+    with _carried_out_by(node, executor) as chosen:
+        chosen.spin()
+
+
+def spin_once(
+    node: Node, *, executor: Executor | None = None, timeout_sec: float | None = None
+) -> None:
+    """Carry out one piece of a node's work, or none when none is ready in time.
+
+    Raises:
+        ExternalShutdownException: The process was told to end.
+    """
+    with _carried_out_by(node, executor) as chosen:
+        chosen.spin_once(timeout_sec)
+
+
+def spin_until_future_complete(
+    node: Node,
+    future: Future[Any],
+    executor: Executor | None = None,
+    timeout_sec: float | None = None,
+) -> None:
+    """Carry out a node's work until a future is done, or that long.
+
+    Raises:
+        ExternalShutdownException: The process was told to end.
+    """
+    with _carried_out_by(node, executor) as chosen:
+        chosen.spin_until_future_complete(future, timeout_sec)
+
+
+@contextmanager
+def _carried_out_by(node: Node, executor: Executor | None) -> Generator[Executor]:
+    """Lend a node to an executor; one that it had before is given it back."""
+    before = node.executor
+    chosen = executor or before or get_global_executor(node.context)
+    lent = chosen.add_node(node)
+    try:
+        yield chosen
+    finally:
+        if lent:
+            chosen.remove_node(node)
+            if before is not None and before is not chosen:
+                before.add_node(node)

@@ -1,0 +1,180 @@
+"""Subscription: takes in the samples of a topic, counts what was lost, and calls back."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+from studio.errors import AttachmentError, CdrError
+from studio.ros.attachment import unpack
+from studio.ros.node.codecs import codec_of
+from studio.ros.node.inbox import Inbox, RawSample
+from studio.ros.node.info import info_of, wants_info
+from studio.ros.node.sequences import Gaps
+from studio.ros.node.work import Work
+from studio.ros.qos import DEPTH_DEFAULT, DurabilityPolicy, HistoryPolicy, ReliabilityPolicy
+from studio.ros.wire.door import SAMPLES_WAITING_MAX, declare_subscription
+
+if TYPE_CHECKING:
+    import zenoh
+
+    from studio.ros.node.endpoint import Endpoint
+    from studio.ros.node.work import CallbackGroup
+    from studio.ros.qos import QoSProfile
+    from studio.ros.types.classes import MessageValue
+    from studio.ros.wire.door import Incoming
+
+RING = 4_096
+"""Samples that Zenoh keeps between two looks, where not only the newest counts."""
+
+Callback = Callable[..., object]
+
+
+@dataclass(slots=True)
+class Losses:
+    """What did not reach the callback of a subscription.
+
+    Attributes:
+        lost: Missing between the numbers of a sender: on the way, or overwritten in the ring.
+        overwritten: Came, and fell out of the queue because the callback was too slow.
+        refused: Came without an attachment of rmw_zenoh's.
+        malformed: Could not be decoded.
+        reason: The last one for which a sample was refused or malformed, in a sentence.
+    """
+
+    lost: int = 0
+    overwritten: int = 0
+    refused: int = 0
+    malformed: int = 0
+    reason: str | None = None
+
+
+class Subscription(Work):
+    """One topic's receiver.
+
+    The callback takes the message, or the message and a `MessageInfo`. With `raw` it is given
+    the bytes of the CDR instead of the message. Without a callback, `async for` takes messages.
+    """
+
+    def __init__(
+        self,
+        endpoint: Endpoint,
+        msg_type: type[MessageValue],
+        callback: Callback | None,
+        group: CallbackGroup,
+        *,
+        raw: bool = False,
+    ) -> None:
+        super().__init__(group)
+        self.endpoint = endpoint
+        self.msg_type = msg_type
+        self.callback = callback
+        self.raw = raw
+        self._wants_info = callback is not None and wants_info(callback)
+        self._codec = codec_of(msg_type)
+        self._losses, self._gaps = Losses(), Gaps()
+        depth, ring = _sizes(endpoint.token.qos)
+        self._inbox = Inbox(depth)
+        self._incoming: Incoming[zenoh.Sample] | None = _declared(endpoint, ring)
+        endpoint.show()
+
+    @property
+    def topic_name(self) -> str:
+        """The full name of the topic."""
+        return self.endpoint.token.name
+
+    topic = topic_name
+
+    @property
+    def qos_profile(self) -> QoSProfile:
+        """As asked for."""
+        return self.endpoint.token.qos
+
+    @property
+    def losses(self) -> Losses:
+        """What was lost until now, a copy."""
+        return replace(self._losses, lost=self._gaps.lost, overwritten=self._inbox.overwritten)
+
+    @property
+    def is_ready(self) -> bool:
+        """Whether a sample waits."""
+        return len(self._inbox) > 0
+
+    def drain(self) -> int:
+        """Empty the ring into the queue; of the drain's thread."""
+        incoming = self._incoming
+        if incoming is None:
+            return 0
+        came: list[RawSample] = []
+        taken = 0
+        while taken < RING and (sample := incoming.try_recv()) is not None:
+            taken += 1
+            raw = self._received(sample)
+            if raw is not None:
+                came.append(raw)
+        if came:
+            self._inbox.post(came)
+            self.announce()
+        return taken
+
+    def take(self) -> Callable[[], object] | None:
+        """Take the oldest sample, and give what calls back with it."""
+        sample = self._inbox.take()
+        return None if sample is None else lambda: self._call_back(sample)
+
+    def destroy(self) -> None:
+        """Take it back; again is harmless."""
+        incoming, self._incoming = self._incoming, None
+        if incoming is not None:
+            self.endpoint.hide(incoming)
+
+    def _received(self, sample: zenoh.Sample) -> RawSample | None:
+        attachment = sample.attachment
+        try:
+            unpacked = unpack(None if attachment is None else attachment.to_bytes())
+        except AttachmentError as error:
+            self._losses.refused += 1
+            self._losses.reason = str(error)
+            return None
+        self._gaps.count(unpacked.gid, unpacked.sequence)
+        return RawSample(sample.payload.to_bytes(), unpacked, time.time_ns())
+
+    def _call_back(self, sample: RawSample) -> object:
+        if self.callback is None:
+            return None
+        message: Any = sample.payload if self.raw else self._decoded(sample)
+        if message is None:
+            return None
+        if self._wants_info:
+            return self.callback(message, info_of(sample))
+        return self.callback(message)
+
+    def _decoded(self, sample: RawSample) -> MessageValue | None:
+        try:
+            return self._codec.decode(sample.payload)
+        except CdrError as error:
+            self._losses.malformed += 1
+            self._losses.reason = str(error)
+            return None
+
+
+def _sizes(qos: QoSProfile) -> tuple[int, int]:
+    """Give how many samples wait for the callback, and how many for the drain."""
+    if qos.history is HistoryPolicy.KEEP_ALL:
+        return SAMPLES_WAITING_MAX, SAMPLES_WAITING_MAX
+    depth = qos.depth or DEPTH_DEFAULT
+    return depth, 1 if depth == 1 else max(RING, depth)
+
+
+def _declared(endpoint: Endpoint, ring: int) -> Incoming[zenoh.Sample]:
+    qos = endpoint.token.qos
+    latched = qos.durability is DurabilityPolicy.TRANSIENT_LOCAL
+    return declare_subscription(
+        endpoint.wire.zenoh,
+        endpoint.key,
+        ring,
+        reliable=qos.reliability is not ReliabilityPolicy.BEST_EFFORT,
+        wanted=(qos.depth or DEPTH_DEFAULT) if latched else None,
+    )

@@ -1,0 +1,147 @@
+"""Timer: is ready once in every period, and does not drift."""
+
+from __future__ import annotations
+
+import threading
+import time
+from typing import TYPE_CHECKING
+
+from studio.ros.duration import NANOSECONDS, Duration
+from studio.ros.node.clock import ClockType, JumpThreshold
+from studio.ros.node.work import Work
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from studio.ros.node.clock import Clock, TimeJump
+    from studio.ros.node.work import CallbackGroup
+
+
+class Timer(Work):
+    """Calls back every `timer_period_ns`, on a clock of its own choice.
+
+    While the system tells the time, periods are measured on the steady clock: a user who sets
+    the time of the machine stops no timer. When /clock tells it, they are periods of /clock, and
+    a jump backwards begins a period anew.
+    """
+
+    def __init__(
+        self,
+        callback: Callable[[], object] | None,
+        period_ns: int,
+        clock: Clock,
+        group: CallbackGroup,
+        *,
+        autostart: bool = True,
+    ) -> None:
+        super().__init__(group)
+        if period_ns < 0:
+            raise ValueError("the period of a timer is not below zero")
+        self.callback = callback
+        self.clock = clock
+        self._period_ns = period_ns
+        self._lock = threading.Lock()
+        self._cancelled = not autostart
+        self._last_ns: int | None = None
+        self._next_ns = self._now_ns() + period_ns
+        self._jumps = clock.create_jump_callback(
+            JumpThreshold(min_backward=Duration(nanoseconds=-1)), post_callback=self._jumped
+        )
+        clock.watch(self._told)
+
+    @property
+    def timer_period_ns(self) -> int:
+        """The period in nanoseconds."""
+        return self._period_ns
+
+    @timer_period_ns.setter
+    def timer_period_ns(self, period_ns: int) -> None:
+        self._period_ns = int(period_ns)
+        self.reset()
+
+    @property
+    def is_ready(self) -> bool:
+        """Whether its time has come."""
+        return not self._cancelled and self._now_ns() >= self._next_ns
+
+    @property
+    def is_timed(self) -> bool:
+        """Always."""
+        return True
+
+    @property
+    def due_s(self) -> float | None:
+        """When it will be ready, on the monotonic clock; None when it is not to be waited for."""
+        if self._cancelled:
+            return None
+        left_ns = self._next_ns - self._now_ns()
+        if self.clock.ros_time_is_active and left_ns > 0:
+            return None  # /clock will tell, and wakes those who wait
+        return time.monotonic() + left_ns / NANOSECONDS
+
+    def take(self) -> Callable[[], object] | None:
+        """Count the period as called, and give the callback."""
+        with self._lock:
+            if not self.is_ready:
+                return None
+            now_ns = self._now_ns()
+            self._last_ns = now_ns
+            self._next_ns = self._after(now_ns)
+        return self.callback or _nothing
+
+    def cancel(self) -> None:
+        """Be ready no more, until `reset`."""
+        self._cancelled = True
+
+    def is_canceled(self) -> bool:
+        """Whether it was cancelled."""
+        return self._cancelled
+
+    def reset(self) -> None:
+        """Begin a period anew."""
+        with self._lock:
+            self._next_ns = self._now_ns() + self._period_ns
+            self._cancelled = False
+        self.announce()
+
+    def time_since_last_call(self) -> int:
+        """Give nanoseconds since it was last carried out, or since its period began."""
+        last_ns = self._last_ns
+        return self._now_ns() - (self._next_ns - self._period_ns if last_ns is None else last_ns)
+
+    def time_until_next_call(self) -> int | None:
+        """Give nanoseconds until it is ready, below zero when it is late, None when cancelled."""
+        return None if self._cancelled else self._next_ns - self._now_ns()
+
+    def destroy(self) -> None:
+        """Be ready no more."""
+        self.cancel()
+        self._jumps.unregister()
+        self.clock.unwatch(self._told)
+
+    def _after(self, now_ns: int) -> int:
+        """Give the end of the running period: periods that were missed are left out."""
+        next_ns = self._next_ns + self._period_ns
+        if next_ns > now_ns or not self._period_ns:
+            return max(next_ns, now_ns)
+        missed = (now_ns - next_ns) // self._period_ns
+        return next_ns + (missed + 1) * self._period_ns
+
+    def _now_ns(self) -> int:
+        if self.clock.clock_type is not ClockType.ROS_TIME or not self.clock.ros_time_is_active:
+            return time.monotonic_ns()
+        return self.clock.now_ns()
+
+    def _told(self) -> None:
+        if self.is_ready:
+            self.announce()
+
+    def _jumped(self, jump: TimeJump) -> None:
+        del jump
+        with self._lock:
+            self._next_ns = self._now_ns() + self._period_ns
+        self.announce()
+
+
+def _nothing() -> None:
+    return

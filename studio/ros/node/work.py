@@ -1,0 +1,96 @@
+"""Work: what an executor carries out piece by piece, and the groups that keep pieces apart."""
+
+from __future__ import annotations
+
+import threading
+from typing import TYPE_CHECKING, Protocol
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+
+class CallbackGroup:
+    """Decides which pieces of work may run beside each other."""
+
+    def begin(self) -> bool:
+        """Whether a piece may run now; if so, `end` follows."""
+        raise NotImplementedError
+
+    def end(self) -> None:
+        """Say that a piece has run."""
+
+
+class ReentrantCallbackGroup(CallbackGroup):
+    """Lets all run beside each other."""
+
+    def begin(self) -> bool:
+        """Let it run."""
+        return True
+
+
+class MutuallyExclusiveCallbackGroup(CallbackGroup):
+    """Lets one run at a time."""
+
+    def __init__(self) -> None:
+        self._taken = threading.Lock()
+
+    def begin(self) -> bool:
+        """Let it run when no other does."""
+        return self._taken.acquire(blocking=False)
+
+    def end(self) -> None:
+        """Let the next one run."""
+        self._taken.release()
+
+
+class Home(Protocol):
+    """Where work says that there is something to do: a node, or an executor."""
+
+    def announce(self, work: Work) -> None:
+        """Take note that a piece of work is ready; from any thread."""
+        ...
+
+
+class Work:
+    """Something that is ready now and then, and is carried out in pieces.
+
+    A kind of its own (such as an action's server) says `announce()` when it became ready, and
+    gives its pieces in `take`. `Node.add_work` makes it part of a node.
+
+    Attributes:
+        group: Which pieces may run beside its own.
+        is_queued: Whether an executor has it in its queue; of the executor's.
+    """
+
+    def __init__(self, group: CallbackGroup) -> None:
+        self.group = group
+        self.home: Home | None = None
+        self.is_queued = False
+
+    @property
+    def is_ready(self) -> bool:
+        """Whether a piece waits."""
+        raise NotImplementedError
+
+    def take(self) -> Callable[[], object] | None:
+        """Take the next piece, None when there is none; what it gives may be a coroutine."""
+        raise NotImplementedError
+
+    @property
+    def is_timed(self) -> bool:
+        """Whether it becomes ready by itself, as timers do."""
+        return False
+
+    @property
+    def due_s(self) -> float | None:
+        """When it will be ready by itself, on the monotonic clock; None for work that is told."""
+        return None
+
+    def announce(self) -> None:
+        """Say that it is ready."""
+        home = self.home
+        if home is not None:
+            home.announce(self)
+
+    def destroy(self) -> None:
+        """Take back what was declared; again is harmless."""
