@@ -1,0 +1,112 @@
+"""`studio doctor`: whether router, domain and nodes are as they should be."""
+
+from __future__ import annotations
+
+import platform
+import sys
+from typing import TYPE_CHECKING
+
+import studio
+from studio.cli.looking import add_looking_options, settle
+from studio.cli.wire import opened_wire
+
+if TYPE_CHECKING:
+    import argparse
+
+    from studio.cli.faults import Fault
+    from studio.ros.graph.graph import Graph
+    from studio.ros.wire.session import WireSession
+
+    Section = tuple[str, list[tuple[str, object]]]
+
+
+def add(parser: argparse.ArgumentParser) -> None:
+    """Give the parser the options of `doctor`."""
+    parser.description = "Look for what keeps nodes apart; exit code 1 when something does."
+    parser.add_argument("-r", "--report", action="store_true", help="say all, also what is well")
+    parser.add_argument(
+        "-rf", "--report-failed", action="store_true", help="say all, but only of what is not well"
+    )
+    parser.add_argument(
+        "-iw", "--include-warnings", action="store_true", help="as is: warnings are shown"
+    )
+    parser.add_argument("verb", nargs="?", choices=["hello"], help="as is: whether all can be met")
+    add_looking_options(parser)
+    parser.set_defaults(run=_run)
+
+
+def _run(options: argparse.Namespace) -> int:
+    from studio.cli.faults import faults_of
+    from studio.ros.graph.graph import Graph
+
+    with opened_wire(options) as wire, Graph(wire) as graph:
+        settle(graph, options)
+        faults = faults_of(graph, wire.types)
+        if options.report:
+            _print_sections([*_sections(wire, graph), *_fault_sections(faults)])
+        elif options.report_failed:
+            _print_sections(_fault_sections(faults))
+        else:
+            _print_verdict(graph, faults)
+    return 1 if faults else 0
+
+
+def _print_verdict(graph: Graph, faults: list[Fault]) -> None:
+    for fault in faults:
+        print(f"{fault.kind}: {fault.sentence}")
+    if not graph.nodes():
+        print("No node is there: start one, or name another --domain or --connect.")
+    elif not faults:
+        print(f"All is well: {len(graph.nodes())} nodes, {len(graph.topics())} topics.")
+
+
+def _sections(wire: WireSession, graph: Graph) -> list[Section]:
+    return [
+        (
+            "PLATFORM INFORMATION",
+            [
+                ("system", platform.platform()),
+                ("python", sys.version.split()[0]),
+                ("studio", studio.__version__),
+            ],
+        ),
+        (
+            "RMW MIDDLEWARE",
+            [
+                ("middleware name", "rmw_zenoh's wire, spoken by the studio"),
+                ("distribution", wire.profile.distro),
+                ("router", ", ".join(wire.settings.connect) or "of the configuration"),
+                ("domain", wire.domain),
+                ("session", wire.zid),
+            ],
+        ),
+        ("NODE LIST", [(node.path, f"session {node.zid}") for node in graph.nodes()]),
+        ("TOPIC LIST", [(name, _ends(graph, name, types)) for name, types in graph.topics()]),
+        (
+            "SERVICE LIST",
+            [
+                (name, f"{', '.join(types)}, servers {len(graph.servers(name))}")
+                for name, types in graph.services()
+            ],
+        ),
+    ]
+
+
+def _ends(graph: Graph, name: str, types: list[str]) -> str:
+    publishers, subscribers = len(graph.publishers(name)), len(graph.subscriptions(name))
+    return f"{', '.join(types)}, publishers {publishers}, subscribers {subscribers}"
+
+
+def _fault_sections(faults: list[Fault]) -> list[Section]:
+    if not faults:
+        return [("FINDINGS", [("none", "all is well")])]
+    return [("FINDINGS", [(fault.kind, fault.sentence) for fault in faults])]
+
+
+def _print_sections(sections: list[Section]) -> None:
+    """Print as `ros2 doctor --report` does: a title in capitals, names in one column."""
+    for title, rows in sections:
+        print(f"\n   {title}")
+        width = max((len(name) for name, _ in rows), default=0)
+        for name, value in rows:
+            print(f"{name:<{width}} : {value}")

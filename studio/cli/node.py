@@ -1,0 +1,97 @@
+"""`studio node`: which nodes there are, and what each offers and uses."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING
+
+from studio.cli.looking import add_looking_options, full_name, looking
+from studio.cli.verbs import Verbs
+from studio.ros.names import is_hidden
+
+if TYPE_CHECKING:
+    import argparse
+
+    from studio.ros.graph.endpoints import GraphEndpoint, GraphNode
+    from studio.ros.graph.graph import Graph
+
+_GOALS = "/_action/send_goal"
+_DUPLICATES = (
+    "WARNING: Be aware that there are nodes in the graph that share an exact name, "
+    "which can have unintended side effects."
+)
+
+
+def add(parser: argparse.ArgumentParser) -> None:
+    """Give the parser the verbs of `node`."""
+    verbs = Verbs(parser)
+    listing = verbs.add("list", _list, "name the nodes that are there")
+    listing.add_argument("-a", "--all", action="store_true", dest="hidden", help="hidden ones, too")
+    listing.add_argument("-c", "--count-nodes", action="store_true", dest="count")
+    add_looking_options(listing)
+    info = verbs.add("info", _info, "say what a node publishes, subscribes to, serves and calls")
+    info.add_argument("node_name", metavar="NODE")
+    info.add_argument("--include-hidden", action="store_true", dest="hidden")
+    add_looking_options(info)
+
+
+def _list(options: argparse.Namespace) -> None:
+    with looking(options) as graph:
+        paths = [node.path for node in graph.nodes() if options.hidden or not is_hidden(node.path)]
+        if len(set(paths)) < len(paths):
+            print(_DUPLICATES, file=sys.stderr)
+        print(len(paths) if options.count else "".join(f"{path}\n" for path in paths), end="")
+        if options.count:
+            print()
+
+
+def _info(options: argparse.Namespace) -> int:
+    path = full_name(options.node_name)
+    with looking(options) as graph:
+        same = [node for node in graph.nodes() if node.path == path]
+        if not same:
+            print(f"Unable to find node '{options.node_name}'", file=sys.stderr)
+            return 1
+        if len(same) > 1:
+            print(
+                f"There are {len(same)} nodes in the graph with the exact name '{path}'. "
+                "You are seeing information about only one of them."
+            )
+        print(path)
+        for title, rows in _groups(graph, same[0], hidden=options.hidden):
+            print(f"  {title}:")
+            print("\n".join(f"    {name}: {type_name}" for name, type_name in rows))
+    return 0
+
+
+def _groups(
+    graph: Graph, node: GraphNode, *, hidden: bool
+) -> list[tuple[str, list[tuple[str, str]]]]:
+    """What a node has, in the groups and the order of `ros2 node info`."""
+    from studio.ros.tokens import EndpointKind
+
+    ends = graph.endpoints_of(node)
+
+    def of(kind: EndpointKind) -> list[GraphEndpoint]:
+        return [end for end in ends if end.kind is kind]
+
+    return [
+        ("Subscribers", _plain(of(EndpointKind.SUBSCRIPTION), hidden=hidden)),
+        ("Publishers", _plain(of(EndpointKind.PUBLISHER), hidden=hidden)),
+        ("Service Servers", _plain(of(EndpointKind.SERVICE), hidden=hidden)),
+        ("Service Clients", _plain(of(EndpointKind.CLIENT), hidden=hidden)),
+        ("Action Servers", _actions(of(EndpointKind.SERVICE))),
+        ("Action Clients", _actions(of(EndpointKind.CLIENT))),
+    ]
+
+
+def _plain(ends: list[GraphEndpoint], *, hidden: bool) -> list[tuple[str, str]]:
+    return sorted({(end.name, end.type_name) for end in ends if hidden or not is_hidden(end.name)})
+
+
+def _actions(ends: list[GraphEndpoint]) -> list[tuple[str, str]]:
+    return sorted(
+        (end.name.removesuffix(_GOALS), end.type_name.removesuffix("_SendGoal"))
+        for end in ends
+        if end.name.endswith(_GOALS)
+    )
