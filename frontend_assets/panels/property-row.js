@@ -144,7 +144,7 @@ function Result({ site, text }) {
     : resultText(site);
   // A path, say: its end tells most, and what comes before it is known from the others.
   if (value.length > ONE_LINE && !/\s/.test(value)) {
-    return html`<p class="result path" title=${value}><span class="numbers">= </span><span class="result-path"><bdi>${value}</bdi></span></p>`;
+    return html`<p class="result path" title=${value}><span class="numbers">=</span><span class="result-path"><bdi>${value}</bdi></span></p>`;
   }
   return html`<p class="result"><span class="numbers">= ${value}</span>
     <span class="muted"> · ${several ? t("property.values", { count: site.values.length }) : t("property.expression")}</span></p>`;

@@ -102,8 +102,12 @@ class StudioPage:
     def drag_slider(self, name: str, share: float) -> str:
         """Drag a property's slider to a share of its length; the text that this gave it."""
         self.seek(name)
+        self.slider(name).scroll_into_view_if_needed()
+        return self.drag_in_view(name, share)
+
+    def drag_in_view(self, name: str, share: float) -> str:
+        """The same with a slider that is in view."""
         slider = self.slider(name)
-        slider.scroll_into_view_if_needed()
         box = slider.bounding_box()
         assert box is not None
         begin = float(slider.evaluate("one => (one.value - one.min) / (one.max - one.min)"))
