@@ -1,1 +1,7 @@
-"""A rover in a room: /cmd_vel in, and all that such a robot tells of itself out."""
+"""Rover: drives round a room and tells all of itself; /cmd_vel takes the wheel.
+
+Try: `studio demos rover`, then `studio topic list`, `studio topic hz /scan`, and
+`studio topic pub -r 5 /cmd_vel geometry_msgs/msg/Twist "{linear: {x: 0.3}, angular: {z: 0.8}}"`;
+five seconds after the last command it goes on by itself. `studio param set /rover autopilot false`
+makes it wait.
+"""
