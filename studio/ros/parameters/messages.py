@@ -7,12 +7,12 @@ from functools import cache
 from typing import TYPE_CHECKING, cast
 
 from studio.errors import InvalidParameterTypeError
+from studio.ros.messages import shared_types
 from studio.ros.parameters.values import ParameterType, Value, plain
-from studio.ros.profiles import JAZZY
-from studio.ros.types.library import TypeLibrary
 
 if TYPE_CHECKING:
     from studio.ros.types.classes import MessageValue
+    from studio.ros.types.library import TypeLibrary
 
 _FIELDS = {
     ParameterType.BOOL: "bool_value",
@@ -47,8 +47,8 @@ class ParameterMessages:
 
 @cache
 def usual_messages() -> ParameterMessages:
-    """Give the classes where no node is at hand: rcl_interfaces is alike in every distribution."""
-    return ParameterMessages.of(TypeLibrary(JAZZY.distro))
+    """Give the classes where no node is at hand: those that programs import."""
+    return ParameterMessages.of(shared_types())
 
 
 def value_message(

@@ -29,7 +29,7 @@ USE_SIM_TIME = "use_sim_time"
 class NodeParameters:
     """The parameters of a node, which derives from it and calls `open_parameters` first."""
 
-    _parameters: ParameterStore
+    _parameter_store: ParameterStore
 
     def open_parameters(
         self,
@@ -52,19 +52,19 @@ class NodeParameters:
             serve: Let other nodes ask and set.
         """
         events = ParameterEvents(host, types)
-        self._parameters = ParameterStore(
-            lambda change: events.tell(self._parameters, change),
+        self._parameter_store = ParameterStore(
+            lambda change: events.tell(self._parameter_store, change),
             messages=ParameterMessages.of(types),
             overrides={one.name: one for one in overrides},
             allow_undeclared=allow_undeclared,
         )
         self.declare_parameter(USE_SIM_TIME, value=False)
         if declare_overrides:
-            for one in self._parameters.overrides.values():
-                if not self._parameters.has(one.name):
+            for one in self._parameter_store.overrides.values():
+                if not self._parameter_store.has(one.name):
                     self.declare_parameter(one.name, one.value, ignore_override=True)
         if serve:
-            ParameterServices(host, types, self._parameters)
+            ParameterServices(host, types, self._parameter_store)
 
     def declare_parameter(
         self,
@@ -80,7 +80,9 @@ class NodeParameters:
             InvalidParameterTypeError: It is given another type at the start.
             InvalidParameterValueError: Its value is refused.
         """
-        return self._parameters.declare(name, value, descriptor, ignore_override=ignore_override)
+        return self._parameter_store.declare(
+            name, value, descriptor, ignore_override=ignore_override
+        )
 
     def declare_parameters(
         self,
@@ -106,11 +108,11 @@ class NodeParameters:
             ParameterNotDeclaredError: There is none of that name.
             ParameterImmutableError: It may only be read.
         """
-        self._parameters.undeclare(name)
+        self._parameter_store.undeclare(name)
 
     def has_parameter(self, name: str) -> bool:
         """Whether a parameter of that name is declared."""
-        return self._parameters.has(name)
+        return self._parameter_store.has(name)
 
     def get_parameter(self, name: str) -> Parameter:
         """Give a parameter.
@@ -119,7 +121,7 @@ class NodeParameters:
             ParameterNotDeclaredError: There is none of that name.
             ParameterUninitializedError: It has no value yet.
         """
-        return self._parameters.get(name)
+        return self._parameter_store.get(name)
 
     def get_parameters(self, names: Iterable[str]) -> list[Parameter]:
         """Give several parameters in the order asked."""
@@ -131,8 +133,8 @@ class NodeParameters:
         alternative_value: Any = None,  # noqa: ANN401  # a Parameter or a value
     ) -> Parameter:
         """Give a parameter, or another value where there is none or it is not set."""
-        if self._parameters.has(name):
-            found = self._parameters.all()[name]
+        if self._parameter_store.has(name):
+            found = self._parameter_store.all()[name]
             if found.type_ is not Parameter.Type.NOT_SET:
                 return found
         if isinstance(alternative_value, Parameter):
@@ -150,7 +152,7 @@ class NodeParameters:
     def get_parameters_by_prefix(self, prefix: str) -> dict[str, Parameter]:
         """Give the parameters of a group, by what follows `prefix.`; of no prefix, all."""
         before = f"{prefix}." if prefix else ""
-        found: Mapping[str, Parameter] = self._parameters.all()
+        found: Mapping[str, Parameter] = self._parameter_store.all()
         return {
             name.removeprefix(before): one for name, one in found.items() if name.startswith(before)
         }
@@ -161,7 +163,7 @@ class NodeParameters:
         Raises:
             ParameterNotDeclaredError: One is not declared; those before it are set.
         """
-        return self._parameters.set(parameter_list)
+        return self._parameter_store.set(parameter_list)
 
     def set_parameters_atomically(self, parameter_list: Iterable[Parameter]) -> MessageValue:
         """Set all or none, and give one SetParametersResult.
@@ -169,7 +171,7 @@ class NodeParameters:
         Raises:
             ParameterNotDeclaredError: One is not declared; none is set.
         """
-        return self._parameters.set_atomically(parameter_list)
+        return self._parameter_store.set_atomically(parameter_list)
 
     def describe_parameter(self, name: str) -> MessageValue:
         """Give the ParameterDescriptor of a parameter.
@@ -177,7 +179,7 @@ class NodeParameters:
         Raises:
             ParameterNotDeclaredError: There is none of that name.
         """
-        return self._parameters.describe(name)
+        return self._parameter_store.describe(name)
 
     def describe_parameters(self, names: Iterable[str]) -> list[MessageValue]:
         """Give several descriptors in the order asked."""
@@ -221,4 +223,4 @@ class NodeParameters:
 
     @property
     def _callbacks(self) -> ParameterCallbacks:
-        return self._parameters.callbacks
+        return self._parameter_store.callbacks
