@@ -29,6 +29,22 @@ UPLOADS_QUOTA_BYTES = 4 << 30
 
 
 @dataclass(frozen=True, slots=True)
+class WireChoice:
+    """How ROS 2 is joined, as the command line said; the environment of ROS fills what it left."""
+
+    router: str = "auto"
+    """`auto`: start a router unless one answers; `off`: never; else where to start or join one."""
+    connect: tuple[str, ...] = ()
+    """Zenoh endpoints of routers; empty: the usual one of this machine."""
+    domain: int | None = None
+
+    @property
+    def shown(self) -> str:
+        """Where a router is looked for, in words; empty: where the environment says."""
+        return self.router if self.router not in {"auto", "off"} else ", ".join(self.connect)
+
+
+@dataclass(frozen=True, slots=True)
 class Settings:
     """What the command line decided; see `studio --help`."""
 
@@ -41,6 +57,7 @@ class Settings:
     package_paths: tuple[Path, ...] = ()
     trusted: bool = False
     open_browser: bool = True
+    wire: WireChoice = WireChoice()
 
 
 def repository_or_wheel(folder: str) -> Path:

@@ -168,6 +168,13 @@ export interface CompletionsAnswer {
   completions: Completions;
 }
 
+/** Join the ROS 2 system, if that was not done yet; done when the connection stands. */
+export interface ConnectWire {
+  request?: number;
+  document?: string;
+  type: "connect_wire";
+}
+
 /** Forget one's own pose; the joints stay where they are. */
 export interface DeletePose {
   request?: number;
@@ -336,6 +343,13 @@ export interface FindTexts {
   match_case?: boolean;
   whole_word?: boolean;
   type: "find_texts";
+}
+
+/** Look which robot descriptions there are on the wire. */
+export interface FindWireRobots {
+  request?: number;
+  document?: string;
+  type: "find_wire_robots";
 }
 
 /**
@@ -739,6 +753,16 @@ export interface OpenExample {
   name: string;
 }
 
+/** Open a robot whose description comes from a topic, or from a parameter of a node. */
+export interface OpenFromWire {
+  request?: number;
+  document?: string;
+  type: "open_from_wire";
+  topic?: string;
+  node?: string;
+  parameter?: string;
+}
+
 /** Open what a link holds as a document of its own; its edits are unsaved there. */
 export interface OpenLink {
   request?: number;
@@ -957,6 +981,22 @@ export interface Progress {
   label: string;
   done: number;
   total: number;
+}
+
+/** Publish `/joint_states` as joint_state_publisher does, or stop. */
+export interface PublishJoints {
+  request?: number;
+  document?: string;
+  type: "publish_joints";
+  running: boolean;
+}
+
+/** Publish `/robot_description` and TF as robot_state_publisher does, or stop. */
+export interface PublishRobot {
+  request?: number;
+  document?: string;
+  type: "publish_robot";
+  running: boolean;
 }
 
 /** All joints to random positions within their limits. */
@@ -1221,6 +1261,14 @@ export interface SetDisplay {
   value: boolean | number | string;
 }
 
+/** Choose who moves the joints. */
+export interface SetJointSource {
+  request?: number;
+  document?: string;
+  type: "set_joint_source";
+  source: "sliders" | "animation" | "joint_states" | "tf";
+}
+
 /** Move joints: positions by name, rad or m; clamped to the limits, mimics follow. */
 export interface SetJoints {
   request?: number;
@@ -1434,6 +1482,41 @@ export interface Widget {
 /** How a site is best turned: `VECTOR` is two or more numbers separated by blanks. */
 export type WidgetKind = "slider" | "switch" | "choice" | "vector" | "text";
 
+/** What of a document's robot comes from the wire, and what goes there. */
+export interface WireFeed {
+  type: "wire_feed";
+  source: "sliders" | "joint_states" | "tf";
+  source_state: "" | "waiting" | "live" | "silent";
+  rate_hz: number;
+  strangers: string[];
+  publishes_robot: boolean;
+  publishes_joints: boolean;
+  joints_paused: boolean;
+  description_from: string;
+  trouble: string;
+}
+
+/** Answer to `find_wire_robots`: topics with a robot description, the usual one first. */
+export interface WireRobots {
+  type: "wire_robots";
+  request: number;
+  topics: string[];
+  nodes: string[];
+}
+
+/** How the studio is connected with a ROS 2 system; told to every page. */
+export interface WireState {
+  type: "wire_state";
+  state: "off" | "connecting" | "connected" | "lost" | "failed";
+  router: "" | "own" | "joined";
+  endpoint: string;
+  domain: number;
+  distro: string;
+  nodes: string[];
+  node_count: number;
+  trouble: string;
+}
+
 /** All joints to zero, or to the nearest position within their limits. */
 export interface ZeroJoints {
   request?: number;
@@ -1482,6 +1565,12 @@ export type Command =
   | Rename
   | FindTexts
   | ReplaceTexts
+  | ConnectWire
+  | SetJointSource
+  | PublishRobot
+  | PublishJoints
+  | FindWireRobots
+  | OpenFromWire
   | GetText
   | GetOrigin
   | GetEffects
@@ -1529,6 +1618,9 @@ export type Event =
   | Poses
   | RenamingAnswer
   | TextsFound
+  | WireState
+  | WireFeed
+  | WireRobots
   | Text
   | TextsChanged
   | OutlineAnswer

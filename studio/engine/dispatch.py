@@ -9,6 +9,7 @@ from studio.engine import messages as m
 from studio.engine.listeners import tell
 from studio.engine.messages import poses as p
 from studio.engine.messages import rewriting as r
+from studio.engine.messages import wire as w
 from studio.engine.messages.message import CommandMessage
 
 if TYPE_CHECKING:
@@ -88,7 +89,12 @@ _POSES: Final = (
     _row(p.RenamePose, lambda d, c, _: d.poses.rename(c)),
     _row(p.DeletePose, lambda d, c, _: d.poses.delete(c)),
 )
-WORK: Final = dict((*_EDITS, *_FILES, *_VIEW, *_QUESTIONS, *_VARIANTS, *_POSES))
+_WIRE: Final = (
+    _row(w.SetJointSource, lambda d, c, _: d.feed.choose(c.source)),
+    _row(w.PublishRobot, lambda d, c, _: d.feed.publish_robot(running=c.running)),
+    _row(w.PublishJoints, lambda d, c, _: d.feed.publish_joints(running=c.running)),
+)
+WORK: Final = dict((*_EDITS, *_FILES, *_VIEW, *_QUESTIONS, *_VARIANTS, *_POSES, *_WIRE))
 """What each command of a document does; those that are not here are the engine's own."""
 
 

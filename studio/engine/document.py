@@ -35,6 +35,7 @@ from studio.engine.questions.rewriting import RewritingDesk
 from studio.engine.questions.texts import TextDesk
 from studio.engine.states.variants import VariantDesk
 from studio.engine.watching import FileWatch
+from studio.engine.wire.feed import FeedDesk
 from studio.errors import CommandError
 from studio.scene import DocumentScene
 from studio.settings import LOOPBACK_HOSTS
@@ -90,7 +91,7 @@ class Document:
         self.history, self.saving = HistoryDesk(self), SaveDesk(self)
         self.drafts, self.exports = DraftDesk(self, services.settings.data_folder), ExportDesk(self)
         self.motion = Motion(self.model, self.board)
-        self.poses = PoseDesk(self, services)
+        self.poses, self.feed = PoseDesk(self, services), FeedDesk(self, services.wire)
         self._services = services
         self._runs = EditLoop(services.description_worker(), self.sources, self.target, self._take)
         self._meshes = MeshDesk(self, services.meshes, self._watch_files)
@@ -165,6 +166,7 @@ class Document:
     async def close(self) -> None:
         """End everything that runs for this document."""
         self.motion.close()
+        await self.feed.close()
         background = tuple(self._background.values())
         for task in background:
             task.cancel()

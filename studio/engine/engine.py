@@ -19,6 +19,7 @@ from studio.engine.library import Library
 from studio.engine.listeners import Audience, tell
 from studio.engine.services import Services
 from studio.engine.upload_desk import UploadDesk
+from studio.engine.wire.robots import EngineWireCommand, WireRobotDesk
 from studio.errors import CommandError, OutsideRootsError, UnknownDocumentError
 from studio.packages.listing import list_folder
 from studio.packages.roots import ServedRoots
@@ -46,6 +47,7 @@ class Engine:
         self._watching: dict[Listener, Document] = {}
         self.library = Library(settings, self)
         self.uploads = UploadDesk(settings.data_folder, self)
+        self._wire_robots = WireRobotDesk(self._services.wire, settings.data_folder, self)
         self.served = ServedRoots((self.library.robots_folder,))
         """What can be listed and opened out of the page."""
         self._left_work = LeftWorkDesk(self, settings.data_folder)
@@ -65,11 +67,13 @@ class Engine:
         self._lobby.add(listener)
         tell(listener, self._list())
         self._left_work.attach(listener)
+        self._services.wire.attach(listener)
 
     def detach(self, listener: Listener) -> None:
         """A control lane was closed."""
         self._lobby.remove(listener)
         self._left_work.detach(listener)
+        self._services.wire.detach(listener)
         if document := self._watching.pop(listener, None):
             document.board.audience.remove(listener)
 
@@ -93,27 +97,38 @@ class Engine:
         match command:
             case m.Watch():
                 self._watch(self.document(command.document), listener)
-            case m.OpenPath():
-                name = await self._open_served(command)
-                tell(listener, m.Opened(request=command.request, document=name))
             case m.CloseDocument():
                 await self._close(self.document(command.document), discard=command.discard)
-            case m.GetArguments():
-                tell(listener, await self._launch_form(command))
-            case m.GetLink():
-                document = self.document(command.document)
-                tell(listener, link_to(document.sources, document.location, command.request))
-            case m.OpenLink():
-                tell(listener, await self._open_link(command))
             case m.ForgetWork():
                 await self._left_work.forget(command.path)
+            case _:
+                if (answer := await self._answer(command, listener)) is not None:
+                    tell(listener, answer)
+        tell(listener, m.Done(request=command.request))
+
+    async def _answer(self, command: m.Command, listener: Listener) -> m.Event | None:
+        """Carry out what the asker alone is answered, or what is a document's own."""
+        answer: m.Event | None = None
+        match command:
+            case m.OpenPath():
+                name = await self._open_served(command)
+                answer = m.Opened(request=command.request, document=name)
+            case m.GetArguments():
+                answer = await self._launch_form(command)
+            case m.GetLink():
+                document = self.document(command.document)
+                answer = link_to(document.sources, document.location, command.request)
+            case m.OpenLink():
+                answer = await self._open_link(command)
             case m.ListFolder():
-                tell(listener, await self._list_folder(command))
+                answer = await self._list_folder(command)
+            case _ if isinstance(command, EngineWireCommand):
+                answer = await self._wire_robots.carry_out(command)
             case _ if isinstance(command, m.LibraryCommand):
-                tell(listener, await self.library.carry_out(command))
+                answer = await self.library.carry_out(command)
             case _:
                 await carry_out(self.document(command.document), command, listener)
-        tell(listener, m.Done(request=command.request))
+        return answer
 
     async def open_path(
         self, path: Path, arguments: dict[str, str], progress: Progress | None = None

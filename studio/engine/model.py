@@ -108,12 +108,17 @@ class Model:
 
     def urdf(self, root_attributes: Iterable[tuple[str, str]]) -> str:
         """The robot as URDF text, one indented element after the other."""
-        root = ElementTree.Element("robot", dict(root_attributes))
-        root.extend(ElementTree.fromstring(part.xml) for part in self.assembly.parts())
-        ElementTree.indent(root)
-        return '<?xml version="1.0" ?>\n' + ElementTree.tostring(root, encoding="unicode") + "\n"
+        return urdf_text(self.assembly.parts(), root_attributes)
 
     def _axes_of(self, change: Change) -> frozenset[str]:
         """Links whose drawn joint axis changed: the children of the changed joints."""
         joints = change.robot.joints
         return frozenset(joints[name].child for name in change.changed_joints if name in joints)
+
+
+def urdf_text(parts: Iterable[Part], root_attributes: Iterable[tuple[str, str]]) -> str:
+    """A robot of these parts as URDF text; in any thread, for a large robot takes its time."""
+    root = ElementTree.Element("robot", dict(root_attributes))
+    root.extend(ElementTree.fromstring(part.xml) for part in parts)
+    ElementTree.indent(root)
+    return '<?xml version="1.0" ?>\n' + ElementTree.tostring(root, encoding="unicode") + "\n"

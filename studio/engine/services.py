@@ -6,6 +6,7 @@ import asyncio
 from typing import TYPE_CHECKING
 
 from studio.description.client import DescriptionWorker
+from studio.engine.wire.desk import WireDesk
 from studio.robot.meshes import MeshLibrary
 from studio.robot.pool import mesh_pool
 from studio.robot.validation import UrdfValidator
@@ -24,6 +25,7 @@ class Services:
         self._pool = mesh_pool()
         self.meshes = MeshLibrary(settings.data_folder / "meshes", self._pool)
         self.validator = UrdfValidator()
+        self.wire = WireDesk(settings.wire)
         self._spare = DescriptionWorker()
         self._warming: set[asyncio.Task[None]] = set()
 
@@ -49,4 +51,5 @@ class Services:
         for task in warming:
             task.cancel()
         await asyncio.gather(*warming, return_exceptions=True)
-        await asyncio.gather(self._pool.close(), self._spare.close(), self.validator.close())
+        workers = (self._pool.close(), self._spare.close(), self.validator.close())
+        await asyncio.gather(*workers, self.wire.close())

@@ -9,6 +9,7 @@ import pytest
 
 from studio.engine import messages as m
 from studio.engine.dispatch import WORK, carry_out
+from studio.engine.wire.robots import EngineWireCommand
 from tests.support.open_documents import engine, opened
 
 if TYPE_CHECKING:
@@ -19,6 +20,7 @@ OF_THE_ENGINE = {
     *(m.GetArguments, m.GetLink, m.OpenLink),
     m.ForgetWork,
     *get_args(m.LibraryCommand),
+    *get_args(EngineWireCommand),
 }
 
 

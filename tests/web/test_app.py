@@ -81,6 +81,7 @@ FIELDS: dict[str, object] = {
     "running": True,
     "display": "grid",
     "template": "rover",
+    "source": "sliders",
 }
 """A value for each field that a command needs."""
 

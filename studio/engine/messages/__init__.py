@@ -157,6 +157,7 @@ from studio.engine.messages.variants import (
     VariantText,
     VariantView,
 )
+from studio.engine.messages.wire import WireCommand, WireEvent
 
 Command: TypeAlias = Annotated[
     Watch
@@ -189,6 +190,7 @@ Command: TypeAlias = Annotated[
     | GetUrdfChanges
     | PoseCommand
     | RewritingCommand
+    | WireCommand
     | GetText
     | GetOrigin
     | GetEffects
@@ -238,6 +240,7 @@ Event: TypeAlias = Annotated[
     | UrdfChanges
     | Poses
     | RewritingEvent
+    | WireEvent
     | Text
     | TextsChanged
     | OutlineAnswer

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from studio.engine.posing.animation import Animation
 from studio.engine.posing.glide import Glide
+from studio.errors import CommandError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -22,6 +23,8 @@ class Motion:
         self._animation = Animation(self._swing)
         self._glide = Glide(self._move)
         self._swing_start = model.joints.values
+        self.leader = ""
+        """What else moves the joints, in a word; while it does, nobody else may. Empty: nothing."""
 
     @property
     def swinging(self) -> bool:
@@ -29,29 +32,35 @@ class Motion:
         return self._animation.running
 
     def set(self, positions: Mapping[str, float]) -> None:
-        """Move joints, rad or m by name; ends a swing."""
-        self._stop_swinging()
+        """Move joints, rad or m by name; ends a swing.
+
+        Raises:
+            CommandError: Something else moves them; so for all that follow.
+        """
+        self._begin()
         self._move(positions)
 
     def glide(self, positions: Mapping[str, float], duration_s: float) -> None:
         """Move joints, rad or m by name, within a time; ends a swing."""
-        self._stop_swinging()
+        self._begin()
         self._glide.start(self._model.joints.by_name(), positions, duration_s)
 
     def zero(self) -> None:
         """All joints to zero."""
-        self._stop_swinging()
+        self._begin()
         self._model.joints.zero()
         self._show()
 
     def randomize(self) -> None:
         """All joints to random positions."""
-        self._stop_swinging()
+        self._begin()
         self._model.joints.randomize()
         self._show()
 
     def animate(self, *, running: bool) -> None:
         """Swing the joints from where they are, or stop."""
+        if running:
+            self._demand_freedom()
         self._glide.stop()
         if running and not self.swinging:
             self._swing_start = self._model.joints.values
@@ -59,6 +68,15 @@ class Motion:
         elif not running:
             self._animation.stop()
         self._board.joints()
+
+    def lead(self, leader: str) -> None:
+        """Let something else move the joints from now on, by `follow`; empty: nobody."""
+        self._stop_swinging()
+        self.leader = leader
+
+    def follow(self, positions: Mapping[str, float]) -> None:
+        """Move joints, rad or m by name, as their leader says."""
+        self._move(positions)
 
     def close(self) -> None:
         """End a swing without telling anybody."""
@@ -72,6 +90,16 @@ class Motion:
     def _move(self, positions: Mapping[str, float]) -> None:
         self._model.joints.set(positions)
         self._show()
+
+    def _begin(self) -> None:
+        self._demand_freedom()
+        self._stop_swinging()
+
+    def _demand_freedom(self) -> None:
+        if self.leader:
+            raise CommandError(
+                f"The joints follow {self.leader}: choose the sliders as their source first."
+            )
 
     def _stop_swinging(self) -> None:
         self._glide.stop()

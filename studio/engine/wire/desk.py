@@ -1,0 +1,140 @@
+"""WireDesk: the one connection with a ROS 2 system, opened when it is first used."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import TYPE_CHECKING, Final, Literal, TypeAlias
+
+from studio.engine.listeners import Audience, tell
+from studio.engine.lookout import Lookout
+from studio.engine.messages.wire import WireState
+from studio.errors import CommandError, StudioError
+
+if TYPE_CHECKING:
+    from studio.engine.listeners import Listener
+    from studio.engine.wire.link import WireLink
+    from studio.settings import WireChoice
+
+_NODES_SHOWN: Final = 200
+_PAUSE_S: Final = 0.25
+"""Between two looks at who is there."""
+
+_CLOSING: Final = "The studio is closing: nothing is connected any more."
+_OPENING_PATIENCE_S: Final = 0.5
+"""At the end, for a connection that is being made."""
+
+_Phase: TypeAlias = Literal["off", "connecting", "failed"]
+
+
+class WireDesk:
+    """Holds the connection for all documents and tells every page how it stands.
+
+    Nothing of Zenoh is imported before the first `link`: who needs no ROS does not pay for it.
+    """
+
+    def __init__(self, choice: WireChoice) -> None:
+        self._choice = choice
+        self._audience = Audience()
+        self._link: WireLink | None = None
+        self._opening: asyncio.Task[WireLink] | None = None
+        self._phase: _Phase = "off"
+        self._trouble = ""
+        self._told: WireState | None = None
+        self._lookout = Lookout(self._look, pause_s=_PAUSE_S)
+        self._closed = False
+
+    def attach(self, listener: Listener) -> None:
+        """Tell a page how it stands, now and whenever that changes."""
+        self._audience.add(listener)
+        tell(listener, self._state())
+
+    def detach(self, listener: Listener) -> None:
+        """Forget a page; it need not be there."""
+        self._audience.remove(listener)
+
+    async def link(self) -> WireLink:
+        """Give the connection; the first who asks has it opened.
+
+        Raises:
+            StudioError: There is no router, and none may be started; or the settings are wrong.
+        """
+        if self._closed:
+            raise CommandError(_CLOSING)
+        if self._link is not None:
+            return self._link
+        if self._opening is None or self._opening.done():
+            self._opening = asyncio.create_task(self._open())
+        return await asyncio.shield(self._opening)
+
+    async def close(self) -> None:
+        """End the connection, and the router if it is ours."""
+        self._closed = True
+        await self._lookout.close()
+        if self._opening is not None:
+            await asyncio.wait({self._opening}, timeout=_OPENING_PATIENCE_S)
+        link, self._link = self._link, None
+        if link is not None:
+            await asyncio.to_thread(link.close)
+
+    async def _open(self) -> WireLink:
+        self._phase, self._trouble = "connecting", ""
+        self._tell()
+        try:
+            link = await asyncio.to_thread(self._open_link, asyncio.get_running_loop())
+        except StudioError as error:
+            self._phase, self._trouble = "failed", str(error)
+            self._tell()
+            raise
+        if self._closed:
+            await asyncio.to_thread(link.close)
+            raise CommandError(_CLOSING)
+        self._link = link
+        self._tell()
+        return link
+
+    def _open_link(self, loop: asyncio.AbstractEventLoop) -> WireLink:
+        from studio.engine.wire.link import WireLink  # noqa: PLC0415 - imports zenoh
+
+        def doubt() -> None:
+            if not loop.is_closed():
+                loop.call_soon_threadsafe(self._doubt)
+
+        return WireLink(self._choice, doubt)
+
+    def _doubt(self) -> None:
+        if not self._closed:
+            self._lookout.doubt()
+
+    async def _look(self) -> None:
+        self._tell()
+
+    def _tell(self) -> None:
+        news = self._state()
+        if news != self._told:
+            self._told = news
+            self._audience.tell(news)
+
+    def _state(self) -> WireState:
+        link = self._link
+        if link is None:
+            return WireState(
+                state=self._phase,
+                router="",
+                endpoint=self._choice.shown,
+                domain=self._choice.domain or 0,
+                distro="",
+                nodes=(),
+                node_count=0,
+                trouble=self._trouble,
+            )
+        nodes = link.node_names() if link.is_connected else []
+        return WireState(
+            state="connected" if link.is_connected else "lost",
+            router="own" if link.has_own_router else "joined",
+            endpoint=link.endpoint,
+            domain=link.domain,
+            distro=link.distro,
+            nodes=tuple(nodes[:_NODES_SHOWN]),
+            node_count=len(nodes),
+            trouble="",
+        )

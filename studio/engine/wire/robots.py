@@ -1,0 +1,74 @@
+"""WireRobots: the commands about ROS that concern no document yet: join, look around, open."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import TYPE_CHECKING, TypeAlias
+
+from studio.engine import messages as m
+from studio.engine.messages.wire import (
+    ConnectWire,
+    FindWireRobots,
+    OpenFromWire,
+    WireRobots,
+)
+from studio.errors import CommandError
+from studio.packages.from_wire import keep_description
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from studio.engine.library import Opener
+    from studio.engine.wire.desk import WireDesk
+    from studio.engine.wire.link import DescriptionIn
+
+EngineWireCommand: TypeAlias = ConnectWire | FindWireRobots | OpenFromWire
+_FIRST_PATIENCE_S = 5.0
+"""For a description that is latched: it comes at once, or nobody tells one."""
+
+
+class WireRobotDesk:
+    """Carries them out for the engine."""
+
+    def __init__(self, wire: WireDesk, data_folder: Path, opener: Opener) -> None:
+        self._wire, self._data_folder, self._opener = wire, data_folder, opener
+
+    async def carry_out(self, command: EngineWireCommand) -> m.Event | None:
+        """Carry out one command and give its answer, if it has one.
+
+        Raises:
+            StudioError: It cannot be done.
+        """
+        match command:
+            case ConnectWire():
+                await self._wire.link()
+                return None
+            case FindWireRobots():
+                link = await self._wire.link()
+                topics, nodes = await asyncio.to_thread(link.find_robots)
+                return WireRobots(request=command.request, topics=topics, nodes=nodes)
+            case OpenFromWire():
+                return m.Opened(request=command.request, document=await self._open(command))
+
+    async def _open(self, command: OpenFromWire) -> str:
+        link = await self._wire.link()
+        description = await asyncio.to_thread(link.hear_description, command)
+        try:
+            name = await self._open_first(description)
+        except BaseException:
+            await asyncio.to_thread(description.close)
+            raise
+        feed = self._opener.document(name).feed
+        await feed.describe(description, self._data_folder)
+        await feed.choose("joint_states")
+        return name
+
+    async def _open_first(self, description: DescriptionIn) -> str:
+        text = await asyncio.to_thread(description.first, _FIRST_PATIENCE_S)
+        if text is None:
+            raise CommandError(
+                f"Nothing told a robot at {description.source} within {_FIRST_PATIENCE_S:.0f} s: "
+                "is robot_state_publisher running, in this domain?"
+            )
+        keep = keep_description, self._data_folder, description.source, text
+        return await self._opener.open_at(await asyncio.to_thread(*keep), {}, None)

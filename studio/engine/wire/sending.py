@@ -1,0 +1,119 @@
+"""RobotSending: a document's robot and its joints, told on the wire as often as is due."""
+
+from __future__ import annotations
+
+import asyncio
+from functools import partial
+from typing import TYPE_CHECKING, Final
+
+from studio.engine.model import urdf_text
+
+if TYPE_CHECKING:
+    from studio.description.values import Expansion
+    from studio.engine.document import Document
+    from studio.engine.wire.link import JointsOut, RobotOut, WireLink
+    from studio.robot.kinematics import Floats
+
+MOVING_PERIOD_S: Final = 1 / 30
+RESTING_PERIOD_S: Final = 1 / 16
+"""Between two messages of joints that stand still: they come at more than 10 Hz."""
+DESCRIPTION_PERIOD_S: Final = 0.5
+"""Between two descriptions while somebody drags."""
+
+
+class RobotSending:
+    """Looks at each tick whether anything is due; messages are made and sent in a thread."""
+
+    def __init__(self, document: Document) -> None:
+        self._document = document
+        self._robot: RobotOut | None = None
+        self._joints: JointsOut | None = None
+        self.joints_paused = False
+        """While the joints follow `/joint_states`, telling them there would be an echo."""
+        self._description: Expansion | None = None
+        """The one that was told last."""
+        self._description_s = -DESCRIPTION_PERIOD_S
+        self._values: Floats | None = None
+        """The positions that were told last."""
+        self._values_s = -RESTING_PERIOD_S
+
+    @property
+    def sends_robot(self) -> bool:
+        """Whether the description and TF go out."""
+        return self._robot is not None
+
+    @property
+    def sends_joints(self) -> bool:
+        """Whether the joints' positions go out."""
+        return self._joints is not None
+
+    async def start_robot(self, link: WireLink) -> None:
+        """Tell the description and TF from now on.
+
+        Raises:
+            StudioError: It cannot.
+        """
+        if self._robot is None:
+            self._robot = await asyncio.to_thread(link.robot_out)
+            self._description, self._values = None, None
+
+    async def start_joints(self, link: WireLink) -> None:
+        """Tell the joints' positions from now on; errors as for `start_robot`."""
+        if self._joints is None:
+            self._joints = await asyncio.to_thread(link.joints_out)
+            self._values = None
+
+    async def stop_robot(self) -> None:
+        """Tell the description and TF no more."""
+        robot, self._robot = self._robot, None
+        if robot is not None:
+            await asyncio.to_thread(robot.close)
+
+    async def stop_joints(self) -> None:
+        """Tell the joints' positions no more."""
+        joints, self._joints = self._joints, None
+        if joints is not None:
+            await asyncio.to_thread(joints.close)
+
+    async def step(self, now_s: float) -> None:
+        """Tell what is due."""
+        robot = self._robot
+        if robot is not None and self._is_description_due(now_s):
+            await self._tell_description(robot, now_s)
+        if self._are_positions_due(now_s):
+            await self._tell_positions(now_s)
+
+    def _is_description_due(self, now_s: float) -> bool:
+        news = self._document.expansion
+        due = now_s - self._description_s >= DESCRIPTION_PERIOD_S
+        return due and news is not None and news is not self._description
+
+    async def _tell_description(self, robot: RobotOut, now_s: float) -> None:
+        model, expansion = self._document.model, self._document.expansion
+        assert expansion is not None
+        self._description, self._description_s = expansion, now_s
+        make = partial(urdf_text, model.assembly.parts(), expansion.root_attributes)
+        shown, kinematics = model.robot, model.kinematics
+        await asyncio.to_thread(lambda: robot.describe(make(), shown, kinematics))
+        self._values = None  # the links may stand elsewhere
+
+    def _are_positions_due(self, now_s: float) -> bool:
+        joints = None if self.joints_paused else self._joints
+        if self._robot is None and joints is None:
+            return False
+        moved = self._document.model.joints.values is not self._values
+        return now_s - self._values_s >= (MOVING_PERIOD_S if moved else RESTING_PERIOD_S)
+
+    async def _tell_positions(self, now_s: float) -> None:
+        positions = self._document.model.joints
+        self._values, self._values_s = positions.values, now_s
+        by_name = positions.by_name()
+        robot, joints = self._robot, None if self.joints_paused else self._joints
+
+        def tell() -> None:
+            if robot is not None:
+                robot.place(by_name)
+            if joints is not None:
+                joints.tell(by_name)
+
+        await asyncio.to_thread(tell)

@@ -1,0 +1,108 @@
+"""RobotStatePublisher: tells a robot's description and the transforms of its tree, as upstream."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+from studio.nodes.link_transforms import LinkTransforms
+from studio.nodes.state_pace import StatePace
+from studio.robot.urdf_text import robot_from_urdf
+from studio.ros.duration import NANOSECONDS
+from studio.ros.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from studio.nodes.link_transforms import LinkTransform
+    from studio.robot.kinematics import Kinematics
+    from studio.robot.values import Robot
+    from studio.ros.node.node import Node
+    from studio.ros.types.classes import MessageValue
+
+LATCHED: Final = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+_DYNAMIC: Final = QoSProfile(depth=100)
+_SENSORS: Final = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
+FREQUENCY_HZ: Final = 20.0
+
+
+class RobotStatePublisher:
+    """Publishes `robot_description`, `/tf_static` and `/tf` by a node; any thread may ask.
+
+    Positions come by `place`, or after `listen` from `joint_states`.
+    """
+
+    def __init__(self, node: Node, frame_prefix: str = "") -> None:
+        self._node, self._prefix = node, frame_prefix
+        types = node.wire.types
+        self._text = types.message("std_msgs/msg/String")
+        self._tf = types.message("tf2_msgs/msg/TFMessage")
+        self._stamped = types.message("geometry_msgs/msg/TransformStamped")
+        self._header = types.message("std_msgs/msg/Header")
+        self._transform = types.message("geometry_msgs/msg/Transform")
+        self._vector = types.message("geometry_msgs/msg/Vector3")
+        self._quaternion = types.message("geometry_msgs/msg/Quaternion")
+        self._description_out = node.create_publisher(self._text, "robot_description", LATCHED)
+        self._static_out = node.create_publisher(self._tf, "/tf_static", LATCHED)
+        self._dynamic_out = node.create_publisher(self._tf, "/tf", _DYNAMIC)
+        self._transforms: LinkTransforms | None = None
+        self._pace = StatePace(FREQUENCY_HZ)
+
+    def describe(
+        self, urdf: str, robot: Robot | None = None, kinematics: Kinematics | None = None
+    ) -> None:
+        """Tell this robot from now on; what the text comes to may be at hand already.
+
+        Raises:
+            RobotError: The text is no robot that ROS would take; then nothing changed.
+        """
+        shown = robot or robot_from_urdf(urdf)
+        self._transforms = LinkTransforms(shown, self._prefix, kinematics)
+        self._description_out.publish(self._text(data=urdf))
+        self._static_out.publish(self._message(self._transforms.fixed(), self._now()))
+
+    def place(self, positions: Mapping[str, float], stamp: MessageValue | None = None) -> None:
+        """Tell where links are, by the positions of joints in rad or m; `stamp` None: now."""
+        if self._transforms is None:
+            return
+        moved = self._transforms.moved(positions)
+        if moved:
+            self._dynamic_out.publish(self._message(moved, stamp or self._now()))
+
+    def listen(self, *, frequency_hz: float = FREQUENCY_HZ, ignore_stamps: bool = False) -> None:
+        """Take positions from `joint_states`, at most that often."""
+        self._pace = StatePace(frequency_hz, ignore_stamps=ignore_stamps)
+        states = self._node.wire.types.message("sensor_msgs/msg/JointState")
+        self._node.create_subscription(states, "joint_states", self._take, _SENSORS)
+
+    def _take(self, state: MessageValue) -> None:
+        names: list[str] = state.name
+        if len(names) != len(state.position):
+            if len(state.position):
+                self._node.get_logger().warning(
+                    f"A joint state names {len(names)} joints and tells {len(state.position)} "
+                    "positions: it was left out.",
+                    throttle_duration_sec=1.0,
+                )
+            return
+        stamp = state.header.stamp
+        stamp_ns = stamp.sec * NANOSECONDS + stamp.nanosec
+        if self._pace.is_due(names, stamp_ns, self._node.get_clock().now().nanoseconds):
+            self.place(dict(zip(names, state.position.tolist(), strict=True)), stamp)
+
+    def _now(self) -> MessageValue:
+        return self._node.get_clock().now().to_msg()
+
+    def _message(self, transforms: Sequence[LinkTransform], stamp: MessageValue) -> MessageValue:
+        return self._tf(transforms=[self._one(transform, stamp) for transform in transforms])
+
+    def _one(self, transform: LinkTransform, stamp: MessageValue) -> MessageValue:
+        x, y, z = transform.xyz_m
+        qw, qx, qy, qz = transform.wxyz
+        return self._stamped(
+            header=self._header(stamp=stamp, frame_id=transform.parent),
+            child_frame_id=transform.child,
+            transform=self._transform(
+                translation=self._vector(x=x, y=y, z=z),
+                rotation=self._quaternion(x=qx, y=qy, z=qz, w=qw),
+            ),
+        )
