@@ -52,6 +52,7 @@ StudioError
             NotServedError
             NoAnswerError
             ActionServerGoneError
+            CallRefusedError
         GoalStateError
         TransitionError
         TypeDescriptionError
@@ -133,6 +134,7 @@ from studio.errors.models import (
 )
 from studio.errors.nodes import (
     AlreadyJoinedError,
+    CallRefusedError,
     DestroyedError,
     ExternalShutdownException,
     NodeError,
@@ -173,6 +175,7 @@ __all__ = [
     "AlreadyJoinedError",
     "AttachmentError",
     "CallError",
+    "CallRefusedError",
     "CdrError",
     "CommandError",
     "DataFolderError",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from studio.errors.calls import CallError
 from studio.errors.wire import WireError
 
 
@@ -38,3 +39,11 @@ class ExternalShutdownException(NodeError):  # noqa: N818  # the name that rclpy
 
     def __init__(self) -> None:
         super().__init__("The node was told to end.")
+
+
+class CallRefusedError(CallError):
+    """A server answered a request with an error, which nodes on rmw_zenoh never do."""
+
+    def __init__(self, name: str, said: str) -> None:
+        super().__init__(f'The service {name} refused the request: "{said}".')
+        self.name, self.said = name, said

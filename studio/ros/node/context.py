@@ -7,6 +7,7 @@ import threading
 from typing import TYPE_CHECKING
 
 from studio.errors import AlreadyJoinedError, NotJoinedError
+from studio.ros.graph.graph import Graph
 from studio.ros.messages import shared_types
 from studio.ros.messages.shared import types_of
 from studio.ros.node.drain import Drain, Source
@@ -31,6 +32,7 @@ class Context:
         self._lock = threading.RLock()
         self._wire: WireSession | None = None
         self._drain: Drain | None = None
+        self._graph: Graph | None = None
         self._owns_wire = True
         self._ok = False
         self._ending: list[Callable[[], None]] = []
@@ -83,6 +85,18 @@ class Context:
             raise NotJoinedError
         return self._drain
 
+    @property
+    def graph(self) -> Graph:
+        """Who is there, watched from the first time that somebody asks.
+
+        Raises:
+            NotJoinedError: It is not joined.
+        """
+        with self._lock:
+            if self._graph is None:
+                self._graph = Graph(self.wire)
+            return self._graph
+
     def forget_source(self, source: Source) -> None:
         """Take in no more of what comes to a source; harmless after the end."""
         drain = self._drain
@@ -119,9 +133,12 @@ class Context:
         with self._lock:
             closing, self._closing = self._closing, []
             drain, wire = self._drain, self._wire
+            graph, self._graph = self._graph, None
             self._drain = self._wire = None
         for callback in closing:
             callback()
+        if graph is not None:
+            graph.close()
         if drain is not None:
             drain.stop()
         if wire is not None and self._owns_wire:

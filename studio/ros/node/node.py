@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from studio.errors import DestroyedError
 from studio.ros.duration import NANOSECONDS
@@ -16,11 +16,13 @@ from studio.ros.node.endpoint import Endpoint, endpoint_of
 from studio.ros.node.logger import Logger, get_logger
 from studio.ros.node.publisher import Publisher
 from studio.ros.node.rosout import RosoutPublisher
+from studio.ros.node.service import Service
+from studio.ros.node.service_client import SERVICE_TIMEOUT_S, Client
 from studio.ros.node.subscription import Subscription
 from studio.ros.node.time import ClockType
 from studio.ros.node.timer import Timer
 from studio.ros.node.work import MutuallyExclusiveCallbackGroup
-from studio.ros.qos import QoSProfile, as_profile
+from studio.ros.qos import QoSProfile, as_profile, qos_profile_services_default
 from studio.ros.tokens import EndpointKind, NodeToken
 from studio.ros.types.classes import MessageValue, definition_of
 from studio.ros.wire.door import declare_token
@@ -28,8 +30,10 @@ from studio.ros.wire.door import declare_token
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from studio.ros.graph.graph import Graph
     from studio.ros.node.context import Context
     from studio.ros.node.executor import Executor
+    from studio.ros.node.kinds import ServiceKind
     from studio.ros.node.work import CallbackGroup, Work
     from studio.ros.wire.session import WireSession
 
@@ -78,6 +82,11 @@ class Node:
     def context(self) -> Context:
         """What it shares with the other nodes of the process."""
         return self._context
+
+    @property
+    def graph(self) -> Graph:
+        """Who is there, for all nodes of the process."""
+        return self._context.graph
 
     @property
     def token(self) -> NodeToken:
@@ -175,6 +184,49 @@ class Node:
         self._context.drain.add(subscription)
         return subscription
 
+    def create_service(
+        self,
+        srv_type: ServiceKind,
+        srv_name: str,
+        callback: Callable[[Any, Any], object],
+        *,
+        qos_profile: QoSProfile = qos_profile_services_default,
+        callback_group: CallbackGroup | None = None,
+    ) -> Service:
+        """Make a service's server.
+
+        Raises:
+            RosNameError: The service cannot be named so.
+            DestroyedError: The node was destroyed.
+        """
+        endpoint = self._service_endpoint(EndpointKind.SERVICE, srv_type, srv_name, qos_profile)
+        service = Service(endpoint, srv_type, callback, callback_group or self._default_group)
+        self.add_work(service)
+        self._context.drain.add(service)
+        return service
+
+    def create_client(
+        self,
+        srv_type: ServiceKind,
+        srv_name: str,
+        *,
+        qos_profile: QoSProfile = qos_profile_services_default,
+        callback_group: CallbackGroup | None = None,
+        timeout_s: float = SERVICE_TIMEOUT_S,
+    ) -> Client:
+        """Make a service's client; a server that is silent for `timeout_s` is given up.
+
+        Raises:
+            RosNameError: The service cannot be named so.
+            DestroyedError: The node was destroyed.
+        """
+        endpoint = self._service_endpoint(EndpointKind.CLIENT, srv_type, srv_name, qos_profile)
+        group = callback_group or self._default_group
+        client = Client(endpoint, srv_type, group, self, timeout_s)
+        self.add_work(client)
+        self._context.drain.add(client)
+        return client
+
     def create_timer(
         self,
         timer_period_sec: float,
@@ -244,6 +296,14 @@ class Node:
         """Take back a subscription; whether it was the node's."""
         return self.remove_work(subscription)
 
+    def destroy_service(self, service: Service) -> bool:
+        """Take back a server; whether it was the node's."""
+        return self.remove_work(service)
+
+    def destroy_client(self, client: Client) -> bool:
+        """Take back a client; whether it was the node's."""
+        return self.remove_work(client)
+
     def destroy_timer(self, timer: Timer) -> bool:
         """Take back a timer; whether it was the node's."""
         return self.remove_work(timer)
@@ -274,9 +334,18 @@ class Node:
     def _endpoint(
         self, kind: EndpointKind, msg_type: type[MessageValue], topic: str, qos: QoSProfile
     ) -> Endpoint:
+        return self._endpoint_named(kind, definition_of(msg_type).name, topic, qos)
+
+    def _service_endpoint(
+        self, kind: EndpointKind, srv_type: ServiceKind, name: str, qos: QoSProfile
+    ) -> Endpoint:
+        return self._endpoint_named(kind, srv_type.name, name, as_profile(qos))
+
+    def _endpoint_named(
+        self, kind: EndpointKind, type_name: str, name: str, qos: QoSProfile
+    ) -> Endpoint:
         self._refuse_destroyed()
-        type_name = definition_of(msg_type).name
-        named = (self._full_name(topic), type_name, self._wire.types.hash_of(type_name))
+        named = (self._full_name(name), type_name, self._wire.types.hash_of(type_name))
         return endpoint_of(self._wire, self._token, kind, named, qos)
 
     def _refuse_destroyed(self) -> None:

@@ -1,0 +1,188 @@
+"""Service: answers requests, each on the key and with the number that it came with."""
+
+from __future__ import annotations
+
+import inspect
+import threading
+import time
+from collections import deque
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from studio.errors import AttachmentError, CdrError
+from studio.ros.attachment import Attachment, unpack
+from studio.ros.node.codecs import check_kind, codec_of
+from studio.ros.node.work import Work
+from studio.ros.qos import DEPTH_DEFAULT
+from studio.ros.types.classes import definition_of
+from studio.ros.wire.door import declare_queryable
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Coroutine
+
+    from studio.ros.node.endpoint import Endpoint
+    from studio.ros.node.kinds import ServiceKind
+    from studio.ros.node.work import CallbackGroup
+    from studio.ros.qos import QoSProfile
+    from studio.ros.wire.door import Asked, Incoming
+
+_RING = 4_096
+
+
+@dataclass(frozen=True, slots=True)
+class _Request:
+    """A query that waits, and what it came with."""
+
+    query: Asked
+    payload: bytes
+    attachment: Attachment
+
+    @property
+    def number(self) -> tuple[bytes, int]:
+        return self.attachment.gid, self.attachment.sequence
+
+
+class Service(Work):
+    """One service's server; the callback takes a request and a response, and gives the response.
+
+    The last `depth` requests wait; older ones are dropped, and whoever sent them is told that
+    there will be no answer.
+    """
+
+    def __init__(
+        self,
+        endpoint: Endpoint,
+        srv_type: ServiceKind,
+        callback: Callable[[Any, Any], object],
+        group: CallbackGroup,
+    ) -> None:
+        super().__init__(group)
+        self.endpoint = endpoint
+        self.srv_type = srv_type
+        self.callback = callback
+        self.refused = 0
+        self.reason: str | None = None
+        self._request_codec = codec_of(srv_type.Request)
+        self._response_codec = codec_of(srv_type.Response)
+        self._response = definition_of(srv_type.Response)
+        self._depth = endpoint.token.qos.depth or DEPTH_DEFAULT
+        self._waiting: deque[_Request] = deque()
+        self._pending: set[tuple[bytes, int]] = set()
+        self._lock = threading.Lock()
+        self._incoming: Incoming[Asked] | None = declare_queryable(
+            endpoint.wire.zenoh, endpoint.key, max(_RING, self._depth)
+        )
+        endpoint.show()
+
+    @property
+    def srv_name(self) -> str:
+        """The full name of the service."""
+        return self.endpoint.token.name
+
+    service_name = srv_name
+
+    @property
+    def qos_profile(self) -> QoSProfile:
+        """As asked for."""
+        return self.endpoint.token.qos
+
+    @property
+    def is_ready(self) -> bool:
+        """Whether a request waits."""
+        return bool(self._waiting)
+
+    def drain(self) -> int:
+        """Take in requests; of the drain's thread."""
+        incoming = self._incoming
+        taken = 0
+        while incoming is not None and taken < _RING and (query := incoming.try_recv()) is not None:
+            taken += 1
+            self._receive(query)
+        return taken
+
+    def take(self) -> Callable[[], object] | None:
+        """Take the oldest request, and give what answers it."""
+        with self._lock:
+            request = self._waiting.popleft() if self._waiting else None
+        return None if request is None else lambda: self._answer(request)
+
+    def destroy(self) -> None:
+        """Take it back, and tell those who wait that there will be no answer."""
+        incoming, self._incoming = self._incoming, None
+        if incoming is None:
+            return
+        self.endpoint.hide(incoming)
+        with self._lock:
+            left = list(self._waiting)
+            self._waiting.clear()
+        for request in left:
+            self._finish(request)
+
+    def _receive(self, query: Asked) -> None:
+        payload, attachment = query.payload, query.attachment
+        try:
+            unpacked = unpack(None if attachment is None else attachment.to_bytes())
+        except AttachmentError as error:
+            self._refuse(query, str(error))
+            return
+        if payload is None:
+            self._refuse(query, "A request came without content, which no rmw_zenoh sends.")
+            return
+        self._queue(_Request(query, payload.to_bytes(), unpacked))
+
+    def _queue(self, request: _Request) -> None:
+        with self._lock:
+            twice = request.number in self._pending
+            if not twice:
+                self._pending.add(request.number)
+                self._waiting.append(request)
+            late = self._waiting.popleft() if len(self._waiting) > self._depth else None
+        if twice:
+            self._refuse(request.query, "A request came twice before it was answered.")
+        if late is not None:
+            self._finish(late)
+        self.announce()
+
+    def _refuse(self, query: Asked, reason: str) -> None:
+        self.refused += 1
+        self.reason = reason
+        query.drop()
+
+    def _answer(self, request: _Request) -> object:
+        try:
+            asked = self._request_codec.decode(request.payload)
+        except CdrError as error:
+            self._finish(request)
+            self.refused += 1
+            self.reason = str(error)
+            return None
+        try:
+            given = self.callback(asked, self.srv_type.Response())
+            if inspect.iscoroutine(given):
+                return self._answer_later(request, given)
+            self._reply(request, given)
+        except BaseException:
+            self._finish(request)
+            raise
+        return None
+
+    async def _answer_later(self, request: _Request, given: Coroutine[Any, Any, object]) -> None:
+        try:
+            self._reply(request, await given)
+        finally:
+            self._finish(request)
+
+    def _reply(self, request: _Request, given: object) -> None:
+        payload = self._response_codec.encode(check_kind(self._response, given))
+        number = request.attachment
+        attachment = Attachment(number.sequence, time.time_ns(), number.gid)
+        if self._incoming is not None:
+            request.query.reply(request.query.key_expr, payload, attachment=attachment.pack())
+        self._finish(request)
+
+    def _finish(self, request: _Request) -> None:
+        with self._lock:
+            known = request.number in self._pending
+            self._pending.discard(request.number)
+        if known:
+            request.query.drop()

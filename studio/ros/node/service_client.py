@@ -1,0 +1,259 @@
+"""Client: asks a service; the answer is a future, set by whoever spins the node."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections import deque
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, cast
+
+import zenoh
+
+from studio.errors import (
+    CallRefusedError,
+    CdrError,
+    DestroyedError,
+    NoAnswerError,
+    NotServedError,
+    WireError,
+)
+from studio.ros.attachment import Attachment
+from studio.ros.node.codecs import check_kind, codec_of
+from studio.ros.node.future import Future
+from studio.ros.node.work import Work
+from studio.ros.types.classes import definition_of
+from studio.ros.wire.door import declare_querier
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from studio.ros.node.endpoint import Endpoint
+    from studio.ros.node.kinds import ServiceKind
+    from studio.ros.node.node import Node
+    from studio.ros.node.work import CallbackGroup
+    from studio.ros.qos import QoSProfile
+    from studio.ros.types.classes import MessageValue
+    from studio.ros.wire.door import Asking
+
+SERVICE_TIMEOUT_S = 600.0
+"""How long rmw_zenoh lets a service take."""
+_REPLIES_WAITING = 64
+_LOOK_S = 0.1
+_SILENCE = b"Timeout"
+
+
+@dataclass(slots=True)
+class _Call:
+    """A request that is under way; `answered` when a reply came, others may follow."""
+
+    future: Future[Any]
+    replies: zenoh.Handler[zenoh.Reply]
+    token: zenoh.CancellationToken
+    answered: bool = False
+    failure: WireError | None = None
+
+    def cancel(self) -> None:
+        cast("Any", self.token).cancel()  # which says nothing of what it gives
+
+
+class Client(Work):
+    """One service's client.
+
+    A future ends with the first response; with NotServedError when nobody serves the service,
+    and with NoAnswerError when a server was silent for longer than `timeout_s`. When several
+    nodes serve it, each does what was asked, and the first answer counts: this is said once.
+    """
+
+    def __init__(
+        self,
+        endpoint: Endpoint,
+        srv_type: ServiceKind,
+        group: CallbackGroup,
+        node: Node,
+        timeout_s: float = SERVICE_TIMEOUT_S,
+    ) -> None:
+        super().__init__(group)
+        self.endpoint = endpoint
+        self.srv_type = srv_type
+        self._node = node
+        self._timeout_s = timeout_s
+        self._codecs = codec_of(srv_type.Request), codec_of(srv_type.Response)
+        self._request = definition_of(srv_type.Request)
+        self._sequence = 0
+        self._said_several = False
+        self._lock = threading.Lock()
+        self._calls: dict[int, _Call] = {}
+        self._done: deque[tuple[Future[Any], bytes | WireError]] = deque()
+        self._querier: Asking | None = declare_querier(endpoint.wire.zenoh, endpoint.key, timeout_s)
+        endpoint.show()
+
+    @property
+    def srv_name(self) -> str:
+        """The full name of the service."""
+        return self.endpoint.token.name
+
+    service_name = srv_name
+
+    @property
+    def qos_profile(self) -> QoSProfile:
+        """As asked for."""
+        return self.endpoint.token.qos
+
+    @property
+    def is_ready(self) -> bool:
+        """Whether an answer waits."""
+        return bool(self._done)
+
+    def service_is_ready(self) -> bool:
+        """Whether a node serves it."""
+        return self._node.graph.has_server(self.srv_name, self.srv_type.name)
+
+    def wait_for_service(self, timeout_sec: float | None = None) -> bool:
+        """Wait until a node serves it, or that long; whether one does. False when told to end."""
+        end_s = None if timeout_sec is None else time.monotonic() + timeout_sec
+        graph = self._node.graph
+        while not self.service_is_ready():
+            left_s = _LOOK_S if end_s is None else end_s - time.monotonic()
+            if left_s <= 0 or not self._node.context.ok():
+                return False
+            graph.wait_for(self.service_is_ready, min(left_s, _LOOK_S))
+        return True
+
+    def call(self, request: MessageValue, timeout_sec: float | None = None) -> Any:  # noqa: ANN401
+        """Ask and wait, while another thread spins the node; never within its only callback.
+
+        Raises:
+            NoAnswerError: No answer came in time.
+            NotServedError: Nobody serves it.
+        """
+        future = self.call_async(request)
+        if not future.wait(timeout_sec):
+            future.cancel()
+            raise NoAnswerError("service", self.srv_name, timeout_sec or 0.0)
+        return future.result()
+
+    def call_async(self, request: MessageValue) -> Future[Any]:
+        """Ask, and do not wait.
+
+        Raises:
+            MessageValueError: It is no request of this service, or a field holds what it does
+                not take.
+            DestroyedError: The client was destroyed.
+        """
+        payload = self._codecs[0].encode(check_kind(self._request, request))
+        future: Future[Any] = Future(executor=self._node.executor)
+        with self._lock:
+            if self._querier is None:
+                raise DestroyedError(f"client of {self.srv_name}")
+            self._sequence += 1
+            number = self._sequence
+            attachment = Attachment(number, time.time_ns(), self.endpoint.gid)
+            token = zenoh.CancellationToken()
+            replies = self._querier.get(
+                zenoh.handlers.FifoChannel(_REPLIES_WAITING),
+                payload=payload,
+                attachment=attachment.pack(),
+                cancellation_token=token,
+            )
+            self._calls[number] = _Call(future, replies, token)
+        future.listen(lambda: self._give_up(number, future))
+        self._node.context.drain.hurry()
+        return future
+
+    def remove_pending_request(self, future: Future[Any]) -> None:
+        """Forget a request: its future is never set."""
+        with self._lock:
+            numbers = [number for number, call in self._calls.items() if call.future is future]
+        for number in numbers:
+            self._forget(number)
+
+    def drain(self) -> int:
+        """Take in replies; of the drain's thread."""
+        with self._lock:
+            calls = list(self._calls.items())
+        came = sum(self._drain_call(number, call) for number, call in calls)
+        if self._done:
+            self.announce()
+        return came
+
+    def take(self) -> Callable[[], object] | None:
+        """Take the oldest answer, and give what sets its future."""
+        try:
+            future, answer = self._done.popleft()
+        except IndexError:
+            return None
+        return lambda: self._settle(future, answer)
+
+    def destroy(self) -> None:
+        """Take it back; requests that are under way are cancelled."""
+        with self._lock:
+            querier, self._querier = self._querier, None
+            calls, self._calls = self._calls, {}
+        if querier is None:
+            return
+        for call in calls.values():
+            call.cancel()
+            call.future.cancel()
+        self.endpoint.hide(querier)
+
+    def _drain_call(self, number: int, call: _Call) -> int:
+        came = 0
+        while True:
+            try:
+                reply = call.replies.try_recv()
+            except zenoh.ZError:  # the last reply was taken, or the time is over
+                self._ended(number, call)
+                return came + 1
+            if reply is None:
+                return came
+            came += 1
+            self._replied(call, reply)
+
+    def _replied(self, call: _Call, reply: zenoh.Reply) -> None:
+        sample, refusal = reply.ok, reply.err
+        if sample is not None:
+            if not call.answered:
+                call.answered = True
+                self._done.append((call.future, sample.payload.to_bytes()))
+            elif not self._said_several:
+                self._said_several = True
+                self._node.get_logger().warning(
+                    f"The service {self.srv_name} is served by more than one node: each did what "
+                    "was asked, and the first answer was taken."
+                )
+        elif refusal is not None:
+            payload = refusal.payload.to_bytes()
+            call.failure = _failure(self.srv_name, payload, self._timeout_s)
+
+    def _ended(self, number: int, call: _Call) -> None:
+        self._forget(number)
+        if not call.answered:
+            failure = call.failure or NotServedError("service", self.srv_name)
+            self._done.append((call.future, failure))
+
+    def _settle(self, future: Future[Any], answer: bytes | WireError) -> None:
+        if isinstance(answer, WireError):
+            future.set_exception(answer)
+            return
+        try:
+            future.set_result(self._codecs[1].decode(answer))
+        except CdrError as error:
+            future.set_exception(error)
+
+    def _give_up(self, number: int, future: Future[Any]) -> None:
+        if future.cancelled():
+            self._forget(number, cancel=True)
+
+    def _forget(self, number: int, *, cancel: bool = False) -> None:
+        with self._lock:
+            call = self._calls.pop(number, None)
+        if call is not None and cancel:
+            call.cancel()
+
+
+def _failure(name: str, payload: bytes, timeout_s: float) -> WireError:
+    if payload == _SILENCE:
+        return NoAnswerError("service", name, timeout_s)
+    said = payload[:200].decode(errors="replace")
+    return CallRefusedError(name, said)
