@@ -1,0 +1,147 @@
+"""The router of our own: alone in a process, beside another that starts at once, and ended."""
+
+from __future__ import annotations
+
+import json
+import signal
+import socket
+import subprocess
+import sys
+import time
+from contextlib import ExitStack, closing, contextmanager
+from typing import TYPE_CHECKING
+
+import pytest
+
+from studio.errors import RouterNotStartedError
+from studio.ros.wire.endpoints import parse_endpoint
+from studio.ros.wire.opening import open_wire
+from studio.ros.wire.router import router_choice, start_router
+from studio.ros.wire.settings import WireSettings
+from studio.ros.wire.watching import RouterWatch
+from tests.support.wire import free_endpoint, open_test_session, router_at
+
+if TYPE_CHECKING:
+    from collections.abc import Generator
+
+END_S = 2.0
+PATIENCE_S = 15.0
+
+ROUTER = """
+import sys
+from studio.ros.wire.router import run_router
+run_router(sys.argv[1], lambda endpoint: print(endpoint, flush=True))
+"""
+
+OPENED = """
+import sys
+from studio.ros.wire.opening import open_wire
+from studio.ros.wire.settings import WireSettings
+print("ready", flush=True)
+sys.stdin.readline()
+with open_wire(WireSettings(connect=(sys.argv[1],))) as wire:
+    print("own" if wire.router else "joined", flush=True)
+    sys.stdin.readline()
+"""
+
+
+@contextmanager
+def process(code: str, endpoint: str) -> Generator[subprocess.Popen[str]]:
+    started = subprocess.Popen(
+        [sys.executable, "-c", code, endpoint],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    with started:
+        try:
+            yield started
+        finally:
+            started.kill()
+
+
+def said(started: subprocess.Popen[str]) -> str:
+    assert started.stdout is not None
+    return started.stdout.readline().strip()
+
+
+def tell(started: subprocess.Popen[str]) -> None:
+    assert started.stdin is not None
+    started.stdin.write("\n")
+    started.stdin.flush()
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_router_alone_carries_sessions_and_ends_at_once_by_a_signal(number: signal.Signals):
+    with process(ROUTER, free_endpoint()) as router:
+        endpoint = said(router)
+        with open_test_session(endpoint) as wire, RouterWatch(wire) as watch:
+            assert watch.is_connected
+            begin_s = time.monotonic()
+            router.send_signal(number)
+            assert router.wait(END_S) == 0
+            assert time.monotonic() - begin_s < END_S
+            assert watch.wait_for(connected=False, timeout_s=PATIENCE_S)
+
+
+def test_a_peer_that_falls_silent_in_the_handshake_does_not_hold_up_the_end():
+    with process(ROUTER, free_endpoint()) as router:
+        at = parse_endpoint(said(router))
+        with closing(socket.create_connection((at.host, at.port))):
+            router.send_signal(signal.SIGTERM)
+            assert router.wait(END_S) == 0
+
+
+def test_of_two_that_start_at_once_one_has_the_router_and_the_other_joins():
+    endpoint = free_endpoint()
+    with process(OPENED, endpoint) as one, process(OPENED, endpoint) as other:
+        assert [said(one), said(other)] == ["ready", "ready"]
+        tell(one)
+        tell(other)
+        assert sorted([said(one), said(other)]) == ["joined", "own"]
+
+
+def test_who_joined_is_connected_again_when_another_has_the_router():
+    endpoint = free_endpoint()
+    with process(OPENED, endpoint) as first, ExitStack() as stack:
+        assert said(first) == "ready"
+        tell(first)
+        assert said(first) == "own"
+        wire = stack.enter_context(open_wire(WireSettings(connect=(endpoint,))))
+        assert wire.router is None
+        watch = stack.enter_context(RouterWatch(wire))
+        first.kill()
+        assert watch.wait_for(connected=False, timeout_s=PATIENCE_S)
+        third = stack.enter_context(open_wire(WireSettings(connect=(endpoint,))))
+        assert third.router is not None
+        assert watch.wait_for(connected=True, timeout_s=PATIENCE_S)
+
+
+def test_an_endpoint_that_is_held_is_told_as_such():
+    with router_at(free_endpoint()) as router:
+        with pytest.raises(RouterNotStartedError, match="another program") as caught:
+            start_router(router.endpoint)
+        assert caught.value.held
+
+
+def test_settings_that_zenoh_refuses_are_told():
+    endpoint = parse_endpoint(free_endpoint("tls"))
+    with pytest.raises(RouterNotStartedError) as caught:
+        start_router(endpoint, {"transport/link/tls/listen_private_key": json.dumps("/no/key")})
+    assert not caught.value.held
+    assert ".rs" not in str(caught.value)
+
+
+def test_a_router_that_ended_leaves_its_place_free():
+    endpoint = free_endpoint()
+    for _ in range(3):
+        router_at(endpoint).close()
+    router = router_at(endpoint)
+    router.close()
+    router.close()
+
+
+def test_a_choice_is_auto_off_or_a_place():
+    assert router_choice("auto").starts
+    assert not router_choice("off").starts
+    assert router_choice("tcp/127.0.0.1:1").endpoint == parse_endpoint("tcp/127.0.0.1:1")
