@@ -56,8 +56,8 @@ class Actor:
 
 
 @contextmanager
-def acting(options: argparse.Namespace) -> Generator[Actor]:
-    """Join with a node of one's own, and take in what stands.
+def acting(options: argparse.Namespace, name: str | None = None) -> Generator[Actor]:
+    """Join with a node of one's own, hidden unless it is given a name; take in what stands.
 
     Raises:
         NoRouterError: None answers, and none may be started.
@@ -70,7 +70,7 @@ def acting(options: argparse.Namespace) -> Generator[Actor]:
     with opened_wire(options) as wire, Graph(wire) as graph:
         context = Context.over(wire)
         try:
-            node = Node(f"_studio_{os.getpid()}", context=context, enable_rosout=False)
+            node = Node(name or f"_studio_{os.getpid()}", context=context, enable_rosout=False)
             executor = SingleThreadedExecutor(context=context)
             executor.add_node(node)
             settle(graph, options)

@@ -40,7 +40,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         print(f"studio: {error}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
-        return 130
+        return getattr(options, "interrupted_code", 130)
     except BrokenPipeError:  # the reader of our output has gone, as `head` does
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0

@@ -52,12 +52,13 @@ def add_wire_options(parser: argparse.ArgumentParser, router: str = LOOKING) -> 
         help="look for others for at least this long",
     )
     wire.add_argument("--no-daemon", action="store_true", help="as is: there is no daemon")
+    parser.set_defaults(interrupted_code=int(signal.SIGINT))  # as ros2, 130 is that of shells
     add_type_options(parser)
 
 
 @contextmanager
 def opened_wire(options: argparse.Namespace) -> Generator[WireSession]:
-    """Open the session of a verb, closed at its end; SIGTERM then ends it as Ctrl-C does.
+    """Open the session of a verb, closed at its end, also when Ctrl-C or SIGTERM ends it.
 
     Raises:
         NoRouterError: None answers, and none may be started.
@@ -69,7 +70,7 @@ def opened_wire(options: argparse.Namespace) -> Generator[WireSession]:
     profile = profile_of(options)
     settings = wire_settings(tuple(options.connect), options.domain, profile)
     types = known_types(options, profile.distro)
-    with _ended_by_sigterm(), open_wire(settings, options.router, types) as wire:
+    with _ended_by_signals(), open_wire(settings, options.router, types) as wire:
         yield wire
 
 
@@ -88,12 +89,16 @@ def profile_of(options: argparse.Namespace) -> WireProfile:
 
 
 @contextmanager
-def _ended_by_sigterm() -> Generator[None]:
+def _ended_by_signals() -> Generator[None]:
+    """Let signals end the verb; Ctrl-C too where a script started it in the background."""
+
     def end(_number: int, _frame: object) -> None:
         raise SystemExit(128 + signal.SIGTERM)
 
-    before = signal.signal(signal.SIGTERM, end)
+    handlers = {signal.SIGTERM: end, signal.SIGINT: signal.default_int_handler}
+    before = {number: signal.signal(number, handler) for number, handler in handlers.items()}
     try:
         yield
     finally:
-        signal.signal(signal.SIGTERM, before)
+        for number, handler in before.items():
+            signal.signal(number, handler)

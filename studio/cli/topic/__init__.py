@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from studio.cli.topic.echo import add_echo
 from studio.cli.topic.listing import add_listing_verbs
+from studio.cli.topic.publishing import add_pub
+from studio.cli.topic.rates import add_rates
 from studio.cli.verbs import Verbs
 
 if TYPE_CHECKING:
@@ -15,3 +18,6 @@ def add(parser: argparse.ArgumentParser) -> None:
     """Give the parser the verbs of `topic`."""
     verbs = Verbs(parser)
     add_listing_verbs(verbs)
+    add_echo(verbs)
+    add_rates(verbs)
+    add_pub(verbs)

@@ -1,0 +1,80 @@
+"""`studio topic echo`: print what is said on a topic."""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING
+
+from studio.cli.acting import acting
+from studio.cli.topic.joining import join_topic, subscribe
+from studio.cli.topic.qos_options import add_qos_options
+from studio.cli.wire import add_wire_options
+
+if TYPE_CHECKING:
+    from studio.cli.verbs import Verbs
+    from studio.ros.node.info import MessageInfo
+    from studio.ros.types.classes import MessageValue
+
+_LENGTH = 128
+
+
+def add_echo(verbs: Verbs) -> None:
+    """Add the verb."""
+    echo = verbs.add("echo", _run, "print the messages of a topic")
+    echo.add_argument("topic_name", metavar="TOPIC")
+    echo.add_argument("message_type", metavar="TYPE", nargs="?", help="default: that of the topic")
+    echo.add_argument("--once", action="store_true", help="print one message and end")
+    echo.add_argument(
+        "--timeout", type=float, metavar="SECONDS", help="end after this long; 1 if nothing came"
+    )
+    echo.add_argument("--field", metavar="PATH", help="one field alone, as pose.position.x")
+    echo.add_argument("--csv", action="store_true", help="one line of values for each message")
+    echo.add_argument("--no-arr", action="store_true", help="leave arrays out")
+    echo.add_argument("--no-str", action="store_true", help="leave texts out")
+    echo.add_argument("--flow-style", action="store_true", help="YAML in one line")
+    echo.add_argument("-f", "--full-length", action="store_true", help="cut nothing off")
+    echo.add_argument(
+        "-l", "--truncate-length", type=_length, default=_LENGTH, metavar="N",
+        help=f"cut arrays and texts off after this many (default: {_LENGTH})",
+    )  # fmt: skip
+    echo.add_argument("--include-message-info", action="store_true", help="when and from whom")
+    echo.add_argument("--raw", action="store_true", help="print the bytes")
+    echo.add_argument(
+        "--no-lost-messages", action="store_true", help="do not say how many were lost"
+    )
+    add_qos_options(echo)
+    add_wire_options(echo)
+
+
+def _length(text: str) -> int:
+    number = int(text)
+    if number < 0:
+        raise argparse.ArgumentTypeError(f"{number} is less than 0")
+    return number
+
+
+def _run(options: argparse.Namespace) -> int:
+    from studio.cli.topic.printing import Printing
+
+    with acting(options) as actor:
+        joined = join_topic(actor, options, options.message_type)
+        if joined is None:
+            return 1
+        printing = Printing(options)
+        count = 0
+
+        def show(message: MessageValue | bytes, info: MessageInfo) -> None:
+            nonlocal count
+            if count == 0 or not options.once:
+                print(printing.text(message, info), flush=True)
+                count += 1
+
+        subscription = subscribe(actor, joined, show, raw=options.raw)
+
+        def is_done() -> bool:
+            if not options.no_lost_messages:
+                printing.say_lost(subscription.losses)
+            return options.once and count > 0
+
+        came = actor.work_until(is_done, options.timeout)
+        return 0 if came or count else 1

@@ -1,0 +1,138 @@
+"""`studio topic pub`: say something on a topic, once or again and again."""
+
+from __future__ import annotations
+
+import argparse
+import itertools
+import sys
+import time
+from typing import TYPE_CHECKING
+
+from studio.cli.acting import acting
+from studio.cli.looking import full_name
+from studio.cli.topic.qos_options import add_qos_options, given_profile
+from studio.cli.wire import STARTING, add_wire_options
+from studio.ros.names import full_type_name
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from studio.cli.acting import Actor
+    from studio.cli.verbs import Verbs
+    from studio.ros.node.publisher import Publisher
+    from studio.ros.types.classes import MessageValue
+
+_KEEP_ALIVE_S = 0.1
+_NEWS_S = 1.0
+
+
+def add_pub(verbs: Verbs) -> None:
+    """Add the verb."""
+    pub = verbs.add(
+        "pub",
+        _run,
+        "publish a message",
+        "Where no router answers, one is started for as long as the command runs.",
+    )
+    pub.add_argument("topic_name", metavar="TOPIC")
+    pub.add_argument("message_type", metavar="TYPE")
+    pub.add_argument(
+        "values", metavar="YAML", nargs="?", default="{}",
+        help="the fields, for example \"data: 'Hello'\"; now is the time, a header may be auto",
+    )  # fmt: skip
+    often = pub.add_mutually_exclusive_group()
+    often.add_argument("-r", "--rate", type=_rate, metavar="HZ", help="a second (default: 1)")
+    often.add_argument("-1", "--once", action="store_true", help="publish one message and end")
+    pub.add_argument("-t", "--times", type=_count, metavar="N", help="publish N messages and end")
+    pub.add_argument("-p", "--print", type=_count, default=1, metavar="N", help="say every Nth")
+    pub.add_argument(
+        "-w", "--wait-matching-subscriptions", dest="wait", type=int, metavar="N",
+        help="begin when so many listen (default: 1 with --once or --times, else 0)",
+    )  # fmt: skip
+    pub.add_argument(
+        "--max-wait-time-secs", dest="wait_s", type=float, metavar="SECONDS",
+        help="wait for them no longer, then end with 1",
+    )  # fmt: skip
+    pub.add_argument(
+        "--keep-alive", type=float, default=_KEEP_ALIVE_S, metavar="SECONDS",
+        help=f"stay this long after the last message (default: {_KEEP_ALIVE_S})",
+    )  # fmt: skip
+    pub.add_argument("-n", "--node-name", help="name of the node (default: a hidden one)")
+    add_qos_options(pub)
+    add_wire_options(pub, STARTING)
+
+
+def _rate(text: str) -> float:
+    number = float(text)
+    if not 0 < number < 1e6:
+        raise argparse.ArgumentTypeError(f"{number} is no rate: give more than 0")
+    return number
+
+
+def _count(text: str) -> int:
+    number = int(text)
+    if number < 1:
+        raise argparse.ArgumentTypeError(f"{number} is too few: give 1 or more")
+    return number
+
+
+def _run(options: argparse.Namespace) -> int:
+    from studio.ros.qos import QoSProfile
+
+    type_name = full_type_name(options.message_type)
+    name = full_name(options.topic_name)
+    with acting(options, options.node_name) as actor:
+        kind = actor.types.message(type_name)
+        first = _message(kind, options.values)
+        qos = given_profile(options, QoSProfile(depth=10))
+        publisher = actor.node.create_publisher(kind, name, qos)
+        times = 1 if options.once else options.times
+        wanted = options.wait if options.wait is not None else int(times is not None)
+        if not _wait_for_listeners(actor, name, wanted, options.wait_s):
+            return 1
+        _publish(options, publisher, first, times)
+        time.sleep(max(0.0, options.keep_alive) if times else 0)
+    return 0
+
+
+def _message(kind: type[MessageValue], text: str) -> MessageValue:
+    from studio.ros.types.plain import from_yaml
+
+    return from_yaml(kind, text, now_ns=time.time_ns())
+
+
+def _wait_for_listeners(actor: Actor, name: str, wanted: int, timeout_s: float | None) -> bool:
+    """Wait until so many subscribe, and say so each second; False when the time is over."""
+    end_s = None if timeout_s is None else time.monotonic() + timeout_s
+    while not actor.graph.wait_for(lambda: len(actor.graph.subscriptions(name)) >= wanted, 0.01):
+        print(f"Waiting for at least {wanted} matching subscription(s)...", flush=True)
+        left_s = _NEWS_S if end_s is None else min(_NEWS_S, end_s - time.monotonic())
+        if left_s <= 0:
+            print(f"Timed out waiting for subscriptions of {name}.", file=sys.stderr)
+            return False
+        actor.graph.wait_for(lambda: len(actor.graph.subscriptions(name)) >= wanted, left_s)
+    return True
+
+
+def _publish(
+    options: argparse.Namespace, publisher: Publisher, first: MessageValue, times: int | None
+) -> None:
+    print("publisher: beginning loop", flush=True)
+    has_time = "now" in options.values or "auto" in options.values
+    numbers = itertools.count(1) if times is None else range(1, times + 1)
+    beats = _beats(1 / (options.rate or 1.0))
+    for number in numbers:
+        next(beats)
+        message = _message(publisher.msg_type, options.values) if has_time else first
+        if number % options.print == 0:
+            print(f"publishing #{number}: {message!r}\n", flush=True)
+        publisher.publish(message)
+
+
+def _beats(period_s: float) -> Iterator[None]:
+    """Give one beat at once and then one each period, which do not drift."""
+    next_s = time.monotonic()
+    while True:
+        time.sleep(max(0.0, next_s - time.monotonic()))
+        yield
+        next_s += period_s
