@@ -1,0 +1,117 @@
+"""The course's rows on topics: T7-T11, each node in a process of its own."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+
+from studio.ros.client import DurabilityPolicy, QoSProfile
+from tests.support.demos import heard, node_at, running_demo
+from tests.support.wire import running_router, wait_until
+
+if TYPE_CHECKING:
+    from collections.abc import Generator
+
+pytestmark = [pytest.mark.network, pytest.mark.timeout(120)]
+
+
+@pytest.fixture(scope="module")
+def router() -> Generator[str]:
+    with running_router() as endpoint:
+        yield endpoint
+
+
+def test_t7_quotes_have_three_fields_and_are_logged_by_the_subscriber(router: str):
+    with (
+        node_at(router) as node,
+        running_demo(router, "quote_subscriber") as subscriber,
+        running_demo(router, "quote_publisher"),
+    ):
+        quotes = heard(node, "pkg_with_interfaces/msg/AmazingQuote", "/amazing_quote")
+        wait_until("two quotes", lambda: len(quotes) >= 2)
+        first, second = quotes[:2]
+        assert second.id == first.id + 1
+        assert (first.quote, first.philosopher_name) == ("Use the force, Pikachu!", "Uncle Ben")
+        subscriber.wait_for("by Uncle Ben")
+
+
+def test_t8_what_the_talker_says_is_heard_by_the_listener(router: str):
+    with running_demo(router, "listener") as listener, running_demo(router, "talker") as talker:
+        talker.wait_for('[topic_helloworld_pub]: Publishing: "Hello World"')
+        listener.wait_for('[topic_helloworld_sub]: I heard: "Hello World"')
+
+
+def test_t8_counted_greetings_arrive_in_their_order(router: str):
+    with (
+        running_demo(router, "subscriber_node") as subscriber,
+        running_demo(router, "publisher_node"),
+    ):
+        subscriber.wait_for('I heard: "Hello World: 3"')
+        numbers = [line.split()[-1] for line in subscriber.lines if "Hello World" in line]
+        first = int(numbers[0].strip('"'))
+        assert numbers == [f'{number}"' for number in range(first, first + len(numbers))]
+
+
+def test_t9_the_counter_grows_by_two_with_each_number(router: str):
+    with (
+        running_demo(router, "number_counter") as counter,
+        running_demo(router, "number_publisher"),
+    ):
+        for total in (2, 4, 6):
+            counter.wait_for(f"Counter: {total}\n")
+
+
+@pytest.mark.parametrize(
+    ("demo", "name", "text"),
+    [
+        ("timer_node", "timer_node", 'Publishing: "Timer message: 1"'),
+        ("print_forever", "print_forever", "Printed 1 times."),
+        ("my_tiny_node", "my_tiny_node", "Hello 1"),
+        ("basic_node", "basic_node", "Basic Node initialized"),
+        ("hello_world", "node_helloworld_class", "Hello World"),
+    ],
+)
+def test_t10_logs_appear_live_on_rosout(router: str, demo: str, name: str, text: str):
+    latched = QoSProfile(depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    with node_at(router) as node, running_demo(router, demo):
+        logs = heard(node, "rcl_interfaces/msg/Log", "/rosout", latched)
+        wait_until(
+            f"{text} logged", lambda: any((log.name, log.msg) == (name, text) for log in logs)
+        )
+
+
+def test_t10_the_timer_node_publishes_every_half_second(router: str):
+    with node_at(router) as node, running_demo(router, "timer_node"):
+        messages = heard(node, "std_msgs/msg/String", "/timer_topic")
+        wait_until("three messages", lambda: len(messages) >= 3)
+        numbers = [int(one.data.removeprefix("Timer message: ")) for one in messages[:3]]
+        assert numbers == list(range(numbers[0], numbers[0] + 3))
+
+
+def test_t11_a_type_of_ones_own_is_published_without_a_build(router: str):
+    with node_at(router) as node, running_demo(router, "telemetry_publisher"):
+        told = heard(node, "my_robot_interfaces/msg/CustomTelemetry", "/telemetry")
+        wait_until("telemetry", lambda: len(told) >= 2)
+        assert told[0].battery_voltage > told[1].battery_voltage > 10.0
+        assert (told[0].header.frame_id, told[0].status) == ("base_link", "ok")
+
+
+def test_t12_the_temperature_pair_speaks_of_degrees(router: str):
+    with (
+        running_demo(router, "temperature_subscriber") as subscriber,
+        running_demo(router, "temperature_publisher"),
+    ):
+        subscriber.wait_for(" of 2")
+        assert "C, mean 2" in subscriber.printed
+
+
+def test_t4_one_who_comes_late_gets_the_kept_message(router: str):
+    latched = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    with running_demo(router, "qos_topic_node"), node_at(router) as early:
+        heard_early = heard(early, "std_msgs/msg/String", "/reliable_topic", latched)
+        wait_until("the first one", lambda: bool(heard_early))
+        with node_at(router, "late") as late:
+            kept = heard(late, "std_msgs/msg/String", "/reliable_topic", latched)
+            wait_until("what was kept", lambda: bool(kept))
+            assert kept[0].data == "kept for you: 0"

@@ -1,0 +1,121 @@
+"""Demo nodes in processes of their own, and a node of the test that speaks with them."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+from contextlib import contextmanager, suppress
+from typing import TYPE_CHECKING, Any
+
+from studio.nodes.demos.starting import environment_for
+from studio.nodes.demos.table import find_demo
+from studio.ros.client import Context, ExternalShutdownException, Node, SingleThreadedExecutor
+from studio.ros.messages import message, shared_types
+from studio.ros.wire.settings import WireSettings
+from tests.support.wire import open_test_session, wait_until
+
+if TYPE_CHECKING:
+    from collections.abc import Generator
+
+    from studio.ros.client import QoSProfile
+
+ENDS_WITHIN_S = 2.0
+
+
+class RunningDemo:
+    """A process, and what it has printed so far; its log is on stderr, both are read as one."""
+
+    def __init__(self, words: list[str], environment: dict[str, str]) -> None:
+        self.process = subprocess.Popen(
+            words,
+            env=environment,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            start_new_session=True,
+        )
+        self.lines: list[str] = []
+        self._reader = threading.Thread(target=self._read)
+        self._reader.start()
+
+    @property
+    def printed(self) -> str:
+        return "".join(self.lines)
+
+    def wait_for(self, text: str) -> None:
+        """Wait until it has printed a text; its end is no reason to wait longer."""
+        wait_until(f"{text!r} printed", lambda: text in self.printed or not self._reader.is_alive())
+        assert text in self.printed, self.printed
+
+    def wait(self, patience_s: float = 30.0) -> int:
+        code = self.process.wait(patience_s)
+        self._reader.join()
+        return code
+
+    def stop(self, number: int = signal.SIGINT) -> int:
+        """Send a signal to its whole group, as a terminal does; it has two seconds to end."""
+        if self.process.poll() is None:
+            os.killpg(self.process.pid, number)
+        return self.wait(ENDS_WITHIN_S)
+
+    def close(self) -> None:
+        if self.process.poll() is None:
+            os.killpg(self.process.pid, signal.SIGKILL)
+        self.wait()
+
+    def _read(self) -> None:
+        assert self.process.stdout is not None
+        with self.process.stdout as printed:
+            self.lines.extend(iter(printed.readline, ""))
+
+
+@contextmanager
+def running_demo(endpoint: str, name: str, *arguments: str) -> Generator[RunningDemo]:
+    """A demo by its name, or by that of an executable, at a router."""
+    demo = find_demo(name)
+    assert demo is not None
+    with running([sys.executable, "-m", demo.module, *arguments], endpoint) as started:
+        yield started
+
+
+@contextmanager
+def running(words: list[str], endpoint: str) -> Generator[RunningDemo]:
+    """Any process that finds the router by its environment."""
+    started = RunningDemo(words, environment_for(WireSettings(connect=(endpoint,))))
+    try:
+        yield started
+    finally:
+        started.close()
+
+
+@contextmanager
+def node_at(endpoint: str, name: str = "tester") -> Generator[Node]:
+    """A node in this process, spun by a thread of its own."""
+    with open_test_session(endpoint, types=shared_types()) as wire:
+        context = Context.over(wire)
+        node = Node(name, context=context)
+        executor = SingleThreadedExecutor(context=context)
+        executor.add_node(node)
+        spinning = threading.Thread(target=_spin, args=(executor,))
+        spinning.start()
+        try:
+            yield node
+        finally:
+            context.shutdown()
+            spinning.join()
+
+
+def heard(node: Node, type_name: str, topic: str, qos: QoSProfile | int = 100) -> list[Any]:
+    """What comes on a topic, for as long as the node lives."""
+    messages: list[Any] = []
+    node.create_subscription(message(type_name), topic, messages.append, qos)
+    return messages
+
+
+def _spin(executor: SingleThreadedExecutor) -> None:
+    with suppress(ExternalShutdownException):
+        executor.spin()
