@@ -10,6 +10,7 @@ import { fromDockview, toDockview } from "./arrangement.js";
 import { headerActions } from "./dock-actions.js";
 import { movePanel, placesFor } from "./dock-places.js";
 import { keepInPlace } from "./frame-place.js";
+import { keepTabOrder } from "./frame-tabs.js";
 import { keepScrolled } from "./scrolled.js";
 import { keepTabsWhole } from "./tight-tabs.js";
 
@@ -61,6 +62,7 @@ export function createDock(element, panels, options) {
     createRightHeaderActionComponent: (group) => headerActions(group, options),
   });
   element.addEventListener("keydown", (event) => onTabKey(api, event));
+  keepTabOrder(element, () => layered(api, panels));
   const tabsChanged = keepTabsWhole(element);
   let quiet = false;
   let single = false;
@@ -228,6 +230,15 @@ function onTabKey(api, event) {
   const next = target % tabs.length;
   group.panels[next]?.api.setActive();
   /** @type {HTMLElement | undefined} */ (tabs[next])?.focus();
+}
+
+/** @param {DockviewApi} api @param {Record<string, Panel>} panels @returns {import("./frame-tabs.js").Layered[]} those that are shown */
+function layered(api, panels) {
+  return api.panels.flatMap((panel) => {
+    const header = panel.group.element.querySelector(".dv-tabs-and-actions-container");
+    const isShown = panels[panel.id]?.keepsFrame && panel.api.isVisible;
+    return isShown && header ? [{ header, content: panel.view.content.element }] : [];
+  });
 }
 
 /** @param {DockviewApi} api */

@@ -35,6 +35,8 @@ _NAMELESS = """() => {
     .filter((one) => one.checkVisibility() && one.type !== "hidden" && !name(one))
     .map((one) => one.outerHTML.slice(0, 160));
 }"""
+_FOCUSED = """() => document.activeElement.getAttribute("aria-label")
+  ?? document.activeElement.innerText.trim()"""
 _NESTED = """() => [...document.querySelectorAll("button button, button a, a button, a a")]
   .map((one) => one.outerHTML.slice(0, 120))"""
 
@@ -166,6 +168,23 @@ def test_tab_begins_with_a_way_past_the_bar(tab: StudioPage):
     assert link.evaluate("it => it === document.activeElement")
     tab.page.keyboard.press("Enter")
     assert tab.page.evaluate("document.activeElement.getAttribute('role')") == "tab"
+
+
+def test_tab_goes_from_the_3d_view_to_its_own_buttons_and_back(tab: StudioPage):
+    tab.page.get_by_role("tab", name="3D view").focus()
+    there = pressed(tab, "Tab", 9)
+    assert (there[0], there[2], there[7]) == ("Help: 3D view", "Fit", "Mouse")
+    back = pressed(tab, "Shift+Tab", 9)
+    assert back == ["3D view", *there[:-1]][::-1]
+
+
+def pressed(tab: StudioPage, key: str, times: int) -> list[str]:
+    """What has the focus after each press."""
+    names: list[str] = []
+    for _ in range(times):
+        tab.page.keyboard.press(key)
+        names.append(tab.page.evaluate(_FOCUSED))
+    return names
 
 
 def test_every_control_of_every_panel_and_window_has_a_name(tab: StudioPage):
