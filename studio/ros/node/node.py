@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from studio.errors import DestroyedError
+from studio.ros.describing import START_PARAMETER, serve_descriptions
 from studio.ros.duration import NANOSECONDS
 from studio.ros.names import as_namespace, check_node_name, expand
 from studio.ros.node.clock import Clock
@@ -22,23 +23,26 @@ from studio.ros.node.subscription import Subscription
 from studio.ros.node.time import ClockType
 from studio.ros.node.timer import Timer
 from studio.ros.node.work import MutuallyExclusiveCallbackGroup
+from studio.ros.parameters.messages import DESCRIPTOR
+from studio.ros.parameters.of_node import NodeParameters
 from studio.ros.qos import QoSProfile, as_profile, qos_profile_services_default
 from studio.ros.tokens import EndpointKind, NodeToken
 from studio.ros.types.classes import MessageValue, definition_of
 from studio.ros.wire.door import declare_token
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable
 
     from studio.ros.graph.graph import Graph
     from studio.ros.node.context import Context
     from studio.ros.node.executor import Executor
     from studio.ros.node.kinds import ServiceKind
     from studio.ros.node.work import CallbackGroup, Work
+    from studio.ros.parameters.parameter import Parameter
     from studio.ros.wire.session import WireSession
 
 
-class Node:
+class Node(NodeParameters):
     """One node; `destroy_node` takes back all that is its own.
 
     Rooms above this one build on it by: `wire` (the session), `context`, `add_work` (work of
@@ -46,13 +50,17 @@ class Node:
     `executor` (None until it spins). The names and arguments of the rest are rclpy's.
     """
 
-    def __init__(
+    def __init__(  # noqa: PLR0913  # as in rclpy
         self,
         node_name: str,
         *,
         context: Context | None = None,
         namespace: str = "/",
         enable_rosout: bool = True,
+        start_parameter_services: bool = True,
+        parameter_overrides: Iterable[Parameter] | None = None,
+        allow_undeclared_parameters: bool = False,
+        automatically_declare_parameters_from_overrides: bool = False,
     ) -> None:
         self._context = joined = context or default_context()
         self._wire: WireSession = joined.wire
@@ -70,6 +78,15 @@ class Node:
         )
         self._shown = declare_token(self._wire.zenoh, str(self._token))
         self._rosout = RosoutPublisher(self) if enable_rosout else None
+        self.open_parameters(
+            self,
+            self._wire.types,
+            overrides=parameter_overrides or (),
+            allow_undeclared=allow_undeclared_parameters,
+            declare_overrides=automatically_declare_parameters_from_overrides,
+            serve=start_parameter_services,
+        )
+        self._describe_types()
         joined.on_close(self.destroy_node)
 
     # Students name attributes of their nodes as they like: what is cached here they may hide.
@@ -327,6 +344,14 @@ class Node:
             self.destroy_publisher(publisher)
         if not self._wire.zenoh.is_closed():
             self._shown.undeclare()
+
+    def _describe_types(self) -> None:
+        """Tell others what types are made of, as nodes do where keys carry hashes."""
+        if not self._wire.profile.has_type_hash:
+            return
+        fixed = self._wire.types.message(DESCRIPTOR)(read_only=True)
+        if self.declare_parameter(START_PARAMETER, value=True, descriptor=fixed).value:
+            serve_descriptions(self, self._wire.types)
 
     def _full_name(self, name: str) -> str:
         return expand(name, self._token.namespace, self._token.name)

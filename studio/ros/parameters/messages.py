@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from studio.ros.types.classes import MessageValue
     from studio.ros.types.library import TypeLibrary
 
+DESCRIPTOR = "rcl_interfaces/msg/ParameterDescriptor"
 _FIELDS = {
     ParameterType.BOOL: "bool_value",
     ParameterType.INTEGER: "integer_value",

@@ -1,0 +1,270 @@
+"""ActionClient: sends goals and hears how they go, by rclpy's names."""
+
+from __future__ import annotations
+
+import threading
+import time
+from typing import TYPE_CHECKING, Any
+
+from studio.errors import ActionServerGoneError, NotServedError, WireError
+from studio.ros.action.client_goal import ClientGoalHandle, waited
+from studio.ros.action.goal_ids import goal_id_message, goal_id_of, new_goal_id
+from studio.ros.action.names import ActionNames
+from studio.ros.action.states import GoalStatus
+from studio.ros.node.codecs import check_kind
+from studio.ros.node.future import Future
+from studio.ros.node.service_client import SERVICE_TIMEOUT_S
+from studio.ros.qos import (
+    QoSProfile,
+    qos_profile_action_status_default,
+    qos_profile_services_default,
+)
+from studio.ros.types.classes import definition_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from studio.ros.node.node import Node
+    from studio.ros.node.service_client import Client
+    from studio.ros.node.work import CallbackGroup
+    from studio.ros.types.classes import MessageValue
+    from studio.ros.types.library import ActionType
+
+FEEDBACK_QOS = QoSProfile(depth=10)
+RESULT_TIMEOUT_S = 365 * 24 * 3600.0
+"""A goal may take as long as it likes: the end of its server ends the wait."""
+
+
+class ActionClient:
+    """Sends the goals of one action.
+
+    Where rclpy would wait for ever, because the node of the server ended, futures end with
+    ActionServerGoneError.
+    """
+
+    def __init__(  # noqa: PLR0913  # as in rclpy
+        self,
+        node: Node,
+        action_type: ActionType,
+        action_name: str,
+        *,
+        callback_group: CallbackGroup | None = None,
+        goal_service_qos_profile: QoSProfile = qos_profile_services_default,
+        result_service_qos_profile: QoSProfile = qos_profile_services_default,
+        cancel_service_qos_profile: QoSProfile = qos_profile_services_default,
+        feedback_sub_qos_profile: QoSProfile = FEEDBACK_QOS,
+        status_sub_qos_profile: QoSProfile = qos_profile_action_status_default,
+    ) -> None:
+        self._node = node
+        self._type = action_type
+        self._name = node.resolve_service_name(action_name)
+        self._lock = threading.Lock()
+        self._listening: dict[bytes, Callable[[Any], object]] = {}
+        self._goals: dict[bytes, ClientGoalHandle] = {}
+        self._waiting: set[Future[Any]] = set()
+        self._names = names = ActionNames.of(self._name)
+        types = node.wire.types
+        cancel_type = types.service("action_msgs/srv/CancelGoal")
+        self._send, self._cancel, self._result = (
+            node.create_client(
+                kind, name, qos_profile=qos, callback_group=callback_group, timeout_s=timeout_s
+            )
+            for kind, name, qos, timeout_s in (
+                (
+                    action_type.SendGoal,
+                    names.send_goal,
+                    goal_service_qos_profile,
+                    SERVICE_TIMEOUT_S,
+                ),
+                (cancel_type, names.cancel_goal, cancel_service_qos_profile, SERVICE_TIMEOUT_S),
+                (
+                    action_type.GetResult,
+                    names.get_result,
+                    result_service_qos_profile,
+                    RESULT_TIMEOUT_S,
+                ),
+            )
+        )
+        self._goal_info_type = types.message("action_msgs/msg/GoalInfo")
+        self._subscriptions = [
+            node.create_subscription(
+                action_type.FeedbackMessage,
+                names.feedback,
+                self._on_feedback,
+                feedback_sub_qos_profile,
+                callback_group=callback_group,
+            ),
+            node.create_subscription(
+                types.message("action_msgs/msg/GoalStatusArray"),
+                names.status,
+                self._on_status,
+                status_sub_qos_profile,
+                callback_group=callback_group,
+            ),
+        ]
+        self._was_ready = False
+        self._graph = node.graph
+        self._unwatch = self._graph.on_change(self._look)
+        node.on_destroy(self._unwatch)
+        self._look()
+
+    @property
+    def action_type(self) -> ActionType:
+        """The type of the action."""
+        return self._type
+
+    @property
+    def action_name(self) -> str:
+        """The full name of the action."""
+        return self._name
+
+    def server_is_ready(self) -> bool:
+        """Whether a node serves all parts of the action."""
+        return all(one.service_is_ready() for one in (self._send, self._cancel, self._result))
+
+    def wait_for_server(self, timeout_sec: float | None = None) -> bool:
+        """Wait until a node serves the action; False when none does in time."""
+        end_s = None if timeout_sec is None else time.monotonic() + timeout_sec
+        for client in (self._send, self._cancel, self._result):
+            left_s = None if end_s is None else max(0.0, end_s - time.monotonic())
+            if not client.wait_for_service(timeout_sec=left_s):
+                return False
+        return True
+
+    def send_goal_async(
+        self,
+        goal: MessageValue,
+        feedback_callback: Callable[[Any], object] | None = None,
+        goal_uuid: MessageValue | None = None,
+    ) -> Future[ClientGoalHandle]:
+        """Send a goal; becomes its handle, which says whether it was accepted.
+
+        The callback is given messages with `goal_id` and `feedback`.
+
+        Raises:
+            MessageValueError: It is no goal of this action.
+        """
+        check_kind(definition_of(self._type.Goal), goal)
+        goal_id = goal_uuid or goal_id_message(self._node.wire.types, new_goal_id())
+        if feedback_callback is not None:
+            # Before it is sent: the first feedback may come before the answer.
+            with self._lock:
+                self._listening[goal_id_of(goal_id)] = feedback_callback
+        return self._ask(
+            self._send,
+            self._type.SendGoal.Request(goal_id=goal_id, goal=goal),
+            NotServedError("action", self._name),
+            lambda reply: self._answered(goal_id, reply),
+        )
+
+    def send_goal(self, goal: MessageValue, **options: Any) -> Any:  # noqa: ANN401
+        """Send a goal and wait for its result; never within a callback.
+
+        Gives a response with `status` and `result`, None when the goal was refused.
+
+        Raises:
+            ActionServerGoneError: The server ended.
+        """
+        handle: ClientGoalHandle = waited(self.send_goal_async(goal, **options))
+        return handle.get_result() if handle.accepted else None
+
+    def cancel_goal(self, goal: ClientGoalHandle) -> Future[Any]:
+        """Ask that a goal end; of goals."""
+        info = self._goal_info_type(goal_id=goal.goal_id)
+        request = self._cancel.srv_type.Request(goal_info=info)
+        return self._ask(self._cancel, request, ActionServerGoneError(self._name))
+
+    def get_result(self, goal: ClientGoalHandle) -> Future[Any]:
+        """Ask for the result of a goal; of goals."""
+        return self._ask(
+            self._result,
+            self._type.GetResult.Request(goal_id=goal.goal_id),
+            ActionServerGoneError(self._name),
+            lambda reply: self._ended(goal, reply),
+        )
+
+    def destroy(self) -> None:
+        """Take it back; futures that wait end with an error."""
+        self._unwatch()
+        for subscription in self._subscriptions:
+            self._node.destroy_subscription(subscription)
+        for client in (self._send, self._cancel, self._result):
+            self._node.destroy_client(client)
+        self._give_up()
+
+    def _ask(
+        self,
+        client: Client,
+        request: MessageValue,
+        unserved: WireError,
+        follow: Callable[[Any], Any] = lambda reply: reply,
+    ) -> Future[Any]:
+        """Ask the server; what becomes of the answer is what `follow` gives for the reply."""
+        asked = client.call_async(request)
+        answer: Future[Any] = Future(executor=self._node.executor)
+        with self._lock:
+            self._waiting.add(answer)
+
+        def settle() -> None:
+            error = asked.exception()
+            if asked.cancelled():
+                answer.cancel()
+            elif error is not None:
+                answer.set_exception(unserved if isinstance(error, NotServedError) else error)
+            else:
+                answer.set_result(follow(asked.result()))
+
+        def end() -> None:
+            with self._lock:
+                self._waiting.discard(answer)
+            asked.cancel()
+
+        asked.listen(settle)
+        answer.listen(end)
+        return answer
+
+    def _look(self) -> None:
+        """Give up what waits when the server that was there is there no more."""
+        ready = bool(self._graph.servers(self._names.send_goal))
+        was_ready, self._was_ready = self._was_ready, ready
+        if was_ready and not ready:
+            self._give_up()
+
+    def _give_up(self) -> None:
+        with self._lock:
+            waiting = list(self._waiting)
+        for future in waiting:
+            future.set_exception(ActionServerGoneError(self._name))
+
+    def _answered(self, goal_id: MessageValue, reply: MessageValue) -> ClientGoalHandle:
+        goal = ClientGoalHandle(self, goal_id, reply)
+        with self._lock:
+            if goal.accepted:
+                self._goals[goal_id_of(goal_id)] = goal
+            else:
+                self._listening.pop(goal_id_of(goal_id), None)
+        return goal
+
+    def _ended(self, goal: ClientGoalHandle, reply: MessageValue) -> MessageValue:
+        goal.told(_status_of(reply.status))
+        with self._lock:
+            self._listening.pop(goal_id_of(goal.goal_id), None)
+            self._goals.pop(goal_id_of(goal.goal_id), None)
+        return reply
+
+    def _on_feedback(self, message: MessageValue) -> object:
+        with self._lock:
+            callback = self._listening.get(goal_id_of(message.goal_id))
+        # What it returns goes to the executor, which carries out coroutines too.
+        return callback(message) if callback is not None else None
+
+    def _on_status(self, message: MessageValue) -> None:
+        for told in message.status_list:
+            with self._lock:
+                goal = self._goals.get(goal_id_of(told.goal_info.goal_id))
+            if goal is not None:
+                goal.told(_status_of(told.status))
+
+
+def _status_of(number: int) -> GoalStatus:
+    return GoalStatus(number) if number in set(GoalStatus) else GoalStatus.UNKNOWN

@@ -1,0 +1,306 @@
+"""ActionServer: takes goals, works on them and tells how they go, by rclpy's names."""
+
+from __future__ import annotations
+
+import traceback
+from typing import TYPE_CHECKING, Any
+
+from studio.errors import MessageValueError
+from studio.ros.action.answers import (
+    CancelResponse,
+    GoalResponse,
+    called,
+    default_cancel_callback,
+    default_goal_callback,
+    default_handle_accepted_callback,
+)
+from studio.ros.action.cancelling import CancelCode, goals_meant
+from studio.ros.action.goal_ids import goal_id_of
+from studio.ros.action.names import ActionNames
+from studio.ros.action.server_goal import ServerGoalHandle
+from studio.ros.action.server_goals import ServerGoals
+from studio.ros.action.states import GoalEvent, GoalStatus, can_follow
+from studio.ros.node.codecs import check_kind
+from studio.ros.node.future import Future
+from studio.ros.node.time import stamp_ns
+from studio.ros.node.work import ReentrantCallbackGroup
+from studio.ros.qos import (
+    QoSProfile,
+    qos_profile_action_status_default,
+    qos_profile_services_default,
+)
+from studio.ros.types.classes import definition_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from studio.ros.node.node import Node
+    from studio.ros.node.work import CallbackGroup
+    from studio.ros.types.classes import MessageValue
+    from studio.ros.types.library import ActionType
+
+RESULT_TIMEOUT_S = 900
+FEEDBACK_QOS = QoSProfile(depth=10)
+
+
+class ActionServer:
+    """Serves one action; several goals may be under way at once.
+
+    Callbacks may be functions or coroutines. One that raises aborts its goal, and its error goes
+    to the log. Results are kept for `result_timeout` seconds after the end of a goal.
+    """
+
+    def __init__(  # noqa: PLR0913  # as in rclpy
+        self,
+        node: Node,
+        action_type: ActionType,
+        action_name: str,
+        execute_callback: Callable[[ServerGoalHandle], Any],
+        *,
+        callback_group: CallbackGroup | None = None,
+        goal_callback: Callable[[Any], Any] = default_goal_callback,
+        handle_accepted_callback: Callable[[ServerGoalHandle], Any] = (
+            default_handle_accepted_callback
+        ),
+        cancel_callback: Callable[[ServerGoalHandle], Any] = default_cancel_callback,
+        goal_service_qos_profile: QoSProfile = qos_profile_services_default,
+        result_service_qos_profile: QoSProfile = qos_profile_services_default,
+        cancel_service_qos_profile: QoSProfile = qos_profile_services_default,
+        feedback_pub_qos_profile: QoSProfile = FEEDBACK_QOS,
+        status_pub_qos_profile: QoSProfile = qos_profile_action_status_default,
+        result_timeout: float = RESULT_TIMEOUT_S,
+    ) -> None:
+        self._node = node
+        self._type = action_type
+        self._goals = ServerGoals(result_timeout)
+        self._status_type = node.wire.types.message("action_msgs/msg/GoalStatusArray")
+        self._goal_status_type = node.wire.types.message("action_msgs/msg/GoalStatus")
+        self._goal_info_type = node.wire.types.message("action_msgs/msg/GoalInfo")
+        self.register_goal_callback(goal_callback)
+        self.register_handle_accepted_callback(handle_accepted_callback)
+        self.register_cancel_callback(cancel_callback)
+        self.register_execute_callback(execute_callback)
+        names = ActionNames.of(node.resolve_service_name(action_name))
+        self._feedback = node.create_publisher(
+            action_type.FeedbackMessage, names.feedback, feedback_pub_qos_profile
+        )
+        self._status = node.create_publisher(
+            self._status_type, names.status, status_pub_qos_profile
+        )
+        cancel = node.wire.types.service("action_msgs/srv/CancelGoal")
+        self._services = [
+            node.create_service(
+                action_type.GetResult,
+                names.get_result,
+                self._on_get_result,
+                qos_profile=result_service_qos_profile,
+                # Each request waits for the end of its goal, and must not keep others waiting.
+                callback_group=ReentrantCallbackGroup(),
+            ),
+            node.create_service(
+                cancel,
+                names.cancel_goal,
+                self._on_cancel,
+                qos_profile=cancel_service_qos_profile,
+                callback_group=callback_group,
+            ),
+            node.create_service(
+                action_type.SendGoal,
+                names.send_goal,
+                self._on_send_goal,
+                qos_profile=goal_service_qos_profile,
+                callback_group=callback_group,
+            ),
+        ]
+        node.on_destroy(self._let_go)
+        self.publish_status()
+
+    @property
+    def action_type(self) -> ActionType:
+        """The type of the action."""
+        return self._type
+
+    def register_goal_callback(self, goal_callback: Callable[[Any], Any] | None) -> None:
+        """Decide with another callback whether a goal is taken; None takes all."""
+        self._goal_callback = goal_callback or default_goal_callback
+
+    def register_handle_accepted_callback(
+        self, handle_accepted_callback: Callable[[ServerGoalHandle], Any] | None
+    ) -> None:
+        """Begin goals with another callback; None begins them at once."""
+        self._accepted_callback = handle_accepted_callback or default_handle_accepted_callback
+
+    def register_cancel_callback(
+        self, cancel_callback: Callable[[ServerGoalHandle], Any] | None
+    ) -> None:
+        """Decide with another callback whether a goal may end; None lets none."""
+        self._cancel_callback = cancel_callback or default_cancel_callback
+
+    def register_execute_callback(
+        self, execute_callback: Callable[[ServerGoalHandle], Any]
+    ) -> None:
+        """Work on goals with another callback.
+
+        Raises:
+            TypeError: It cannot be called.
+        """
+        if not callable(execute_callback):
+            raise TypeError("execute_callback must be a function that takes the goal handle")
+        self._execute_callback = execute_callback
+
+    def destroy(self) -> None:
+        """Take the action back; goals under way end without a result for their clients."""
+        services, self._services = self._services, []
+        for service in services:
+            self._node.destroy_service(service)
+        self._let_go()
+        for publisher in (self._feedback, self._status):
+            self._node.destroy_publisher(publisher)
+
+    def _let_go(self) -> None:
+        """End the requests that wait for results: they are answered no more."""
+        for goal in self._goals.all():
+            goal.result.set_result(self._type.Result())
+
+    def new_future(self) -> Future[Any]:
+        """Make what becomes the result of a goal; of goals."""
+        return Future()
+
+    def execute(
+        self, goal: ServerGoalHandle, callback: Callable[[ServerGoalHandle], Any] | None
+    ) -> None:
+        """Have the work on a goal carried out; of goals."""
+        self._create_task(self._execute(goal, callback or self._execute_callback))
+
+    def publish_feedback(self, goal: ServerGoalHandle, feedback: MessageValue) -> None:
+        """Tell how far a goal is; of goals.
+
+        Raises:
+            MessageValueError: It is no feedback of this action.
+        """
+        expected = definition_of(self._type.Feedback).name
+        if type(feedback).__name__ != self._type.Feedback.__name__:
+            raise MessageValueError(expected, "a value of it is expected as feedback")
+        self._feedback.publish(self._type.FeedbackMessage(goal_id=goal.goal_id, feedback=feedback))
+
+    def publish_status(self) -> None:
+        """Tell how far every goal is; of goals."""
+        self._status.publish(
+            self._status_type(
+                status_list=[
+                    self._goal_status_type(goal_info=goal.info, status=int(goal.status))
+                    for goal in self._goals.all()
+                ]
+            )
+        )
+
+    def forget(self, goal: ServerGoalHandle) -> None:
+        """Know a goal no more; of goals."""
+        self._goals.remove(goal)
+
+    async def _on_send_goal(self, request: MessageValue, response: MessageValue) -> MessageValue:
+        goal_id = goal_id_of(request.goal_id)
+        if await self._decide(self._goal_callback, request.goal) != GoalResponse.ACCEPT:
+            return response
+        stamp = self._node.get_clock().now().to_msg()
+        info = self._goal_info_type(goal_id=request.goal_id, stamp=stamp)
+        goal = self._goals.add(
+            goal_id, lambda: ServerGoalHandle(self, info, request.goal, stamp_ns(stamp))
+        )
+        if goal is None:
+            self._node.get_logger().error(
+                f"A goal was refused: one with the id {goal_id.hex()} is known already."
+            )
+            return response
+        self.publish_status()
+        response.accepted, response.stamp = True, stamp
+        # After the answer: a client must not hear of the end before it heard of the beginning.
+        self._create_task(self._begin(goal))
+        return response
+
+    async def _on_cancel(self, request: MessageValue, response: MessageValue) -> MessageValue:
+        goals = {goal.known.goal_id: goal for goal in self._goals.all()}
+        asked = request.goal_info
+        meant, code = goals_meant(
+            [goal.known for goal in goals.values()],
+            goal_id_of(asked.goal_id),
+            stamp_ns(asked.stamp),
+        )
+        for known in meant:
+            goal = goals[known.goal_id]
+            decided = await self._decide(self._cancel_callback, goal)
+            # It may have come to its end while the callback was deciding.
+            if decided == CancelResponse.ACCEPT and can_follow(goal.status, GoalEvent.CANCEL_GOAL):
+                goal.change(GoalEvent.CANCEL_GOAL)
+                response.goals_canceling.append(goal.info)
+        if meant and not response.goals_canceling:
+            code = CancelCode.ERROR_REJECTED
+        response.return_code = int(code)
+        return response
+
+    async def _on_get_result(self, request: MessageValue, response: MessageValue) -> MessageValue:
+        goal = self._goals.find(goal_id_of(request.goal_id))
+        if goal is None:
+            response.status = int(GoalStatus.UNKNOWN)
+            return response
+        response.result = await goal.result
+        response.status = int(goal.status)
+        return response
+
+    async def _decide(self, callback: Callable[[Any], Any], about: object) -> Any:  # noqa: ANN401
+        """Ask a callback of the user's; one that raises says no."""
+        try:
+            return await called(callback, about)
+        except Exception as error:  # noqa: BLE001
+            self._say_raised(callback, error)
+            return None
+
+    async def _begin(self, goal: ServerGoalHandle) -> None:
+        try:
+            await called(self._accepted_callback, goal)
+        except Exception as error:  # noqa: BLE001  # of a callback of the user's
+            self._say_raised(self._accepted_callback, error)
+            if goal.status is GoalStatus.ACCEPTED:
+                goal.change(GoalEvent.EXECUTE)
+                self._end(goal, None)
+
+    async def _execute(
+        self, goal: ServerGoalHandle, callback: Callable[[ServerGoalHandle], Any]
+    ) -> None:
+        try:
+            result = await called(callback, goal)
+        except Exception as error:  # noqa: BLE001  # of a callback of the user's
+            self._say_raised(callback, error)
+            self._end(goal, None)
+            return
+        if goal.is_active:
+            self._node.get_logger().warning(
+                "Goal state not set, assuming aborted: call succeed(), abort() or canceled() "
+                "on the goal handle before the result is returned."
+            )
+        self._end(goal, result)
+
+    def _end(self, goal: ServerGoalHandle, result: object) -> None:
+        """Make the result known; a goal whose state nobody set is aborted."""
+        kind = self._type.Result
+        if goal.is_active:
+            goal.abort()
+        try:
+            given = kind() if result is None else check_kind(definition_of(kind), result)
+        except MessageValueError as error:
+            self._node.get_logger().error(f"The result of a goal is left empty: {error}")
+            given = kind()
+        self._goals.end(goal)
+        goal.result.set_result(given)
+
+    def _say_raised(self, callback: Callable[..., Any], error: Exception) -> None:
+        name = getattr(callback, "__name__", "a callback")
+        said = "".join(traceback.format_exception(error)[-2:]).strip()
+        self._node.get_logger().error(f"Error raised in {name} of the action: {said}")
+
+    def _create_task(self, coroutine: Any) -> None:  # noqa: ANN401
+        executor = self._node.executor
+        if executor is not None:
+            executor.create_task(coroutine)
+        else:
+            coroutine.close()
