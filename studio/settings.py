@@ -38,11 +38,6 @@ class WireChoice:
     """Zenoh endpoints of routers; empty: the usual one of this machine."""
     domain: int | None = None
 
-    @property
-    def shown(self) -> str:
-        """Where a router is looked for, in words; empty: where the environment says."""
-        return self.router if self.router not in {"auto", "off"} else ", ".join(self.connect)
-
 
 @dataclass(frozen=True, slots=True)
 class Settings:

@@ -9,6 +9,7 @@ import { DialogHelp } from "./help.js";
 import { LaunchDialog } from "./launch-dialog.js";
 import { MergeDialog } from "./merge-dialog.js";
 import { Palette } from "./palette.js";
+import { RosDialog } from "./ros-status.js";
 import { ShareDialog } from "./share.js";
 import { dialog } from "./state/view.js";
 
@@ -49,6 +50,8 @@ function ShownDialog() {
       return html`<${ShareDialog} link=${shown.link} onClose=${close} />`;
     case "graphics":
       return html`<${GraphicsDialog} onClose=${close} />`;
+    case "ros":
+      return html`<${RosDialog} onClose=${close} />`;
     case "layouts":
       return html`<${LayoutsDialog} onClose=${close} />`;
     case "keys":

@@ -23,6 +23,7 @@ import { followLink } from "./share.js";
 import { Shell } from "./shell.js";
 import { mayEdit, role } from "./state/connection.js";
 import { documentId, history, movable, title, unsaved } from "./state/document.js";
+import { mayMove } from "./state/ros.js";
 import { activePanel, dialog, isFree, languageChoice, selected, theme } from "./state/view.js";
 import { viewport } from "./viewport.js";
 import { connect } from "./wire.js";
@@ -97,13 +98,13 @@ function addPageCommands() {
     {
       id: "zero_joints",
       icon: "zero",
-      enabled: () => EDITING.enabled() && movable.value.length > 0,
+      enabled: () => EDITING.enabled() && mayMove.value && movable.value.length > 0,
       run: zeroJoints,
     },
     {
       id: "animate_joints",
       icon: "animate",
-      enabled: () => EDITING.enabled() && movable.value.length > 0,
+      enabled: () => EDITING.enabled() && mayMove.value && movable.value.length > 0,
       run: toggleAnimation,
     },
     {

@@ -23,6 +23,7 @@ export function menuCommands() {
     ...exportCommands(),
     ...themeCommands(),
     ...graphicsCommands(),
+    { id: "ros", icon: "link", enabled: isFree, run: showRos },
     ...languageCommands(),
   ];
 }
@@ -64,6 +65,7 @@ function openingCommands() {
     { id: "new_pasted", icon: "clipboard", enabled: mayOpen, run: show("paste") },
     { id: "open_recent", icon: "history", enabled: mayOpen, run: show("recent") },
     { id: "open_example", icon: "robot", enabled: mayOpen, run: show("examples") },
+    { id: "open_ros", icon: "link", enabled: mayOpen, run: show("ros") },
     {
       id: "save_as",
       icon: "disk",
@@ -73,6 +75,10 @@ function openingCommands() {
       },
     },
   ];
+}
+
+function showRos() {
+  dialog.value = { kind: "ros" };
 }
 
 function showArguments() {

@@ -12,10 +12,11 @@ import { choosePackage, openPath } from "./actions.js";
 import { EverythingSwitch, FolderList, useBrowser } from "./file-browser.js";
 import { NewForm } from "./new-robot.js";
 import { PasteForm } from "./paste-form.js";
+import { RosForm } from "./ros-form.js";
 import { ExampleCards, RecentList } from "./start-lists.js";
 import { uploadFiles } from "./upload.js";
 
-/** @typedef {"recent" | "browse" | "examples" | "new" | "paste"} OpenTab */
+/** @typedef {"recent" | "browse" | "examples" | "new" | "paste" | "ros"} OpenTab */
 
 const ICONS = /** @type {const} */ ({
   recent: "history",
@@ -23,6 +24,7 @@ const ICONS = /** @type {const} */ ({
   examples: "robot",
   new: "filePlus",
   paste: "clipboard",
+  ros: "link",
 });
 const TABS = /** @type {OpenTab[]} */ (Object.keys(ICONS));
 
@@ -55,6 +57,7 @@ function Page({ tab, onClose }) {
   if (tab === "examples") return html`<${ExampleCards} />`;
   if (tab === "new") return html`<${NewForm} />`;
   if (tab === "paste") return html`<${PasteForm} />`;
+  if (tab === "ros") return html`<${RosForm} />`;
   return html`<${BrowsePage} onClose=${onClose} />`;
 }
 

@@ -9,10 +9,10 @@
 import { effect, signal } from "vendor/preact.js";
 import { moveJoint } from "./actions.js";
 import { isStroke, onKey } from "./commands.js";
-import { mayEdit } from "./state/connection.js";
 import { movable, position, robot } from "./state/document.js";
 import { comparedFrames } from "./state/frame-pair.js";
 import { lights } from "./state/origin.js";
+import { mayMove } from "./state/ros.js";
 import { selectedJoint, selectLink } from "./state/selection.js";
 import {
   degrees,
@@ -138,7 +138,7 @@ function tell(view) {
       const { changed_links: changed = [], moved_links: moved = [] } = lights.value ?? {};
       view.setLit(changed, moved);
     }),
-    effect(() => view.setCanDrag(mayEdit.value)),
+    effect(() => view.setCanDrag(mayMove.value)),
     effect(() => view.setAngleUnit(degrees.value ? "deg" : "rad")),
     tellLinks(view),
   ];
@@ -192,7 +192,7 @@ function listen(view) {
 
 /** @param {{joint: string, value: number, phase: "start" | "move" | "end" | "cancel"}} drag */
 function takeDrag({ joint, value, phase }) {
-  if (!mayEdit.value || phase === "start") return;
+  if (!mayMove.value || phase === "start") return;
   moveJoint(joint, value);
 }
 

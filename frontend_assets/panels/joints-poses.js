@@ -8,6 +8,7 @@ import { applyPose, deletePose, renamePose, savePose, updatePose } from "../app/
 import { mayEdit } from "../app/state/connection.js";
 import { documentState, movable, position } from "../app/state/document.js";
 import { poses } from "../app/state/poses.js";
+import { mayMove } from "../app/state/ros.js";
 import { showSource } from "../app/state/source.js";
 import { dialog } from "../app/state/view.js";
 import { t } from "../lib/i18n.js";
@@ -76,7 +77,7 @@ function PoseRow({ pose, onRename }) {
   // Drawn anew when this changes, not with every frame of a swing.
   const there = useMemo(() => computed(() => isThere(pose)), [pose]).value;
   const notes = notesOf(pose);
-  const off = !mayEdit.value;
+  const off = !mayMove.value;
   return html`<li class=${`pose ${there ? "active" : ""}`}>
     <button type="button" class="pose-choice" aria-pressed=${there} disabled=${off}
       title=${[off ? t("poses.viewer") : t("poses.apply", { name: pose.name }), ...notes].join("\n")} onClick=${() => applyPose(pose.key)}>

@@ -10,8 +10,8 @@ import {
   toggleAnimation,
   zeroJoints,
 } from "../app/actions.js";
-import { mayEdit } from "../app/state/connection.js";
 import { animating, movable, position, robot } from "../app/state/document.js";
+import { mayMove } from "../app/state/ros.js";
 import { selection, selectPart } from "../app/state/selection.js";
 import { degrees, hovered, selected } from "../app/state/view.js";
 import { t } from "../lib/i18n.js";
@@ -22,6 +22,7 @@ import { reveal } from "../lib/seen.js";
 import { Slider, TextBox } from "../lib/slider.js";
 import { EmptyState, Icon, SearchBox } from "../lib/ui.js";
 import { PosesSection } from "./joints-poses.js";
+import { SourceSection } from "./joints-source.js";
 
 export function JointsPanel() {
   const filter = useSignal("");
@@ -37,7 +38,7 @@ export function JointsPanel() {
       <${JointActions} />
     </div>
     <div class="scroll">
-      ${words === "" && html`<${PosesSection} />`}
+      ${words === "" && html`<${SourceSection} /><${PosesSection} />`}
       <${LongList} items=${shown} keyOf=${nameOf} row="66px"
         isKept=${(/** @type {JointView} */ { child }) => selected.value === child}
         draw=${(/** @type {JointView} */ joint) => html`<${JointRow} key=${joint.name} joint=${joint} />`} />
@@ -57,7 +58,7 @@ function Nothing({ words }) {
 }
 
 function JointActions() {
-  const off = !mayEdit.value || movable.value.length === 0;
+  const off = !mayMove.value || movable.value.length === 0;
   const toggleUnit = () => {
     degrees.value = !degrees.value;
   };
@@ -110,7 +111,7 @@ function jointHint({ name, type, parent, child }) {
 function JointBox({ joint }) {
   const { unit, show, take, step } = unitsOf(joint, degrees.value);
   const value = show(position(joint.name).value);
-  const off = !mayEdit.value || joint.mimic !== "";
+  const off = !mayMove.value || joint.mimic !== "";
   /** @param {string} typed */
   const onWrite = (typed) => {
     const number = parseNumber(typed);
@@ -128,7 +129,7 @@ function JointSlider({ joint }) {
   const value = show(position(joint.name).value);
   const end = (/** @type {number} */ limit) => `${formatNumber(show(limit), unit === "°" ? 4 : 3)}`;
   return html`<${Slider} label=${t("joint.slider", { name: joint.name })} min=${show(lower)} max=${show(upper)} step=${step}
-      value=${value} text=${`${formatNumber(value, 4)} ${unit}`} disabled=${!mayEdit.value || joint.mimic !== ""}
+      value=${value} text=${`${formatNumber(value, 4)} ${unit}`} disabled=${!mayMove.value || joint.mimic !== ""}
       onMove=${(/** @type {number} */ moved) => moveJoint(joint.name, take(moved))} onEnd=${jointsSettled} />
     <div class="limits"><span>${end(lower)}</span><span>${limited ? "" : t("joint.unlimited")}</span><span>${end(upper)}</span></div>`;
 }

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from studio.settings import Settings
 
 _HIGHEST_PORT = 65535
+_HIGHEST_DOMAIN = 232
 
 
 def add_server_options(parser: argparse.ArgumentParser) -> None:
@@ -31,7 +32,30 @@ def add_server_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--viewer-link", action="store_true", help="print an address for those who only look, too"
     )
+    _add_wire_options(parser)
     add_read_options(parser)
+
+
+def _add_wire_options(parser: argparse.ArgumentParser) -> None:
+    """How ROS 2 is joined, once the page asks for it."""
+    wire = parser.add_argument_group("ROS 2 over Zenoh")
+    wire.add_argument(
+        "--connect",
+        action="append",
+        default=[],
+        metavar="ENDPOINT",
+        help="the router, for example tcp/192.0.2.7:7447 (default: tcp/127.0.0.1:7447)",
+    )
+    wire.add_argument(
+        "--domain", type=_domain, metavar="N", help="the domain (default: ROS_DOMAIN_ID, else 0)"
+    )
+    wire.add_argument(
+        "--router",
+        default="auto",
+        metavar="auto|off|ENDPOINT",
+        help="where no router answers: auto starts one in this process for this machine, off "
+        "starts none (default: auto)",
+    )
 
 
 def add_read_options(parser: argparse.ArgumentParser) -> None:
@@ -61,6 +85,13 @@ def _port(text: str) -> int:
     return number
 
 
+def _domain(text: str) -> int:
+    number = int(text)
+    if not 0 <= number <= _HIGHEST_DOMAIN:
+        raise argparse.ArgumentTypeError(f"{number} is no domain: 0 to {_HIGHEST_DOMAIN}")
+    return number
+
+
 def package_paths(options: argparse.Namespace) -> tuple[Path, ...]:
     """All `--package-path`, each of which may hold several, as PATH does."""
     parts = (part for given in options.package_path for part in given.split(os.pathsep))
@@ -68,10 +99,19 @@ def package_paths(options: argparse.Namespace) -> tuple[Path, ...]:
 
 
 def server_settings(options: argparse.Namespace) -> Settings:
-    """What the options of a command that starts the server come to."""
-    from studio.settings import Settings, data_folder
+    """What the options of a command that starts the server come to.
+
+    Raises:
+        SettingsError: The data folder cannot be used.
+        WireSettingsError: `--router` or `--connect` names no endpoint.
+    """
+    from studio.ros.wire.endpoints import parse_endpoint
+    from studio.settings import Settings, WireChoice, data_folder
     from studio.web.credentials import new_token
 
+    router = () if options.router in {"auto", "off"} else (options.router,)
+    for endpoint in (*options.connect, *router):
+        parse_endpoint(endpoint)
     return Settings(
         host=options.host,
         port=options.port,
@@ -80,6 +120,7 @@ def server_settings(options: argparse.Namespace) -> Settings:
         package_paths=package_paths(options),
         trusted=options.trust,
         open_browser=not options.no_browser,
+        wire=WireChoice(options.router, tuple(options.connect), options.domain),
     )
 
 

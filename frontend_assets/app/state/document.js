@@ -16,6 +16,7 @@ import { linkTree } from "../../lib/tree.js";
 import { role, session, version } from "./connection.js";
 import { takeLeftWork, takeRestored } from "./keeping.js";
 import { takePoses } from "./poses.js";
+import { takeFeed, takeRos } from "./ros.js";
 import { takeTextNews } from "./source.js";
 import { takeComparison, takeVariants } from "./variants.js";
 
@@ -204,6 +205,8 @@ const TAKERS = {
   texts_changed: takeTextNews,
   variants: takeVariants,
   poses: takePoses,
+  wire_state: takeRos,
+  wire_feed: takeFeed,
   comparison: takeComparison,
   disk_merged: (event) => {
     diskMerged.value = event;

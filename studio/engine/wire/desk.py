@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 from studio.engine.listeners import Audience, tell
 from studio.engine.lookout import Lookout
 from studio.engine.messages.wire import WireState
+from studio.engine.wire.plan import planned_wire
 from studio.errors import CommandError, StudioError
 
 if TYPE_CHECKING:
@@ -117,16 +118,7 @@ class WireDesk:
     def _state(self) -> WireState:
         link = self._link
         if link is None:
-            return WireState(
-                state=self._phase,
-                router="",
-                endpoint=self._choice.shown,
-                domain=self._choice.domain or 0,
-                distro="",
-                nodes=(),
-                node_count=0,
-                trouble=self._trouble,
-            )
+            return self._state_without()
         nodes = link.node_names() if link.is_connected else []
         return WireState(
             state="connected" if link.is_connected else "lost",
@@ -137,4 +129,23 @@ class WireDesk:
             nodes=tuple(nodes[:_NODES_SHOWN]),
             node_count=len(nodes),
             trouble="",
+        )
+
+    def _state_without(self) -> WireState:
+        """How it stands while there is no connection; what the environment says may be wrong."""
+        trouble, endpoint, domain = self._trouble, "", 0
+        try:
+            planned = planned_wire(self._choice)
+            endpoint, domain = ", ".join(planned.connect), planned.domain
+        except StudioError as error:
+            trouble = str(error)
+        return WireState(
+            state=self._phase,
+            router="",
+            endpoint=endpoint,
+            domain=domain,
+            distro="",
+            nodes=(),
+            node_count=0,
+            trouble=trouble,
         )

@@ -10,6 +10,7 @@ import time
 from typing import TYPE_CHECKING, Final
 
 from studio.engine.wire.following import Following
+from studio.engine.wire.plan import planned_wire
 from studio.errors import CommandError, ExternalShutdownException
 from studio.nodes.joint_reading import JointReading
 from studio.nodes.joint_state_publisher import JointStatePublisher
@@ -22,7 +23,6 @@ from studio.ros.node.executor import SingleThreadedExecutor
 from studio.ros.node.node import Node
 from studio.ros.qos import QoSProfile, ReliabilityPolicy
 from studio.ros.wire.opening import open_wire
-from studio.ros.wire.settings import wire_settings
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -49,7 +49,7 @@ class WireLink:
     """
 
     def __init__(self, choice: WireChoice, changed: Callable[[], None]) -> None:
-        settings = wire_settings(choice.connect, choice.domain)
+        settings = planned_wire(choice)
         self._wire = open_wire(settings, choice.router, types_of(settings.profile.distro))
         self._context = Context.over(self._wire, owns_wire=True)
         self._executor = SingleThreadedExecutor(context=self._context)

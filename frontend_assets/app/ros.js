@@ -1,0 +1,41 @@
+/** What a person can ask of ROS 2. */
+
+/** @import { WireRobots } from "../types/wire.d.ts" */
+
+import { ask, goTo } from "./actions.js";
+import { RefusedError, send } from "./wire.js";
+
+export const connectRos = () => ask({ type: "connect_wire" });
+
+/** @param {"sliders" | "animation" | "joint_states" | "tf"} source of the joints' positions */
+export const chooseSource = (source) => ask({ type: "set_joint_source", source });
+
+/** @param {boolean} running `/robot_description` and TF go out */
+export const publishRobot = (running) => ask({ type: "publish_robot", running });
+
+/** @param {boolean} running `/joint_states` goes out */
+export const publishJoints = (running) => ask({ type: "publish_joints", running });
+
+/** @returns {Promise<WireRobots | string>} or why they are not known */
+export async function findRobots() {
+  try {
+    const answer = await send({ type: "find_wire_robots" });
+    return answer.type === "wire_robots" ? answer : "…";
+  } catch (error) {
+    return error instanceof RefusedError ? error.message : "…";
+  }
+}
+
+/**
+ * @param {{topic: string} | {node: string, parameter: string}} place where its description is told
+ * @returns {Promise<string>} why it was not opened; empty: it was
+ */
+export async function openFromRos(place) {
+  try {
+    const answer = await send({ type: "open_from_wire", ...place });
+    if (answer.type === "opened") goTo(answer.document);
+    return "";
+  } catch (error) {
+    return error instanceof RefusedError ? error.message : "…";
+  }
+}

@@ -1,0 +1,92 @@
+/** Above the joints: who moves them, and what of them and of the robot goes out to ROS 2. */
+
+import { html, useSignal } from "vendor/preact.js";
+import { chooseSource, publishJoints, publishRobot } from "../app/ros.js";
+import { mayEdit } from "../app/state/connection.js";
+import { animating, movable, robot } from "../app/state/document.js";
+import { feed, ros } from "../app/state/ros.js";
+import { t } from "../lib/i18n.js";
+import { remembered } from "../lib/remembered.js";
+import { Icon, Switch } from "../lib/ui.js";
+
+/** @typedef {"sliders" | "animation" | "joint_states" | "tf"} Source */
+const SOURCES = /** @type {const} */ (["sliders", "animation", "joint_states", "tf"]);
+
+const folded = remembered("joints.source.folded", false);
+
+export function SourceSection() {
+  if (!robot.value) return null;
+  const toggle = () => {
+    folded.value = !folded.value;
+  };
+  return html`<section class="poses joints-source" aria-label=${t("source_of_joints")}>
+    <header class="poses-head">
+      <button type="button" class="poses-fold" aria-expanded=${!folded.value} onClick=${toggle}>
+        <${Icon} name=${folded.value ? "chevronRight" : "chevronDown"} size=${14} />${t("source_of_joints")}</button>
+      ${folded.value && html`<span class="muted source-short">${t(`source.${sourceNow()}`)}</span>`}
+    </header>
+    ${!folded.value && html`<${Choices} />`}
+  </section>`;
+}
+
+/** @returns {Source} */
+function sourceNow() {
+  const { source } = feed.value;
+  return source === "sliders" && animating.value ? "animation" : source;
+}
+
+function Choices() {
+  const busy = useSignal(false);
+  /** @param {() => Promise<unknown>} change */
+  const run = async (change) => {
+    busy.value = true;
+    await change();
+    busy.value = false;
+  };
+  const { publishes_robot: robotOut, publishes_joints: jointsOut } = feed.value;
+  const { description_from: from, trouble } = feed.value;
+  const off = !mayEdit.value || busy.value;
+  return html`
+    <label class="source-row"><span>${t("source_of_joints.label")}</span>
+      <select class="box" disabled=${off || movable.value.length === 0} value=${sourceNow()} onChange=${(
+        /** @type {any} */ event,
+      ) => run(() => chooseSource(event.currentTarget.value))}>
+        ${SOURCES.map((one) => html`<option key=${one} value=${one} selected=${one === sourceNow()}>${t(`source.${one}`)}</option>`)}
+      </select></label>
+    <${SourceState} />
+    <${PublishRow} label=${t("publish.robot")} topics="/robot_description  /tf" checked=${robotOut} disabled=${off || from !== ""}
+      onChange=${(/** @type {boolean} */ on) => run(() => publishRobot(on))} />
+    <${PublishRow} label=${t("publish.joints")} topics="/joint_states" checked=${jointsOut} disabled=${off}
+      onChange=${(/** @type {boolean} */ on) => run(() => publishJoints(on))} />
+    ${from && html`<p class="note source-note"><${Icon} name="link" size=${12} />${t("source.described", { from })}</p>`}
+    ${trouble && html`<p class="note bad source-note" role="alert"><${Icon} name="alert" size=${12} />${trouble}</p>`}
+    <${RosNote} />`;
+}
+
+/** @param {{label: string, topics: string, checked: boolean, disabled: boolean, onChange: (on: boolean) => void}} props */
+function PublishRow({ label, topics, checked, disabled, onChange }) {
+  return html`<div class="source-row"><span class="source-what">${label}<span class="muted source-topics">${topics}</span></span>
+    <${Switch} label=${label} checked=${checked} disabled=${disabled} onChange=${onChange} /></div>`;
+}
+
+/** Whether positions come from the wire, in words. */
+function SourceState() {
+  const { source_state: state, rate_hz: rate, strangers, joints_paused: paused } = feed.value;
+  if (state === "") return null;
+  const words = t(`source.state.${state}`, { rate, topic: t(`source.${feed.value.source}`) });
+  const tone = state === "live" ? "good" : "amber";
+  return html`<p class=${`note source-note ${tone}`} role="status"><${Icon} name=${state === "live" ? "check" : "alert"} size=${12} />${words}</p>
+    ${strangers.length > 0 && html`<p class="note source-note"><${Icon} name="info" size=${12} />${t("source.strangers", { names: strangers.join(", ") })}</p>`}
+    ${paused && html`<p class="note source-note"><${Icon} name="info" size=${12} />${t("publish.paused")}</p>`}`;
+}
+
+/** What keeps the wire from working, where it is used. */
+function RosNote() {
+  const { state } = ros.value;
+  const { source, publishes_robot: robotOut, publishes_joints: jointsOut } = feed.value;
+  const isUsed = source !== "sliders" || robotOut || jointsOut;
+  if (state === "connecting")
+    return html`<p class="note source-note" role="status"><span class="spinner"></span>${t("ros.connecting")}</p>`;
+  if (state !== "lost" || !isUsed) return null;
+  return html`<p class="note bad source-note" role="alert"><${Icon} name="alert" size=${12} />${t("ros.lost.text")}</p>`;
+}
