@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, Any
 from studio.nodes.demos.starting import environment_for
 from studio.nodes.demos.table import find_demo
 from studio.ros.client import Context, ExternalShutdownException, Node, SingleThreadedExecutor
-from studio.ros.messages import message, shared_types
+from studio.ros.messages import message, service, shared_types
 from studio.ros.wire.settings import WireSettings
-from tests.support.wire import open_test_session, wait_until
+from tests.support.wire import PATIENCE_S, open_test_session, wait_until
 
 if TYPE_CHECKING:
     from collections.abc import Generator
@@ -50,6 +50,10 @@ class RunningDemo:
         """Wait until it has printed a text; its end is no reason to wait longer."""
         wait_until(f"{text!r} printed", lambda: text in self.printed or not self._reader.is_alive())
         assert text in self.printed, self.printed
+
+    def wait_for_more(self, text: str, count: int) -> None:
+        """Wait until it has printed a text once more than so many times."""
+        wait_until(f"{text!r} again", lambda: self.printed.count(text) > count)
 
     def wait(self, patience_s: float = 30.0) -> int:
         code = self.process.wait(patience_s)
@@ -114,6 +118,17 @@ def heard(node: Node, type_name: str, topic: str, qos: QoSProfile | int = 100) -
     messages: list[Any] = []
     node.create_subscription(message(type_name), topic, messages.append, qos)
     return messages
+
+
+def call(node: Node, type_name: str, name: str, **fields: Any) -> Any:  # noqa: ANN401
+    """Ask a service once it is there; gives its answer."""
+    kind = service(type_name)
+    client = node.create_client(kind, name)
+    assert client.wait_for_service(PATIENCE_S), f"nobody serves {name}"
+    try:
+        return client.call(kind.Request(**fields), timeout_sec=PATIENCE_S)
+    finally:
+        node.destroy_client(client)
 
 
 def _spin(executor: SingleThreadedExecutor) -> None:

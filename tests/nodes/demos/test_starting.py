@@ -1,0 +1,79 @@
+from __future__ import annotations
+
+import os
+import signal
+import sys
+import time
+from typing import TYPE_CHECKING
+
+import pytest
+
+from studio.nodes.demos.starting import DemoProcesses, environment_for
+from studio.ros.wire.settings import WireSettings, wire_settings
+from tests.support.demos import ENDS_WITHIN_S, running
+from tests.support.wire import running_router, wait_until
+
+if TYPE_CHECKING:
+    from collections.abc import Generator
+    from pathlib import Path
+
+pytestmark = [pytest.mark.network, pytest.mark.timeout(120)]
+
+STUBBORN = """
+import signal
+for number in (signal.SIGINT, signal.SIGTERM):
+    signal.signal(number, signal.SIG_IGN)
+print("deaf", flush=True)
+signal.pause()
+"""
+
+
+@pytest.fixture(scope="module")
+def router() -> Generator[str]:
+    with running_router() as endpoint:
+        yield endpoint
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_studio_demos_starts_several_and_one_signal_ends_all_within_two_seconds(
+    router: str, number: int
+):
+    words = [sys.executable, "-m", "studio", "demos", "--connect", router, "talker", "listener"]
+    with running(words, router) as demos:
+        demos.wait_for("studio topic echo /chatter")
+        demos.wait_for("I heard:")
+        demos.stop(number)
+        assert "Traceback" not in demos.printed
+
+
+def test_arguments_of_ros_reach_each_demo(router: str):
+    words = [sys.executable, "-m", "studio", "demos", "--connect", router, "talker", "listener"]
+    with running([*words, "--ros-args", "-r", "chatter:=elsewhere"], router) as demos:
+        demos.wait_for("I heard:")
+
+
+def test_one_that_hears_no_signal_is_made_to_end(tmp_path: Path, capfd: pytest.CaptureFixture[str]):
+    (tmp_path / "stubborn.py").write_text(STUBBORN)
+    processes = DemoProcesses({**os.environ, "PYTHONPATH": str(tmp_path)})
+    processes.start("stubborn")
+    wait_until("it runs", lambda: "deaf" in capfd.readouterr().out)
+    began = time.monotonic()
+    processes.end()
+    assert time.monotonic() - began < ENDS_WITHIN_S
+    assert processes.wait() == -signal.SIGKILL
+
+
+def test_the_first_code_that_is_not_zero_is_answered():
+    with DemoProcesses() as processes:
+        processes.start("this")
+        processes.start("no_such_module")
+        assert processes.wait() == 1
+
+
+def test_nodes_join_the_same_routers_and_domain_and_keep_the_rest_of_the_environment():
+    settings = WireSettings(connect=("tcp/127.0.0.1:1", "tcp/127.0.0.1:2"), domain=7)
+    environment = environment_for(settings, {"A": "b", "ZENOH_CONFIG_OVERRIDE": "x=1;y=2"})
+    found = wire_settings(environment=environment)
+    assert (found.connect, found.domain) == (settings.connect, settings.domain)
+    assert found.overrides == {"x": "1", "y": "2"}
+    assert environment["A"] == "b"
