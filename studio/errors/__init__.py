@@ -31,6 +31,7 @@ StudioError
         WireSettingsError
         NoRouterError
         ForeignEndpointError
+        NotAdmittedError
         RouterNotStartedError
         RosNameError
         TokenError
@@ -161,6 +162,7 @@ from studio.errors.wire import (
     InterfaceTextError,
     MessageValueError,
     NoRouterError,
+    NotAdmittedError,
     RosNameError,
     RouterNotStartedError,
     TokenError,
@@ -198,6 +200,7 @@ __all__ = [
     "NoAnswerError",
     "NoRouterError",
     "NodeError",
+    "NotAdmittedError",
     "NotAllowedError",
     "NotJoinedError",
     "NotMadeError",

@@ -37,6 +37,17 @@ class ForeignEndpointError(WireError):
         self.endpoint = endpoint
 
 
+class NotAdmittedError(WireError):
+    """A router answers, and hangs up when a session is opened."""
+
+    def __init__(self, endpoint: str) -> None:
+        super().__init__(
+            f"The router at {endpoint} lets nobody in without the name, password or certificate "
+            "that it knows: set them in ZENOH_CONFIG_OVERRIDE or ZENOH_SESSION_CONFIG_URI."
+        )
+        self.endpoint = endpoint
+
+
 class RouterNotStartedError(WireError):
     """A router cannot listen where it should; `held` says that another program does."""
 

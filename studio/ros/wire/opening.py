@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from studio.errors import (
     ForeignEndpointError,
     NoRouterError,
+    NotAdmittedError,
     RouterNotStartedError,
     WireError,
 )
@@ -37,6 +38,7 @@ def open_wire(
 
     Raises:
         NoRouterError: None answers, and none may be started.
+        NotAdmittedError: A router answers and wants another name, password or certificate.
         ForeignEndpointError: Something that is no Zenoh holds the endpoint.
         RouterNotStartedError: None answers, and the endpoint cannot be listened at.
         WireSettingsError: The settings cannot be.
@@ -56,20 +58,22 @@ def open_wire(
 def _open_once(
     settings: WireSettings, choice: RouterChoice, types: TypeLibrary | None
 ) -> WireSession:
-    router = _router_of_our_own(settings, choice)
+    found = _answer_at(settings)
+    router = _router_of_our_own(settings, choice) if found is Answer.NOBODY else None
     try:
         return open_session(settings, types, router)
-    except WireError:
+    except WireError as error:
         if router is not None:
             router.close()
+        if isinstance(error, NoRouterError) and found in {Answer.ZENOH, Answer.TLS}:
+            raise NotAdmittedError(settings.connect[0]) from None
         raise
 
 
 def _router_of_our_own(settings: WireSettings, choice: RouterChoice) -> EmbeddedRouter | None:
-    """Start a router, None where one may be or none is wanted."""
-    found = _answer_at(settings)
+    """Start a router where nobody is, None where none is wanted."""
     place = _place_for_router(settings, choice)
-    if found is not Answer.NOBODY or place is None:
+    if place is None:
         return None
     try:
         return start_router(place, settings.overrides)

@@ -14,6 +14,7 @@ CONNECT_TIMEOUT_S = 3.0
 ANSWER_TIMEOUT_S = 4.0
 _INIT = 0x01
 _IS_ANSWER = 0x20
+_CLOSE = 0x03
 _MESSAGE_ID = 0x1F
 _PROTOCOL_VERSION = 9
 # A client (2) with an id of 16 bytes, one less than which stands in the upper half.
@@ -26,8 +27,10 @@ class Answer(StrEnum):
     NOBODY = "nobody"
     ZENOH = "zenoh"
     OTHER = "other"
+    TLS = "tls"
+    """Something is there, behind TLS, where only Zenoh itself can look."""
     UNKNOWN = "unknown"
-    """Something is there that only Zenoh itself can talk to, or nothing: one must try."""
+    """There is no looking without Zenoh."""
 
 
 def probe(endpoint: Endpoint) -> Answer:
@@ -40,7 +43,7 @@ def probe(endpoint: Endpoint) -> Answer:
         return Answer.NOBODY
     with link:
         if endpoint.protocol == "tls":
-            return Answer.UNKNOWN
+            return Answer.TLS
         return Answer.ZENOH if _answers_as_zenoh(link) else Answer.OTHER
 
 
@@ -50,8 +53,12 @@ def _answers_as_zenoh(link: socket.socket) -> bool:
     message = bytes((_INIT, _PROTOCOL_VERSION, _CLIENT_WITH_LONG_ID)) + secrets.token_bytes(16)
     try:
         link.sendall(len(message).to_bytes(2, "little") + message)
-        # Zenoh takes what comes first for a length, so that one byte more than it says suffices.
         answer = link.recv(3, socket.MSG_WAITALL)
     except OSError:
         return False
-    return len(answer) == 3 and answer[2] & _MESSAGE_ID == _INIT and bool(answer[2] & _IS_ANSWER)
+    if len(answer) < 3:
+        return False
+    length, kind = int.from_bytes(answer[:2], "little"), answer[2] & _MESSAGE_ID
+    # A router that wants a name and password hangs up on who gives none, and says so.
+    hung_up = kind == _CLOSE and length == 2
+    return hung_up or (kind == _INIT and bool(answer[2] & _IS_ANSWER))

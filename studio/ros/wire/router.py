@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 _ACCEPT_TIMEOUT_MS = 5_000
 """A peer that begins a handshake and falls silent is let go after this."""
+_OF_SESSIONS = frozenset({"mode", "connect", "listen", "scouting", "open"})
+"""Keys of an override that say how nodes find routers, which is no affair of a router here."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,7 +72,8 @@ def start_router(endpoint: Endpoint, overrides: Mapping[str, str] | None = None)
 
     Args:
         endpoint: Where.
-        overrides: Keys of Zenoh's configuration and JSON5, such as its TLS keys.
+        overrides: Keys of Zenoh's configuration and JSON5, such as its TLS keys; those by which
+            sessions find routers are passed over.
 
     Raises:
         RouterNotStartedError: The endpoint is held by another program, or cannot be listened at.
@@ -109,7 +112,7 @@ def run_router(
 
 
 def _is_held(endpoint: Endpoint) -> bool:
-    return probe(endpoint) not in {Answer.NOBODY, Answer.UNKNOWN}
+    return probe(endpoint) in {Answer.ZENOH, Answer.TLS, Answer.OTHER}
 
 
 def _router_config(endpoint: Endpoint, overrides: Mapping[str, str]) -> zenoh.Config:
@@ -122,5 +125,6 @@ def _router_config(endpoint: Endpoint, overrides: Mapping[str, str]) -> zenoh.Co
     insert(config, "transport/unicast/accept_timeout", str(_ACCEPT_TIMEOUT_MS))
     insert(config, "transport/unicast/max_sessions", "10000")
     for key, json5 in overrides.items():
-        insert(config, key, json5)
+        if key.partition("/")[0] not in _OF_SESSIONS:
+            insert(config, key, json5)
     return config

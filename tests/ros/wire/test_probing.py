@@ -72,4 +72,4 @@ def test_of_what_is_no_stream_nothing_is_known(endpoint: str):
 
 def test_behind_tls_only_zenoh_can_look():
     with program_that_says(b"") as endpoint:
-        assert looked_at(endpoint.replace("tcp/", "tls/")) is Answer.UNKNOWN
+        assert looked_at(endpoint.replace("tcp/", "tls/")) is Answer.TLS

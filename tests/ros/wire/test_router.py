@@ -132,6 +132,13 @@ def test_settings_that_zenoh_refuses_are_told():
     assert ".rs" not in str(caught.value)
 
 
+def test_keys_that_are_of_sessions_make_no_router_a_client():
+    endpoint = free_endpoint()
+    overrides = {"mode": '"client"', "connect/endpoints": json.dumps([endpoint])}
+    with open_wire(WireSettings(connect=(endpoint,), overrides=overrides)) as wire:
+        assert wire.router is not None
+
+
 def test_a_router_that_ended_leaves_its_place_free():
     endpoint = free_endpoint()
     for _ in range(3):
