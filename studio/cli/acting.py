@@ -62,18 +62,17 @@ def acting(options: argparse.Namespace, name: str | None = None) -> Generator[Ac
     Raises:
         NoRouterError: None answers, and none may be started.
     """
-    from studio.ros.graph.graph import Graph
     from studio.ros.node.context import Context
     from studio.ros.node.executor import SingleThreadedExecutor
     from studio.ros.node.node import Node
 
-    with opened_wire(options) as wire, Graph(wire) as graph:
+    with opened_wire(options) as wire:
         context = Context.over(wire)
         try:
             node = Node(name or f"_studio_{os.getpid()}", context=context, enable_rosout=False)
             executor = SingleThreadedExecutor(context=context)
             executor.add_node(node)
-            settle(graph, options)
-            yield Actor(node, graph, wire.types, executor)
+            settle(node.graph, options)
+            yield Actor(node, node.graph, wire.types, executor)
         finally:
             context.shutdown()

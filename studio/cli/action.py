@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from studio.cli.action_goal import add_send_goal
 from studio.cli.looking import (
     add_listing_options,
     add_looking_options,
@@ -34,6 +35,7 @@ def add(parser: argparse.ArgumentParser) -> None:
     kind = verbs.add("type", _type, "print the type of an action")
     kind.add_argument("action_name", metavar="ACTION")
     add_looking_options(kind)
+    add_send_goal(verbs)
 
 
 def _list(options: argparse.Namespace) -> None:

@@ -16,6 +16,7 @@ from studio.cli.looking import (
     say_unknown,
     shown,
 )
+from studio.cli.service_call import add_call
 from studio.cli.verbs import Verbs
 from studio.ros.names import full_type_name
 
@@ -40,6 +41,7 @@ def add(parser: argparse.ArgumentParser) -> None:
     find.add_argument("-c", "--count-services", dest="count", action="store_true")
     add_hidden_option(find, "services")
     add_looking_options(find)
+    add_call(verbs)
 
 
 def _list(options: argparse.Namespace) -> None:

@@ -1,0 +1,168 @@
+"""`studio param`: the parameters of nodes."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from studio.cli.acting import acting
+from studio.cli.asking import node_asked_for, nodes_with, say
+from studio.cli.verbs import Verbs
+from studio.cli.wire import add_wire_options
+from studio.errors import WireError
+
+if TYPE_CHECKING:
+    import argparse
+    from collections.abc import Callable
+
+    from studio.cli.remote_parameters import RemoteParameters
+    from studio.ros.parameters.parameter import Parameter
+
+    Use = Callable[[RemoteParameters, argparse.Namespace], int]
+
+
+def add(parser: argparse.ArgumentParser) -> None:
+    """Give the parser the verbs of `param`."""
+    verbs = Verbs(parser)
+    listing = verbs.add("list", _list, "name the parameters of a node, or of all")
+    listing.add_argument("node_name", metavar="NODE", nargs="?")
+    listing.add_argument("--include-hidden-nodes", action="store_true", dest="hidden")
+    listing.add_argument("--param-prefixes", nargs="+", default=[], metavar="PREFIX")
+    listing.add_argument("--param-type", action="store_true", help="with their types")
+    add_wire_options(listing)
+    get = _add_of_node(verbs, "get", _get, "print the value of a parameter")
+    get.add_argument("parameter_name", metavar="NAME")
+    get.add_argument("--hide-type", action="store_true", help="the value alone")
+    change = _add_of_node(verbs, "set", _set, "give a parameter a value")
+    change.add_argument("parameter_name", metavar="NAME")
+    change.add_argument("value", metavar="VALUE", help="as YAML; negative numbers are values")
+    dump = _add_of_node(verbs, "dump", _dump, "print all parameters as a file of them")
+    dump.add_argument("--output-dir", type=Path, metavar="DIR", help="write NODE.yaml there")
+    dump.add_argument("--print", action="store_true", help="as is: it is printed")
+    load = _add_of_node(verbs, "load", _load, "set the parameters that a file names")
+    load.add_argument("parameter_file", metavar="FILE", type=Path)
+    describe = _add_of_node(verbs, "describe", _describe, "say what parameters are for")
+    describe.add_argument("parameter_names", metavar="NAME", nargs="+")
+
+
+def _add_of_node(verbs: Verbs, name: str, use: Use, summary: str) -> argparse.ArgumentParser:
+    def run(options: argparse.Namespace) -> int:
+        from studio.cli.remote_parameters import RemoteParameters
+
+        with acting(options) as actor:
+            node = node_asked_for(actor, options)
+            return 1 if node is None else use(RemoteParameters(actor, node), options)
+
+    verb = verbs.add(name, run, summary)
+    verb.add_argument("node_name", metavar="NODE")
+    add_wire_options(verb)
+    return verb
+
+
+def _list(options: argparse.Namespace) -> int:
+    from studio.cli.remote_parameters import LIST_TYPE, RemoteParameters
+
+    with acting(options) as actor:
+        nodes = nodes_with(actor, "list_parameters", LIST_TYPE, hidden=options.hidden)
+        if options.node_name is not None:
+            node = node_asked_for(actor, options)
+            if node is None:
+                return 1
+            nodes = [node]
+        for node in nodes:
+            try:
+                lines = _lines(RemoteParameters(actor, node), options)
+            except WireError as error:
+                say(error)
+                continue
+            head = "" if options.node_name is not None else f"{node}:\n"
+            print(head + "".join(lines), end="")
+    return 0
+
+
+def _lines(remote: RemoteParameters, options: argparse.Namespace) -> list[str]:
+    names = remote.names(options.param_prefixes)
+    if not options.param_type:
+        return [f"  {name}\n" for name in names]
+    return [f"  {one.name} (type: {one.type_.words})\n" for one in remote.get(names)]
+
+
+def _get(remote: RemoteParameters, options: argparse.Namespace) -> int:
+    from studio.ros.parameters.values import ParameterType
+
+    found = remote.get([options.parameter_name])
+    if not found or found[0].type_ is ParameterType.NOT_SET:
+        print("Parameter not set", file=sys.stderr)
+        return 1
+    value = found[0].value
+    print(value if options.hide_type else f"{_label(found[0])} {value}")
+    return 0
+
+
+def _label(parameter: Parameter) -> str:
+    """Say the type as `ros2 param get` does: `Integer value is:`, `Double values are:`."""
+    word, _, is_array = parameter.type_.name.partition("_")
+    noun = {"BOOL": "Boolean"}.get(word, word.capitalize())
+    return f"{noun} values are:" if is_array else f"{noun} value is:"
+
+
+def _set(remote: RemoteParameters, options: argparse.Namespace) -> int:
+    from studio.ros.parameters.parameter import Parameter
+    from studio.ros.parameters.values import read_value
+
+    name = options.parameter_name
+    return _report(remote, Parameter(name, value=read_value(options.value.strip())), "parameter")
+
+
+def _report(remote: RemoteParameters, parameter: Parameter, what: str) -> int:
+    taken, reason = remote.set(parameter)
+    if taken:
+        print(f"Set {what} successful{f': {reason}' if reason else ''}")
+        return 0
+    print(f"Setting {what} failed{f': {reason}' if reason else ''}", file=sys.stderr)
+    return 1
+
+
+def _dump(remote: RemoteParameters, options: argparse.Namespace) -> int:
+    from studio.ros.parameters.files import write_parameters
+
+    found = remote.get(remote.names())
+    text = write_parameters(remote.node, {one.name: one for one in found})
+    if options.output_dir is None:
+        print(text, end="")
+        return 0
+    path = options.output_dir.expanduser() / f"{remote.node.strip('/').replace('/', '__')}.yaml"
+    _write(path, text)
+    print(f"Saving to: {path}")
+    return 0
+
+
+def _write(path: Path, text: str) -> None:
+    from studio.errors import SettingsError
+
+    try:
+        path.write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise SettingsError(f"{path} cannot be written: {error.strerror}.") from error
+
+
+def _load(remote: RemoteParameters, options: argparse.Namespace) -> int:
+    from studio.ros.parameters.files import read_parameters
+    from studio.ros.types.folders import read_text
+
+    path = options.parameter_file.expanduser()
+    parameters = read_parameters(read_text(path), remote.node, str(path))
+    if not parameters:
+        print(f"{path} says nothing of {remote.node}", file=sys.stderr)
+        return 1
+    codes = [_report(remote, one, f"parameter {one.name}") for one in parameters]
+    return max(codes)
+
+
+def _describe(remote: RemoteParameters, options: argparse.Namespace) -> int:
+    from studio.cli.parameter_text import description_lines
+
+    for one in remote.describe(options.parameter_names):
+        print("\n".join(description_lines(one)))
+    return 0

@@ -1,0 +1,111 @@
+"""`studio run PACKAGE EXECUTABLE`: a node of the studio's own, under the name it has in ROS."""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import json
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from studio.cli.executables import demo_executables, executables_of_all
+from studio.cli.opened import opened_packages
+from studio.cli.wire import STARTING
+from studio.errors import SettingsError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from studio.ros.wire.settings import WireSettings
+
+_ROS_ARGUMENTS = "--ros-args"
+_OVERRIDE = "ZENOH_CONFIG_OVERRIDE"
+_COMMANDS = {("rviz2", "rviz2"): "open", ("xacro", "xacro"): "xacro"}
+"""Programs of ROS that are commands of the studio."""
+
+
+def add(parser: argparse.ArgumentParser) -> None:
+    """Give the parser the options of `run`."""
+    parser.description = (
+        "Start a node: one of the studio's own under the name that the course gives it "
+        "(studio pkg executables lists them). Where no router answers, the node brings one."
+    )
+    parser.add_argument("package_name", metavar="PACKAGE")
+    parser.add_argument("executable_name", metavar="EXECUTABLE")
+    parser.add_argument(
+        "arguments",
+        metavar="ARGUMENT",
+        nargs=argparse.REMAINDER,
+        help="the node's own; --ros-args -r from:=to -p name:=value as in ROS; "
+        "--connect, --domain and --router as everywhere",
+    )
+    parser.set_defaults(run=_run, package_path=[], data_dir=None)
+
+
+def _run(options: argparse.Namespace) -> int:
+    from studio.ros.wire.opening import open_wire
+    from studio.ros.wire.settings import wire_settings
+
+    words = [word.removeprefix(" ") for word in options.arguments]
+    command = _COMMANDS.get((options.package_name, options.executable_name))
+    if command is not None:
+        from studio.cli.main import main
+
+        return main([command, *words])
+    module = _module_of(options)
+    wire, arguments = _part_arguments(words)
+    settings = wire_settings(tuple(wire.connect), wire.domain)
+    # Held for as long as the node runs: with it goes the router, where one was started here.
+    with open_wire(settings, wire.router) as held:
+        _tell_node(held.settings)
+        importlib.import_module(module).main(arguments)
+    return 0
+
+
+def _part_arguments(words: Sequence[str]) -> tuple[argparse.Namespace, list[str]]:
+    """Take what is of the wire out of a node's arguments, as far as `--ros-args`."""
+    end = words.index(_ROS_ARGUMENTS) if _ROS_ARGUMENTS in words else len(words)
+    parser = argparse.ArgumentParser(prog="studio run", add_help=False, allow_abbrev=False)
+    parser.add_argument("--connect", action="append", default=[])
+    parser.add_argument("--domain", type=int)
+    parser.add_argument("--router", default=STARTING)
+    wire, rest = parser.parse_known_args(words[:end])
+    return wire, [*rest, *words[end:]]
+
+
+def _tell_node(settings: WireSettings) -> None:
+    """Put into the environment what nodes read there, as those of ROS do."""
+    os.environ["ROS_DOMAIN_ID"] = str(settings.domain)
+    if settings.connect:
+        given = os.environ.get(_OVERRIDE, "")
+        own = f"connect/endpoints={json.dumps(list(settings.connect))}"
+        os.environ[_OVERRIDE] = f"{given};{own}" if given else own
+
+
+def _module_of(options: argparse.Namespace) -> str:
+    """Find what is started.
+
+    Raises:
+        SettingsError: The studio has no such node; the sentence says what there is instead.
+    """
+    package, name = options.package_name, options.executable_name
+    own = demo_executables()
+    if name in own.get(package, {}):
+        return own[package][name]
+    index = opened_packages(options)
+    known = executables_of_all(index).get(package, {})
+    if name in known:
+        raise SettingsError(
+            f"{package} {name} is a program of ROS ({known[name]}): the studio starts only nodes "
+            "of its own, run it with ros2 run where ROS is installed."
+        )
+    if known:
+        raise SettingsError(
+            f'{package} has no executable "{name}": it has {", ".join(sorted(known))}.'
+        )
+    if package in index:
+        raise SettingsError(f"{package} ({index.best(package, Path.cwd())}) starts nothing.")
+    raise SettingsError(
+        f'No package "{package}" is known: studio pkg executables lists what can be started.'
+    )
