@@ -34,7 +34,8 @@ class Context:
         self._drain: Drain | None = None
         self._graph: Graph | None = None
         self._owns_wire = True
-        self._ok = False
+        self._ok = self._told_to_end = False
+        self._closed = threading.Event()
         self._ending: list[Callable[[], None]] = []
         self._closing: list[Callable[[], None]] = []
 
@@ -122,6 +123,7 @@ class Context:
 
     def end(self) -> None:
         """Tell all that spin to end; the session stays open. Safe in a handler of signals."""
+        self._told_to_end = True
         self._ok = False
         while self._ending:
             with contextlib.suppress(IndexError):
@@ -143,11 +145,18 @@ class Context:
             drain.stop()
         if wire is not None and self._owns_wire:
             wire.close()
+        self._told_to_end = False
+        self._closed.set()
+
+    def wait_closed(self, timeout_s: float) -> bool:
+        """Wait until it is shut down, or that long; whether it is."""
+        return self._closed.wait(timeout_s)
 
     def _join(self, wire: WireSession, *, owns_wire: bool) -> None:
         self._wire, self._owns_wire = wire, owns_wire
         self._drain = Drain()
-        self._ok = True
+        self._closed.clear()
+        self._ok = not self._told_to_end
 
 
 _default = Context()

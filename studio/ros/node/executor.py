@@ -7,9 +7,10 @@ import threading
 import time
 from collections import deque
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Self
 
 from studio.errors import ExternalShutdownException
+from studio.ros.node.context import default_context
 from studio.ros.node.task import Task
 
 if TYPE_CHECKING:
@@ -38,15 +39,21 @@ class Executor:
     runs pieces in the thread that spins, `MultiThreadedExecutor` in threads of its own.
     """
 
-    def __init__(self, *, context: Context) -> None:
-        self.context = context
+    def __init__(self, *, context: Context | None = None) -> None:
+        self.context = context or default_context()
         self.is_shut_down = False
         self._changed = threading.Condition()
         self._nodes: list[Node] = []
         self._ready: deque[Work | Task] = deque()
         self._held: dict[CallbackGroup, deque[Work]] = {}
         self._due: set[Work] = set()
-        context.on_end(self.wake)
+        self.context.on_end(self.wake)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.shutdown()
 
     def add_node(self, node: Node) -> bool:
         """Carry out a node's work, which another executor does no more; whether it is new."""

@@ -16,6 +16,7 @@ from studio.ros.node.drain import Source
 from studio.ros.node.endpoint import Endpoint, endpoint_of
 from studio.ros.node.logger import Logger, get_logger
 from studio.ros.node.publisher import Publisher
+from studio.ros.node.rate import Rate
 from studio.ros.node.rosout import RosoutPublisher
 from studio.ros.node.service import Service
 from studio.ros.node.service_client import SERVICE_TIMEOUT_S, Client
@@ -69,6 +70,7 @@ class Node(NodeParameters):
         self._lock = threading.RLock()
         self._all_work: list[Work] = []
         self._all_publishers: list[Publisher] = []
+        self._rates: list[Rate] = []
         self._ends: list[Callable[[], None]] = []
         self._destroyed = False
         self._clock = Clock(clock_type=ClockType.ROS_TIME)
@@ -163,6 +165,8 @@ class Node(NodeParameters):
         msg_type: type[MessageValue],
         topic: str,
         qos_profile: QoSProfile | int,
+        *,
+        publisher_class: type[Publisher] = Publisher,
     ) -> Publisher:
         """Make a publisher.
 
@@ -171,7 +175,7 @@ class Node(NodeParameters):
             DestroyedError: The node was destroyed.
         """
         endpoint = self._endpoint(EndpointKind.PUBLISHER, msg_type, topic, as_profile(qos_profile))
-        publisher = Publisher(endpoint, msg_type)
+        publisher = publisher_class(endpoint, msg_type)
         with self._lock:
             self._all_publishers.append(publisher)
         return publisher
@@ -260,6 +264,12 @@ class Node(NodeParameters):
         self.add_work(timer)
         return timer
 
+    def create_rate(self, frequency: float) -> Rate:
+        """Make a rate of so many beats a second; it sleeps only while the node spins."""
+        rate = Rate(self, frequency)
+        self._rates.append(rate)
+        return rate
+
     def add_work(self, work: Work) -> None:
         """Have work of any kind carried out with the node's own; it is destroyed with the node.
 
@@ -325,6 +335,14 @@ class Node(NodeParameters):
         """Take back a timer; whether it was the node's."""
         return self.remove_work(timer)
 
+    def destroy_rate(self, rate: Rate) -> bool:
+        """Take back a rate; whether it was the node's."""
+        if rate not in self._rates:
+            return False
+        self._rates.remove(rate)
+        rate.destroy()
+        return True
+
     def destroy_node(self) -> None:
         """Take back all that is its own, and then itself; again is harmless."""
         with self._lock:
@@ -334,6 +352,8 @@ class Node(NodeParameters):
             ends, self._ends = self._ends, []
         for end in ends:
             end()
+        for rate in tuple(self._rates):
+            self.destroy_rate(rate)
         for work in self.all_work:
             self.remove_work(work)
         if self._executor is not None:

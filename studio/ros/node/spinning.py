@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any, Self
 from studio.ros.node.context import Context, default_context
 from studio.ros.node.executor import Executor, SingleThreadedExecutor
 from studio.ros.node.node import Node
+from studio.ros.node.signals import SignalHandlerOptions, handlers
+from studio.ros.wire.settings import wire_settings
 
 if TYPE_CHECKING:
     from collections.abc import Generator, Sequence
@@ -35,22 +37,38 @@ class Joined:
 
 
 def init(
-    *,
     args: Sequence[str] | None = None,
+    *,
     context: Context | None = None,
     domain_id: int | None = None,
+    signal_handler_options: SignalHandlerOptions | None = None,
     settings: WireSettings | None = None,
     router: str = "auto",
 ) -> Joined:
     """Join the wire; nodes are made after.
+
+    Args:
+        args: Words of the command line, those of the process without; what follows `--ros-args`
+            is read: names, remappings and parameters.
+        context: What is joined, the default one without.
+        domain_id: The domain, that of the environment without.
+        signal_handler_options: Which signals end the context, without: all end the default one,
+            none ends another.
+        settings: Which router and domain, those of the environment without.
+        router: `auto` starts a router where none answers, `off` starts none.
 
     Raises:
         AlreadyJoinedError: It is joined.
         WireError: The router cannot be joined.
     """
     joined = context or default_context()
-    joined.init(settings, router)
+    options = signal_handler_options
+    if options is None:
+        options = SignalHandlerOptions.ALL if context is None else SignalHandlerOptions.NO
+    given = settings or wire_settings(domain=domain_id)
+    handlers.install(joined, options)
     atexit.register(joined.shutdown)
+    joined.init(given, router)
     return Joined(joined)
 
 

@@ -1,0 +1,149 @@
+"""Signals: Ctrl-C and SIGTERM end what spins, and the process within two seconds."""
+
+from __future__ import annotations
+
+import os
+import signal
+import socket
+import threading
+import weakref
+from enum import IntFlag
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from types import FrameType
+
+    from studio.ros.node.context import Context
+
+GRACE_S = 1.3
+"""How long a process may take to end by itself."""
+CLOSING_S = 0.3
+"""How long sessions may take to close when it did not."""
+
+
+class SignalHandlerOptions(IntFlag):
+    """Which signals end the contexts of a process."""
+
+    NO = 0
+    SIGINT = 1
+    SIGTERM = 2
+    ALL = SIGINT | SIGTERM
+
+
+_NUMBERS = {
+    SignalHandlerOptions.SIGINT: signal.SIGINT,
+    SignalHandlerOptions.SIGTERM: signal.SIGTERM,
+}
+
+
+class SignalHandlers:
+    """The handlers of this process; contexts that were joined with signals are ended by them.
+
+    Ctrl-C raises KeyboardInterrupt in the main thread as well. A process that is told to end by
+    SIGTERM and does not, or that is stuck in code that lets no handler run, is ended after a
+    grace, its sessions closed: such as one that waits for a router, or sleeps.
+    """
+
+    def __init__(self) -> None:
+        self._before: dict[int, Any] = {}
+        self._contexts: weakref.WeakSet[Context] = weakref.WeakSet()
+        self._watch: _Watch | None = None
+        self._interrupted = threading.Semaphore(0)
+
+    def install(self, context: Context, options: SignalHandlerOptions) -> None:
+        """End a context by signals; nothing in threads beside the main one, as Python wants it."""
+        if not options or threading.current_thread() is not threading.main_thread():
+            return
+        self._contexts.add(context)
+        context.on_close(lambda: self.release(context))
+        for option, number in _NUMBERS.items():
+            if option & options and number not in self._before:
+                self._before[number] = signal.signal(number, self._handle)
+        self._watch = self._watch or _Watch.begin(self._told)
+
+    def uninstall(self) -> None:
+        """Put back what was before; nothing in threads beside the main one."""
+        if threading.current_thread() is not threading.main_thread():
+            return
+        for number, before in self._before.items():
+            signal.signal(number, signal.SIG_DFL if before is None else before)
+        self._before.clear()
+        watch, self._watch = self._watch, None
+        if watch is not None:
+            watch.end()
+
+    def release(self, context: Context) -> None:
+        """Leave a context that ends alone; without any left, what was before comes back."""
+        self._contexts.discard(context)
+        if not self._contexts:
+            self.uninstall()
+
+    def _handle(self, number: int, frame: FrameType | None) -> None:
+        for context in tuple(self._contexts):
+            context.end()
+        if number == signal.SIGINT:
+            self._interrupted.release()
+            before = self._before.get(number)
+            if callable(before):
+                before(number, frame)
+
+    def _told(self, number: int) -> None:
+        """Wait for the process to end, and end it when it goes on; of the watching thread."""
+        contexts = tuple(self._contexts)
+        if number not in self._before or not contexts:
+            return
+        if number == signal.SIGINT:
+            # KeyboardInterrupt is under way when it is handled: what catches it may take its time.
+            ends = self._interrupted.acquire(timeout=GRACE_S)
+        else:
+            ends = contexts[0].wait_closed(GRACE_S)
+        if not ends:
+            _end_process(contexts, number)
+
+
+class _Watch:
+    """Learns of signals also while the main thread lets no handler run, over a pair of sockets."""
+
+    def __init__(self, told: Callable[[int], None]) -> None:
+        self._told = told
+        self._reader, self._writer = socket.socketpair()
+        self._writer.setblocking(False)  # noqa: FBT003
+
+    @classmethod
+    def begin(cls, told: Callable[[int], None]) -> _Watch | None:
+        """Begin, unless somebody else (such as asyncio) learns of signals in this way."""
+        watch = cls(told)
+        before = signal.set_wakeup_fd(watch._writer.fileno(), warn_on_full_buffer=False)
+        if before != -1:
+            signal.set_wakeup_fd(before)
+            watch._writer.close()
+            watch._reader.close()
+            return None
+        threading.Thread(target=watch._run, name="ros signals", daemon=True).start()
+        return watch
+
+    def end(self) -> None:
+        """Listen no more, and leave alone what another has put in place since."""
+        before = signal.set_wakeup_fd(-1)
+        if before not in {-1, self._writer.fileno()}:
+            signal.set_wakeup_fd(before)
+        self._writer.close()
+
+    def _run(self) -> None:
+        while numbers := self._reader.recv(64):
+            for number in numbers:
+                self._told(number)
+        self._reader.close()
+
+
+def _end_process(contexts: tuple[Context, ...], number: int) -> None:
+    """Close the sessions, and end without asking the main thread: it does not answer."""
+    for context in contexts:
+        closing = threading.Thread(target=context.shutdown, daemon=True)
+        closing.start()
+        closing.join(CLOSING_S)
+    os._exit(128 + number)
+
+
+handlers = SignalHandlers()
