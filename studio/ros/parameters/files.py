@@ -26,11 +26,18 @@ def write_parameters(node: str, parameters: Mapping[str, Parameter]) -> str:
     return write_yaml({node: {PARAMETERS_KEY: tree}})
 
 
-def read_parameters(text: str, node: str, where: str = "The file of parameters") -> list[Parameter]:
+def read_parameters(
+    text: str,
+    node: str,
+    where: str = "The file of parameters",
+    *,
+    wildcards: bool = True,
+) -> list[Parameter]:
     """Read what a file says of the node of that full name; `where` names the file in errors.
 
-    A name may be whole (`/ns/node`), in levels (`ns: node:`), or hold `*` for one part and `**`
-    for any number of them. What stands further below in the file comes before what stands above.
+    A name may be whole (`/ns/node`), in levels (`ns: node:`), or, with `wildcards`, hold `*` for
+    one part and `**` for any number of them. What stands below in the file comes before what
+    stands above.
 
     Raises:
         ParameterFileError: It is no such file, or a value is none that a parameter can hold.
@@ -43,7 +50,7 @@ def read_parameters(text: str, node: str, where: str = "The file of parameters")
         raise ParameterFileError(where, f"names of nodes are expected, not {said(tree)}")
     found: dict[str, Parameter] = {}
     for path, values in _sections(cast("dict[object, object]", tree), "", where):
-        if _matches(path.strip("/").split("/"), node.strip("/").split("/")):
+        if ("*" not in path or wildcards) and _matches(_parts(path), _parts(node)):
             for name, value in _flat(values, "", where, 0):
                 found[name] = _made(name, value, where)
     return list(found.values())
@@ -94,6 +101,10 @@ def _made(name: str, value: object, where: str) -> Parameter:
         return Parameter(name, value=value)
     except InvalidParameterTypeError as error:
         raise ParameterFileError(where, str(error).rstrip(".")) from None
+
+
+def _parts(path: str) -> list[str]:
+    return path.strip("/").split("/")
 
 
 def _matches(pattern: list[str], parts: list[str]) -> bool:
