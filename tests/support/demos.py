@@ -120,11 +120,11 @@ def heard(node: Node, type_name: str, topic: str, qos: QoSProfile | int = 100) -
     return messages
 
 
-def call(node: Node, type_name: str, name: str, **fields: Any) -> Any:  # noqa: ANN401
+def call(node: Node, type_name: str, called: str, /, **fields: Any) -> Any:  # noqa: ANN401
     """Ask a service once it is there; gives its answer."""
     kind = service(type_name)
-    client = node.create_client(kind, name)
-    assert client.wait_for_service(PATIENCE_S), f"nobody serves {name}"
+    client = node.create_client(kind, called)
+    assert client.wait_for_service(PATIENCE_S), f"nobody serves {called}"
     try:
         return client.call(kind.Request(**fields), timeout_sec=PATIENCE_S)
     finally:
