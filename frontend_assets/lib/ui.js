@@ -22,12 +22,12 @@ export function Icon({ name, size = 16 }) {
 }
 
 /** Names of parts differ at both ends: so many characters of the end stay where there is no room for all. */
-const TAIL = 8;
+const TAIL = 6;
 
 /** @param {{text: string}} props a name that is cut in its middle */
 export function LongName({ text }) {
   const letters = [...text];
-  if (letters.length <= 2 * TAIL) return text;
+  if (letters.length < 2 * TAIL) return text;
   return html`<span class="long-name"><span>${letters.slice(0, -TAIL).join("")}</span><span>${letters.slice(-TAIL).join("")}</span></span>`;
 }
 
