@@ -8,6 +8,9 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from studio.ros.profiles import profile_named
+from studio.ros.qos import QoSProfile
+from studio.ros.tokens import EndpointKind, EndpointToken, NodeToken
+from studio.ros.wire.door import declare_token
 from studio.ros.wire.endpoints import parse_endpoint
 from studio.ros.wire.router import start_router
 from studio.ros.wire.session import open_session
@@ -17,6 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Generator
 
     from studio.ros.types.library import TypeLibrary
+    from studio.ros.wire.door import Declared
     from studio.ros.wire.router import EmbeddedRouter
     from studio.ros.wire.session import WireSession
 
@@ -75,3 +79,21 @@ def session_pair(
         open_test_session(endpoint, domain, distro, one.types) as other,
     ):
         yield one, other
+
+
+def show_endpoints(wire: WireSession, count: int, name: str = "many") -> list[Declared]:
+    """One node with so many publishers, each on a topic of its own; keep what is given back."""
+    node = NodeToken(wire.domain, wire.zid, wire.next_id(), "/", name)
+    publishers = (
+        EndpointToken(
+            node,
+            wire.next_id(),
+            EndpointKind.PUBLISHER,
+            f"/{name}/topic_{at}",
+            "std_msgs/msg/String",
+            wire.profile.type_hash(wire.types.hash_of("std_msgs/msg/String")),
+            QoSProfile(depth=10),
+        )
+        for at in range(count)
+    )
+    return [declare_token(wire.zenoh, str(token)) for token in (node, *publishers)]

@@ -56,7 +56,7 @@ def parse_endpoint(text: str) -> Endpoint:
     address = rest.partition("?")[0].partition("#")[0]
     host, colon, port = address.rpartition(":")
     host = host.removeprefix("[").removesuffix("]")
-    if not (colon and host and port.isascii() and port.isdigit() and int(port) <= 65535):
+    if not (colon and host and port.isascii() and port.isdigit() and 0 < int(port) <= 65535):
         raise _not_understood(text)
     return Endpoint(text, protocol, host, int(port))
 

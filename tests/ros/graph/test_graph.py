@@ -13,7 +13,13 @@ from studio.ros.graph.graph import Graph
 from studio.ros.qos import QoSProfile
 from studio.ros.tokens import EndpointKind, EndpointToken, NodeToken
 from studio.ros.wire.door import declare_token
-from tests.support.wire import free_endpoint, open_test_session, router_at, running_router
+from tests.support.wire import (
+    free_endpoint,
+    open_test_session,
+    router_at,
+    running_router,
+    show_endpoints,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -22,6 +28,7 @@ if TYPE_CHECKING:
     from studio.ros.wire.session import WireSession
 
 PATIENCE_S = 15.0
+MANY_PATIENCE_S = 50.0
 STRING = "std_msgs/msg/String"
 
 
@@ -163,6 +170,19 @@ def test_tokens_that_are_none_are_counted(robot: WireSession, graph: Graph):
     held = declare_token(robot.zenoh, "@ros2_lv/0/aa/0/0/XX/%/%/talker")
     assert graph.wait_for(lambda: graph.malformed[0] == 1, PATIENCE_S)
     held.undeclare()
+
+
+@pytest.mark.timeout(120)
+def test_ten_thousand_topics_of_ten_sessions_are_all_seen_and_all_go(router: str, graph: Graph):
+    with ExitStack() as stack:
+        held: list[Declared] = []
+        for at in range(10):
+            wire = stack.enter_context(open_test_session(router))
+            held += show_endpoints(wire, 1_000, f"robot_{at}")
+        assert graph.wait_for(lambda: len(graph.topics()) == 10_000, MANY_PATIENCE_S)
+        assert len(graph.nodes()) == 10
+        assert len(held) == 10_010
+    assert graph.wait_for(lambda: not graph.topics(), MANY_PATIENCE_S)
 
 
 NODE_OF_ITS_OWN = """

@@ -40,7 +40,17 @@ def test_other_places_are_no_loopback(host: str):
 
 @pytest.mark.parametrize(
     "text",
-    ["", "tcp", "7447", "127.0.0.1:7447", "tcp/127.0.0.1", "tcp/:1", "tcp/a:65536", "tcp/a:-1"],
+    [
+        "",
+        "tcp",
+        "7447",
+        "127.0.0.1:7447",
+        "tcp/127.0.0.1",
+        "tcp/:1",
+        "tcp/a:65536",
+        "tcp/a:0",
+        "tcp/a:-1",
+    ],
 )
 def test_what_is_no_endpoint_is_refused_with_an_example(text: str):
     with pytest.raises(WireSettingsError, match=r"tcp/127\.0\.0\.1:7447"):
