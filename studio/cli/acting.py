@@ -69,7 +69,12 @@ def acting(options: argparse.Namespace, name: str | None = None) -> Generator[Ac
     with opened_wire(options) as wire:
         context = Context.over(wire)
         try:
-            node = Node(name or f"_studio_{os.getpid()}", context=context, enable_rosout=False)
+            node = Node(
+                name or f"_studio_{os.getpid()}",
+                context=context,
+                enable_rosout=False,
+                start_parameter_services=False,
+            )
             executor = SingleThreadedExecutor(context=context)
             executor.add_node(node)
             settle(node.graph, options)

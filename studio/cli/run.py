@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import importlib
-import json
 import os
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -17,10 +16,7 @@ from studio.errors import SettingsError
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from studio.ros.wire.settings import WireSettings
-
 _ROS_ARGUMENTS = "--ros-args"
-_OVERRIDE = "ZENOH_CONFIG_OVERRIDE"
 _COMMANDS = {("rviz2", "rviz2"): "open", ("xacro", "xacro"): "xacro"}
 """Programs of ROS that are commands of the studio."""
 
@@ -44,6 +40,7 @@ def add(parser: argparse.ArgumentParser) -> None:
 
 
 def _run(options: argparse.Namespace) -> int:
+    from studio.nodes.demos.starting import environment_for
     from studio.ros.wire.opening import open_wire
     from studio.ros.wire.settings import wire_settings
 
@@ -58,7 +55,7 @@ def _run(options: argparse.Namespace) -> int:
     settings = wire_settings(tuple(wire.connect), wire.domain)
     # Held for as long as the node runs: with it goes the router, where one was started here.
     with open_wire(settings, wire.router) as held:
-        _tell_node(held.settings)
+        os.environ.update(environment_for(held.settings))
         importlib.import_module(module).main(arguments)
     return 0
 
@@ -72,15 +69,6 @@ def _part_arguments(words: Sequence[str]) -> tuple[argparse.Namespace, list[str]
     parser.add_argument("--router", default=STARTING)
     wire, rest = parser.parse_known_args(words[:end])
     return wire, [*rest, *words[end:]]
-
-
-def _tell_node(settings: WireSettings) -> None:
-    """Put into the environment what nodes read there, as those of ROS do."""
-    os.environ["ROS_DOMAIN_ID"] = str(settings.domain)
-    if settings.connect:
-        given = os.environ.get(_OVERRIDE, "")
-        own = f"connect/endpoints={json.dumps(list(settings.connect))}"
-        os.environ[_OVERRIDE] = f"{given};{own}" if given else own
 
 
 def _module_of(options: argparse.Namespace) -> str:

@@ -4,9 +4,17 @@ from __future__ import annotations
 
 import contextlib
 import io
+import sys
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from studio.cli import main
+from tests.support.demos import running
+
+if TYPE_CHECKING:
+    from collections.abc import Generator
+
+    from tests.support.demos import RunningDemo
 
 
 @dataclass(frozen=True)
@@ -27,3 +35,10 @@ def studio(*words: str) -> Ran:
         except SystemExit as end:
             code = end.code if isinstance(end.code, int) else 1
     return Ran(code, out.getvalue(), err.getvalue())
+
+
+@contextlib.contextmanager
+def started(endpoint: str, *words: str) -> Generator[RunningDemo]:
+    """Run one line in a process of its own, at a router, until the block ends."""
+    with running([sys.executable, "-m", "studio", *words], endpoint) as process:
+        yield process

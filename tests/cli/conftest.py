@@ -1,0 +1,28 @@
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+
+from tests.support.wire import running_router
+
+if TYPE_CHECKING:
+    from collections.abc import Generator
+    from pathlib import Path
+
+
+@pytest.fixture(autouse=True)
+def own_folders(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch):
+    """Commands see no package and no recent file of whoever runs the tests."""
+    folder: Path = tmp_path_factory.mktemp("folder")
+    monkeypatch.setenv("STUDIO_DATA_DIR", str(folder / "data"))
+    monkeypatch.chdir(folder)
+    for name in ("ROS_DOMAIN_ID", "ROS_DISTRO", "AMENT_PREFIX_PATH", "ZENOH_CONFIG_OVERRIDE"):
+        monkeypatch.delenv(name, raising=False)
+
+
+@pytest.fixture(scope="module")
+def endpoint() -> Generator[str]:
+    """A router for the tests of a module."""
+    with running_router() as found:
+        yield found

@@ -1,0 +1,93 @@
+from __future__ import annotations
+
+import signal
+from typing import TYPE_CHECKING
+
+import pytest
+
+from tests.support.command_line import started, studio
+from tests.support.wire import wait_until
+
+if TYPE_CHECKING:
+    from collections.abc import Generator
+
+STATE = "{header: {frame_id: base}, name: [a, b], position: [1.0, -2.5]}"
+
+
+@pytest.fixture(scope="module", autouse=True)
+def talkers(endpoint: str) -> Generator[None]:
+    joints = ("topic", "pub", "/joints", "sensor_msgs/msg/JointState", STATE, "-r", "20")
+    latched = ("topic", "pub", "/latched", "std_msgs/msg/String", "data: kept", "-r", "0.001",
+               "--qos-durability", "transient_local")  # fmt: skip
+    with started(endpoint, *joints) as one, started(endpoint, *latched) as other:
+        one.wait_for("publishing #1")
+        other.wait_for("publishing #1")
+        yield
+
+
+def test_t1_echo_equals_what_is_published(endpoint: str):
+    ran = studio("topic", "echo", "/joints", "--once", "--connect", endpoint)
+    assert ran.code == 0
+    assert ran.out == (
+        "header:\n  stamp:\n    sec: 0\n    nanosec: 0\n  frame_id: base\n"
+        "name:\n- a\n- b\nposition:\n- 1.0\n- -2.5\nvelocity: []\neffort: []\n---\n"
+    )
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (("--field", "position[1]"), "-2.5\n---\n"),
+        (("--field", "header.frame_id"), "base\n---\n"),
+        (("--csv",), "0,0,base,a,b,1.0,-2.5\n"),
+        (("--csv", "--field", "position"), "1.0,-2.5\n"),
+        (("--no-arr", "--field", "position"), "<sequence, length: 2>\n---\n"),
+        (("-l", "1", "--field", "name"), "['a', '...']\n---\n"),
+    ],
+)
+def test_t1_what_is_shown_can_be_chosen(endpoint: str, options: tuple[str, ...], said: str):
+    out = studio("topic", "echo", "/joints", "--once", *options, "--connect", endpoint).out
+    assert out == said.replace("'...'", "...")
+
+
+def test_arrays_are_abbreviated_in_whole_messages(endpoint: str):
+    out = studio("topic", "echo", "/joints", "--once", "--no-arr", "--connect", endpoint).out
+    assert "position: '<sequence type: double, length: 2>'" in out
+
+
+def test_t4_a_late_joiner_gets_what_is_latched(endpoint: str):
+    ran = studio("topic", "echo", "/latched", "--once", "--timeout", "10", "--connect", endpoint)
+    assert ran.out == "data: kept\n---\n"
+
+
+def test_t8_the_type_may_be_given_before_anybody_publishes(endpoint: str):
+    words = ("topic", "echo", "/later", "std_msgs/msg/String", "--connect", endpoint)
+    with started(endpoint, *words) as echo:
+        wait_until(
+            "the subscription",
+            lambda: "/later" in studio("topic", "list", "--connect", endpoint).out.split(),
+        )
+        studio("topic", "pub", "-1", "/later", "std_msgs/msg/String", "data: hi", "--connect",
+               endpoint)  # fmt: skip
+        echo.wait_for("data: hi\n---\n")
+        assert "does not appear to be published yet" in echo.printed
+        assert echo.stop(signal.SIGINT) == 2
+
+
+def test_a_topic_without_a_type_ends_with_1(endpoint: str):
+    ran = studio("topic", "echo", "/nope", "--connect", endpoint)
+    assert ran.code == 1
+    assert "Could not determine the type" in ran.err
+
+
+@pytest.mark.parametrize("field", ["no", "position[9]", "name.x"])
+def test_a_field_that_is_not_there_is_one_sentence(endpoint: str, field: str):
+    ran = studio("topic", "echo", "/joints", "--field", field, "--connect", endpoint)
+    assert ran.code == 2
+    assert ran.err.startswith("studio: ")
+
+
+def test_nothing_within_the_time_ends_with_1(endpoint: str):
+    ran = studio("topic", "echo", "/silent", "std_msgs/msg/String", "--timeout", "0.2",
+                 "--connect", endpoint)  # fmt: skip
+    assert (ran.code, ran.out) == (1, "")

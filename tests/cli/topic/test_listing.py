@@ -1,0 +1,86 @@
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+
+from tests.support.command_line import started, studio
+from tests.support.wire import wait_until
+
+if TYPE_CHECKING:
+    from collections.abc import Generator
+
+STRING_HASH = "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18"
+
+
+@pytest.fixture(scope="module", autouse=True)
+def talker(endpoint: str) -> Generator[None]:
+    words = ("topic", "pub", "/chatter", "std_msgs/msg/String", "data: 'Hello'", "-n", "talker")
+    with started(endpoint, *words) as process:
+        process.wait_for("publishing #1")
+        yield
+
+
+def test_t1_topics_are_listed_with_their_types(endpoint: str):
+    at = ("--connect", endpoint)
+    assert studio("topic", "list", *at).out == "/chatter\n/parameter_events\n"
+    typed = studio("topic", "list", "-t", *at).out.splitlines()
+    assert typed[0] == "/chatter [std_msgs/msg/String]"
+    assert studio("topic", "list", "-c", *at).out == "2\n"
+    verbose = studio("topic", "list", "-v", *at).out
+    assert verbose.startswith("Published topics:\n * /chatter [std_msgs/msg/String] 1 publisher\n")
+    assert verbose.endswith("\n\nSubscribed topics:\n\n")
+
+
+def test_t1_info_and_type_of_a_topic(endpoint: str):
+    at = ("--connect", endpoint)
+    assert studio("topic", "info", "/chatter", *at).out == (
+        "Type: std_msgs/msg/String\nPublisher count: 1\nSubscription count: 0\n"
+    )
+    assert studio("topic", "type", "/chatter", *at).out == "std_msgs/msg/String\n"
+    assert studio("topic", "type", "chatter", *at).out == "std_msgs/msg/String\n"
+
+
+def test_t4_info_tells_each_end_with_its_qos(endpoint: str):
+    out = studio("topic", "info", "-v", "/chatter", "--connect", endpoint).out
+    for line in (
+        "Node name: talker",
+        "Node namespace: /",
+        f"Topic type hash: {STRING_HASH}",
+        "Endpoint type: PUBLISHER",
+        "  Reliability: RELIABLE",
+        "  History (Depth): KEEP_LAST (10)",
+        "  Durability: VOLATILE",
+        "  Liveliness lease duration: Infinite",
+    ):
+        assert line in out.splitlines()
+
+
+def test_t3_topics_are_found_by_type(endpoint: str):
+    at = ("--connect", endpoint)
+    assert studio("topic", "find", "std_msgs/msg/String", *at).out == "/chatter\n"
+    assert studio("topic", "find", "std_msgs/msg/Int64", *at).out == ""
+    assert studio("topic", "find", "std_msgs/msg/String", "-c", *at).out == "1\n"
+
+
+def test_a_topic_that_nobody_has_is_told_as_ros2_tells_it(endpoint: str):
+    at = ("--connect", endpoint)
+    ran = studio("topic", "info", "/nope", *at)
+    assert (ran.code, ran.err) == (1, "Unknown topic '/nope'\n")
+    assert studio("topic", "type", "/nope", *at).code == 1
+
+
+def test_another_domain_is_empty_and_says_so(endpoint: str):
+    ran = studio("topic", "list", "--domain", "7", "--connect", endpoint)
+    assert (ran.code, ran.out) == (0, "")
+    assert "no node is in domain 7" in ran.err
+
+
+def test_n7_a_node_that_is_killed_is_listed_no_more(endpoint: str):
+    words = ("topic", "pub", "/gone", "std_msgs/msg/String", "-n", "short_lived")
+    at = ("--connect", endpoint)
+    with started(endpoint, *words) as process:
+        process.wait_for("publishing #1")
+        assert "/short_lived" in studio("node", "list", *at).out.split()
+    wait_until("gone", lambda: "/gone" not in studio("topic", "list", *at).out.split(), 10)
+    assert studio("node", "list", *at).out == "/talker\n"
