@@ -2,7 +2,7 @@
 
 /** @import { FolderEntry } from "../types/wire.d.ts" */
 
-import { html, useRef, useSignal } from "vendor/preact.js";
+import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { chosenFiles } from "../lib/dropped.js";
 import { parseArguments } from "../lib/expressions.js";
 import { t } from "../lib/i18n.js";
@@ -64,6 +64,12 @@ function Page({ tab, onClose }) {
 /** @param {{chosen: OpenTab, onChoose: (tab: OpenTab) => void}} props */
 function Tabs({ chosen, onChoose }) {
   const list = useRef(/** @type {HTMLElement | null} */ (null));
+  // On a phone they stand in a row that moves along.
+  useEffect(() => {
+    list.current
+      ?.querySelector(`#open-tab-${chosen}`)
+      ?.scrollIntoView({ inline: "center", block: "nearest" });
+  }, [chosen]);
   /** @param {KeyboardEvent} event */
   const onKeyDown = (event) => {
     const step = { ArrowDown: 1, ArrowRight: 1, ArrowUp: -1, ArrowLeft: -1 }[event.key];
