@@ -11,7 +11,8 @@ from studio.ros.duration import INFINITE, NANOSECONDS, Duration
 
 # What rmw_zenoh takes for a depth of 0, and leaves out of tokens.
 DEPTH_DEFAULT = 42
-_INT_DIGITS_MAX = 20
+_INT_MAX = 2**63 - 1
+_INT_DIGITS_MAX = len(str(_INT_MAX))
 
 
 class ReliabilityPolicy(IntEnum):
@@ -137,7 +138,9 @@ def _value(text: str, default: int) -> int:
         return default
     if not (text.isascii() and text.isdigit()) or len(text) > _INT_DIGITS_MAX:
         raise ValueError(f'"{text[:30]}" is no whole number from 0 on')
-    return int(text)
+    if (number := int(text)) > _INT_MAX:
+        raise ValueError(f"{text} is more than any field holds")
+    return number
 
 
 def _duration(parts: list[str]) -> Duration:

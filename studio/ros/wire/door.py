@@ -154,7 +154,7 @@ def declare_publisher(
             key,
             congestion_control=_congestion(blocking=blocking),
             reliability=zenoh.Reliability.RELIABLE if reliable else zenoh.Reliability.BEST_EFFORT,
-            cache=None if kept is None else zenoh.ext.CacheConfig(max_samples=kept),
+            cache=None if kept is None else zenoh.ext.CacheConfig(max_samples=_room(kept)),
             publisher_detection=kept is not None,
             sample_miss_detection=_miss_detection() if detection else None,
         ),
@@ -163,6 +163,11 @@ def declare_publisher(
 
 def _miss_detection() -> zenoh.ext.MissDetectionConfig:
     return zenoh.ext.MissDetectionConfig(heartbeat=None, sporadic_heartbeat=_HEARTBEAT_S)
+
+
+def _room(depth: int) -> int:
+    """A depth comes from peers, too, who may write any number."""
+    return max(1, min(depth, SAMPLES_WAITING_MAX))
 
 
 def _congestion(*, blocking: bool) -> zenoh.CongestionControl:
@@ -181,7 +186,7 @@ def declare_subscription(
         reliable: Whether lost samples are asked for again (only with `wanted`).
         wanted: How many samples that were sent before it wants, None for none (volatile).
     """
-    ring: zenoh.handlers.RingChannel[zenoh.Sample] = zenoh.handlers.RingChannel(capacity)
+    ring: zenoh.handlers.RingChannel[zenoh.Sample] = zenoh.handlers.RingChannel(_room(capacity))
     if wanted is None:
         return Incoming(session.declare_subscriber(key, ring))
     recovery = zenoh.ext.RecoveryConfig(periodic_queries=None, heartbeat=True)
@@ -189,7 +194,7 @@ def declare_subscription(
         session,
         key,
         ring,
-        history=zenoh.ext.HistoryConfig(detect_late_publishers=True, max_samples=wanted),
+        history=zenoh.ext.HistoryConfig(detect_late_publishers=True, max_samples=_room(wanted)),
         recovery=recovery if reliable else None,
         subscriber_detection=True,
     )
@@ -198,7 +203,7 @@ def declare_subscription(
 
 def declare_queryable(session: zenoh.Session, key: str, capacity: int) -> Incoming[Asked]:
     """Declare a complete queryable whose oldest query is dropped when `capacity` is reached."""
-    ring: zenoh.handlers.RingChannel[zenoh.Query] = zenoh.handlers.RingChannel(capacity)
+    ring: zenoh.handlers.RingChannel[zenoh.Query] = zenoh.handlers.RingChannel(_room(capacity))
     return Incoming(session.declare_queryable(key, ring, complete=True))
 
 

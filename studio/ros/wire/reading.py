@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import threading
 from typing import TYPE_CHECKING, Generic, TypeVar
 
@@ -12,6 +13,8 @@ if TYPE_CHECKING:
 
 ItemT = TypeVar("ItemT")
 
+_log = logging.getLogger(__name__)
+
 BATCH_MAX = 512
 _END_TIMEOUT_S = 1.0
 
@@ -19,7 +22,8 @@ _END_TIMEOUT_S = 1.0
 class ReadingThread(Generic[ItemT]):
     """Sleeps in Zenoh until something comes, so that it costs nothing and is never late.
 
-    Zenoh's own threads only fill the queue: what is slow here holds up nobody else.
+    Zenoh's own threads only fill the queue: what is slow here holds up nobody else. A batch that
+    cannot be taken is logged, and the next one is read.
     """
 
     def __init__(
@@ -40,4 +44,7 @@ class ReadingThread(Generic[ItemT]):
             batch = [first]
             while len(batch) < BATCH_MAX and (item := self._source.try_recv()) is not None:
                 batch.append(item)
-            self._handle(batch)
+            try:
+                self._handle(batch)
+            except Exception:  # noqa: BLE001 - a listener of any room may raise anything
+                _log.exception("%s could not take what came", self._thread.name)
