@@ -45,9 +45,15 @@ class ActionServerNode(Node):
                 return ChooseSong.Result(success=False, final_message=f"Stopped {song}")
             fb = ChooseSong.Feedback(progress_pct=float(pct), status_line=f"Playing {song}")
             goal_handle.publish_feedback(fb)
-            time.sleep(self.get_parameter("step_seconds").value)
+            self.play_on(goal_handle)
         goal_handle.succeed()
         return ChooseSong.Result(success=True, final_message=f"Finished {song}")
+
+    def play_on(self, goal_handle: ServerGoalHandle) -> None:
+        """Play one step, unless somebody cancels the song or ends the station."""
+        end = time.monotonic() + self.get_parameter("step_seconds").value
+        while time.monotonic() < end and rclpy.ok() and not goal_handle.is_cancel_requested:
+            time.sleep(0.02)
 
 
 def main(args: list[str] | None = None) -> None:

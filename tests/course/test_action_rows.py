@@ -1,0 +1,102 @@
+"""The course's rows on actions: A1 and A2, the radio DJ in a process of his own."""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+from studio.ros.action import ActionClient, GoalStatus
+from studio.ros.client import Node, action
+from tests.support.demos import node_at, running_demo
+from tests.support.wire import PATIENCE_S, running_router, wait_until
+
+if TYPE_CHECKING:
+    from collections.abc import Generator
+
+    from studio.ros.action import ClientGoalHandle
+    from studio.ros.client import Future
+
+pytestmark = [pytest.mark.network, pytest.mark.timeout(120)]
+CHOOSE_SONG = "radio_station_interfaces/action/ChooseSong"
+FAST = ("--ros-args", "-p", "step_seconds:=0.05")
+SLOW = ("--ros-args", "-p", "step_seconds:=0.5")
+
+
+@pytest.fixture(scope="module")
+def router() -> Generator[str]:
+    with running_router() as endpoint:
+        yield endpoint
+
+
+class Requester:
+    """Wishes songs, and keeps what the DJ says."""
+
+    def __init__(self, node: Node) -> None:
+        self.client = ActionClient(node, action(CHOOSE_SONG), "choose_song")
+        assert self.client.wait_for_server(PATIENCE_S)
+        self.said: list[Any] = []
+
+    def wish(self, song: str) -> ClientGoalHandle:
+        goal = action(CHOOSE_SONG).Goal(song_name=song)
+        sent = self.client.send_goal_async(
+            goal, feedback_callback=lambda told: self.said.append(told.feedback)
+        )
+        return finished(sent)
+
+
+def finished(future: Future[Any]) -> Any:  # noqa: ANN401
+    wait_until("an answer", future.done)
+    return future.result()
+
+
+def test_a1_a_song_gives_21_feedbacks_and_a_result(router: str):
+    with node_at(router) as node, running_demo(router, "radio_dj", *FAST):
+        requester = Requester(node)
+        answer = finished(requester.wish("Clocks").get_result_async())
+        assert answer.status == GoalStatus.SUCCEEDED
+        assert answer.result.success
+        assert answer.result.final_message == "Finished Clocks"
+        wait_until("all feedbacks", lambda: len(requester.said) == 21)
+        assert [said.progress_pct for said in requester.said] == list(range(0, 101, 5))
+        assert {said.status_line for said in requester.said} == {"Playing Clocks"}
+
+
+def test_a1_the_requester_logs_the_feedback_and_ends_with_the_song(router: str):
+    with (
+        running_demo(router, "radio_dj", *FAST),
+        running_demo(router, "song_requester", "Clocks") as requester,
+    ):
+        assert requester.wait() == 0
+    assert requester.printed.count("DJ says: Playing Clocks") == 21
+    assert "DJ final: Finished Clocks" in requester.printed
+
+
+def test_a2_a_goal_that_is_cancelled_ends_canceled_within_a_second(router: str):
+    with node_at(router) as node, running_demo(router, "radio_dj", *SLOW):
+        requester = Requester(node)
+        goal = requester.wish("Clocks")
+        wait_until("the song plays", lambda: bool(requester.said))
+        began = time.monotonic()
+        assert finished(goal.cancel_goal_async()).goals_canceling
+        answer = finished(goal.get_result_async())
+        assert time.monotonic() - began < 1.0
+        assert answer.status == GoalStatus.CANCELED
+        assert answer.result.final_message == "Stopped Clocks"
+
+
+def test_a2_a_song_without_a_name_is_refused(router: str):
+    with node_at(router) as node, running_demo(router, "radio_dj", *FAST):
+        requester = Requester(node)
+        assert not requester.wish("").accepted
+        assert requester.wish("Clocks").accepted
+
+
+def test_a2_two_songs_at_once_both_end(router: str):
+    with node_at(router) as node, running_demo(router, "radio_dj", *FAST):
+        requester = Requester(node)
+        goals = [requester.wish(song) for song in ("Clocks", "Yellow")]
+        answers = [finished(goal.get_result_async()) for goal in goals]
+        said = [answer.result.final_message for answer in answers]
+        assert said == ["Finished Clocks", "Finished Yellow"]
