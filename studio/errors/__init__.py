@@ -61,6 +61,7 @@ StudioError
             NotJoinedError
             AlreadyJoinedError
             DestroyedError
+            RosArgumentError
             ExternalShutdownException
     WorkerError
         WorkerTimeoutError
@@ -140,6 +141,7 @@ from studio.errors.nodes import (
     ExternalShutdownException,
     NodeError,
     NotJoinedError,
+    RosArgumentError,
 )
 from studio.errors.root import (
     StudioError,
@@ -220,6 +222,7 @@ __all__ = [
     "ReadOnlyTextError",
     "RefusedError",
     "RobotError",
+    "RosArgumentError",
     "RosNameError",
     "RouterNotStartedError",
     "SaveConflictError",

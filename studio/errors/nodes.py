@@ -34,6 +34,14 @@ class DestroyedError(NodeError):
         self.what = what
 
 
+class RosArgumentError(NodeError):
+    """A word after `--ros-args` cannot be read."""
+
+    def __init__(self, word: str, reason: str) -> None:
+        super().__init__(f'The argument "{word[:200]}" is not understood: {reason}.')
+        self.word, self.reason = word, reason
+
+
 class ExternalShutdownException(NodeError):  # noqa: N818  # the name that rclpy's users catch
     """The process was told to end while a node was spinning."""
 

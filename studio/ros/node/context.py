@@ -10,13 +10,15 @@ from studio.errors import AlreadyJoinedError, NotJoinedError
 from studio.ros.graph.graph import Graph
 from studio.ros.messages import shared_types
 from studio.ros.messages.shared import types_of
+from studio.ros.node.arguments import RosArguments, parse_arguments
 from studio.ros.node.drain import Drain, Source
 from studio.ros.wire.opening import open_wire
 from studio.ros.wire.settings import wire_settings
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
+    from studio.ros.node.arguments import NodeArguments
     from studio.ros.wire.session import WireSession
     from studio.ros.wire.settings import WireSettings
 
@@ -34,6 +36,7 @@ class Context:
         self._drain: Drain | None = None
         self._graph: Graph | None = None
         self._owns_wire = True
+        self.arguments = RosArguments()
         self._ok = self._told_to_end = False
         self._closed = threading.Event()
         self._ending: list[Callable[[], None]] = []
@@ -104,6 +107,19 @@ class Context:
         if drain is not None:
             drain.remove(source)
 
+    def arguments_of(
+        self, node_name: str, words: Sequence[str] | None, *, use_global: bool
+    ) -> NodeArguments:
+        """Give what was said to a node: to itself, and before that to all of the process.
+
+        Raises:
+            RosArgumentError: A word is none that ROS knows.
+        """
+        own = parse_arguments(words or ())
+        if not use_global:
+            return own.of_node(node_name)
+        return own.before(self.arguments).of_node(node_name)
+
     def ok(self) -> bool:
         """Whether it is joined, and nobody told it to end."""
         return self._ok
@@ -120,6 +136,12 @@ class Context:
         """Call back once before the session is closed."""
         with self._lock:
             self._closing.append(callback)
+
+    def forget_close(self, callback: Callable[[], None]) -> None:
+        """Do not call back; harmless when it was not to be."""
+        with self._lock:
+            if callback in self._closing:
+                self._closing.remove(callback)
 
     def end(self) -> None:
         """Tell all that spin to end; the session stays open. Safe in a handler of signals."""

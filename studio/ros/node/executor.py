@@ -16,9 +16,9 @@ from studio.ros.node.task import Task
 if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine
 
+    from studio.ros.node.base import NodeBase
     from studio.ros.node.context import Context
     from studio.ros.node.future import Future
-    from studio.ros.node.node import Node
     from studio.ros.node.work import CallbackGroup, Work
 
 _WAIT_MAX_S = 3_600.0
@@ -43,7 +43,7 @@ class Executor:
         self.context = context or default_context()
         self.is_shut_down = False
         self._changed = threading.Condition()
-        self._nodes: list[Node] = []
+        self._nodes: list[NodeBase] = []
         self._ready: deque[Work | Task] = deque()
         self._held: dict[CallbackGroup, deque[Work]] = {}
         self._due: set[Work] = set()
@@ -55,7 +55,7 @@ class Executor:
     def __exit__(self, *_: object) -> None:
         self.shutdown()
 
-    def add_node(self, node: Node) -> bool:
+    def add_node(self, node: NodeBase) -> bool:
         """Carry out a node's work, which another executor does no more; whether it is new."""
         with self._changed:
             if self.is_shut_down or node in self._nodes:
@@ -66,7 +66,7 @@ class Executor:
             self.adopt(work)
         return True
 
-    def remove_node(self, node: Node) -> None:
+    def remove_node(self, node: NodeBase) -> None:
         """Leave a node's work alone."""
         with self._changed:
             if node not in self._nodes:
@@ -77,7 +77,7 @@ class Executor:
         for work in node.all_work:
             self.forget(work)
 
-    def get_nodes(self) -> list[Node]:
+    def get_nodes(self) -> list[NodeBase]:
         """Give the nodes whose work is carried out."""
         with self._changed:
             return list(self._nodes)

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import atexit
+import sys
 import threading
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, Self
 
+from studio.ros.node.arguments import parse_arguments
 from studio.ros.node.context import Context, default_context
 from studio.ros.node.executor import Executor, SingleThreadedExecutor
+from studio.ros.node.logger import get_logger
 from studio.ros.node.node import Node
 from studio.ros.node.signals import SignalHandlerOptions, handlers
 from studio.ros.wire.settings import wire_settings
@@ -59,6 +62,7 @@ def init(
 
     Raises:
         AlreadyJoinedError: It is joined.
+        RosArgumentError: A word after `--ros-args` is none that ROS knows.
         WireError: The router cannot be joined.
     """
     joined = context or default_context()
@@ -66,6 +70,9 @@ def init(
     if options is None:
         options = SignalHandlerOptions.ALL if context is None else SignalHandlerOptions.NO
     given = settings or wire_settings(domain=domain_id)
+    joined.arguments = parse_arguments(sys.argv[1:] if args is None else args)
+    for name, level in joined.arguments.levels:
+        get_logger(name).set_level(level)
     handlers.install(joined, options)
     atexit.register(joined.shutdown)
     joined.init(given, router)

@@ -1,0 +1,190 @@
+"""Arguments: what follows `--ros-args` on a command line: names, remappings and parameters."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from studio.errors import ParameterFileError, RosArgumentError
+from studio.ros.names import expand
+from studio.ros.node.logger import LoggingSeverity
+from studio.ros.parameters.files import read_parameters
+from studio.ros.parameters.parameter import Parameter
+from studio.ros.types.yaml_texts import read_yaml
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from studio.ros.tokens import NodeToken
+
+BEGIN, END = "--ros-args", "--"
+_RULE = re.compile(r"(?:(?P<node>[A-Za-z0-9_/]+):)?(?P<from>[^:=]+):=(?P<to>.*)", re.DOTALL)
+_NAMES = {"__node", "__name"}
+_SWITCHES = re.compile(r"--(enable|disable)-(rosout-logs|stdout-logs|external-lib-logs)")
+
+
+@dataclass(frozen=True, slots=True)
+class Rule:
+    """`node:from:=to`; without a node it counts for all."""
+
+    node: str | None
+    source: str
+    target: str
+
+    def is_for(self, name: str) -> bool:
+        """Whether it counts for a node of that name."""
+        return self.node is None or self.node.rpartition("/")[2] == name
+
+
+@dataclass(frozen=True, slots=True)
+class RosArguments:
+    """What was said to the nodes of a process.
+
+    Attributes:
+        rest: The words that are not of ROS.
+        remaps: In the order given; the first that fits counts.
+        parameters: In the order given; the last one counts.
+        files: Of parameters, before `parameters`.
+        levels: Of loggers by name, "" for all.
+    """
+
+    rest: tuple[str, ...] = ()
+    remaps: tuple[Rule, ...] = ()
+    parameters: tuple[Rule, ...] = ()
+    files: tuple[str, ...] = ()
+    levels: tuple[tuple[str, LoggingSeverity], ...] = ()
+
+    def before(self, others: RosArguments) -> RosArguments:
+        """Join with others, before which these count."""
+        return RosArguments(
+            self.rest,
+            (*self.remaps, *others.remaps),
+            (*others.parameters, *self.parameters),
+            (*others.files, *self.files),
+            (*others.levels, *self.levels),
+        )
+
+    def of_node(self, name: str) -> NodeArguments:
+        """Give what counts for the node that its code names so."""
+        fitting = [rule for rule in self.remaps if rule.is_for(name)]
+        return NodeArguments(
+            node_name=next((one.target for one in fitting if one.source in _NAMES), None),
+            namespace=next((one.target for one in fitting if one.source == "__ns"), None),
+            remaps=tuple(one for one in fitting if not one.source.startswith("__")),
+            parameters=tuple(rule for rule in self.parameters if rule.is_for(name)),
+            files=self.files,
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class NodeArguments:
+    """What was said to one node; names are None where nothing was."""
+
+    node_name: str | None = None
+    namespace: str | None = None
+    remaps: tuple[Rule, ...] = ()
+    parameters: tuple[Rule, ...] = ()
+    files: tuple[str, ...] = field(default_factory=tuple)
+
+    def remapped(self, full_name: str, node: NodeToken) -> str:
+        """Give another full name to a topic or service, if a remapping says so.
+
+        Raises:
+            RosNameError: A remapping gives a name that cannot be.
+        """
+        for rule in self.remaps:
+            source = rule.source.removeprefix("rostopic://").removeprefix("rosservice://")
+            if expand(source, node.namespace, node.name) == full_name:
+                return expand(rule.target, node.namespace, node.name)
+        return full_name
+
+    def overrides(self, path: str) -> list[Parameter]:
+        """Give the parameters that were said at the start to the node of a full name.
+
+        Raises:
+            ParameterFileError: A file cannot be read, or is none of parameters.
+            InvalidParameterTypeError: A value is of no type that parameters have.
+        """
+        found: dict[str, Parameter] = {}
+        for file in self.files:
+            found |= {one.name: one for one in read_parameters(_text_of(file), path, file)}
+        for rule in self.parameters:
+            found[rule.source] = Parameter(rule.source, value=read_yaml(rule.target))
+        return list(found.values())
+
+
+def parse_arguments(words: Sequence[str]) -> RosArguments:
+    """Read the words of a command line; those outside of `--ros-args ... --` are left.
+
+    Raises:
+        RosArgumentError: A word is none that ROS knows, or says nothing that can be read.
+    """
+    rest: list[str] = []
+    remaps: list[Rule] = []
+    parameters: list[Rule] = []
+    files: list[str] = []
+    levels: list[tuple[str, LoggingSeverity]] = []
+    for option, value in _options(words, rest):
+        match option:
+            case "-r" | "--remap":
+                remaps.append(_rule(option, value))
+            case "-p" | "--param":
+                parameters.append(_rule(option, value))
+            case "--params-file":
+                files.append(value)
+            case "--log-level":
+                levels.append(_level(value))
+            case _:  # -e, --enclave and --log-config-file change nothing that there is here
+                pass
+    return RosArguments(tuple(rest), tuple(remaps), tuple(parameters), tuple(files), tuple(levels))
+
+
+_WITH_VALUE = {
+    "-r", "--remap", "-p", "--param", "--params-file", "--log-level", "-e", "--enclave",
+    "--log-config-file",
+}  # fmt: skip
+
+
+def _options(words: Sequence[str], rest: list[str]) -> Iterator[tuple[str, str]]:
+    of_ros = False
+    waiting = iter(words)
+    for word in waiting:
+        if word == BEGIN:
+            of_ros = True
+        elif not of_ros:
+            rest.append(word)
+        elif word == END:
+            of_ros = False
+        elif word in _WITH_VALUE:
+            value = next(waiting, None)
+            if value is None:
+                raise RosArgumentError(word, "a value follows it")
+            yield word, value
+        elif not _SWITCHES.fullmatch(word):
+            raise RosArgumentError(word, "it is none of the arguments that follow --ros-args")
+
+
+def _rule(option: str, text: str) -> Rule:
+    found = _RULE.fullmatch(text)
+    if found is None:
+        raise RosArgumentError(f"{option} {text}", "write from:=to, or node:from:=to")
+    return Rule(found["node"], found["from"], found["to"])
+
+
+def _level(text: str) -> tuple[str, LoggingSeverity]:
+    name, _, level = text.rpartition(":=")
+    try:
+        return name, LoggingSeverity[level.upper()]
+    except KeyError:
+        raise RosArgumentError(
+            f"--log-level {text}", "a level is debug, info, warn, error or fatal"
+        ) from None
+
+
+def _text_of(file: str) -> str:
+    try:
+        return Path(file).read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise ParameterFileError(file, f"it cannot be read ({error})") from None

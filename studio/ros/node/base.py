@@ -1,0 +1,207 @@
+"""NodeBase: the name of a node on the wire, its work, and its end."""
+
+from __future__ import annotations
+
+import threading
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from studio.errors import DestroyedError
+from studio.ros.names import as_namespace, check_node_name, expand
+from studio.ros.node.clock import Clock
+from studio.ros.node.drain import Source
+from studio.ros.node.endpoint import Endpoint, endpoint_of
+from studio.ros.node.logger import Logger, get_logger
+from studio.ros.node.time import ClockType
+from studio.ros.node.work import MutuallyExclusiveCallbackGroup
+from studio.ros.qos import as_profile
+from studio.ros.tokens import EndpointKind, NodeToken
+from studio.ros.wire.door import declare_token
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from studio.ros.graph.graph import Graph
+    from studio.ros.node.arguments import NodeArguments
+    from studio.ros.node.context import Context
+    from studio.ros.node.executor import Executor
+    from studio.ros.node.work import CallbackGroup, Work
+    from studio.ros.qos import QoSProfile
+    from studio.ros.wire.session import WireSession
+
+
+class NodeBase:
+    """What every node has before it makes anything; `Node` is what users derive from."""
+
+    def __init__(
+        self, node_name: str, namespace: str, context: Context, arguments: NodeArguments
+    ) -> None:
+        self._context = context
+        self._wire: WireSession = context.wire
+        self._executor: Executor | None = None
+        self._default_group: CallbackGroup = MutuallyExclusiveCallbackGroup()
+        self._lock = threading.RLock()
+        self._all_work: list[Work] = []
+        self._ends: list[Callable[[], None]] = []
+        self._destroyed = False
+        self._clock = Clock(clock_type=ClockType.ROS_TIME)
+        name = check_node_name(arguments.node_name or node_name)
+        space = as_namespace(arguments.namespace or namespace)
+        self._remapped = arguments.remapped
+        self._token = NodeToken(
+            self._wire.domain, self._wire.zid, self._wire.next_id(), space, name
+        )
+        self._shown = declare_token(self._wire.zenoh, str(self._token))
+        context.on_close(self.destroy_node)
+
+    # Students name attributes of their nodes as they like: what is cached here they may hide.
+    @cached_property
+    def wire(self) -> WireSession:
+        """The session that it shares with the other nodes of the process."""
+        return self._wire
+
+    @cached_property
+    def context(self) -> Context:
+        """What it shares with the other nodes of the process."""
+        return self._context
+
+    @property
+    def graph(self) -> Graph:
+        """Who is there, for all nodes of the process."""
+        return self._context.graph
+
+    @property
+    def token(self) -> NodeToken:
+        """How it is shown on the wire."""
+        return self._token
+
+    @property
+    def executor(self) -> Executor | None:
+        """Who carries out its work, None until it spins."""
+        return self._executor
+
+    @executor.setter
+    def executor(self, executor: Executor | None) -> None:
+        before, self._executor = self._executor, executor
+        if before is not None and before is not executor:
+            before.remove_node(self)
+
+    @property
+    def default_callback_group(self) -> CallbackGroup:
+        """The group of all that names none: one piece at a time."""
+        return self._default_group
+
+    @property
+    def all_work(self) -> list[Work]:
+        """What it has to do now and then: subscriptions, timers, services, clients and others."""
+        with self._lock:
+            return list(self._all_work)
+
+    def get_name(self) -> str:
+        """Give its name without the namespace."""
+        return self._token.name
+
+    def get_namespace(self) -> str:
+        """Give its namespace, `/` or `/ns`."""
+        return self._token.namespace
+
+    def get_fully_qualified_name(self) -> str:
+        """Give namespace and name, `/ns/name`."""
+        return self._token.path
+
+    def get_logger(self) -> Logger:
+        """Give its logger, named `ns.name`."""
+        return get_logger(self._token.path.strip("/").replace("/", "."))
+
+    def get_clock(self) -> Clock:
+        """Give its clock, which /clock tells when `use_sim_time` is set."""
+        return self._clock
+
+    def resolve_topic_name(self, topic: str, *, only_expand: bool = False) -> str:
+        """Give the full name of a topic of this node, as remappings make it unless only expanded.
+
+        Raises:
+            RosNameError: No topic can be named so.
+        """
+        full = expand(topic, self._token.namespace, self._token.name)
+        return full if only_expand else self._remapped(full, self._token)
+
+    resolve_service_name = resolve_topic_name
+
+    def add_work(self, work: Work) -> None:
+        """Have work of any kind carried out with the node's own; it is destroyed with the node.
+
+        Raises:
+            DestroyedError: The node was destroyed.
+        """
+        with self._lock:
+            self._refuse_destroyed()
+            self._all_work.append(work)
+        work.home = self
+        if isinstance(work, Source):
+            self._context.drain.add(work)
+        executor = self._executor
+        if executor is not None:
+            executor.adopt(work)
+
+    def remove_work(self, work: Work) -> bool:
+        """Destroy a piece of work; whether it was the node's."""
+        with self._lock:
+            if work not in self._all_work:
+                return False
+            self._all_work.remove(work)
+        work.home = None
+        executor = self._executor
+        if executor is not None:
+            executor.forget(work)
+        if isinstance(work, Source):
+            self._context.forget_source(work)
+        work.destroy()
+        return True
+
+    def announce(self, work: Work) -> None:
+        """Tell whoever spins the node that work is ready; from any thread."""
+        executor = self._executor
+        if executor is not None:
+            executor.announce(work)
+
+    def on_destroy(self, callback: Callable[[], None]) -> None:
+        """Call back once before the node's own things are taken back, the last ones first."""
+        with self._lock:
+            self._ends.append(callback)
+
+    def destroy_node(self) -> None:
+        """Take back all that is its own, and then itself; again is harmless."""
+        with self._lock:
+            if self._destroyed:
+                return
+            self._destroyed = True
+            ends, self._ends = self._ends, []
+        for end in reversed(ends):
+            end()
+        for work in self.all_work:
+            self.remove_work(work)
+        if self._executor is not None:
+            self._executor.remove_node(self)
+        self._context.forget_close(self.destroy_node)
+        if not self._wire.zenoh.is_closed():
+            self._shown.undeclare()
+
+    def endpoint(
+        self, kind: EndpointKind, type_name: str, name: str, qos: QoSProfile | int
+    ) -> Endpoint:
+        """Number an endpoint of this node, which whoever declares it shows.
+
+        Raises:
+            RosNameError: It cannot be named so.
+            UnknownTypeError: The type, or what it is made of, is not known.
+            DestroyedError: The node was destroyed.
+        """
+        self._refuse_destroyed()
+        computed = self._wire.types.hash_of(type_name)
+        named = (self.resolve_topic_name(name), type_name, computed)
+        return endpoint_of(self._wire, self._token, kind, named, as_profile(qos))
+
+    def _refuse_destroyed(self) -> None:
+        if self._destroyed:
+            raise DestroyedError(f"node {self._token.path}")
