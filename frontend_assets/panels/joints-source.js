@@ -58,8 +58,8 @@ function Choices() {
       onChange=${(/** @type {boolean} */ on) => run(() => publishRobot(on))} />
     <${PublishRow} label=${t("publish.joints")} topics="/joint_states" checked=${jointsOut} disabled=${off}
       onChange=${(/** @type {boolean} */ on) => run(() => publishJoints(on))} />
-    ${from && html`<p class="note source-note"><${Icon} name="link" size=${12} />${t("source.described", { from })}</p>`}
-    ${trouble && html`<p class="note bad source-note" role="alert"><${Icon} name="alert" size=${12} />${trouble}</p>`}
+    ${from && html`<p class="source-note"><${Icon} name="link" size=${12} /><span>${t("source.described", { from })}</span></p>`}
+    ${trouble && html`<p class="source-note bad" role="alert"><${Icon} name="alert" size=${12} /><span>${trouble}</span></p>`}
     <${RosNote} />`;
 }
 
@@ -75,9 +75,9 @@ function SourceState() {
   if (state === "") return null;
   const words = t(`source.state.${state}`, { rate, topic: t(`source.${feed.value.source}`) });
   const tone = state === "live" ? "good" : "amber";
-  return html`<p class=${`note source-note ${tone}`} role="status"><${Icon} name=${state === "live" ? "check" : "alert"} size=${12} />${words}</p>
-    ${strangers.length > 0 && html`<p class="note source-note"><${Icon} name="info" size=${12} />${t("source.strangers", { names: strangers.join(", ") })}</p>`}
-    ${paused && html`<p class="note source-note"><${Icon} name="info" size=${12} />${t("publish.paused")}</p>`}`;
+  return html`<p class=${`source-note ${tone}`} role="status"><${Icon} name=${state === "live" ? "check" : "alert"} size=${12} /><span>${words}</span></p>
+    ${strangers.length > 0 && html`<p class="source-note"><${Icon} name="info" size=${12} /><span>${t("source.strangers", { names: strangers.join(", ") })}</span></p>`}
+    ${paused && html`<p class="source-note"><${Icon} name="info" size=${12} /><span>${t("publish.paused")}</span></p>`}`;
 }
 
 /** What keeps the wire from working, where it is used. */
@@ -86,7 +86,7 @@ function RosNote() {
   const { source, publishes_robot: robotOut, publishes_joints: jointsOut } = feed.value;
   const isUsed = source !== "sliders" || robotOut || jointsOut;
   if (state === "connecting")
-    return html`<p class="note source-note" role="status"><span class="spinner"></span>${t("ros.connecting")}</p>`;
+    return html`<p class="source-note" role="status"><span class="spinner"></span><span>${t("ros.connecting")}</span></p>`;
   if (state !== "lost" || !isUsed) return null;
-  return html`<p class="note bad source-note" role="alert"><${Icon} name="alert" size=${12} />${t("ros.lost.text")}</p>`;
+  return html`<p class="source-note bad" role="alert"><${Icon} name="alert" size=${12} /><span>${t("ros.lost.text")}</span></p>`;
 }

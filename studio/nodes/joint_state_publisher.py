@@ -1,15 +1,28 @@
-"""JointStatePublisher: tells where the joints of a robot stand, on `joint_states`."""
+"""JointStatePublisher: tells where the joints of a robot stand, on `joint_states`.
+
+Try: `studio run joint_state_publisher joint_state_publisher robot.urdf`, then
+`studio topic hz /joint_states`.
+"""
 
 from __future__ import annotations
 
+import sys
+from contextlib import suppress
 from typing import TYPE_CHECKING, Final
 
+import studio.ros.client as rclpy
+from studio.errors import ExternalShutdownException, RobotError
+from studio.nodes.robot_state_publisher import LATCHED, read_urdf
+from studio.robot.kinematics import Kinematics
+from studio.robot.urdf_text import robot_from_urdf
+from studio.ros.client import Node
+from studio.ros.messages import message
 from studio.ros.qos import QoSProfile
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
-    from studio.ros.node.node import Node
+    from studio.ros.types.classes import MessageValue
 
 _QUEUE: Final = QoSProfile(depth=10)
 
@@ -34,3 +47,50 @@ class JointStatePublisher:
                 position=list(positions.values()),
             )
         )
+
+
+class JointStateNode(Node):
+    """The node that upstream's program is without a window: all joints at zero, at a rate.
+
+    The robot is that of a file, or the one that comes on `robot_description`.
+    """
+
+    def __init__(self, urdf: str = "") -> None:
+        super().__init__("joint_state_publisher")
+        self._publisher = JointStatePublisher(self)
+        self._positions: dict[str, float] = {}
+        rate_hz = self.declare_parameter("rate", 10).value
+        if urdf:
+            self._positions = _at_zero(urdf)
+        else:
+            text = message("std_msgs/msg/String")
+            self.create_subscription(text, "robot_description", self._take, LATCHED)
+        self.create_timer(1 / rate_hz, self._tell)
+
+    def _take(self, description: MessageValue) -> None:
+        try:
+            self._positions = _at_zero(description.data)
+        except RobotError as error:
+            self.get_logger().error(f"The description was not taken: {error}")
+
+    def _tell(self) -> None:
+        if self._positions:
+            self._publisher.tell(self._positions)
+
+
+def _at_zero(urdf: str) -> dict[str, float]:
+    """Every movable joint at zero, or as near as its limits let it."""
+    kinematics = Kinematics(robot_from_urdf(urdf))
+    return dict(zip(kinematics.movable, kinematics.zero_positions().tolist(), strict=True))
+
+
+def main(args: Sequence[str] | None = None) -> None:
+    """Run until the process is told to end."""
+    given = sys.argv[1:] if args is None else list(args)
+    urdf = read_urdf(given)
+    with rclpy.init(args=given), suppress(KeyboardInterrupt, ExternalShutdownException):
+        rclpy.spin(JointStateNode(urdf))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,13 +1,24 @@
-"""RobotStatePublisher: tells a robot's description and the transforms of its tree, as upstream."""
+"""RobotStatePublisher: tells a robot's description and the transforms of its tree, as upstream.
+
+Try: `studio run robot_state_publisher robot_state_publisher robot.urdf`, then
+`studio topic echo --once /tf_static`.
+"""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final
+import sys
+from contextlib import suppress
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
 
+import studio.ros.client as rclpy
+from studio.errors import ExternalShutdownException, SettingsError, StudioError, UnreadableFileError
 from studio.nodes.link_transforms import LinkTransforms
 from studio.nodes.state_pace import StatePace
 from studio.robot.urdf_text import robot_from_urdf
+from studio.ros.client import Node
 from studio.ros.duration import NANOSECONDS
+from studio.ros.messages import message
 from studio.ros.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
 if TYPE_CHECKING:
@@ -16,13 +27,17 @@ if TYPE_CHECKING:
     from studio.nodes.link_transforms import LinkTransform
     from studio.robot.kinematics import Kinematics
     from studio.robot.values import Robot
-    from studio.ros.node.node import Node
+    from studio.ros.parameters.parameter import Parameter
     from studio.ros.types.classes import MessageValue
 
 LATCHED: Final = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 _DYNAMIC: Final = QoSProfile(depth=100)
 _SENSORS: Final = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
 FREQUENCY_HZ: Final = 20.0
+_DESCRIPTION: Final = "robot_description"
+_FREQUENCY: Final = "publish_frequency"
+_IGNORE: Final = "ignore_timestamp"
+_PREFIX: Final = "frame_prefix"
 
 
 class RobotStatePublisher:
@@ -68,9 +83,16 @@ class RobotStatePublisher:
         if moved:
             self._dynamic_out.publish(self._message(moved, stamp or self._now()))
 
-    def listen(self, *, frequency_hz: float = FREQUENCY_HZ, ignore_stamps: bool = False) -> None:
-        """Take positions from `joint_states`, at most that often."""
+    def set_prefix(self, frame_prefix: str) -> None:
+        """Put this before the names of frames from the next description on."""
+        self._prefix = frame_prefix
+
+    def set_pace(self, frequency_hz: float, *, ignore_stamps: bool) -> None:
+        """Take at most that many positions in a second."""
         self._pace = StatePace(frequency_hz, ignore_stamps=ignore_stamps)
+
+    def listen(self) -> None:
+        """Take positions from `joint_states`."""
         states = self._node.wire.types.message("sensor_msgs/msg/JointState")
         self._node.create_subscription(states, "joint_states", self._take, _SENSORS)
 
@@ -106,3 +128,77 @@ class RobotStatePublisher:
                 rotation=self._quaternion(x=qx, y=qy, z=qz, w=qw),
             ),
         )
+
+
+class RobotStateNode(Node):
+    """The node that upstream's program is: its parameters, and positions from `joint_states`."""
+
+    def __init__(self, urdf: str = "") -> None:
+        super().__init__("robot_state_publisher")
+        self._publisher = RobotStatePublisher(self)
+        self.declare_parameter(_DESCRIPTION, urdf)
+        self.declare_parameter(_FREQUENCY, FREQUENCY_HZ)
+        self.declare_parameter(_IGNORE, False)  # noqa: FBT003  # as in rclpy
+        self.declare_parameter(_PREFIX, "")
+        self._take({name: self.get_parameter(name).value for name in _NAMES})
+        self.add_on_set_parameters_callback(self._on_set)
+        self._publisher.listen()
+
+    def _on_set(self, parameters: list[Parameter]) -> MessageValue:
+        """Take other parameters at run time, all or none."""
+        result = message("rcl_interfaces/msg/SetParametersResult")
+        wanted = {name: self.get_parameter(name).value for name in _NAMES}
+        changed = {one.name: one.value for one in parameters if one.name in _NAMES}
+        try:
+            if changed:
+                self._take(wanted | changed)
+        except StudioError as error:
+            return result(successful=False, reason=str(error))
+        return result(successful=True)
+
+    def _take(self, values: dict[str, Any]) -> None:
+        """Act on all parameters.
+
+        Raises:
+            RobotError: The description is none.
+            SettingsError: The frequency is none, or there is no description.
+        """
+        if not values[_FREQUENCY] > 0:
+            raise SettingsError(f"{_FREQUENCY} is {values[_FREQUENCY]}: it must be above 0.")
+        if not values[_DESCRIPTION].strip():
+            raise SettingsError(
+                f"{_DESCRIPTION} is empty: name a URDF file, or give the text by "
+                f"--ros-args -p {_DESCRIPTION}:=..."
+            )
+        robot = robot_from_urdf(values[_DESCRIPTION])
+        self._publisher.set_pace(values[_FREQUENCY], ignore_stamps=values[_IGNORE])
+        self._publisher.set_prefix(values[_PREFIX])
+        self._publisher.describe(values[_DESCRIPTION], robot)
+
+
+_NAMES: Final = (_DESCRIPTION, _FREQUENCY, _IGNORE, _PREFIX)
+
+
+def read_urdf(arguments: Sequence[str]) -> str:
+    """The text of the file that the first argument names; empty: none does.
+
+    Raises:
+        UnreadableFileError: It cannot be read.
+    """
+    named = arguments[0] if arguments and not arguments[0].startswith("-") else ""
+    try:
+        return Path(named).read_text(encoding="utf-8") if named else ""
+    except (OSError, ValueError) as error:
+        raise UnreadableFileError(named, f"cannot be read ({error}).") from error
+
+
+def main(args: Sequence[str] | None = None) -> None:
+    """Run until the process is told to end."""
+    given = sys.argv[1:] if args is None else list(args)
+    urdf = read_urdf(given)
+    with rclpy.init(args=given), suppress(KeyboardInterrupt, ExternalShutdownException):
+        rclpy.spin(RobotStateNode(urdf))
+
+
+if __name__ == "__main__":
+    main()

@@ -21,6 +21,7 @@ from studio.ros.messages.shared import types_of
 from studio.ros.node.context import Context
 from studio.ros.node.executor import SingleThreadedExecutor
 from studio.ros.node.node import Node
+from studio.ros.parameters.parameter import Parameter
 from studio.ros.qos import QoSProfile, ReliabilityPolicy
 from studio.ros.wire.opening import open_wire
 
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
     from studio.ros.types.classes import MessageValue
     from studio.settings import WireChoice
 
+_DESCRIPTION: Final = "robot_description"
 _STRING: Final = "std_msgs/msg/String"
 _WATCH_EVERY_S: Final = 0.25
 _EVERY: Final = QoSProfile(depth=100)
@@ -190,8 +192,13 @@ class RobotOut:
     def __init__(self, link: WireLink, node: Node) -> None:
         self._link, self._node = link, node
         self._publisher = RobotStatePublisher(node)
-        self.describe = self._publisher.describe
         self.place = self._publisher.place
+        node.declare_parameter(_DESCRIPTION, "")
+
+    def describe(self, urdf: str, robot: Robot, kinematics: Kinematics) -> None:
+        """Tell this robot from now on, by topics and as a parameter."""
+        self._node.set_parameters([Parameter(_DESCRIPTION, value=urdf)])
+        self._publisher.describe(urdf, robot, kinematics)
 
     def close(self) -> None:
         """Tell it no more."""
