@@ -90,9 +90,3 @@ def test_sv3_points_are_added_and_a_slow_servers_answer_is_given_up(router: str)
             server.process.send_signal(signal.SIGCONT)
             before = client.printed.count("The result was")
             client.wait_for_more("The result was", before)
-
-
-def test_j1_the_distance_to_jerry_is_exact(router: str):
-    with node_at(router) as node, running_demo(router, "jerry_robot"):
-        answer = call(node, "pkg_with_interfaces/srv/Distance", "/distance", x=3.0, y=4.0)
-        assert answer.distance == 5.0
