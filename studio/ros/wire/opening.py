@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 _RACES_MAX = 5
 """How often the one who wins a race for the endpoint may be gone when we come to join."""
 
+_ROUTERS = frozenset({Answer.ZENOH, Answer.TLS})
+
 
 def open_wire(
     settings: WireSettings, router: str = "auto", types: TypeLibrary | None = None
@@ -65,7 +67,9 @@ def _open_once(
     except WireError as error:
         if router is not None:
             router.close()
-        if isinstance(error, NoRouterError) and found in {Answer.ZENOH, Answer.TLS}:
+        # A router that ended just now answered, too: it is there no more when asked again.
+        refuses = isinstance(error, NoRouterError) and found in _ROUTERS
+        if refuses and _answer_at(settings) in _ROUTERS:
             raise NotAdmittedError(settings.connect[0]) from None
         raise
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import secrets
 import socket
+import time
 from enum import StrEnum
 from typing import TYPE_CHECKING
 
@@ -12,6 +13,8 @@ if TYPE_CHECKING:
 
 CONNECT_TIMEOUT_S = 3.0
 ANSWER_TIMEOUT_S = 4.0
+_HANG_UPS_MAX = 4
+_HANG_UP_PAUSE_S = 0.2
 _INIT = 0x01
 _IS_ANSWER = 0x20
 _CLOSE = 0x03
@@ -34,28 +37,49 @@ class Answer(StrEnum):
 
 
 def probe(endpoint: Endpoint) -> Answer:
-    """Knock at an endpoint and leave; takes 7 s at most, and 1 ms on this machine."""
+    """Knock at an endpoint and leave; takes 7 s at most, and 1 ms for a router of this machine."""
     if not endpoint.is_stream:
         return Answer.UNKNOWN
+    for left in reversed(range(_HANG_UPS_MAX)):
+        answer = _knock(endpoint)
+        if answer is not None:
+            return answer
+        if left:
+            time.sleep(_HANG_UP_PAUSE_S)
+    return Answer.OTHER
+
+
+def _knock(endpoint: Endpoint) -> Answer | None:
+    """Knock once; None when somebody hung up without a word, as a router does that is ending."""
     try:
         link = socket.create_connection((endpoint.host, endpoint.port), CONNECT_TIMEOUT_S)
     except OSError:
         return Answer.NOBODY
     with link:
+        if link.getsockname() == link.getpeername():
+            return Answer.NOBODY  # a port that nobody holds may be lent to the one who asks for it
         if endpoint.protocol == "tls":
             return Answer.TLS
-        return Answer.ZENOH if _answers_as_zenoh(link) else Answer.OTHER
+        return _answer_on(link)
 
 
-def _answers_as_zenoh(link: socket.socket) -> bool:
+def _answer_on(link: socket.socket) -> Answer | None:
     """Send the first message of Zenoh's handshake; only Zenoh knows the second."""
     link.settimeout(ANSWER_TIMEOUT_S)
     message = bytes((_INIT, _PROTOCOL_VERSION, _CLIENT_WITH_LONG_ID)) + secrets.token_bytes(16)
     try:
         link.sendall(len(message).to_bytes(2, "little") + message)
         answer = link.recv(3, socket.MSG_WAITALL)
+    except TimeoutError:
+        return Answer.OTHER
     except OSError:
-        return False
+        return None
+    if not answer:
+        return None
+    return Answer.ZENOH if _is_zenoh(answer) else Answer.OTHER
+
+
+def _is_zenoh(answer: bytes) -> bool:
     if len(answer) < 3:
         return False
     length, kind = int.from_bytes(answer[:2], "little"), answer[2] & _MESSAGE_ID

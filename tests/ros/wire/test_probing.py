@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import socket
+import socketserver
 import threading
-from contextlib import closing, contextmanager
-from typing import TYPE_CHECKING
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, cast
 
 import pytest
 
@@ -25,15 +26,17 @@ def looked_at(endpoint: str) -> Answer:
 def program_that_says(words: bytes) -> Generator[str]:
     """Anything that listens, says something to whoever comes, and hangs up."""
 
-    def serve() -> None:
-        with closing(listening.accept()[0]) as link:
+    class Speaker(socketserver.BaseRequestHandler):
+        def handle(self) -> None:
+            link = cast("socket.socket", self.request)
             link.recv(1000)
             link.sendall(words)
 
-    with closing(socket.create_server(("127.0.0.1", 0))) as listening:
-        thread = threading.Thread(target=serve)
+    with socketserver.TCPServer(("127.0.0.1", 0), Speaker) as server:
+        thread = threading.Thread(target=server.serve_forever, args=(0.01,))
         thread.start()
-        yield f"tcp/127.0.0.1:{listening.getsockname()[1]}"
+        yield f"tcp/127.0.0.1:{server.server_address[1]}"
+        server.shutdown()
         thread.join()
 
 
@@ -68,6 +71,22 @@ def test_any_other_program_is_no_router(words: bytes):
 @pytest.mark.parametrize("endpoint", ["udp/127.0.0.1:7447", "unixsock-stream//tmp/none"])
 def test_of_what_is_no_stream_nothing_is_known(endpoint: str):
     assert looked_at(endpoint) is Answer.UNKNOWN
+
+
+def test_who_hung_up_because_it_ended_is_nobody():
+    """As a router in its last moments: whoever knocks meanwhile is not told of a stranger."""
+    with socket.create_server(("127.0.0.1", 0)) as listening:
+        endpoint = f"tcp/127.0.0.1:{listening.getsockname()[1]}"
+
+        def end() -> None:
+            link, _ = listening.accept()
+            listening.close()
+            link.close()
+
+        thread = threading.Thread(target=end)
+        thread.start()
+        assert looked_at(endpoint) is Answer.NOBODY
+        thread.join()
 
 
 def test_behind_tls_only_zenoh_can_look():
