@@ -10,7 +10,7 @@ import pytest
 
 from studio.nodes.demos.starting import DemoProcesses, environment_for
 from studio.ros.wire.settings import WireSettings, wire_settings
-from tests.support.demos import ENDS_WITHIN_S, running
+from tests.support.demos import ENDS_WITHIN_S, heard, node_at, running
 from tests.support.wire import running_router, wait_until
 
 if TYPE_CHECKING:
@@ -48,7 +48,12 @@ def test_studio_demos_starts_several_and_one_signal_ends_all_within_two_seconds(
 
 def test_arguments_of_ros_reach_each_demo(router: str):
     words = [sys.executable, "-m", "studio", "demos", "--connect", router, "talker", "listener"]
-    with running([*words, "--ros-args", "-r", "chatter:=elsewhere"], router) as demos:
+    with (
+        node_at(router) as node,
+        running([*words, "--ros-args", "-r", "chatter:=elsewhere"], router) as demos,
+    ):
+        heard_elsewhere = heard(node, "std_msgs/msg/String", "/elsewhere")
+        wait_until("the talker elsewhere", lambda: bool(heard_elsewhere))
         demos.wait_for("I heard:")
 
 
