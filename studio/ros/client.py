@@ -42,6 +42,7 @@ from studio.ros.node.spinning import (
     spin,
     spin_once,
     spin_until_future_complete,
+    spinning,
     try_shutdown,
 )
 from studio.ros.node.subscription import Subscription
@@ -120,5 +121,6 @@ __all__ = [
     "spin",
     "spin_once",
     "spin_until_future_complete",
+    "spinning",
     "try_shutdown",
 ]

@@ -10,12 +10,12 @@ from studio.errors import DestroyedError
 from studio.ros.names import as_namespace, check_node_name, expand
 from studio.ros.node.clock import Clock
 from studio.ros.node.drain import Source
-from studio.ros.node.endpoint import Endpoint, endpoint_of
+from studio.ros.node.endpoint import Endpoint
 from studio.ros.node.logger import Logger, get_logger
 from studio.ros.node.time import ClockType
 from studio.ros.node.work import MutuallyExclusiveCallbackGroup
 from studio.ros.qos import as_profile
-from studio.ros.tokens import EndpointKind, NodeToken
+from studio.ros.tokens import EndpointKind, EndpointToken, NodeToken
 from studio.ros.wire.door import declare_token
 
 if TYPE_CHECKING:
@@ -198,9 +198,12 @@ class NodeBase:
             DestroyedError: The node was destroyed.
         """
         self._refuse_destroyed()
-        computed = self._wire.types.hash_of(type_name)
-        named = (self.resolve_topic_name(name), type_name, computed)
-        return endpoint_of(self._wire, self._token, kind, named, as_profile(qos))
+        wire, full_name = self._wire, self.resolve_topic_name(name)
+        type_hash = wire.profile.type_hash(wire.types.hash_of(type_name))
+        token = EndpointToken(
+            self._token, wire.next_id(), kind, full_name, type_name, type_hash, as_profile(qos)
+        )
+        return Endpoint(wire, token, lambda: self._context.graph)
 
     def _refuse_destroyed(self) -> None:
         if self._destroyed:

@@ -5,7 +5,16 @@ from __future__ import annotations
 import logging
 import threading
 import time
-from typing import Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Protocol, TypeVar, runtime_checkable
+
+import zenoh
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from studio.ros.wire.door import Incoming
+
+ItemT = TypeVar("ItemT")
 
 LOOK_S = 0.002
 """Between two looks while data flows."""
@@ -72,6 +81,18 @@ class Drain:
     def _pause_s(self) -> float:
         flows = time.monotonic() - self._flowed_s < _FLOWS_S
         return LOOK_S if flows else IDLE_LOOK_S
+
+
+def waiting_in(incoming: Incoming[ItemT], most: int) -> Iterator[ItemT]:
+    """Take what waits in a ring; nothing when it was undeclared meanwhile by another thread."""
+    for _ in range(most):
+        try:
+            item = incoming.try_recv()
+        except zenoh.ZError:
+            return
+        if item is None:
+            return
+        yield item
 
 
 def _drained(source: Source) -> int:

@@ -6,11 +6,13 @@ from typing import TYPE_CHECKING
 
 from studio.ros.gid import gid_of
 from studio.ros.keys import DataKey
-from studio.ros.tokens import EndpointKind, EndpointToken, NodeToken
 from studio.ros.wire.door import declare_token
 
 if TYPE_CHECKING:
-    from studio.ros.qos import QoSProfile
+    from collections.abc import Callable
+
+    from studio.ros.graph.graph import Graph
+    from studio.ros.tokens import EndpointToken
     from studio.ros.wire.door import Declared
     from studio.ros.wire.session import WireSession
 
@@ -22,10 +24,11 @@ class Endpoint:
         token: As it is shown to all.
         gid: The 16 bytes that name it in every sample.
         key: The data key.
+        graph: Gives who is there.
     """
 
-    def __init__(self, wire: WireSession, token: EndpointToken) -> None:
-        self.wire = wire
+    def __init__(self, wire: WireSession, token: EndpointToken, graph: Callable[[], Graph]) -> None:
+        self.wire, self.graph = wire, graph
         self.token = token
         self.gid = gid_of(str(token))
         self.key = str(DataKey(wire.domain, token.name, token.type_name, token.type_hash))
@@ -42,25 +45,3 @@ class Endpoint:
             return
         for one in (shown, *declared):
             one.undeclare()
-
-
-def endpoint_of(
-    wire: WireSession,
-    node: NodeToken,
-    kind: EndpointKind,
-    named: tuple[str, str, str],
-    qos: QoSProfile,
-) -> Endpoint:
-    """Number an endpoint and write its token.
-
-    Args:
-        wire: The session.
-        node: Whose endpoint it is.
-        kind: Publisher, subscription, service or client.
-        named: Its full name, the name of its type, and the hash as computed.
-        qos: As asked for.
-    """
-    name, type_name, computed = named
-    type_hash = wire.profile.type_hash(computed)
-    token = EndpointToken(node, wire.next_id(), kind, name, type_name, type_hash, qos)
-    return Endpoint(wire, token)

@@ -8,6 +8,7 @@ from studio.ros.describing import START_PARAMETER, serve_descriptions
 from studio.ros.duration import NANOSECONDS
 from studio.ros.node.context import default_context
 from studio.ros.node.graph_queries import GraphQueries
+from studio.ros.node.guard import GuardCondition
 from studio.ros.node.publisher import Publisher
 from studio.ros.node.rate import Rate
 from studio.ros.node.rosout import RosoutPublisher
@@ -177,6 +178,14 @@ class Node(GraphQueries, NodeParameters):
         self.add_work(timer)
         return timer
 
+    def create_guard_condition(
+        self, callback: Callable[[], object], callback_group: CallbackGroup | None = None
+    ) -> GuardCondition:
+        """Make work that any thread may set off."""
+        guard = GuardCondition(callback, callback_group or self._default_group)
+        self.add_work(guard)
+        return guard
+
     def create_rate(self, frequency: float) -> Rate:
         """Make a rate of so many beats a second; it sleeps only while the node spins."""
         rate = Rate(self, frequency)
@@ -207,6 +216,10 @@ class Node(GraphQueries, NodeParameters):
     def destroy_timer(self, timer: Timer) -> bool:
         """Take back a timer; whether it was the node's."""
         return self.remove_work(timer)
+
+    def destroy_guard_condition(self, guard: GuardCondition) -> bool:
+        """Take back a guard; whether it was the node's."""
+        return self.remove_work(guard)
 
     def destroy_rate(self, rate: Rate) -> bool:
         """Take back a rate; whether it was the node's."""

@@ -10,6 +10,7 @@ from studio.errors import DestroyedError
 from studio.ros.attachment import Attachment
 from studio.ros.node.codecs import check_kind, codec_of
 from studio.ros.qos import DEPTH_DEFAULT, DurabilityPolicy, HistoryPolicy, ReliabilityPolicy
+from studio.ros.tokens import EndpointKind
 from studio.ros.types.classes import definition_of
 from studio.ros.wire.door import declare_publisher
 
@@ -59,6 +60,10 @@ class Publisher:
             self._sequence += 1
             attachment = Attachment(self._sequence, time.time_ns(), self.endpoint.gid)
             self._outgoing.put(payload, attachment=attachment.pack())
+
+    def get_subscription_count(self) -> int:
+        """Count who subscribes to the topic."""
+        return self.endpoint.graph().count(EndpointKind.SUBSCRIPTION, self.topic_name)
 
     def destroy(self) -> None:
         """Take it back; again is harmless."""

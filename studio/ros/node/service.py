@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING, Any
 from studio.errors import AttachmentError, CdrError
 from studio.ros.attachment import Attachment, unpack
 from studio.ros.node.codecs import check_kind, codec_of
+from studio.ros.node.drain import waiting_in
+from studio.ros.node.logger import get_logger
 from studio.ros.node.work import Work
 from studio.ros.qos import DEPTH_DEFAULT
 from studio.ros.types.classes import definition_of
@@ -95,7 +97,7 @@ class Service(Work):
         """Take in requests; of the drain's thread."""
         incoming = self._incoming
         taken = 0
-        while incoming is not None and taken < _RING and (query := incoming.try_recv()) is not None:
+        for query in () if incoming is None else waiting_in(incoming, _RING):
             taken += 1
             self._receive(query)
         return taken
@@ -144,17 +146,22 @@ class Service(Work):
         self.announce()
 
     def _refuse(self, query: Asked, reason: str) -> None:
+        self._say(reason)
+        query.drop()
+
+    def _say(self, reason: str) -> None:
+        """Count a request that was not taken, and log the first."""
+        if not self.refused:
+            get_logger("studio.ros").warning(f"A request to {self.srv_name} was dropped: {reason}")
         self.refused += 1
         self.reason = reason
-        query.drop()
 
     def _answer(self, request: _Request) -> object:
         try:
             asked = self._request_codec.decode(request.payload)
         except CdrError as error:
             self._finish(request)
-            self.refused += 1
-            self.reason = str(error)
+            self._say(str(error))
             return None
         try:
             given = self.callback(asked, self.srv_type.Response())

@@ -8,6 +8,7 @@ import threading
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, Self
 
+from studio.errors import ExternalShutdownException
 from studio.ros.node.arguments import parse_arguments
 from studio.ros.node.context import Context, default_context
 from studio.ros.node.executor import Executor, SingleThreadedExecutor
@@ -147,6 +148,36 @@ def spin_until_future_complete(
     """
     with _carried_out_by(node, executor) as chosen:
         chosen.spin_until_future_complete(future, timeout_sec)
+
+
+@contextmanager
+def spinning(*nodes: Node, executor: Executor | None = None) -> Generator[Executor]:
+    """Carry out the work of nodes in a thread, while the block waits, or asyncio does.
+
+    What a callback raises is raised at the end of the block.
+    """
+    chosen = executor or SingleThreadedExecutor(context=nodes[0].context)
+    for node in nodes:
+        chosen.add_node(node)
+    failures: list[BaseException] = []
+
+    def run() -> None:
+        try:
+            chosen.spin()
+        except ExternalShutdownException:
+            pass
+        except BaseException as error:  # noqa: BLE001  # raised again below
+            failures.append(error)
+
+    thread = threading.Thread(target=run, name="ros spinning", daemon=True)
+    thread.start()
+    try:
+        yield chosen
+    finally:
+        chosen.shutdown()
+        thread.join()
+    if failures:
+        raise failures[0]
 
 
 @contextmanager

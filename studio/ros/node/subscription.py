@@ -5,16 +5,20 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Self
 
 from studio.errors import AttachmentError, CdrError
 from studio.ros.attachment import unpack
 from studio.ros.node.codecs import codec_of
+from studio.ros.node.drain import waiting_in
+from studio.ros.node.future import Future
 from studio.ros.node.inbox import Inbox, RawSample
 from studio.ros.node.info import info_of, wants_info
+from studio.ros.node.logger import get_logger
 from studio.ros.node.sequences import Gaps
 from studio.ros.node.work import Work
 from studio.ros.qos import DEPTH_DEFAULT, DurabilityPolicy, HistoryPolicy, ReliabilityPolicy
+from studio.ros.tokens import EndpointKind
 from studio.ros.wire.door import SAMPLES_WAITING_MAX, declare_subscription
 
 if TYPE_CHECKING:
@@ -77,6 +81,7 @@ class Subscription(Work):
         self._losses, self._gaps = Losses(), Gaps()
         depth, ring = _sizes(endpoint.token.qos)
         self._inbox = Inbox(depth)
+        self._arrived: Future[None] | None = None
         self._incoming: Incoming[zenoh.Sample] | None = _declared(endpoint, ring)
         endpoint.show()
 
@@ -92,6 +97,10 @@ class Subscription(Work):
         """As asked for."""
         return self.endpoint.token.qos
 
+    def get_publisher_count(self) -> int:
+        """Count who publishes the topic."""
+        return self.endpoint.graph().count(EndpointKind.PUBLISHER, self.topic_name)
+
     @property
     def losses(self) -> Losses:
         """What was lost until now, a copy."""
@@ -99,8 +108,8 @@ class Subscription(Work):
 
     @property
     def is_ready(self) -> bool:
-        """Whether a sample waits."""
-        return len(self._inbox) > 0
+        """Whether a sample waits for the callback."""
+        return self.callback is not None and len(self._inbox) > 0
 
     def drain(self) -> int:
         """Empty the ring into the queue; of the drain's thread."""
@@ -109,14 +118,14 @@ class Subscription(Work):
             return 0
         came: list[RawSample] = []
         taken = 0
-        while taken < RING and (sample := incoming.try_recv()) is not None:
+        for sample in waiting_in(incoming, RING):
             taken += 1
             raw = self._received(sample)
             if raw is not None:
                 came.append(raw)
         if came:
             self._inbox.post(came)
-            self.announce()
+            self._tell()
         return taken
 
     def take(self) -> Callable[[], object] | None:
@@ -129,6 +138,34 @@ class Subscription(Work):
         incoming, self._incoming = self._incoming, None
         if incoming is not None:
             self.endpoint.hide(incoming)
+            self._tell()
+
+    def __aiter__(self) -> Self:
+        return self
+
+    async def __anext__(self) -> Any:  # noqa: ANN401
+        """Wait for the next message, or for its bytes where they are raw.
+
+        In asyncio or in a callback; it ends when the subscription is destroyed.
+        """
+        while True:
+            self._arrived = arrived = Future[None]()
+            sample = self._inbox.take()
+            if sample is not None:
+                message: Any = sample.payload if self.raw else self._decoded(sample)
+                if message is not None:
+                    return message
+            elif self._incoming is None:
+                raise StopAsyncIteration
+            else:
+                await arrived
+
+    def _tell(self) -> None:
+        arrived = self._arrived
+        if arrived is not None:
+            arrived.set_result(None)
+        if self.callback is not None:
+            self.announce()
 
     def _received(self, sample: zenoh.Sample) -> RawSample | None:
         attachment = sample.attachment
@@ -136,7 +173,7 @@ class Subscription(Work):
             unpacked = unpack(None if attachment is None else attachment.to_bytes())
         except AttachmentError as error:
             self._losses.refused += 1
-            self._losses.reason = str(error)
+            self._say(str(error))
             return None
         self._gaps.count(unpacked.gid, unpacked.sequence)
         return RawSample(sample.payload.to_bytes(), unpacked, time.time_ns())
@@ -156,8 +193,14 @@ class Subscription(Work):
             return self._codec.decode(sample.payload)
         except CdrError as error:
             self._losses.malformed += 1
-            self._losses.reason = str(error)
+            self._say(str(error))
             return None
+
+    def _say(self, reason: str) -> None:
+        """Keep why a sample was lost, and log the first of a kind: a flood is no flood of lines."""
+        if self._losses.reason is None:
+            get_logger("studio.ros").warning(f"A sample on {self.topic_name} was dropped: {reason}")
+        self._losses.reason = reason
 
 
 def _sizes(qos: QoSProfile) -> tuple[int, int]:
