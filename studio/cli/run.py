@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from studio.cli.executables import demo_executables, executables_of_all
 from studio.cli.opened import opened_packages
-from studio.cli.wire import STARTING
+from studio.cli.wire import STARTING, ended_by_signals
 from studio.errors import SettingsError
 
 if TYPE_CHECKING:
@@ -54,7 +54,7 @@ def _run(options: argparse.Namespace) -> int:
     wire, arguments = _part_arguments(words)
     settings = wire_settings(tuple(wire.connect), wire.domain)
     # Held for as long as the node runs: with it goes the router, where one was started here.
-    with open_wire(settings, wire.router) as held:
+    with ended_by_signals(), open_wire(settings, wire.router) as held:
         os.environ.update(environment_for(held.settings))
         importlib.import_module(module).main(arguments)
     return 0

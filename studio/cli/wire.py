@@ -70,7 +70,7 @@ def opened_wire(options: argparse.Namespace) -> Generator[WireSession]:
     profile = profile_of(options)
     settings = wire_settings(tuple(options.connect), options.domain, profile)
     types = known_types(options, profile.distro)
-    with _ended_by_signals(), open_wire(settings, options.router, types) as wire:
+    with ended_by_signals(), open_wire(settings, options.router, types) as wire:
         yield wire
 
 
@@ -89,7 +89,7 @@ def profile_of(options: argparse.Namespace) -> WireProfile:
 
 
 @contextmanager
-def _ended_by_signals() -> Generator[None]:
+def ended_by_signals() -> Generator[None]:
     """Let signals end the verb; Ctrl-C too where a script started it in the background."""
 
     def end(_number: int, _frame: object) -> None:
