@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from studio.ros.action import ActionClient, ActionServer
-from tests.support.spinning import spinning
+from tests.support.demos import node_at
 from tests.support.wire import PATIENCE_S, running_router, wait_until
 
 if TYPE_CHECKING:
@@ -58,8 +58,8 @@ def action_pair(
     """A pair at a router of its own."""
     with (
         running_router() as endpoint,
-        spinning(endpoint, "server") as [serving],
-        spinning(endpoint, "client") as [asking],
+        node_at(endpoint, "server") as serving,
+        node_at(endpoint, "client") as asking,
     ):
         yield ActionPair(serving, asking, execute, **options)
 

@@ -73,6 +73,7 @@ class ActionServer:
         self._node = node
         self._type = action_type
         self._goals = ServerGoals(result_timeout)
+        self._destroyed = False
         self._status_type = node.wire.types.message("action_msgs/msg/GoalStatusArray")
         self._goal_status_type = node.wire.types.message("action_msgs/msg/GoalStatus")
         self._goal_info_type = node.wire.types.message("action_msgs/msg/GoalInfo")
@@ -112,7 +113,7 @@ class ActionServer:
                 callback_group=callback_group,
             ),
         ]
-        node.on_destroy(self._let_go)
+        node.on_destroy(self.destroy)
         self.publish_status()
 
     @property
@@ -149,18 +150,15 @@ class ActionServer:
         self._execute_callback = execute_callback
 
     def destroy(self) -> None:
-        """Take the action back; goals under way end without a result for their clients."""
-        services, self._services = self._services, []
-        for service in services:
+        """Take the action back; clients of goals under way are told that nobody serves it."""
+        self._destroyed = True
+        for service in self._services:
             self._node.destroy_service(service)
-        self._let_go()
-        for publisher in (self._feedback, self._status):
-            self._node.destroy_publisher(publisher)
-
-    def _let_go(self) -> None:
-        """End the requests that wait for results: they are answered no more."""
+        # After the services: what waits for results must not be answered with one of no goal.
         for goal in self._goals.all():
             goal.result.set_result(self._type.Result())
+        for publisher in (self._feedback, self._status):
+            self._node.destroy_publisher(publisher)
 
     def new_future(self) -> Future[Any]:
         """Make what becomes the result of a goal; of goals."""
@@ -184,7 +182,9 @@ class ActionServer:
         self._feedback.publish(self._type.FeedbackMessage(goal_id=goal.goal_id, feedback=feedback))
 
     def publish_status(self) -> None:
-        """Tell how far every goal is; of goals."""
+        """Tell how far every goal is; of goals. Nobody listens to a server that was destroyed."""
+        if self._destroyed:
+            return
         self._status.publish(
             self._status_type(
                 status_list=[
@@ -294,6 +294,8 @@ class ActionServer:
         goal.result.set_result(given)
 
     def _say_raised(self, callback: Callable[..., Any], error: Exception) -> None:
+        if self._destroyed:  # what it met then is the end of the node
+            return
         name = getattr(callback, "__name__", "a callback")
         said = "".join(traceback.format_exception(error)[-2:]).strip()
         self._node.get_logger().error(f"Error raised in {name} of the action: {said}")

@@ -8,7 +8,6 @@ from studio.errors import ActionServerGoneError, MessageValueError, NotServedErr
 from studio.ros.action import ActionClient, GoalStatus
 from tests.support.demos import node_at, running_demo
 from tests.support.goals import FIBONACCI, Held, action_pair, finished
-from tests.support.spinning import spinning
 from tests.support.wire import PATIENCE_S, running_router, wait_until
 
 pytestmark = pytest.mark.network
@@ -22,7 +21,7 @@ def test_a_goal_of_another_action_is_refused_before_it_is_sent():
 
 
 def test_whoever_waits_for_a_server_waits_no_longer_than_told():
-    with running_router() as endpoint, spinning(endpoint, "client") as [node]:
+    with running_router() as endpoint, node_at(endpoint, "client") as node:
         client = ActionClient(node, node.wire.types.action(FIBONACCI), "fibonacci")
         began_s = time.monotonic()
         assert not client.wait_for_server(timeout_sec=0.2)
