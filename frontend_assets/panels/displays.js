@@ -67,18 +67,22 @@ export function DisplaysPanel() {
   </section>`;
 }
 
-/** A link selected elsewhere is unfolded and scrolled to. @param {{value: ReadonlySet<string>}} closed @param {{current: HTMLElement | null}} panel */
+/** A link selected elsewhere is unfolded and scrolled to; one selected here stays in view above its details. @param {{value: ReadonlySet<string>}} closed @param {{current: HTMLElement | null}} panel */
 function useRevealSelection(closed, panel) {
   const link = selected.value;
   useEffect(() => {
-    if (!link || !robot.value || selection.value?.by === "displays") return undefined;
-    const way = ["robot", "links", ...ancestorsOf(robot.value, link).map((name) => `link:${name}`)];
-    closed.value = new Set([...closed.value].filter((id) => !way.includes(id)));
-    return whenPlaced(panel.current, () =>
+    if (!link || !robot.value) return undefined;
+    const reveal = () =>
       requestAnimationFrame(() => {
         document.getElementById(rowId(`link:${link}`))?.scrollIntoView({ block: "nearest" });
-      }),
-    );
+      });
+    if (selection.value?.by === "displays") {
+      const asked = reveal();
+      return () => cancelAnimationFrame(asked);
+    }
+    const way = ["robot", "links", ...ancestorsOf(robot.value, link).map((name) => `link:${name}`)];
+    closed.value = new Set([...closed.value].filter((id) => !way.includes(id)));
+    return whenPlaced(panel.current, reveal);
   }, [link]);
 }
 

@@ -147,7 +147,7 @@ def test_two_joints_are_measured_with_three_clicks_and_keys_and_stay_true(
     assert tab.errors == []
 
 
-def test_who_only_looks_measures_by_name_with_the_keyboard_alone(
+def test_who_only_looks_measures_with_the_keyboard_alone_and_has_it_after_a_reload(
     browser: Browser, studio: RunningStudio
 ):
     assert studio.process.stdout is not None
@@ -162,6 +162,12 @@ def test_who_only_looks_measures_by_name_with_the_keyboard_alone(
         viewer.page.keyboard.type(name)
         viewer.page.keyboard.press("Enter")
     shows(viewer, f"{math.hypot(0.4, 0.2):.5f} m")
+    viewer.page.reload()
+    shows(viewer, f"{math.hypot(0.4, 0.2):.5f} m")
+    card(viewer).get_by_role("button", name="Delete all").click()
+    viewer.page.reload()
+    wait_until("the robot", viewer.has_drawn_robot)
+    assert not card(viewer).is_visible()
     context.close()
     assert viewer.errors == []
 

@@ -122,3 +122,19 @@ def test_every_panel_has_a_way_on_a_phone(tab: StudioPage):
     tab.page.get_by_role("menuitem", name="Source").click()
     wait_until("the source", tab.page.locator(".cm-content").is_visible)
     assert "Source" in bar.inner_text()
+
+
+def test_a_link_that_is_selected_in_the_tree_stays_in_view_above_its_details(tab: StudioPage):
+    row = tab.page.get_by_role("treeitem", name="upper_arm", exact=True)
+    row.click()
+    details = tab.page.get_by_role("complementary", name="upper_arm")
+    wait_until("its details", details.is_visible)
+    wait_until("both to be in view", lambda: bottom_of(row) <= top_of(details))
+
+
+def bottom_of(one: Locator) -> float:
+    return float(one.evaluate("one => one.getBoundingClientRect().bottom"))
+
+
+def top_of(one: Locator) -> float:
+    return float(one.evaluate("one => one.getBoundingClientRect().top"))
