@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from studio.engine.document import Document
     from studio.engine.messages.wire import JointSource
     from studio.engine.wire.desk import WireDesk
-    from studio.engine.wire.link import DescriptionIn, JointsIn
+    from studio.engine.wire.hearing import DescriptionIn, JointsIn
 
 TICK_S: Final = 1 / 60
 _TELL_EVERY_S: Final = 0.5

@@ -6,23 +6,16 @@ The only file of the engine that imports Zenoh, by way of ros: the desk imports 
 from __future__ import annotations
 
 import threading
-import time
 from typing import TYPE_CHECKING, Final
 
-from studio.engine.wire.following import Following
+from studio.engine.wire.hearing import STRING, DescriptionIn, JointsIn, Place
 from studio.engine.wire.plan import planned_wire
-from studio.errors import CommandError, ExternalShutdownException
-from studio.nodes.joint_reading import JointReading
-from studio.nodes.joint_state_publisher import JointStatePublisher
-from studio.nodes.link_transforms import LinkTransform
-from studio.nodes.robot_state_publisher import LATCHED, RobotStatePublisher
-from studio.ros.graph.graph import Graph
+from studio.engine.wire.telling import JointsOut, RobotOut
+from studio.errors import CommandError, ExternalShutdownException, NotServedError
 from studio.ros.messages.shared import types_of
 from studio.ros.node.context import Context
 from studio.ros.node.executor import SingleThreadedExecutor
 from studio.ros.node.node import Node
-from studio.ros.parameters.parameter import Parameter
-from studio.ros.qos import QoSProfile, ReliabilityPolicy
 from studio.ros.wire.opening import open_wire
 
 if TYPE_CHECKING:
@@ -31,14 +24,12 @@ if TYPE_CHECKING:
     from studio.engine.messages.wire import OpenFromWire
     from studio.robot.kinematics import Kinematics
     from studio.robot.values import Robot
+    from studio.ros.qos import QoSProfile
     from studio.ros.types.classes import MessageValue
     from studio.settings import WireChoice
 
-_DESCRIPTION: Final = "robot_description"
-_STRING: Final = "std_msgs/msg/String"
 _WATCH_EVERY_S: Final = 0.25
-_EVERY: Final = QoSProfile(depth=100)
-_SENSORS: Final = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
+_ANSWER_S: Final = 3.0
 
 
 class WireLink:
@@ -56,7 +47,7 @@ class WireLink:
         self._context = Context.over(self._wire, owns_wire=True)
         self._executor = SingleThreadedExecutor(context=self._context)
         self._changed = changed
-        self._graph = Graph(self._wire)
+        self._graph = self._context.graph
         self._graph.on_change(changed)
         self._node = self._new_node("studio")
         self._taken: set[str] = set()
@@ -99,7 +90,7 @@ class WireLink:
         topics = [
             name
             for name, types in self._graph.topics()
-            if _STRING in types and name.endswith("robot_description")
+            if STRING in types and name.endswith("robot_description")
             if any(one.node.zid != self._wire.zid for one in self._graph.publishers(name))
         ]
         nodes = [name for name in self.node_names() if "robot_state_publisher" in name]
@@ -128,8 +119,28 @@ class WireLink:
         return JointsIn(self, robot, kinematics, from_tf=True)
 
     def hear_description(self, wanted: OpenFromWire) -> DescriptionIn:
-        """Hear a robot's description; what is latched comes at once."""
-        return DescriptionIn(self, wanted.topic)
+        """Hear a robot's description; what is latched, or a parameter, comes at once.
+
+        Raises:
+            NotServedError: There is no such node, or it has no parameters.
+            NoAnswerError: It does not answer.
+        """
+        if not wanted.node:
+            return DescriptionIn(self, wanted.topic)
+        value = self._parameter(wanted.node, wanted.parameter)
+        return DescriptionIn(self, "/parameter_events", Place(wanted.node, wanted.parameter), value)
+
+    def _parameter(self, node: str, name: str) -> str:
+        """The value of a parameter that is a text; empty where it is none."""
+        kind = self._wire.types.service("rcl_interfaces/srv/GetParameters")
+        client = self._node.create_client(kind, f"{node}/get_parameters", timeout_s=_ANSWER_S)
+        try:
+            if not client.wait_for_service(_ANSWER_S):
+                raise NotServedError("service", client.srv_name)
+            answer = client.call(kind.Request(names=[name]), timeout_sec=_ANSWER_S)
+        finally:
+            self._node.destroy_client(client)
+        return answer.values[0].string_value if answer.values else ""
 
     def subscribe(
         self, type_name: str, topic: str, take: Callable[[MessageValue], None], qos: QoSProfile
@@ -152,7 +163,6 @@ class WireLink:
     def close(self) -> None:
         """End all nodes, the session, and the router if it is ours."""
         self._ended.set()
-        self._graph.close()
         self._context.shutdown()
         self._executor.shutdown()
         for thread in self._threads:
@@ -184,106 +194,3 @@ class WireLink:
             if is_there is not self.is_connected:
                 self.is_connected = is_there
                 self._changed()
-
-
-class RobotOut:
-    """Tells one robot; any thread."""
-
-    def __init__(self, link: WireLink, node: Node) -> None:
-        self._link, self._node = link, node
-        self._publisher = RobotStatePublisher(node)
-        self.place = self._publisher.place
-        node.declare_parameter(_DESCRIPTION, "")
-
-    def describe(self, urdf: str, robot: Robot, kinematics: Kinematics) -> None:
-        """Tell this robot from now on, by topics and as a parameter."""
-        self._node.set_parameters([Parameter(_DESCRIPTION, value=urdf)])
-        self._publisher.describe(urdf, robot, kinematics)
-
-    def close(self) -> None:
-        """Tell it no more."""
-        self._link.let_go(self._node)
-
-
-class JointsOut:
-    """Tells where joints stand; any thread."""
-
-    def __init__(self, link: WireLink, node: Node) -> None:
-        self._link, self._node = link, node
-        self.tell = JointStatePublisher(node).tell
-
-    def close(self) -> None:
-        """Tell it no more."""
-        self._link.let_go(self._node)
-
-
-class JointsIn:
-    """Hears where joints stand; the loop collects it."""
-
-    def __init__(
-        self, link: WireLink, robot: Robot, kinematics: Kinematics, *, from_tf: bool
-    ) -> None:
-        self._following = Following(time.monotonic, kinematics.movable)
-        self._kinematics = kinematics
-        self._reading = JointReading(robot, kinematics)
-        self.collect, self.state = self._following.collect, self._following.state
-        self.rate_hz, self.strangers = self._following.rate_hz, self._following.strangers
-        self.close = (
-            link.subscribe("tf2_msgs/msg/TFMessage", "/tf", self._take_tf, _EVERY)
-            if from_tf
-            else link.subscribe("sensor_msgs/msg/JointState", "/joint_states", self._take, _SENSORS)
-        )
-
-    def fit(self, robot: Robot, kinematics: Kinematics) -> None:
-        """Go on with the robot as it is now."""
-        if kinematics is not self._kinematics:
-            if kinematics.movable != self._kinematics.movable:
-                self._following.fit(kinematics.movable)
-            self._kinematics = kinematics
-            self._reading = JointReading(robot, kinematics)
-
-    def _take(self, state: MessageValue) -> None:
-        if len(state.name) == len(state.position):
-            self._following.take(dict(zip(state.name, state.position.tolist(), strict=True)))
-
-    def _take_tf(self, message: MessageValue) -> None:
-        transforms = map(_link_transform, message.transforms)
-        if positions := self._reading.positions(transforms):
-            self._following.take(positions)
-
-
-class DescriptionIn:
-    """Hears the description of a robot; the newest is kept until it is taken."""
-
-    def __init__(self, link: WireLink, topic: str) -> None:
-        self.source = topic
-        self._came = threading.Condition()
-        self._newest: str | None = None
-        self.close = link.subscribe(_STRING, topic, self._take, LATCHED)
-
-    def first(self, timeout_s: float) -> str | None:
-        """Wait for a text; None when none came."""
-        with self._came:
-            self._came.wait_for(lambda: self._newest is not None, timeout_s)
-        return self.newest()
-
-    def newest(self) -> str | None:
-        """What came since the last time; None: nothing."""
-        with self._came:
-            taken, self._newest = self._newest, None
-        return taken
-
-    def _take(self, message: MessageValue) -> None:
-        with self._came:
-            self._newest = message.data
-            self._came.notify_all()
-
-
-def _link_transform(stamped: MessageValue) -> LinkTransform:
-    at, turn = stamped.transform.translation, stamped.transform.rotation
-    return LinkTransform(
-        stamped.header.frame_id,
-        stamped.child_frame_id,
-        (at.x, at.y, at.z),
-        (turn.w, turn.x, turn.y, turn.z),
-    )

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from studio.engine.library import Opener
     from studio.engine.wire.desk import WireDesk
-    from studio.engine.wire.link import DescriptionIn
+    from studio.engine.wire.hearing import DescriptionIn
 
 EngineWireCommand: TypeAlias = ConnectWire | FindWireRobots | OpenFromWire
 _FIRST_PATIENCE_S = 5.0

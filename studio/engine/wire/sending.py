@@ -11,7 +11,8 @@ from studio.engine.model import urdf_text
 if TYPE_CHECKING:
     from studio.description.values import Expansion
     from studio.engine.document import Document
-    from studio.engine.wire.link import JointsOut, RobotOut, WireLink
+    from studio.engine.wire.link import WireLink
+    from studio.engine.wire.telling import JointsOut, RobotOut
     from studio.robot.kinematics import Floats
 
 MOVING_PERIOD_S: Final = 1 / 30

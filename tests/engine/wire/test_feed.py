@@ -15,9 +15,10 @@ import pytest
 from studio.engine import messages as m
 from studio.engine.engine import Engine
 from studio.engine.messages.wire import OpenFromWire, PublishJoints, PublishRobot, SetJointSource
-from studio.errors import CommandError
+from studio.errors import CommandError, NotServedError
 from studio.nodes.robot_state_publisher import LATCHED
 from studio.ros.messages import message
+from studio.ros.parameters.parameter import Parameter
 from studio.settings import Settings, WireChoice
 from tests.support.demos import RunningDemo, heard, node_at, running
 from tests.support.open_documents import opened, until
@@ -269,6 +270,26 @@ def test_a_robot_opens_from_a_topic_and_follows_what_it_tells(
             await until(lambda: "hand" in made.model.robot.links)
             with pytest.raises(CommandError, match="comes from /other/robot_description"):
                 await made.feed.publish_robot(running=True)
+
+    asyncio.run(run())
+
+
+def test_a_robot_opens_from_the_parameter_of_a_node_and_follows_its_changes(
+    endpoint: str, tester: Node, tmp_path: Path
+):
+    urdf = ARM.replace("${reach}", "0.5")
+    tester.declare_parameter("robot_description", urdf)
+
+    async def run() -> None:
+        async with studio(endpoint, tmp_path) as one:
+            await one.do(OpenFromWire(node="/tester"))
+            made = one.engine.document(one.ear.last("opened")["document"])
+            await made.opened()
+            changed = Parameter("robot_description", value=urdf.replace('"tip"', '"hand"'))
+            await asyncio.to_thread(tester.set_parameters, [changed])
+            await until(lambda: "hand" in made.model.robot.links)
+            with pytest.raises(NotServedError):
+                await one.do(OpenFromWire(node="/nobody"))
 
     asyncio.run(run())
 
