@@ -60,8 +60,10 @@ class Node(GraphQueries, NodeParameters):
         super().__init__(node_name, namespace, joined, arguments)
         self._all_publishers: list[Publisher] = []
         self._rates: list[Rate] = []
+        self._rosout: RosoutPublisher | None = None  # Ctrl-C may come before there is one
         self.on_destroy(self._destroy_publishers)
-        self._rosout = RosoutPublisher(self) if enable_rosout else None
+        if enable_rosout:
+            self._rosout = RosoutPublisher(self)
         self._time_source = TimeSource(self)
         said = {one.name: one for one in parameter_overrides or ()}
         said |= {one.name: one for one in arguments.overrides(self.get_fully_qualified_name())}
