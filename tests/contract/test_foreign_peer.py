@@ -9,9 +9,9 @@ import pytest
 from studio.ros.graph.graph import Graph
 from studio.ros.node.subscription import Losses
 from studio.ros.qos import DurabilityPolicy, QoSProfile
+from tests.support.demos import node_at
 from tests.support.foreign_peer import ForeignPeer, foreign_peer
 from tests.support.golden_wire import Distribution
-from tests.support.spinning import spinning
 from tests.support.wire import running_router, wait_until
 
 if TYPE_CHECKING:
@@ -41,7 +41,7 @@ def peer(endpoint: str, tmp_path_factory: pytest.TempPathFactory) -> Generator[F
 
 @pytest.fixture
 def node(endpoint: str) -> Generator[Node]:
-    with spinning(endpoint, "ours") as (found,):
+    with node_at(endpoint, "ours") as found:
         yield found
 
 

@@ -1,0 +1,174 @@
+"""Calls that nobody answers, that two answer, and whose server dies in the middle."""
+
+from __future__ import annotations
+
+import threading
+import time
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+from studio.errors import CdrError, NoAnswerError, NotServedError, WireError
+from studio.ros.action import ActionClient
+from studio.ros.client import action
+from studio.ros.keys import DataKey
+from studio.ros.messages import service
+from studio.ros.wire.door import declare_queryable
+from tests.support.demos import heard, node_at, running_demo
+from tests.support.wire import PATIENCE_S, open_test_session, running_router, wait_until
+
+if TYPE_CHECKING:
+    from collections.abc import Generator
+
+    from studio.ros.client import Future
+    from studio.ros.node.node import Node
+
+pytestmark = [pytest.mark.network, pytest.mark.timeout(120)]
+ADD = service("example_interfaces/srv/AddTwoInts")
+ADD_NAME = "example_interfaces/srv/AddTwoInts"
+CHOOSE_SONG = "radio_station_interfaces/action/ChooseSong"
+
+
+@pytest.fixture(scope="module")
+def router() -> Generator[str]:
+    with running_router() as endpoint:
+        yield endpoint
+
+
+@pytest.fixture
+def node(router: str) -> Generator[Node]:
+    with node_at(router) as found:
+        yield found
+
+
+def failure_of(future: Future[Any]) -> BaseException | None:
+    wait_until("it ends", future.done)
+    return future.exception()
+
+
+@contextmanager
+def mute_server(router: str, name: str) -> Generator[None]:
+    """A server that answers no request until the end of the block."""
+    released = threading.Event()
+
+    def wait(_request: object, response: object) -> object:
+        released.wait(PATIENCE_S)
+        return response
+
+    with node_at(router, "mute") as mute:
+        mute.create_service(ADD, name, wait)
+        try:
+            yield
+        finally:
+            released.set()
+
+
+def test_a_service_that_never_answers_is_given_up_in_time(router: str, node: Node):
+    with mute_server(router, "/mute"):
+        client = node.create_client(ADD, "/mute", timeout_s=0.3)
+        assert client.wait_for_service(PATIENCE_S)
+        begin_s = time.monotonic()
+        error = failure_of(client.call_async(ADD.Request()))
+        assert isinstance(error, NoAnswerError)
+        assert "/mute" in str(error)
+        assert 0.2 < time.monotonic() - begin_s < 10
+
+
+def test_a_wait_of_ones_own_ends_while_the_call_goes_on(router: str, node: Node):
+    with mute_server(router, "/mute_too"):
+        client = node.create_client(ADD, "/mute_too")
+        assert client.wait_for_service(PATIENCE_S)
+        with pytest.raises(NoAnswerError, match="/mute_too"):
+            client.call(ADD.Request(), 0.2)
+
+
+def test_a_service_that_nobody_serves_is_told_at_once(node: Node):
+    client = node.create_client(ADD, "/nobody")
+    assert isinstance(failure_of(client.call_async(ADD.Request())), NotServedError)
+    assert not client.wait_for_service(0.05)
+
+
+def test_two_servers_both_do_what_is_asked_and_the_first_answer_counts(router: str, node: Node):
+    done: list[str] = []
+    said = heard(node, "rcl_interfaces/msg/Log", "/rosout")
+    with node_at(router, "one") as one, node_at(router, "two") as two:
+        for server in (one, two):
+
+            def add(request: Any, response: Any, name: str = server.get_name()) -> Any:  # noqa: ANN401
+                done.append(name)
+                response.sum = request.a + request.b
+                return response
+
+            server.create_service(ADD, "/twice", add)
+        graph = node.graph
+        assert graph.wait_for(lambda: len(graph.servers("/twice")) == 2, PATIENCE_S)
+        client = node.create_client(ADD, "/twice")
+        assert client.call(ADD.Request(a=1, b=2), PATIENCE_S).sum == 3
+        wait_until("both did it", lambda: sorted(done) == ["one", "two"])
+        wait_until("it is said", lambda: any("more than one node" in each.msg for each in said))
+
+
+def test_an_answer_of_malformed_bytes_is_told_as_such(router: str, node: Node):
+    with open_test_session(router) as strange:
+        key = str(DataKey(0, "/garbled", ADD_NAME, strange.types.hash_of(ADD_NAME)))
+        queries = declare_queryable(strange.zenoh, key, 8)
+        client = node.create_client(ADD, "/garbled")
+        future = client.call_async(ADD.Request())
+        query = None
+
+        def asked() -> bool:
+            nonlocal query, future
+            query = query or queries.try_recv()
+            if query is None and future.done():
+                future = client.call_async(ADD.Request())
+            return query is not None
+
+        wait_until("it is asked", asked)
+        assert query is not None
+        query.reply(query.key_expr, b"\0\1\0\0x", attachment=bytes(33))
+        query.drop()
+        assert isinstance(failure_of(future), CdrError)
+
+
+def test_a_request_of_malformed_bytes_is_refused_and_the_next_one_answered(router: str, node: Node):
+    def add(request: Any, response: Any) -> Any:  # noqa: ANN401
+        response.sum = request.a + request.b
+        return response
+
+    server = node.create_service(ADD, "/careful", add)
+    key = str(DataKey(0, "/careful", ADD_NAME, node.wire.types.hash_of(ADD_NAME)))
+    with open_test_session(router) as strange:
+        for payload, attached in ((b"x", None), (b"x", bytes(33)), (b"x", b"y"), (None, None)):
+            before = server.refused
+            replies = strange.zenoh.get(key, payload=payload, attachment=attached, timeout=20.0)
+            assert list(replies) == []
+            assert server.refused == before + 1
+    client = node.create_client(ADD, "/careful")
+    assert client.wait_for_service(PATIENCE_S)
+    with node_at(router, "asker") as asker:
+        honest = asker.create_client(ADD, "/careful")
+        assert honest.call(ADD.Request(a=2, b=2), PATIENCE_S).sum == 4
+
+
+def test_a_goal_whose_server_is_killed_ends_with_an_error(router: str, node: Node):
+    with running_demo(router, "radio_dj", "--ros-args", "-p", "step_seconds:=0.2") as dj:
+        client = ActionClient(node, action(CHOOSE_SONG), "choose_song")
+        assert client.wait_for_server(PATIENCE_S)
+        told: list[Any] = []
+        sent = client.send_goal_async(
+            action(CHOOSE_SONG).Goal(song_name="Clocks"), feedback_callback=told.append
+        )
+        wait_until("it is accepted", sent.done)
+        result = sent.result().get_result_async()
+        wait_until("the song plays", lambda: bool(told))
+        dj.process.kill()
+        assert isinstance(failure_of(result), WireError)
+    assert not client.wait_for_server(0.05)
+    with running_demo(router, "radio_dj", "--ros-args", "-p", "step_seconds:=0.01"):
+        assert client.wait_for_server(PATIENCE_S)
+        again = client.send_goal_async(action(CHOOSE_SONG).Goal(song_name="Clocks"))
+        wait_until("it is accepted", again.done)
+        result = again.result().get_result_async()
+        wait_until("it ends", result.done)
+        assert result.result().result.success
