@@ -14,6 +14,7 @@ from studio.errors import RouterNotStartedError
 from studio.ros.wire.door import close, insert
 from studio.ros.wire.endpoints import Endpoint, parse_endpoint
 from studio.ros.wire.probing import Answer, probe
+from studio.ros.wire.settings import LEASE_MS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -123,7 +124,10 @@ def _router_config(endpoint: Endpoint, overrides: Mapping[str, str]) -> zenoh.Co
     insert(config, "scouting/delay", "0")
     insert(config, "scouting/multicast/enabled", "false")
     insert(config, "transport/unicast/accept_timeout", str(_ACCEPT_TIMEOUT_MS))
+    # As rmw_zenohd: many nodes, who may be busy, and of whom those in mode peer meet without us.
     insert(config, "transport/unicast/max_sessions", "10000")
+    insert(config, "transport/link/tx/lease", str(LEASE_MS))
+    insert(config, "routing/router/peers_failover_brokering", "false")
     for key, json5 in overrides.items():
         if key.partition("/")[0] not in _OF_SESSIONS:
             insert(config, key, json5)

@@ -11,6 +11,7 @@ import zenoh
 from studio.errors import NoRouterError, WireSettingsError
 from studio.ros.types.library import TypeLibrary
 from studio.ros.wire.door import close, insert
+from studio.ros.wire.settings import LEASE_MS
 
 if TYPE_CHECKING:
     from studio.ros.profiles import WireProfile
@@ -19,8 +20,6 @@ if TYPE_CHECKING:
 
 SERVICE_TIMEOUT_MS = 600_000
 """How long rmw_zenoh lets a service take."""
-_OPEN_TIMEOUT_MS = 5_000
-"""How long a port that says nothing is listened to; Zenoh's own is twice that."""
 _RETRY = {"period_init_ms": 250, "period_max_ms": 1_000, "period_increase_factor": 2}
 """A session finds a router that has come back within a second."""
 
@@ -126,7 +125,7 @@ def _base(settings: WireSettings) -> zenoh.Config:
         insert(config, "scouting/multicast/enabled", "false")
         insert(config, "timestamping/enabled", "true")
         insert(config, "queries_default_timeout", str(SERVICE_TIMEOUT_MS))
-        insert(config, "transport/unicast/open_timeout", str(_OPEN_TIMEOUT_MS))
+        insert(config, "transport/link/tx/lease", str(LEASE_MS))
         insert(config, "connect/retry", json.dumps(_RETRY))
     if settings.connect:
         insert(config, "connect/endpoints", json.dumps(settings.connect))

@@ -18,6 +18,8 @@ ROUTER_ENDPOINT = "tcp/127.0.0.1:7447"
 """Where rmw_zenoh's router listens, on this machine."""
 DOMAIN_MAX = 232
 """The highest ROS_DOMAIN_ID that every middleware of ROS takes."""
+LEASE_MS = 60_000
+"""How long rmw_zenoh takes a silent peer for alive: a busy machine, or a debugger, ends nobody."""
 _CONNECT = "connect/endpoints"
 
 

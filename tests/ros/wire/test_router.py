@@ -8,24 +8,47 @@ import socket
 import subprocess
 import sys
 import time
-from contextlib import ExitStack, closing, contextmanager
+from contextlib import ExitStack, closing, contextmanager, suppress
 from typing import TYPE_CHECKING
 
 import pytest
 
 from studio.errors import RouterNotStartedError
+from studio.ros.wire.door import declare_publisher, declare_subscription
 from studio.ros.wire.endpoints import parse_endpoint
 from studio.ros.wire.opening import open_wire
 from studio.ros.wire.router import router_choice, start_router
+from studio.ros.wire.session import open_session
 from studio.ros.wire.settings import WireSettings
 from studio.ros.wire.watching import RouterWatch
-from tests.support.wire import free_endpoint, open_test_session, router_at
+from tests.support.wire import (
+    ConditionNotMetError,
+    free_endpoint,
+    open_test_session,
+    router_at,
+    running_router,
+    wait_until,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Generator
+    from pathlib import Path
+
+    import zenoh
+
+    from studio.ros.wire.door import Incoming, Outgoing
 
 END_S = 2.0
 PATIENCE_S = 15.0
+
+AS_RMW_ZENOH: dict[str, object] = {
+    "mode": "peer",
+    "listen": {"endpoints": ["tcp/localhost:0"]},
+    "scouting": {
+        "multicast": {"enabled": False},
+        "gossip": {"enabled": True, "target": {"router": ["router", "peer"], "peer": ["router"]}},
+    },
+}
 
 ROUTER = """
 import sys
@@ -36,6 +59,7 @@ run_router(sys.argv[1], lambda endpoint: print(endpoint, flush=True))
 OPENED = """
 import sys
 from studio.ros.wire.opening import open_wire
+from studio.ros.wire.session import open_session
 from studio.ros.wire.settings import WireSettings
 print("ready", flush=True)
 sys.stdin.readline()
@@ -115,6 +139,39 @@ def test_who_joined_is_connected_again_when_another_has_the_router():
         third = stack.enter_context(open_wire(WireSettings(connect=(endpoint,))))
         assert third.router is not None
         assert watch.wait_for(connected=True, timeout_s=PATIENCE_S)
+
+
+def test_nodes_in_mode_peer_as_those_of_rmw_zenoh_hear_ours_and_each_other_once(tmp_path: Path):
+    """They join the router, learn of each other by it, and link directly."""
+    with ExitStack() as stack:
+        endpoint = stack.enter_context(running_router())
+        file = tmp_path / "session.json5"
+        file.write_text(json.dumps({**AS_RMW_ZENOH, "connect": {"endpoints": [endpoint]}}))
+        as_peer = WireSettings(connect=(), config_file=str(file))
+        peers = [stack.enter_context(open_session(as_peer)) for _ in range(2)]
+        wires = [*peers, stack.enter_context(open_test_session(endpoint))]
+        wait_until("the peers to link", lambda: all(list(p.zenoh.info.peers_zid()) for p in peers))
+        heard = [declare_subscription(w.zenoh, "0/a", 100, reliable=True) for w in wires]
+        spoken = [declare_publisher(w.zenoh, "0/a", blocking=True, reliable=True) for w in wires]
+        wait_until("all to hear all", lambda: all_hear(spoken, heard, b"greeting"))
+        assert all_hear(spoken, heard, b"word")
+
+
+def all_hear(spoken: list[Outgoing], heard: list[Incoming[zenoh.Sample]], word: bytes) -> bool:
+    """Everybody says the word; whether each hears it from each in time, and from nobody twice."""
+    for publisher in spoken:
+        publisher.put(word)
+    counts = [0] * len(heard)
+
+    def is_enough() -> bool:
+        for at, one in enumerate(heard):
+            while (sample := one.try_recv()) is not None:
+                counts[at] += sample.payload.to_bytes() == word
+        return min(counts) >= len(spoken)
+
+    with suppress(ConditionNotMetError):
+        wait_until("the word", is_enough, 1.0 if word == b"greeting" else PATIENCE_S)
+    return counts == [len(spoken)] * len(heard)
 
 
 def test_an_endpoint_that_is_held_is_told_as_such():
