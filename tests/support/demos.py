@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Generator
 
     from studio.ros.client import QoSProfile
+    from studio.ros.types.library import TypeLibrary
 
 ENDS_WITHIN_S = 2.0
 
@@ -28,11 +29,13 @@ ENDS_WITHIN_S = 2.0
 class RunningDemo:
     """A process, and what it has printed so far; its log is on stderr, both are read as one."""
 
-    def __init__(self, words: list[str], environment: dict[str, str]) -> None:
+    def __init__(
+        self, words: list[str], environment: dict[str, str], keyboard: int = subprocess.DEVNULL
+    ) -> None:
         self.process = subprocess.Popen(
             words,
             env=environment,
-            stdin=subprocess.DEVNULL,
+            stdin=keyboard,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
@@ -87,9 +90,11 @@ def running_demo(endpoint: str, name: str, *arguments: str) -> Generator[Running
 
 
 @contextmanager
-def running(words: list[str], endpoint: str) -> Generator[RunningDemo]:
+def running(
+    words: list[str], endpoint: str, keyboard: int = subprocess.DEVNULL
+) -> Generator[RunningDemo]:
     """Any process that finds the router by its environment."""
-    started = RunningDemo(words, environment_for(WireSettings(connect=(endpoint,))))
+    started = RunningDemo(words, environment_for(WireSettings(connect=(endpoint,))), keyboard)
     try:
         yield started
     finally:
@@ -97,9 +102,11 @@ def running(words: list[str], endpoint: str) -> Generator[RunningDemo]:
 
 
 @contextmanager
-def node_at(endpoint: str, name: str = "tester") -> Generator[Node]:
-    """A node in this process, spun by a thread of its own."""
-    with open_test_session(endpoint, types=shared_types()) as wire:
+def node_at(
+    endpoint: str, name: str = "tester", types: TypeLibrary | None = None
+) -> Generator[Node]:
+    """A node in this process, spun by a thread of its own; its types are those that all share."""
+    with open_test_session(endpoint, types=types or shared_types()) as wire:
         context = Context.over(wire)
         node = Node(name, context=context)
         executor = SingleThreadedExecutor(context=context)
