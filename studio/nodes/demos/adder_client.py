@@ -9,6 +9,7 @@ from __future__ import annotations
 import sys
 
 import studio.ros.client as rclpy
+from studio.errors import SettingsError
 from studio.nodes.demos.running import until_stopped
 from studio.ros.client import Node
 from studio.ros.messages.learning_interface.srv import AddTwoInts
@@ -34,6 +35,10 @@ class adderClient(Node):
 def main(args: list[str] | None = None) -> None:
     """Ask once."""
     with until_stopped(args):
+        if len(sys.argv) < 3:
+            raise SettingsError(
+                "Two integers are needed: studio run learning_interface client 41 1"
+            )
         node = adderClient("service_adder_client")
         node.send_request()
         while rclpy.ok():

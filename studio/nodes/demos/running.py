@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import sys
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 import studio.ros.client as rclpy
+from studio.errors import StudioError
 from studio.ros.client import ExternalShutdownException
 
 if TYPE_CHECKING:
@@ -14,9 +16,18 @@ if TYPE_CHECKING:
 
 @contextmanager
 def until_stopped(args: list[str] | None = None) -> Generator[None]:
-    """Join the wire for what stands within; Ctrl-C and a shutdown end it without a traceback."""
+    """Join the wire for what stands within; Ctrl-C and a shutdown end it without a traceback.
+
+    What the studio can say in one sentence ends it with that sentence.
+
+    Words that are given become those of the command line, which the course's nodes look at.
+    """
+    if args is not None:
+        sys.argv[1:] = args
     try:
         with rclpy.init(args=args):
             yield
     except (KeyboardInterrupt, ExternalShutdownException):
         return
+    except StudioError as error:
+        raise SystemExit(str(error)) from None

@@ -96,7 +96,7 @@ def euler_to_quaternion(roll: float, pitch: float, yaw: float) -> Quaternion:
 
 def main(args: list[str] | None = None) -> None:
     """Publish until stopped."""
-    with suppress(ExternalShutdownException):
+    with suppress(KeyboardInterrupt, ExternalShutdownException):
         StatePublisher()
     rclpy.try_shutdown()
 
