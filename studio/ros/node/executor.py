@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from studio.ros.node.base import NodeBase
     from studio.ros.node.context import Context
     from studio.ros.node.future import Future
-    from studio.ros.node.work import CallbackGroup, Work
+    from studio.ros.node.work import Work
 
 _WAIT_MAX_S = 3_600.0
 
@@ -45,7 +45,6 @@ class Executor:
         self._changed = threading.Condition()
         self._nodes: list[NodeBase] = []
         self._ready: deque[Work | Task] = deque()
-        self._held: dict[CallbackGroup, deque[Work]] = {}
         self._due: set[Work] = set()
         self.context.on_end(self.wake)
 
@@ -95,11 +94,10 @@ class Executor:
         """Carry it out no more."""
         with self._changed:
             self._due.discard(work)
-            if work.is_queued:
-                work.is_queued = False
-                for queue in (self._ready, *self._held.values()):
-                    if work in queue:
-                        queue.remove(work)
+            if work in self._ready:
+                self._ready.remove(work)
+            work.group.forget(work)
+            work.is_queued = False
 
     def announce(self, work: Work) -> None:
         """Take note that work is ready; from any thread."""
@@ -212,14 +210,13 @@ class Executor:
         return None
 
     def _piece_of(self, work: Work) -> Piece | None:
-        if not work.group.begin():
-            self._held.setdefault(work.group, deque()).append(work)
+        if not work.group.begin(work):
             return None
         work.is_queued = False
         run = work.take()
-        if run is None:
-            self._release(work.group)
-            return None
+        if run is None:  # what was ready was overwritten, or taken back
+            following = work.group.end()
+            return None if following is None else Piece(following.announce_again)
         if work.is_ready:
             work.is_queued = True
             self._ready.append(work)
@@ -234,26 +231,12 @@ class Executor:
                 task = Task(result, executor=self)
                 if piece.work is not None:
                     work = piece.work
-                    task.listen(lambda: self._end(work))
+                    task.listen(lambda: _end(work))
                     suspended = True
                 task.step()
         finally:
             if piece.work is not None and not suspended:
-                self._end(piece.work)
-
-    def _end(self, work: Work) -> None:
-        with self._changed:
-            self._release(work.group)
-
-    def _release(self, group: CallbackGroup) -> None:
-        """Let the next work of a group run, which is held no more."""
-        group.end()
-        held = self._held.get(group)
-        if held:
-            self._ready.append(held.popleft())
-            self._changed.notify()
-        if not held:
-            self._held.pop(group, None)
+                _end(piece.work)
 
     def _queue_due(self) -> None:
         for work in self._due:
@@ -270,6 +253,13 @@ class Executor:
 
 class SingleThreadedExecutor(Executor):
     """Carries out work in the thread that spins."""
+
+
+def _end(work: Work) -> None:
+    """Let the next work of a group be tried, by whoever has its node now."""
+    following = work.group.end()
+    if following is not None:
+        following.announce_again()
 
 
 def _left(timeout_s: float | None) -> Any:  # noqa: ANN401

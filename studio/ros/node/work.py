@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from collections import deque
 from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
@@ -12,19 +13,24 @@ if TYPE_CHECKING:
 class CallbackGroup:
     """Decides which pieces of work may run beside each other."""
 
-    def begin(self) -> bool:
-        """Whether a piece may run now; if so, `end` follows."""
+    def begin(self, work: Work) -> bool:
+        """Whether a piece of work may run now; if so, `end` follows, else it waits here."""
         raise NotImplementedError
 
-    def end(self) -> None:
-        """Say that a piece has run."""
+    def end(self) -> Work | None:
+        """Say that a piece has run, and give the work that may be tried next."""
+        return None
+
+    def forget(self, work: Work) -> None:
+        """Let work wait here no more."""
 
 
 class ReentrantCallbackGroup(CallbackGroup):
     """Lets all run beside each other."""
 
-    def begin(self) -> bool:
+    def begin(self, work: Work) -> bool:
         """Let it run."""
+        del work
         return True
 
 
@@ -32,15 +38,30 @@ class MutuallyExclusiveCallbackGroup(CallbackGroup):
     """Lets one run at a time."""
 
     def __init__(self) -> None:
-        self._taken = threading.Lock()
+        self._lock = threading.Lock()
+        self._taken = False
+        self._waiting: deque[Work] = deque()
 
-    def begin(self) -> bool:
+    def begin(self, work: Work) -> bool:
         """Let it run when no other does."""
-        return self._taken.acquire(blocking=False)
+        with self._lock:
+            if self._taken:
+                self._waiting.append(work)
+                return False
+            self._taken = True
+            return True
 
-    def end(self) -> None:
+    def end(self) -> Work | None:
         """Let the next one run."""
-        self._taken.release()
+        with self._lock:
+            self._taken = False
+            return self._waiting.popleft() if self._waiting else None
+
+    def forget(self, work: Work) -> None:
+        """Let work wait here no more."""
+        with self._lock:
+            if work in self._waiting:
+                self._waiting.remove(work)
 
 
 class Home(Protocol):
@@ -59,7 +80,7 @@ class Work:
 
     Attributes:
         group: Which pieces may run beside its own.
-        is_queued: Whether an executor has it in its queue; of the executor's.
+        is_queued: Whether it waits in an executor or a group; of the executor's.
     """
 
     def __init__(self, group: CallbackGroup) -> None:
@@ -91,6 +112,11 @@ class Work:
         home = self.home
         if home is not None:
             home.announce(self)
+
+    def announce_again(self) -> None:
+        """Say that it may be tried once more, after it waited for its group."""
+        self.is_queued = False
+        self.announce()
 
     def destroy(self) -> None:
         """Take back what was declared; again is harmless."""
