@@ -98,7 +98,7 @@ function AsSaved() {
   const changed = modified || !active;
   return html`<li class=${`variant ${active ? "active" : ""}`}>
     <${Choice} name="" label=${t("variants.saved")} active=${active}>
-      <small class="muted">${t(changed ? "variants.saved.back" : "variants.saved.note")}</small>
+      <small class="muted">${t(changed && mayEdit.value ? "variants.saved.back" : "variants.saved.note")}</small>
     <//>
   </li>`;
 }
