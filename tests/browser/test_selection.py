@@ -63,6 +63,7 @@ def tab(browser: Browser, tmp_path: Path) -> Iterator[StudioPage]:
         studio_page(browser, studio) as page,
     ):
         page.page.get_by_role("tab", name="Joints").click()
+        wait_until("the joints in front", lambda: "Joints" in page.page.evaluate(_FRONT))
         page.page.locator(".cm-line", has_text="<robot").wait_for()
         yield page
 
