@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Actor:
-    """What a verb needs that takes part."""
+    """What a verb needs that takes part; the node is the executor's once there is work to do."""
 
     node: Node
     graph: Graph
@@ -33,6 +33,7 @@ class Actor:
 
     def work_until(self, is_done: Callable[[], bool], timeout_s: float | None = None) -> bool:
         """Carry out callbacks until something holds; False when the time is over first."""
+        self.executor.add_node(self.node)
         end_s = None if timeout_s is None else time.monotonic() + timeout_s
         while not is_done():
             left_s = None if end_s is None else end_s - time.monotonic()
@@ -43,6 +44,7 @@ class Actor:
 
     def wait(self, future: Future[Any], timeout_s: float | None = None) -> bool:
         """Carry out callbacks until a future is done; False when the time is over first."""
+        self.executor.add_node(self.node)
         self.executor.spin_until_future_complete(future, timeout_s)
         return future.done()
 
@@ -56,8 +58,12 @@ class Actor:
 
 
 @contextmanager
-def acting(options: argparse.Namespace, name: str | None = None) -> Generator[Actor]:
+def acting(
+    options: argparse.Namespace, name: str | None = None, *, answers: bool = False
+) -> Generator[Actor]:
     """Join with a node of one's own, hidden unless it is given a name; take in what stands.
+
+    One that `answers` has parameters and tells others what its types are made of.
 
     Raises:
         NoRouterError: None answers, and none may be started.
@@ -73,10 +79,9 @@ def acting(options: argparse.Namespace, name: str | None = None) -> Generator[Ac
                 name or f"_studio_{os.getpid()}",
                 context=context,
                 enable_rosout=False,
-                start_parameter_services=False,
+                start_parameter_services=answers,
             )
             executor = SingleThreadedExecutor(context=context)
-            executor.add_node(node)
             settle(node.graph, options)
             yield Actor(node, node.graph, wire.types, executor)
         finally:

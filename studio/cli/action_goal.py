@@ -7,8 +7,11 @@ import time
 from typing import TYPE_CHECKING, Any
 
 from studio.cli.acting import acting
+from studio.cli.learning import learn_type
 from studio.cli.looking import full_name
 from studio.cli.wire import add_wire_options
+from studio.errors import UnknownTypeError
+from studio.ros.graph.actions import goal_service
 from studio.ros.names import full_type_name
 
 if TYPE_CHECKING:
@@ -18,6 +21,7 @@ if TYPE_CHECKING:
     from studio.cli.verbs import Verbs
     from studio.ros.action.client_goal import ClientGoalHandle
     from studio.ros.types.classes import MessageValue
+    from studio.ros.types.library import ActionType
 
 _CANCEL_S = 1.0
 
@@ -44,7 +48,7 @@ def _run(options: argparse.Namespace) -> int:
     name = full_name(options.action_name)
     type_name = full_type_name(options.action_type, "action")
     with acting(options) as actor:
-        kind = actor.types.action(type_name)
+        kind = _type_of(actor, name, type_name)
         goal = from_yaml(kind.Goal, options.goal, now_ns=time.time_ns())
         client = ActionClient(actor.node, kind, name)
         print("Waiting for an action server to become available...", flush=True)
@@ -55,6 +59,15 @@ def _run(options: argparse.Namespace) -> int:
         sent = client.send_goal_async(goal, _say_feedback if options.feedback else None)
         actor.wait(sent)
         return _follow(actor, sent.result())
+
+
+def _type_of(actor: Actor, name: str, type_name: str) -> ActionType:
+    """Find the type among those that are known, else ask a node that serves it what it is."""
+    try:
+        return actor.types.action(type_name)
+    except UnknownTypeError:
+        learn_type(actor, actor.graph.servers(goal_service(name)))
+        return actor.types.action(type_name)
 
 
 def _follow(actor: Actor, goal: ClientGoalHandle) -> int:

@@ -1,42 +1,18 @@
-"""Asking a node's own services: those of its parameters and of its life."""
+"""Which nodes are asked: the one that is named, or all that serve something."""
 
 from __future__ import annotations
 
 import sys
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from studio.cli.looking import full_name
-from studio.errors import NoAnswerError, NotServedError, WireError
 from studio.ros.names import is_hidden
 
 if TYPE_CHECKING:
     import argparse
 
     from studio.cli.acting import Actor
-    from studio.ros.types.classes import MessageValue
-
-_TIMEOUT_S = 5.0
-
-
-def ask_node(actor: Actor, type_name: str, service: str, **fields: Any) -> Any:  # noqa: ANN401
-    """Ask one service and wait; gives the response.
-
-    Raises:
-        NotServedError: Nobody serves it.
-        NoAnswerError: Its node does not answer.
-    """
-    kind = actor.types.service(type_name)
-    client = actor.node.create_client(kind, service, timeout_s=_TIMEOUT_S)
-    try:
-        if not client.service_is_ready():
-            raise NotServedError("service", service)
-        request: MessageValue = kind.Request(**fields)
-        future = client.call_async(request)
-        if not actor.wait(future, _TIMEOUT_S):
-            raise NoAnswerError("service", service, _TIMEOUT_S)
-        return future.result()
-    finally:
-        actor.node.destroy_client(client)
+    from studio.errors import WireError
 
 
 def node_asked_for(actor: Actor, options: argparse.Namespace) -> str | None:

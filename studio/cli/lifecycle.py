@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import sys
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from studio.cli.acting import acting
-from studio.cli.asking import ask_node, node_asked_for, nodes_with, say
+from studio.cli.asking import node_asked_for, nodes_with, say
 from studio.cli.verbs import Verbs
 from studio.cli.wire import add_wire_options
 from studio.errors import WireError
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     import argparse
 
     from studio.cli.acting import Actor
+    from studio.ros.remote.lifecycle import LifecycleClient
 
 _TYPES = "lifecycle_msgs/srv"
 
@@ -51,7 +52,10 @@ def _nodes(options: argparse.Namespace) -> None:
 
 
 def _state(actor: Actor, node: str) -> str:
-    state = ask_node(actor, f"{_TYPES}/GetState", f"{node}/get_state").current_state
+    from studio.ros.remote.lifecycle import LifecycleClient
+
+    with LifecycleClient(actor.node, node) as remote:
+        state = remote.state()
     return f"{state.label} [{state.id}]"
 
 
@@ -71,37 +75,39 @@ def _get(options: argparse.Namespace) -> int:
     return 0
 
 
-def _transitions(actor: Actor, node: str, *, of_all_states: bool = False) -> list[Any]:
-    service = "get_transition_graph" if of_all_states else "get_available_transitions"
-    answer = ask_node(actor, f"{_TYPES}/GetAvailableTransitions", f"{node}/{service}")
-    return answer.available_transitions
-
-
 def _list(options: argparse.Namespace) -> int:
+    from studio.ros.remote.lifecycle import LifecycleClient
+
     with acting(options) as actor:
         node = node_asked_for(actor, options)
         if node is None:
             return 1
-        for one in _transitions(actor, node, of_all_states=options.all):
+        with LifecycleClient(actor.node, node) as remote:
+            found = remote.transition_graph() if options.all else remote.available_transitions()
+        for one in found:
             print(f"- {one.transition.label} [{one.transition.id}]")
             print(f"\tStart: {one.start_state.label}\n\tGoal: {one.goal_state.label}")
     return 0
 
 
 def _set(options: argparse.Namespace) -> int:
+    from studio.ros.remote.lifecycle import LifecycleClient
+
     with acting(options) as actor:
         node = node_asked_for(actor, options)
         if node is None:
             return 1
-        offered = [one.transition for one in _transitions(actor, node)]
-        wanted = options.transition.strip()
-        chosen = [one for one in offered if wanted in (one.label, str(one.id))]
-        if not chosen:
-            print("Unknown transition requested, available ones are:", file=sys.stderr)
-            print(*(f"- {one.label} [{one.id}]" for one in offered), sep="\n", file=sys.stderr)
-            return 1
-        answer = ask_node(
-            actor, f"{_TYPES}/ChangeState", f"{node}/change_state", transition=chosen[0]
-        )
-    print("Transitioning successful" if answer.success else "Transitioning failed")
-    return 0 if answer.success else 1
+        with LifecycleClient(actor.node, node) as remote:
+            return _change(remote, options.transition.strip())
+
+
+def _change(remote: LifecycleClient, wanted: str) -> int:
+    offered = [one.transition for one in remote.available_transitions()]
+    chosen = next((one for one in offered if wanted in (one.label, str(one.id))), None)
+    if chosen is None:
+        print("Unknown transition requested, available ones are:", file=sys.stderr)
+        print(*(f"- {one.label} [{one.id}]" for one in offered), sep="\n", file=sys.stderr)
+        return 1
+    succeeded = remote.change(int(chosen.id))
+    print("Transitioning successful" if succeeded else "Transitioning failed")
+    return 0 if succeeded else 1

@@ -16,10 +16,13 @@ if TYPE_CHECKING:
     import argparse
     from collections.abc import Callable
 
-    from studio.cli.remote_parameters import RemoteParameters
     from studio.ros.parameters.parameter import Parameter
+    from studio.ros.remote.parameters import ParameterClient
+    from studio.ros.types.classes import MessageValue
 
-    Use = Callable[[RemoteParameters, argparse.Namespace], int]
+    Use = Callable[[ParameterClient, argparse.Namespace], int]
+
+_LIST_TYPE = "rcl_interfaces/srv/ListParameters"
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -42,17 +45,21 @@ def add(parser: argparse.ArgumentParser) -> None:
     dump.add_argument("--print", action="store_true", help="as is: it is printed")
     load = _add_of_node(verbs, "load", _load, "set the parameters that a file names")
     load.add_argument("parameter_file", metavar="FILE", type=Path)
+    load.add_argument("--no-use-wildcard", action="store_true", help="not what * stands for")
     describe = _add_of_node(verbs, "describe", _describe, "say what parameters are for")
     describe.add_argument("parameter_names", metavar="NAME", nargs="+")
 
 
 def _add_of_node(verbs: Verbs, name: str, use: Use, summary: str) -> argparse.ArgumentParser:
     def run(options: argparse.Namespace) -> int:
-        from studio.cli.remote_parameters import RemoteParameters
+        from studio.ros.remote.parameters import ParameterClient
 
         with acting(options) as actor:
             node = node_asked_for(actor, options)
-            return 1 if node is None else use(RemoteParameters(actor, node), options)
+            if node is None:
+                return 1
+            with ParameterClient(actor.node, node) as remote:
+                return use(remote, options)
 
     verb = verbs.add(name, run, summary)
     verb.add_argument("node_name", metavar="NODE")
@@ -61,10 +68,10 @@ def _add_of_node(verbs: Verbs, name: str, use: Use, summary: str) -> argparse.Ar
 
 
 def _list(options: argparse.Namespace) -> int:
-    from studio.cli.remote_parameters import LIST_TYPE, RemoteParameters
+    from studio.ros.remote.parameters import ParameterClient
 
     with acting(options) as actor:
-        nodes = nodes_with(actor, "list_parameters", LIST_TYPE, hidden=options.hidden)
+        nodes = nodes_with(actor, "list_parameters", _LIST_TYPE, hidden=options.hidden)
         if options.node_name is not None:
             node = node_asked_for(actor, options)
             if node is None:
@@ -72,7 +79,8 @@ def _list(options: argparse.Namespace) -> int:
             nodes = [node]
         for node in nodes:
             try:
-                lines = _lines(RemoteParameters(actor, node), options)
+                with ParameterClient(actor.node, node) as remote:
+                    lines = _lines(remote, options)
             except WireError as error:
                 say(error)
                 continue
@@ -81,14 +89,14 @@ def _list(options: argparse.Namespace) -> int:
     return 0
 
 
-def _lines(remote: RemoteParameters, options: argparse.Namespace) -> list[str]:
+def _lines(remote: ParameterClient, options: argparse.Namespace) -> list[str]:
     names = remote.names(options.param_prefixes)
     if not options.param_type:
         return [f"  {name}\n" for name in names]
     return [f"  {one.name} (type: {one.type_.words})\n" for one in remote.get(names)]
 
 
-def _get(remote: RemoteParameters, options: argparse.Namespace) -> int:
+def _get(remote: ParameterClient, options: argparse.Namespace) -> int:
     from studio.ros.parameters.values import ParameterType
 
     found = remote.get([options.parameter_name])
@@ -107,32 +115,31 @@ def _label(parameter: Parameter) -> str:
     return f"{noun} values are:" if is_array else f"{noun} value is:"
 
 
-def _set(remote: RemoteParameters, options: argparse.Namespace) -> int:
+def _set(remote: ParameterClient, options: argparse.Namespace) -> int:
     from studio.ros.parameters.parameter import Parameter
     from studio.ros.parameters.values import read_value
 
-    name = options.parameter_name
-    return _report(remote, Parameter(name, value=read_value(options.value.strip())), "parameter")
+    value = read_value(options.value.strip())
+    (result,) = remote.set([Parameter(options.parameter_name, value=value)]) or [None]
+    return _report(result, "parameter")
 
 
-def _report(remote: RemoteParameters, parameter: Parameter, what: str) -> int:
-    taken, reason = remote.set(parameter)
-    if taken:
-        print(f"Set {what} successful{f': {reason}' if reason else ''}")
+def _report(result: MessageValue | None, what: str) -> int:
+    """Say whether a parameter was set, and the node's reason; None when it did not answer that."""
+    reason = f": {result.reason}" if result is not None and result.reason else ""
+    if result is not None and result.successful:
+        print(f"Set {what} successful{reason}")
         return 0
-    print(f"Setting {what} failed{f': {reason}' if reason else ''}", file=sys.stderr)
+    print(f"Setting {what} failed{reason}", file=sys.stderr)
     return 1
 
 
-def _dump(remote: RemoteParameters, options: argparse.Namespace) -> int:
-    from studio.ros.parameters.files import write_parameters
-
-    found = remote.get(remote.names())
-    text = write_parameters(remote.node, {one.name: one for one in found})
+def _dump(remote: ParameterClient, options: argparse.Namespace) -> int:
+    text = remote.dump()
     if options.output_dir is None:
         print(text, end="")
         return 0
-    path = options.output_dir.expanduser() / f"{remote.node.strip('/').replace('/', '__')}.yaml"
+    path = options.output_dir.expanduser() / f"{remote.remote.strip('/').replace('/', '__')}.yaml"
     _write(path, text)
     print(f"Saving to: {path}")
     return 0
@@ -147,20 +154,18 @@ def _write(path: Path, text: str) -> None:
         raise SettingsError(f"{path} cannot be written: {error.strerror}.") from error
 
 
-def _load(remote: RemoteParameters, options: argparse.Namespace) -> int:
-    from studio.ros.parameters.files import read_parameters
+def _load(remote: ParameterClient, options: argparse.Namespace) -> int:
     from studio.ros.types.folders import read_text
 
     path = options.parameter_file.expanduser()
-    parameters = read_parameters(read_text(path), remote.node, str(path))
-    if not parameters:
-        print(f"{path} says nothing of {remote.node}", file=sys.stderr)
+    results = remote.load(read_text(path), str(path), wildcards=not options.no_use_wildcard)
+    if not results:
+        print(f"{path} says nothing of {remote.remote}", file=sys.stderr)
         return 1
-    codes = [_report(remote, one, f"parameter {one.name}") for one in parameters]
-    return max(codes)
+    return max(_report(result, f"parameter {one.name}") for one, result in results)
 
 
-def _describe(remote: RemoteParameters, options: argparse.Namespace) -> int:
+def _describe(remote: ParameterClient, options: argparse.Namespace) -> int:
     from studio.cli.parameter_text import description_lines
 
     for one in remote.describe(options.parameter_names):

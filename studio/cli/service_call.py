@@ -8,8 +8,10 @@ import time
 from typing import TYPE_CHECKING
 
 from studio.cli.acting import acting
+from studio.cli.learning import learn_type
 from studio.cli.looking import full_name
 from studio.cli.wire import add_wire_options
+from studio.errors import UnknownTypeError
 from studio.ros.names import full_type_name
 
 if TYPE_CHECKING:
@@ -17,6 +19,7 @@ if TYPE_CHECKING:
     from studio.cli.verbs import Verbs
     from studio.ros.node.service_client import Client
     from studio.ros.types.classes import MessageValue
+    from studio.ros.types.library import ServiceType
 
 
 def add_call(verbs: Verbs) -> None:
@@ -48,7 +51,7 @@ def _run(options: argparse.Namespace) -> int:
     name = full_name(options.service_name)
     type_name = full_type_name(options.service_type, "srv")
     with acting(options) as actor:
-        kind = actor.types.service(type_name)
+        kind = _type_of(actor, name, type_name)
         request = from_yaml(kind.Request, options.values, now_ns=time.time_ns())
         client = actor.node.create_client(kind, name)
         if not wait_for_service(client, options.timeout):
@@ -61,6 +64,15 @@ def _run(options: argparse.Namespace) -> int:
             if options.rate is None or not options.rate > 0:
                 return 0
             time.sleep(max(0.0, begun_s + 1 / options.rate - time.monotonic()))
+
+
+def _type_of(actor: Actor, name: str, type_name: str) -> ServiceType:
+    """Find the type among those that are known, else ask a node that serves it what it is."""
+    try:
+        return actor.types.service(type_name)
+    except UnknownTypeError:
+        learn_type(actor, actor.graph.servers(name))
+        return actor.types.service(type_name)
 
 
 def wait_for_service(client: Client, timeout_s: float | None) -> bool:

@@ -6,8 +6,10 @@ import sys
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from studio.cli.learning import learn_type
 from studio.cli.looking import full_name
 from studio.cli.topic.qos_options import given_profile, is_given, matching_profile
+from studio.errors import UnknownTypeError
 from studio.ros.names import full_type_name
 
 if TYPE_CHECKING:
@@ -46,7 +48,20 @@ def join_topic(actor: Actor, options: argparse.Namespace, given_type: str | None
     qos = matching_profile(offered)
     if is_given(options):
         qos = given_profile(options, qos)
-    return Joined(name, actor.types.message(type_name), qos)
+    return Joined(name, _class_of(actor, name, type_name), qos)
+
+
+def _class_of(actor: Actor, name: str, type_name: str) -> type[MessageValue]:
+    """Find the type among those that are known, else ask a node that uses it what it is.
+
+    Raises:
+        UnknownTypeError: It is not known, and nobody could say.
+    """
+    try:
+        return actor.types.message(type_name)
+    except UnknownTypeError:
+        learn_type(actor, [*actor.graph.publishers(name), *actor.graph.subscriptions(name)])
+        return actor.types.message(type_name)
 
 
 def _only(name: str, types: list[str]) -> str | None:

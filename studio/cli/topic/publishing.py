@@ -81,7 +81,7 @@ def _run(options: argparse.Namespace) -> int:
 
     type_name = full_type_name(options.message_type)
     name = full_name(options.topic_name)
-    with acting(options, options.node_name) as actor:
+    with acting(options, options.node_name, answers=True) as actor:
         kind = actor.types.message(type_name)
         first = _message(kind, options.values)
         qos = given_profile(options, QoSProfile(depth=10))
@@ -90,8 +90,8 @@ def _run(options: argparse.Namespace) -> int:
         wanted = options.wait if options.wait is not None else int(times is not None)
         if not _wait_for_listeners(actor, name, wanted, options.wait_s):
             return 1
-        _publish(options, publisher, first, times)
-        time.sleep(max(0.0, options.keep_alive) if times else 0)
+        _publish(options, _beats(actor, 1 / (options.rate or 1.0)), publisher, first, times)
+        actor.work_until(lambda: False, max(0.0, options.keep_alive))
     return 0
 
 
@@ -115,12 +115,15 @@ def _wait_for_listeners(actor: Actor, name: str, wanted: int, timeout_s: float |
 
 
 def _publish(
-    options: argparse.Namespace, publisher: Publisher, first: MessageValue, times: int | None
+    options: argparse.Namespace,
+    beats: Iterator[None],
+    publisher: Publisher,
+    first: MessageValue,
+    times: int | None,
 ) -> None:
     print("publisher: beginning loop", flush=True)
     has_time = "now" in options.values or "auto" in options.values
     numbers = itertools.count(1) if times is None else range(1, times + 1)
-    beats = _beats(1 / (options.rate or 1.0))
     for number in numbers:
         next(beats)
         message = _message(publisher.msg_type, options.values) if has_time else first
@@ -129,10 +132,10 @@ def _publish(
         publisher.publish(message)
 
 
-def _beats(period_s: float) -> Iterator[None]:
-    """Give one beat at once and then one each period, which do not drift."""
+def _beats(actor: Actor, period_s: float) -> Iterator[None]:
+    """Give one beat at once and then one each period, which do not drift; others are answered."""
     next_s = time.monotonic()
     while True:
-        time.sleep(max(0.0, next_s - time.monotonic()))
+        actor.work_until(lambda: False, max(0.0, next_s - time.monotonic()))
         yield
         next_s += period_s

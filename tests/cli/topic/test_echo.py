@@ -10,6 +10,7 @@ from tests.support.wire import wait_until
 
 if TYPE_CHECKING:
     from collections.abc import Generator
+    from pathlib import Path
 
 STATE = "{header: {frame_id: base}, name: [a, b], position: [1.0, -2.5]}"
 
@@ -91,3 +92,17 @@ def test_nothing_within_the_time_ends_with_1(endpoint: str):
     ran = studio("topic", "echo", "/silent", "std_msgs/msg/String", "--timeout", "0.2",
                  "--connect", endpoint)  # fmt: skip
     assert (ran.code, ran.out) == (1, "")
+
+
+def test_t11_a_type_that_only_the_publisher_knows_is_asked_of_it(endpoint: str, tmp_path: Path):
+    folder = tmp_path / "own_interfaces" / "msg"
+    folder.mkdir(parents=True)
+    (folder / "Telemetry.msg").write_text("float32 voltage\ngeometry_msgs/Point[] path\n")
+    words = ("topic", "pub", "/telemetry", "own_interfaces/msg/Telemetry",
+             "{voltage: 2.5, path: [{x: -1.0}]}", "-r", "10", "--interfaces", str(folder.parent),
+             "--connect", endpoint)  # fmt: skip
+    with started(endpoint, *words) as pub:
+        pub.wait_for("publishing #1")
+        ran = studio("topic", "echo", "/telemetry", "--once", "--connect", endpoint)
+    assert ran.code == 0, ran.err
+    assert ran.out == "voltage: 2.5\npath:\n- x: -1.0\n  y: 0.0\n  z: 0.0\n---\n"
