@@ -47,8 +47,8 @@ export function RosForm() {
     ${busy.value && html`<${ProgressBar} label=${t("loading")} done=${0} total=${0} />`}
     <${Field} label=${t("ros.open.topic")} text=${topic} list="ros-topics" choices=${found.value?.topics ?? []} />
     <${Field} label=${t("ros.open.node")} text=${node} list="ros-nodes" choices=${found.value?.nodes ?? []} />
-    ${found.value?.topics.length === 0 && html`<p class="source-note"><${Icon} name="info" size=${13} /><span>${t("ros.open.none", { address: ros.value.endpoint, domain: ros.value.domain })}</span></p>`}
-    ${error.value && html`<p class="source-note bad" role="alert"><${Icon} name="error" size=${13} /><span>${error.value}</span></p>`}
+    ${found.value?.topics.length === 0 && html`<p class="ros-note"><${Icon} name="info" size=${13} /><span>${t("ros.open.none", { address: ros.value.endpoint, domain: ros.value.domain })}</span></p>`}
+    ${error.value && html`<p class="ros-note bad" role="alert"><${Icon} name="error" size=${13} /><span>${error.value}</span></p>`}
     <footer><span class="form-note">${t("ros.open.note")}</span><span class="push"></span>
       <button type="button" class="button" disabled=${busy.value} onClick=${look}><${Icon} name="reload" />${t("ros.open.again")}</button>
       <button type="submit" class="button primary" disabled=${!ready}>${t("ros.open.do")}</button></footer>

@@ -9,6 +9,7 @@ const OTHERS = {
     export: "download",
     measuring: "measure",
     search: "search",
+    ros: "link",
     keys: "keyboard",
     layouts: "layout",
     graphics: "system",
@@ -33,4 +34,5 @@ export const OF_DIALOG = {
   keys: "keys",
   layouts: "layouts",
   graphics: "graphics",
+  ros: "ros",
 };

@@ -8,7 +8,7 @@ import { applyPose, deletePose, renamePose, savePose, updatePose } from "../app/
 import { mayEdit } from "../app/state/connection.js";
 import { documentState, movable, position } from "../app/state/document.js";
 import { poses } from "../app/state/poses.js";
-import { mayMove } from "../app/state/ros.js";
+import { feed, mayMove } from "../app/state/ros.js";
 import { showSource } from "../app/state/source.js";
 import { dialog } from "../app/state/view.js";
 import { t } from "../lib/i18n.js";
@@ -80,7 +80,7 @@ function PoseRow({ pose, onRename }) {
   const off = !mayMove.value;
   return html`<li class=${`pose ${there ? "active" : ""}`}>
     <button type="button" class="pose-choice" aria-pressed=${there} disabled=${off}
-      title=${[off ? t("poses.viewer") : t("poses.apply", { name: pose.name }), ...notes].join("\n")} onClick=${() => applyPose(pose.key)}>
+      title=${[off ? whyNot() : t("poses.apply", { name: pose.name }), ...notes].join("\n")} onClick=${() => applyPose(pose.key)}>
       <span class="pose-mark">${there && html`<${Icon} name="check" size=${13} />`}</span>
       <span class="pose-name">${pose.name}</span>
       <span class="pose-from muted">${fromText(pose)}</span>
@@ -89,6 +89,13 @@ function PoseRow({ pose, onRename }) {
     <${MenuButton} class="icon-button narrow" label=${t("poses.menu", { name: pose.name })} items=${() => menuItems(pose, onRename)}>
       <${Icon} name="dots" size=${13} /><//>
   </li>`;
+}
+
+/** @returns {string} why no pose can be taken */
+function whyNot() {
+  const { source } = feed.value;
+  if (source === "sliders") return t("poses.viewer");
+  return t("source.led", { topic: t(`source.${source}`) });
 }
 
 /** @param {PoseView} pose @returns {boolean} the joints stand in it now, as far as they can */

@@ -23,7 +23,7 @@ export function SourceSection() {
     <header class="poses-head">
       <button type="button" class="poses-fold" aria-expanded=${!folded.value} onClick=${toggle}>
         <${Icon} name=${folded.value ? "chevronRight" : "chevronDown"} size=${14} />${t("source_of_joints")}</button>
-      ${folded.value && html`<span class="muted source-short">${t(`source.${sourceNow()}`)}</span>`}
+      ${folded.value && html`<span class="muted ros-short">${t(`source.${sourceNow()}`)}</span>`}
     </header>
     ${!folded.value && html`<${Choices} />`}
   </section>`;
@@ -47,7 +47,7 @@ function Choices() {
   const { description_from: from, trouble } = feed.value;
   const off = !mayEdit.value || busy.value;
   return html`
-    <label class="source-row"><span>${t("source_of_joints.label")}</span>
+    <label class="ros-row"><span>${t("source_of_joints.label")}</span>
       <select class="box" disabled=${off || movable.value.length === 0} value=${sourceNow()} onChange=${(
         /** @type {any} */ event,
       ) => run(() => chooseSource(event.currentTarget.value))}>
@@ -58,14 +58,14 @@ function Choices() {
       onChange=${(/** @type {boolean} */ on) => run(() => publishRobot(on))} />
     <${PublishRow} label=${t("publish.joints")} topics="/joint_states" checked=${jointsOut} disabled=${off}
       onChange=${(/** @type {boolean} */ on) => run(() => publishJoints(on))} />
-    ${from && html`<p class="source-note"><${Icon} name="link" size=${12} /><span>${t("source.described", { from })}</span></p>`}
-    ${trouble && html`<p class="source-note bad" role="alert"><${Icon} name="alert" size=${12} /><span>${trouble}</span></p>`}
+    ${from && html`<p class="ros-note"><${Icon} name="link" size=${12} /><span>${t("source.described", { from })}</span></p>`}
+    ${trouble && html`<p class="ros-note bad" role="alert"><${Icon} name="alert" size=${12} /><span>${trouble}</span></p>`}
     <${RosNote} />`;
 }
 
 /** @param {{label: string, topics: string, checked: boolean, disabled: boolean, onChange: (on: boolean) => void}} props */
 function PublishRow({ label, topics, checked, disabled, onChange }) {
-  return html`<div class="source-row"><span class="source-what">${label}<span class="muted source-topics">${topics}</span></span>
+  return html`<div class="ros-row"><span class="ros-what">${label}<span class="muted ros-topics">${topics}</span></span>
     <${Switch} label=${label} checked=${checked} disabled=${disabled} onChange=${onChange} /></div>`;
 }
 
@@ -75,9 +75,9 @@ function SourceState() {
   if (state === "") return null;
   const words = t(`source.state.${state}`, { rate, topic: t(`source.${feed.value.source}`) });
   const tone = state === "live" ? "good" : "amber";
-  return html`<p class=${`source-note ${tone}`} role="status"><${Icon} name=${state === "live" ? "check" : "alert"} size=${12} /><span>${words}</span></p>
-    ${strangers.length > 0 && html`<p class="source-note"><${Icon} name="info" size=${12} /><span>${t("source.strangers", { names: strangers.join(", ") })}</span></p>`}
-    ${paused && html`<p class="source-note"><${Icon} name="info" size=${12} /><span>${t("publish.paused")}</span></p>`}`;
+  return html`<p class=${`ros-note ${tone}`} role="status"><${Icon} name=${state === "live" ? "check" : "alert"} size=${12} /><span>${words}</span></p>
+    ${strangers.length > 0 && html`<p class="ros-note"><${Icon} name="info" size=${12} /><span>${t("source.strangers", { names: strangers.join(", ") })}</span></p>`}
+    ${paused && html`<p class="ros-note"><${Icon} name="info" size=${12} /><span>${t("publish.paused")}</span></p>`}`;
 }
 
 /** What keeps the wire from working, where it is used. */
@@ -86,7 +86,7 @@ function RosNote() {
   const { source, publishes_robot: robotOut, publishes_joints: jointsOut } = feed.value;
   const isUsed = source !== "sliders" || robotOut || jointsOut;
   if (state === "connecting")
-    return html`<p class="source-note" role="status"><span class="spinner"></span><span>${t("ros.connecting")}</span></p>`;
+    return html`<p class="ros-note" role="status"><span class="spinner"></span><span>${t("ros.connecting")}</span></p>`;
   if (state !== "lost" || !isUsed) return null;
-  return html`<p class="source-note bad" role="alert"><${Icon} name="alert" size=${12} /><span>${t("ros.lost.text")}</span></p>`;
+  return html`<p class="ros-note bad" role="alert"><${Icon} name="alert" size=${12} /><span>${t("ros.lost.text")}</span></p>`;
 }

@@ -7,9 +7,12 @@ Try: `studio run robot_state_publisher robot_state_publisher robot.urdf`, then
 from __future__ import annotations
 
 import sys
+import threading
 from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
 
 import studio.ros.client as rclpy
 from studio.errors import ExternalShutdownException, SettingsError, StudioError, UnreadableFileError
@@ -18,6 +21,7 @@ from studio.nodes.state_pace import StatePace
 from studio.robot.urdf_text import robot_from_urdf
 from studio.ros.client import Node
 from studio.ros.duration import NANOSECONDS
+from studio.ros.fast.transforms import TransformCodec, TransformColumns
 from studio.ros.messages import message
 from studio.ros.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
@@ -50,15 +54,11 @@ class RobotStatePublisher:
         self._node, self._prefix = node, frame_prefix
         types = node.wire.types
         self._text = types.message("std_msgs/msg/String")
-        self._tf = types.message("tf2_msgs/msg/TFMessage")
-        self._stamped = types.message("geometry_msgs/msg/TransformStamped")
-        self._header = types.message("std_msgs/msg/Header")
-        self._transform = types.message("geometry_msgs/msg/Transform")
-        self._vector = types.message("geometry_msgs/msg/Vector3")
-        self._quaternion = types.message("geometry_msgs/msg/Quaternion")
+        kind = types.message("tf2_msgs/msg/TFMessage")
         self._description_out = node.create_publisher(self._text, "robot_description", LATCHED)
-        self._static_out = node.create_publisher(self._tf, "/tf_static", LATCHED)
-        self._dynamic_out = node.create_publisher(self._tf, "/tf", _DYNAMIC)
+        self._static_out = node.create_publisher(kind, "/tf_static", LATCHED)
+        self._dynamic_out = node.create_publisher(kind, "/tf", _DYNAMIC)
+        self._codec, self._turn = TransformCodec(), threading.Lock()
         self._transforms: LinkTransforms | None = None
         self._pace = StatePace(FREQUENCY_HZ)
 
@@ -73,15 +73,16 @@ class RobotStatePublisher:
         shown = robot or robot_from_urdf(urdf)
         self._transforms = LinkTransforms(shown, self._prefix, kinematics)
         self._description_out.publish(self._text(data=urdf))
-        self._static_out.publish(self._message(self._transforms.fixed(), self._now()))
+        self._static_out.publish(self._written(self._transforms.fixed(), self._now_ns()))
 
-    def place(self, positions: Mapping[str, float], stamp: MessageValue | None = None) -> None:
-        """Tell where links are, by the positions of joints in rad or m; `stamp` None: now."""
+    def place(self, positions: Mapping[str, float], stamp_ns: int | None = None) -> None:
+        """Tell where links are, by the positions of joints in rad or m; stamp None: now."""
         if self._transforms is None:
             return
         moved = self._transforms.moved(positions)
         if moved:
-            self._dynamic_out.publish(self._message(moved, stamp or self._now()))
+            at_ns = self._now_ns() if stamp_ns is None else stamp_ns
+            self._dynamic_out.publish(self._written(moved, at_ns))
 
     def set_prefix(self, frame_prefix: str) -> None:
         """Put this before the names of frames from the next description on."""
@@ -108,26 +109,24 @@ class RobotStatePublisher:
             return
         stamp = state.header.stamp
         stamp_ns = stamp.sec * NANOSECONDS + stamp.nanosec
-        if self._pace.is_due(names, stamp_ns, self._node.get_clock().now().nanoseconds):
-            self.place(dict(zip(names, state.position.tolist(), strict=True)), stamp)
+        if self._pace.is_due(names, stamp_ns, self._now_ns()):
+            self.place(dict(zip(names, state.position.tolist(), strict=True)), stamp_ns)
 
-    def _now(self) -> MessageValue:
-        return self._node.get_clock().now().to_msg()
+    def _now_ns(self) -> int:
+        return self._node.get_clock().now().nanoseconds
 
-    def _message(self, transforms: Sequence[LinkTransform], stamp: MessageValue) -> MessageValue:
-        return self._tf(transforms=[self._one(transform, stamp) for transform in transforms])
-
-    def _one(self, transform: LinkTransform, stamp: MessageValue) -> MessageValue:
-        x, y, z = transform.xyz_m
-        qw, qx, qy, qz = transform.wxyz
-        return self._stamped(
-            header=self._header(stamp=stamp, frame_id=transform.parent),
-            child_frame_id=transform.child,
-            transform=self._transform(
-                translation=self._vector(x=x, y=y, z=z),
-                rotation=self._quaternion(x=qx, y=qy, z=qz, w=qw),
-            ),
+    def _written(self, transforms: Sequence[LinkTransform], stamp_ns: int) -> bytearray:
+        """One message, written without an object for each transform."""
+        count = len(transforms)
+        columns = TransformColumns(
+            tuple(one.parent for one in transforms),
+            tuple(one.child for one in transforms),
+            np.full(count, stamp_ns, np.int64),
+            np.array([one.xyz_m for one in transforms], np.float64).reshape(count, 3),
+            np.array([one.wxyz for one in transforms], np.float64).reshape(count, 4),
         )
+        with self._turn:
+            return self._codec.encode(columns)
 
 
 class RobotStateNode(Node):

@@ -151,6 +151,7 @@ WINDOWS: dict[str, Callable[[Camera], None]] = {
     "keys": run("keys"),
     "layouts": run("layouts"),
     "graphics": show_graphics,
+    "ros": run("ros"),
     "saving": show_changes,
 }
 

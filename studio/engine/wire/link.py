@@ -5,6 +5,7 @@ The only file of the engine that imports Zenoh, by way of ros: the desk imports 
 
 from __future__ import annotations
 
+import logging
 import threading
 from typing import TYPE_CHECKING, Final
 
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
     from studio.settings import WireChoice
 
 _WATCH_EVERY_S: Final = 0.25
+_log = logging.getLogger(__name__)
 _ANSWER_S: Final = 3.0
 
 
@@ -186,6 +188,8 @@ class WireLink:
                 self._executor.spin_once()
             except ExternalShutdownException:
                 return
+            except Exception:  # noqa: BLE001 - one message that cannot be used must not end the rest
+                _log.exception("What came from the wire could not be used.")
 
     def _watch(self) -> None:
         """Notice that the router went away or came back; Zenoh joins it again by itself."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import time
 from functools import partial
 from typing import TYPE_CHECKING, Final
 
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
 MOVING_PERIOD_S: Final = 1 / 30
 RESTING_PERIOD_S: Final = 1 / 16
 """Between two messages of joints that stand still: they come at more than 10 Hz."""
+_PAUSE_SHARE: Final = 4
+"""A robot so large that telling it takes long is told more seldom, by this much of that time."""
 DESCRIPTION_PERIOD_S: Final = 0.5
 """Between two descriptions while somebody drags."""
 
@@ -37,6 +40,9 @@ class RobotSending:
         self._values: Floats | None = None
         """The positions that were told last."""
         self._values_s = -RESTING_PERIOD_S
+        self._took_s = 0.0
+        self._turn = asyncio.Lock()
+        """Nothing is ended while it is in use."""
 
     @property
     def sends_robot(self) -> bool:
@@ -66,18 +72,24 @@ class RobotSending:
 
     async def stop_robot(self) -> None:
         """Tell the description and TF no more."""
-        robot, self._robot = self._robot, None
+        async with self._turn:
+            robot, self._robot = self._robot, None
         if robot is not None:
             await asyncio.to_thread(robot.close)
 
     async def stop_joints(self) -> None:
         """Tell the joints' positions no more."""
-        joints, self._joints = self._joints, None
+        async with self._turn:
+            joints, self._joints = self._joints, None
         if joints is not None:
             await asyncio.to_thread(joints.close)
 
     async def step(self, now_s: float) -> None:
         """Tell what is due."""
+        async with self._turn:
+            await self._step(now_s)
+
+    async def _step(self, now_s: float) -> None:
         robot = self._robot
         if robot is not None and self._is_description_due(now_s):
             await self._tell_description(robot, now_s)
@@ -103,7 +115,8 @@ class RobotSending:
         if self._robot is None and joints is None:
             return False
         moved = self._document.model.joints.values is not self._values
-        return now_s - self._values_s >= (MOVING_PERIOD_S if moved else RESTING_PERIOD_S)
+        period_s = MOVING_PERIOD_S if moved else RESTING_PERIOD_S
+        return now_s - self._values_s >= max(period_s, _PAUSE_SHARE * self._took_s)
 
     async def _tell_positions(self, now_s: float) -> None:
         positions = self._document.model.joints
@@ -117,4 +130,6 @@ class RobotSending:
             if joints is not None:
                 joints.tell(by_name)
 
+        began_s = time.perf_counter()
         await asyncio.to_thread(tell)
+        self._took_s = time.perf_counter() - began_s
