@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import threading
 import time
+from collections import OrderedDict
 from typing import TYPE_CHECKING, Any
 
 from studio.errors import ActionServerGoneError, NotServedError, WireError
 from studio.ros.action.client_goal import ClientGoalHandle, waited
 from studio.ros.action.goal_ids import goal_id_message, goal_id_of, new_goal_id
 from studio.ros.action.names import ActionNames
+from studio.ros.action.result_wait import ResultWait
 from studio.ros.action.states import GoalStatus
 from studio.ros.node.codecs import check_kind
 from studio.ros.node.future import Future
@@ -33,6 +35,8 @@ if TYPE_CHECKING:
 FEEDBACK_QOS = QoSProfile(depth=10)
 RESULT_TIMEOUT_S = 365 * 24 * 3600.0
 """A goal may take as long as it likes: the end of its server ends the wait."""
+GOALS_KEPT_MAX = 1_000
+"""The last goals sent: of these feedback and status are heard."""
 
 
 class ActionClient:
@@ -59,10 +63,9 @@ class ActionClient:
         self._type = action_type
         self._name = node.resolve_service_name(action_name)
         self._lock = threading.Lock()
-        self._listening: dict[bytes, Callable[[Any], object]] = {}
-        self._goals: dict[bytes, ClientGoalHandle] = {}
-        self._waiting: set[Future[Any]] = set()
-        self._names = names = ActionNames.of(self._name)
+        self._listening: OrderedDict[bytes, Callable[[Any], object]] = OrderedDict()
+        self._goals: OrderedDict[bytes, ClientGoalHandle] = OrderedDict()
+        names = ActionNames.of(self._name)
         types = node.wire.types
         cancel_type = types.service("action_msgs/srv/CancelGoal")
         self._send, self._cancel, self._result = (
@@ -102,11 +105,6 @@ class ActionClient:
                 callback_group=callback_group,
             ),
         ]
-        self._was_ready = False
-        self._graph = node.graph
-        self._unwatch = self._graph.on_change(self._look)
-        node.on_destroy(self._unwatch)
-        self._look()
 
     @property
     def action_type(self) -> ActionType:
@@ -148,8 +146,7 @@ class ActionClient:
         goal_id = goal_uuid or goal_id_message(self._node.wire.types, new_goal_id())
         if feedback_callback is not None:
             # Before it is sent: the first feedback may come before the answer.
-            with self._lock:
-                self._listening[goal_id_of(goal_id)] = feedback_callback
+            self._keep(self._listening, goal_id, feedback_callback)
         return self._ask(
             self._send,
             self._type.SendGoal.Request(goal_id=goal_id, goal=goal),
@@ -176,21 +173,17 @@ class ActionClient:
 
     def get_result(self, goal: ClientGoalHandle) -> Future[Any]:
         """Ask for the result of a goal; of goals."""
-        return self._ask(
-            self._result,
-            self._type.GetResult.Request(goal_id=goal.goal_id),
-            ActionServerGoneError(self._name),
-            lambda reply: self._ended(goal, reply),
-        )
+        request = self._type.GetResult.Request(goal_id=goal.goal_id)
+        return ResultWait(
+            self._node, self._result, request, lambda reply: self._ended(goal, reply), self._name
+        ).answer
 
     def destroy(self) -> None:
-        """Take it back; futures that wait end with an error."""
-        self._unwatch()
+        """Take it back; futures that wait are cancelled."""
         for subscription in self._subscriptions:
             self._node.destroy_subscription(subscription)
         for client in (self._send, self._cancel, self._result):
             self._node.destroy_client(client)
-        self._give_up()
 
     def _ask(
         self,
@@ -202,8 +195,6 @@ class ActionClient:
         """Ask the server; what becomes of the answer is what `follow` gives for the reply."""
         asked = client.call_async(request)
         answer: Future[Any] = Future(executor=self._node.executor)
-        with self._lock:
-            self._waiting.add(answer)
 
         def settle() -> None:
             error = asked.exception()
@@ -214,43 +205,26 @@ class ActionClient:
             else:
                 answer.set_result(follow(asked.result()))
 
-        def end() -> None:
-            with self._lock:
-                self._waiting.discard(answer)
-            asked.cancel()
-
         asked.listen(settle)
-        answer.listen(end)
+        answer.listen(asked.cancel)
         return answer
-
-    def _look(self) -> None:
-        """Give up what waits when the server that was there is there no more."""
-        ready = bool(self._graph.servers(self._names.send_goal))
-        was_ready, self._was_ready = self._was_ready, ready
-        if was_ready and not ready:
-            self._give_up()
-
-    def _give_up(self) -> None:
-        with self._lock:
-            waiting = list(self._waiting)
-        for future in waiting:
-            future.set_exception(ActionServerGoneError(self._name))
 
     def _answered(self, goal_id: MessageValue, reply: MessageValue) -> ClientGoalHandle:
         goal = ClientGoalHandle(self, goal_id, reply)
-        with self._lock:
-            if goal.accepted:
-                self._goals[goal_id_of(goal_id)] = goal
-            else:
-                self._listening.pop(goal_id_of(goal_id), None)
+        if goal.accepted:
+            self._keep(self._goals, goal_id, goal)
         return goal
 
     def _ended(self, goal: ClientGoalHandle, reply: MessageValue) -> MessageValue:
+        # Its feedback is still heard: the last of it may come after the result.
         goal.told(_status_of(reply.status))
-        with self._lock:
-            self._listening.pop(goal_id_of(goal.goal_id), None)
-            self._goals.pop(goal_id_of(goal.goal_id), None)
         return reply
+
+    def _keep(self, kept: OrderedDict[bytes, Any], goal_id: MessageValue, what: object) -> None:
+        with self._lock:
+            kept[goal_id_of(goal_id)] = what
+            if len(kept) > GOALS_KEPT_MAX:
+                kept.popitem(last=False)
 
     def _on_feedback(self, message: MessageValue) -> object:
         with self._lock:

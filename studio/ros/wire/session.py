@@ -59,6 +59,11 @@ class WireSession:
         """The distribution that is spoken."""
         return self.settings.profile
 
+    @property
+    def is_connected(self) -> bool:
+        """Whether a router is there at this moment; `RouterWatch` tells when that changes."""
+        return bool(list(self.zenoh.info.routers_zid()))
+
     def next_id(self) -> int:
         """Number a node or endpoint: one counter for all of a session, from 0."""
         return next(self._ids)
