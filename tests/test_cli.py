@@ -182,3 +182,19 @@ def test_check_says_what_is_wrong_and_its_exit_code_how_bad_it_is(tmp_path: Path
     assert listed.returncode == 1
     assert "xml-open-element" in {row["code"] for row in json.loads(listed.stdout)}
     assert run("check", str(tmp_path / "gone.urdf"), *at).returncode == 2
+
+
+GROUPS = ("topic", "service", "action", "node", "param", "lifecycle", "interface", "pkg", "run",
+          "demos", "doctor", "router", "daemon", "launch", "bag")  # fmt: skip
+
+
+@pytest.mark.parametrize("group", GROUPS)
+def test_help_of_the_lines_of_ros_imports_nothing_heavy(group: str):
+    found = modules_after(group, "--help")
+    assert not found & (HEAVY | {"xacro", "zenoh", "rosbags", "scipy"})
+
+
+def test_a_line_of_ros_imports_neither_the_view_nor_the_server():
+    found = modules_after("topic", "list", "--connect", "tcp/127.0.0.1:1")
+    assert "zenoh" in found
+    assert not found & (HEAVY - {"numpy"})

@@ -33,8 +33,9 @@ examples:
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command; answers its exit code: 0 where it has none, 2 after a sentence on stderr."""
     words = sys.argv[1:] if argv is None else list(argv)
-    options = _read(words)
+    options = argparse.Namespace()
     try:
+        options = _read(words)
         return options.run(options) or 0
     except StudioError as error:
         print(f"studio: {error}", file=sys.stderr)
