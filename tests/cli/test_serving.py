@@ -1,0 +1,45 @@
+"""Options of the commands that start the server: how ROS is joined is checked before it starts."""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser
+from typing import TYPE_CHECKING
+
+import pytest
+
+from studio.cli.serving import add_server_options, server_settings
+from studio.settings import WireChoice
+from tests.support.command_line import studio
+
+if TYPE_CHECKING:
+    from argparse import Namespace
+
+
+def parsed(*words: str) -> Namespace:
+    parser = ArgumentParser()
+    add_server_options(parser)
+    return parser.parse_args(list(words))
+
+
+def test_ros_is_joined_as_the_options_say():
+    words = ("--connect", "tcp/a:1", "--connect", "tls/b:2", "--domain", "7", "--router", "off")
+    assert server_settings(parsed(*words)).wire == WireChoice("off", ("tcp/a:1", "tls/b:2"), 7)
+    assert server_settings(parsed()).wire == WireChoice("auto", (), None)
+
+
+@pytest.mark.parametrize("option", ["--connect", "--router"])
+@pytest.mark.parametrize("command", ["demo", "open"])
+def test_an_endpoint_that_is_none_is_said_before_anything_starts(command: str, option: str):
+    ran = studio(command, option, "somewhere")
+    assert ran.code == 2
+    assert "somewhere" in ran.err
+
+
+@pytest.mark.parametrize("domain", ["-1", "233", "many"])
+def test_a_domain_that_is_none_is_a_wrong_command_line(
+    domain: str, capsys: pytest.CaptureFixture[str]
+):
+    with pytest.raises(SystemExit) as ended:
+        parsed("--domain", domain)
+    assert ended.value.code == 2
+    assert "--domain" in capsys.readouterr().err
