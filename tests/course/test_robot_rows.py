@@ -216,5 +216,28 @@ def test_cmd_vel_takes_the_wheel_of_the_rover(router: str):
         rover.wait_for("on my way again")
 
 
+def test_the_rover_tells_its_model_and_its_links_until_somebody_else_does(router: str):
+    with node_at(router) as node, running_demo(router, "rover") as rover:
+        described = heard(node, "std_msgs/msg/String", "/robot_description", KEPT)
+        moving = heard(node, "tf2_msgs/msg/TFMessage", "/tf", 100)
+        wait_until("the model", lambda: bool(described))
+        assert '<robot name="rover">' in described[0].data
+        wait_until(
+            "a wheel's place",
+            lambda: any(
+                one.child_frame_id == "front_left_wheel" for msg in moving for one in msg.transforms
+            ),
+        )
+        other = node.create_publisher(message("std_msgs/msg/String"), "/robot_description", KEPT)
+        rover.wait_for("Somebody else tells the model of the robot.")
+        wait_until("it has left", lambda: tellers(node) == ["tester"])
+        node.destroy_publisher(other)
+        wait_until("it is back", lambda: "robot_state_publisher" in tellers(node))
+
+
+def tellers(node: Node) -> list[str]:
+    return [one.node_name for one in node.graph.publishers("/robot_description")]
+
+
 def stamp_s(stamp: Any) -> float:  # noqa: ANN401
     return stamp.sec + stamp.nanosec / 1e9

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 @contextmanager
-def until_stopped(args: list[str] | None = None) -> Generator[None]:
+def until_stopped(args: list[str] | None = None, router: str = "auto") -> Generator[None]:
     """Join the wire for what stands within; Ctrl-C and a shutdown end it without a traceback.
 
     What the studio can say in one sentence ends it with that sentence.
@@ -25,7 +25,7 @@ def until_stopped(args: list[str] | None = None) -> Generator[None]:
     if args is not None:
         sys.argv[1:] = args
     try:
-        with rclpy.init(args=args):
+        with rclpy.init(args=args, router=router):
             yield
     except (KeyboardInterrupt, ExternalShutdownException):
         return

@@ -38,7 +38,7 @@ def node(router: str) -> Generator[Node]:
 @pytest.mark.parametrize("name", [demo.name for demo in DEMOS if demo.name != AT_A_TERMINAL])
 def test_a_demo_is_seen_and_ends_by_ctrl_c_within_two_seconds(router: str, node: Node, name: str):
     with running_demo(router, name, *WORDS.get(name, ())) as demo:
-        wait_until("its node", lambda: len(node.graph.nodes()) == 2)
+        wait_until("its node", lambda: len(node.graph.nodes()) > 1)
         # While it is still being made, Zenoh may hold up its end, and the signal ends it.
         assert demo.stop(signal.SIGINT) in {0, -signal.SIGINT}
         assert "Traceback" not in demo.printed, demo.printed

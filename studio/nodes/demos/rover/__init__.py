@@ -12,9 +12,6 @@ from __future__ import annotations
 def main(args: list[str] | None = None) -> None:
     """Drive until stopped."""
     # Here, so that the room and the drive can be had without a node.
-    import studio.ros.client as rclpy  # noqa: PLC0415
-    from studio.nodes.demos.rover.node import RoverNode  # noqa: PLC0415
-    from studio.nodes.demos.running import until_stopped  # noqa: PLC0415
+    from studio.nodes.demos.rover.running import run  # noqa: PLC0415
 
-    with until_stopped(args):
-        rclpy.spin(RoverNode())
+    run(args)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from studio.nodes.demos.rover.body import Body, pan_rad
 from studio.nodes.demos.rover.drive import Drive
 from studio.nodes.demos.rover.health import Health
+from studio.nodes.demos.rover.model import is_told_by_others
 from studio.nodes.demos.rover.round_trip import RoundTrip
 from studio.nodes.demos.rover.sensors import SCAN_S, Camera, Lidar
 from studio.nodes.demos.rover.surroundings import Surroundings
@@ -62,7 +63,8 @@ class RoverNode(Node):
         self.camera.publish(self.stamp(), self.drive, pan_rad(self.seconds))
 
     def on_second(self) -> None:
-        """Tell what changes slowly."""
+        """Tell what changes slowly; joints that another node tells are left to it."""
+        self.body.tells_joints = not is_told_by_others(self, "/joint_states")
         self.surroundings.publish(self.stamp(), self.drive)
         self.health.publish(self.stamp(), self.drive, self.seconds, is_blocked=self.is_blocked)
         if self.is_blocked:
