@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 import traceback
 from typing import TYPE_CHECKING, Any
 
@@ -74,6 +75,7 @@ class ActionServer:
         self._type = action_type
         self._goals = ServerGoals(result_timeout)
         self._destroyed = False
+        self._status_lock = threading.Lock()
         self._status_type = node.wire.types.message("action_msgs/msg/GoalStatusArray")
         self._goal_status_type = node.wire.types.message("action_msgs/msg/GoalStatus")
         self._goal_info_type = node.wire.types.message("action_msgs/msg/GoalInfo")
@@ -151,7 +153,8 @@ class ActionServer:
 
     def destroy(self) -> None:
         """Take the action back; clients of goals under way are told that nobody serves it."""
-        self._destroyed = True
+        with self._status_lock:
+            self._destroyed = True
         for service in self._services:
             self._node.destroy_service(service)
         # After the services: what waits for results must not be answered with one of no goal.
@@ -183,16 +186,16 @@ class ActionServer:
 
     def publish_status(self) -> None:
         """Tell how far every goal is; of goals. Nobody listens to a server that was destroyed."""
-        if self._destroyed:
-            return
-        self._status.publish(
-            self._status_type(
-                status_list=[
-                    self._goal_status_type(goal_info=goal.info, status=int(goal.status))
-                    for goal in self._goals.all()
-                ]
-            )
-        )
+        # The last one published is what late comers hear: it must be the newest.
+        with self._status_lock:
+            if not self._destroyed:
+                self._status.publish(self._status_type(status_list=self._statuses()))
+
+    def _statuses(self) -> list[MessageValue]:
+        return [
+            self._goal_status_type(goal_info=goal.info, status=int(goal.status))
+            for goal in self._goals.all()
+        ]
 
     def forget(self, goal: ServerGoalHandle) -> None:
         """Know a goal no more; of goals."""

@@ -185,6 +185,26 @@ class NodeParameters:
         """Give several descriptors in the order asked."""
         return [self.describe_parameter(name) for name in names]
 
+    def get_parameter_types(self, names: Iterable[str]) -> list[ParameterType]:
+        """Give several types in the order asked."""
+        return [self.get_parameter_type(name) for name in names]
+
+    def set_descriptor(
+        self,
+        name: str,
+        descriptor: MessageValue,
+        alternative_value: Any = None,  # noqa: ANN401
+    ) -> Any:  # noqa: ANN401  # the value that it has now
+        """Give a parameter another descriptor, and another value where the old one does not fit.
+
+        Raises:
+            ParameterNotDeclaredError: There is none of that name.
+            ParameterImmutableError: It may only be read.
+            InvalidParameterTypeError: The value is of another type.
+            InvalidParameterValueError: The value is outside the new range.
+        """
+        return self._parameter_store.redescribe(name, descriptor, alternative_value)
+
     def add_pre_set_parameters_callback(self, callback: PreSetCallback) -> None:
         """Let a callback change what is to be set."""
         self._callbacks.pre_set.insert(0, callback)

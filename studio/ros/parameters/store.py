@@ -162,6 +162,32 @@ class ParameterStore:
                 return self.messages.ParameterDescriptor(name=name)
             return self._find(name).descriptor
 
+    def redescribe(
+        self,
+        name: str,
+        descriptor: MessageValue,
+        value: Any = None,  # noqa: ANN401  # a value or None
+    ) -> Any:  # noqa: ANN401  # the value that it has now
+        """Give a parameter another descriptor, and another value where the old one does not fit.
+
+        Raises:
+            ParameterNotDeclaredError: There is none of that name.
+            ParameterImmutableError: It may only be read.
+            InvalidParameterTypeError: The value is of another type.
+            InvalidParameterValueError: The value is outside the new range.
+        """
+        with self._lock:
+            known = self._find(name)
+            if known.descriptor.read_only:
+                raise ParameterImmutableError(name)
+            parameter = known.parameter if value is None else _default(name, value)
+            own = self._descriptor(name, known.parameter.value, descriptor)
+            self._check(parameter, own)
+            known.descriptor, known.parameter = own, parameter
+        if value is not None:
+            self._tell(ParameterChange(changed=(parameter,)))
+        return parameter.value
+
     def set(self, parameters: Iterable[Parameter]) -> list[MessageValue]:
         """Set parameters one after another; a refused one hinders no other.
 

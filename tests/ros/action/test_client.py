@@ -1,14 +1,20 @@
 from __future__ import annotations
 
+import asyncio
 import time
+from typing import TYPE_CHECKING
 
 import pytest
 
 from studio.errors import ActionServerGoneError, MessageValueError, NotServedError
 from studio.ros.action import ActionClient, GoalStatus
+from studio.ros.messages import shared_types
 from tests.support.demos import node_at, running_demo
 from tests.support.goals import FIBONACCI, Held, action_pair, finished
 from tests.support.wire import PATIENCE_S, running_router, wait_until
+
+if TYPE_CHECKING:
+    from studio.ros.action import ServerGoalHandle
 
 pytestmark = pytest.mark.network
 
@@ -97,3 +103,24 @@ def test_feedback_of_others_goals_is_not_heard():
             goal.publish_feedback(pair.kind.Feedback(sequence=[1]))
         wait_until("mine is heard", lambda: bool(pair.heard))
         assert [told.goal_id for told in pair.heard] == [mine.goal_id]
+
+
+def test_goals_are_awaited_in_asyncio_too():
+    async def ask(client: ActionClient) -> object:
+        goal = await client.send_goal_async(client.action_type.Goal(order=1))
+        return (await goal.get_result_async()).status
+
+    with action_pair(lambda goal: goal.succeed()) as pair:
+        assert asyncio.run(ask(pair.client)) == GoalStatus.SUCCEEDED
+
+
+def test_goals_that_are_sent_together_keep_their_own_results():
+    def execute(goal: ServerGoalHandle) -> object:
+        goal.succeed()
+        return shared_types().action(FIBONACCI).Result(sequence=[goal.request.order])
+
+    with action_pair(execute) as pair:
+        kind = pair.client.action_type
+        sent = [pair.client.send_goal_async(kind.Goal(order=order)) for order in range(9)]
+        asked = [finished(one).get_result_async() for one in sent]
+        assert [list(finished(one).result.sequence) for one in asked] == [[n] for n in range(9)]

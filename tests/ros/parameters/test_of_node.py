@@ -148,3 +148,10 @@ def test_descriptors_are_read_as_they_were_given(node: Node):
     node.declare_parameter("speed", 1.0, descriptor)
     [told] = node.describe_parameters(["speed"])
     assert (told.name, told.type, told.description) == ("speed", 3, "how fast")
+    assert node.get_parameter_types(["speed", "use_sim_time"]) == [
+        Parameter.Type.DOUBLE,
+        Parameter.Type.BOOL,
+    ]
+    node.declare_parameter("gain", 1.0)
+    assert node.set_descriptor("gain", descriptor) == 1.0
+    assert node.describe_parameter("gain").read_only

@@ -103,6 +103,22 @@ def test_a_range_is_kept_from_the_first_value_on():
     assert "256 is not from 0 to 255" in result.reason
 
 
+def test_a_parameter_may_be_given_another_range_and_a_value_that_fits():
+    watched = Watched()
+    watched.store.declare("red", 300)
+    span = DESCRIPTOR(integer_range=[SPAN(from_value=0, to_value=255, step=1)])
+    with pytest.raises(InvalidParameterValueError, match="300 is not from 0 to 255"):
+        watched.store.redescribe("red", span)
+    assert watched.store.redescribe("red", span, 255) == 255
+    assert watched.told[-1] == ParameterChange(changed=(Parameter("red", value=255),))
+    assert not watched.store.set([Parameter("red", value=256)])[0].successful
+    assert watched.store.redescribe("red", DESCRIPTOR(read_only=True)) == 255
+    with pytest.raises(ParameterImmutableError):
+        watched.store.redescribe("red", span)
+    with pytest.raises(ParameterNotDeclaredError):
+        watched.store.redescribe("blue", span)
+
+
 def test_the_descriptor_that_was_given_stays_as_it_was():
     given = DESCRIPTOR(description="how fast", name="other")
     store = Watched().store
