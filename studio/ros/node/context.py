@@ -79,6 +79,11 @@ class Context:
         return self._wire
 
     @property
+    def is_joined(self) -> bool:
+        """Whether there is a session, be it that it was told to end."""
+        return self._wire is not None
+
+    @property
     def drain(self) -> Drain:
         """The thread that takes in what comes.
 

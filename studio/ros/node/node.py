@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from studio.ros.node.clock import Clock
     from studio.ros.node.context import Context
     from studio.ros.node.kinds import ServiceKind
+    from studio.ros.node.subscription import MessageCallback
     from studio.ros.node.work import CallbackGroup
     from studio.ros.parameters.parameter import Parameter
 
@@ -104,7 +105,7 @@ class Node(GraphQueries, NodeParameters):
         self,
         msg_type: type[MessageValue],
         topic: str,
-        callback: Callable[..., object] | None,
+        callback: MessageCallback | None,
         qos_profile: QoSProfile | int,
         *,
         callback_group: CallbackGroup | None = None,

@@ -10,15 +10,17 @@ import weakref
 from enum import IntFlag
 from typing import TYPE_CHECKING, Any
 
+from studio.errors import ExternalShutdownException
+
 if TYPE_CHECKING:
     from collections.abc import Callable
     from types import FrameType
 
     from studio.ros.node.context import Context
 
-GRACE_S = 1.3
+GRACE_S = 1.0
 """How long a process may take to end by itself."""
-CLOSING_S = 0.3
+CLOSING_S = 0.2
 """How long sessions may take to close when it did not."""
 
 
@@ -87,6 +89,8 @@ class SignalHandlers:
             before = self._before.get(number)
             if callable(before):
                 before(number, frame)
+        elif not any(context.is_joined for context in self._contexts):
+            raise ExternalShutdownException  # out of waiting for a router
 
     def _told(self, number: int) -> None:
         """Wait for the process to end, and end it when it goes on; of the watching thread."""

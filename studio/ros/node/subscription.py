@@ -13,7 +13,7 @@ from studio.ros.node.codecs import codec_of
 from studio.ros.node.drain import waiting_in
 from studio.ros.node.future import Future
 from studio.ros.node.inbox import Inbox, RawSample
-from studio.ros.node.info import info_of, wants_info
+from studio.ros.node.info import MessageInfo, info_of, wants_info
 from studio.ros.node.logger import get_logger
 from studio.ros.node.sequences import Gaps
 from studio.ros.node.work import Work
@@ -33,7 +33,8 @@ if TYPE_CHECKING:
 RING = 4_096
 """Samples that Zenoh keeps between two looks, where not only the newest counts."""
 
-Callback = Callable[..., object]
+MessageCallback = Callable[[Any], object] | Callable[[Any, MessageInfo], object]
+"""Takes a message, or its bytes where they are raw; and what came with it, if it has two."""
 
 
 @dataclass(slots=True)
@@ -66,7 +67,7 @@ class Subscription(Work):
         self,
         endpoint: Endpoint,
         msg_type: type[MessageValue],
-        callback: Callback | None,
+        callback: MessageCallback | None,
         group: CallbackGroup,
         *,
         raw: bool = False,
@@ -179,14 +180,15 @@ class Subscription(Work):
         return RawSample(sample.payload.to_bytes(), unpacked, time.time_ns())
 
     def _call_back(self, sample: RawSample) -> object:
-        if self.callback is None:
+        callback: Callable[..., object] | None = self.callback
+        if callback is None:
             return None
         message: Any = sample.payload if self.raw else self._decoded(sample)
         if message is None:
             return None
         if self._wants_info:
-            return self.callback(message, info_of(sample))
-        return self.callback(message)
+            return callback(message, info_of(sample))
+        return callback(message)
 
     def _decoded(self, sample: RawSample) -> MessageValue | None:
         try:

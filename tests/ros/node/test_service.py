@@ -1,0 +1,148 @@
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+import zenoh
+
+from studio.errors import MessageValueError
+from studio.ros.attachment import Attachment, unpack
+from studio.ros.messages import service
+from studio.ros.node.codecs import codec_of
+from studio.ros.node.spinning import spinning
+from studio.ros.qos import QoSProfile
+from studio.ros.wire.door import declare_querier
+from tests.support.node_pair import node_pair, spin_until
+from tests.support.wire import wait_until
+
+if TYPE_CHECKING:
+    from collections.abc import Generator
+
+    from studio.ros.node.node import Node
+    from studio.ros.node.service import Service
+    from studio.ros.types.classes import MessageValue
+
+AddTwoInts = service("example_interfaces/srv/AddTwoInts")
+PAYLOAD = bytes(codec_of(AddTwoInts.Request).encode(AddTwoInts.Request(a=1, b=2)))
+GID = b"c" * 16
+
+
+def add(request: MessageValue, response: MessageValue) -> MessageValue:
+    response.sum = request.a + request.b
+    return response
+
+
+@pytest.fixture(scope="module")
+def nodes() -> Generator[tuple[Node, Node]]:
+    with node_pair() as pair:
+        yield pair
+
+
+def asked(
+    asker: Node, served: Service, payload: bytes = PAYLOAD, attachment: bytes | None = None
+) -> list[zenoh.Reply]:
+    """Ask as a bare client does, and give all replies."""
+    packed = Attachment(7, 123, GID).pack() if attachment is None else attachment
+    assert asker.graph.wait_for_service(served.srv_name, timeout_s=30)
+    querier = declare_querier(asker.wire.zenoh, served.endpoint.key, 30.0)
+    replies = querier.get(zenoh.handlers.FifoChannel(16), payload=payload, attachment=packed)
+    found = list(replies)
+    querier.undeclare()
+    return found
+
+
+def test_a_reply_has_the_key_number_and_sender_of_its_request(nodes: tuple[Node, Node]):
+    asker, server = nodes
+    served = server.create_service(AddTwoInts, "plain", add)
+    with spinning(server):
+        (reply,) = asked(asker, served)
+    assert reply.ok is not None
+    assert str(reply.ok.key_expr) == served.endpoint.key
+    attachment = reply.ok.attachment
+    assert attachment is not None
+    told = unpack(attachment.to_bytes())
+    assert (told.sequence, told.gid) == (7, GID)
+    assert told.source_time_ns > 123
+
+
+@pytest.mark.parametrize(
+    ("name", "payload", "attachment", "reason"),
+    [
+        ("bare", PAYLOAD, b"short", "5 bytes"),
+        ("junk", b"junk", None, "header"),
+        ("cut", b"\x00\x01\x00\x00", None, "AddTwoInts"),
+    ],
+)
+def test_a_request_that_is_none_is_counted_and_gets_no_answer(
+    nodes: tuple[Node, Node], name: str, payload: bytes, attachment: bytes | None, reason: str
+):
+    asker, server = nodes
+    served = server.create_service(AddTwoInts, f"strict_{name}", add)
+    with spinning(server):
+        assert asked(asker, served, payload, attachment) == []
+        assert served.refused == 1
+        assert reason in str(served.reason)
+        assert len(asked(asker, served)) == 1
+
+
+def test_a_callback_that_fails_ends_the_spinning_and_leaves_nobody_waiting(
+    nodes: tuple[Node, Node],
+):
+    asker, server = nodes
+    served = server.create_service(AddTwoInts, "failing", lambda _asked, _given: 1 // 0)
+    client = asker.create_client(AddTwoInts, "failing")
+    assert client.wait_for_service(timeout_sec=30)
+    future = client.call_async(AddTwoInts.Request())
+    wait_until("the request arrived", lambda: served.is_ready)
+    with pytest.raises(ZeroDivisionError):
+        spin_until(lambda: False, server)
+    spin_until(future.done, asker)
+
+
+@pytest.mark.parametrize("given", [None, 5, AddTwoInts.Request()], ids=["nothing", "5", "request"])
+def test_a_callback_that_gives_no_response_is_told_so(nodes: tuple[Node, Node], given: object):
+    asker, server = nodes
+    served = server.create_service(AddTwoInts, "wrong", lambda _asked, _given: given)
+    client = asker.create_client(AddTwoInts, "wrong")
+    assert client.wait_for_service(timeout_sec=30)
+    client.call_async(AddTwoInts.Request())
+    wait_until("the request arrived", lambda: served.is_ready)
+    with pytest.raises(MessageValueError, match="AddTwoInts_Response"):
+        spin_until(lambda: False, server)
+    server.destroy_service(served)
+
+
+def test_the_last_of_the_depth_wait_and_older_ones_get_no_answer(nodes: tuple[Node, Node]):
+    asker, server = nodes
+    seen: list[int] = []
+
+    def note(request: MessageValue, response: MessageValue) -> MessageValue:
+        seen.append(request.a)
+        return response
+
+    served = server.create_service(AddTwoInts, "deep", note, qos_profile=QoSProfile(depth=2))
+    client = asker.create_client(AddTwoInts, "deep")
+    assert client.wait_for_service(timeout_sec=30)
+    futures = [client.call_async(AddTwoInts.Request(a=number)) for number in range(4)]
+    spin_until(lambda: futures[0].done() and futures[1].done(), asker)
+    assert served.is_ready
+    with spinning(server):
+        spin_until(lambda: all(future.done() for future in futures), asker)
+    assert seen == [2, 3]
+    assert [future.exception() is None for future in futures] == [False, False, True, True]
+
+
+def test_an_asynchronous_callback_that_fails_leaves_nobody_waiting(nodes: tuple[Node, Node]):
+    asker, server = nodes
+
+    async def fail(_asked: MessageValue, _given: MessageValue) -> MessageValue:
+        raise KeyError("x")
+
+    served = server.create_service(AddTwoInts, "failing_later", fail)
+    client = asker.create_client(AddTwoInts, "failing_later")
+    assert client.wait_for_service(timeout_sec=30)
+    future = client.call_async(AddTwoInts.Request())
+    wait_until("the request arrived", lambda: served.is_ready)
+    with pytest.raises(KeyError):
+        spin_until(lambda: False, server)
+    spin_until(future.done, asker)
