@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from studio.cli.executables import demo_executables, executables_of_all
 from studio.cli.opened import opened_packages
+from studio.cli.values import domain_number
 from studio.cli.wire import STARTING, ended_by_signals
 from studio.errors import SettingsError
 
@@ -65,7 +66,7 @@ def _part_arguments(words: Sequence[str]) -> tuple[argparse.Namespace, list[str]
     end = words.index(_ROS_ARGUMENTS) if _ROS_ARGUMENTS in words else len(words)
     parser = argparse.ArgumentParser(prog="studio run", add_help=False, allow_abbrev=False)
     parser.add_argument("--connect", action="append", default=[])
-    parser.add_argument("--domain", type=int)
+    parser.add_argument("--domain", type=domain_number)
     parser.add_argument("--router", default=STARTING)
     wire, rest = parser.parse_known_args(words[:end])
     return wire, [*rest, *words[end:]]

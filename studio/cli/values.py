@@ -1,7 +1,8 @@
-"""Values on a command line that begin with a dash: numbers and YAML are values, not options."""
+"""Values on a command line: what begins with a dash may be a number or YAML, and no option."""
 
 from __future__ import annotations
 
+import argparse
 import re
 from typing import TYPE_CHECKING
 
@@ -10,6 +11,16 @@ if TYPE_CHECKING:
 
 # `-1` alone is an option of `topic pub`; argparse itself knows it as a number elsewhere.
 _VALUE = re.compile(r"-(?!1$)(\d|\.\d|\.?inf\b|\.?nan\b|$)", re.IGNORECASE)
+
+_HIGHEST_DOMAIN = 232
+
+
+def domain_number(text: str) -> int:
+    """Read a ROS_DOMAIN_ID, for argparse."""
+    number = int(text)
+    if not 0 <= number <= _HIGHEST_DOMAIN:
+        raise argparse.ArgumentTypeError(f"{number} is no domain: 0 to {_HIGHEST_DOMAIN}")
+    return number
 
 
 def shield_values(words: Sequence[str]) -> list[str]:

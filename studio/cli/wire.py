@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from studio.cli.interface_types import add_type_options, known_types
+from studio.cli.values import domain_number
 
 if TYPE_CHECKING:
     import argparse
@@ -32,7 +33,10 @@ def add_wire_options(parser: argparse.ArgumentParser, router: str = LOOKING) -> 
         help="the router, for example tcp/192.0.2.7:7447 (default: tcp/127.0.0.1:7447)",
     )
     wire.add_argument(
-        "--domain", type=int, metavar="N", help="the domain (default: ROS_DOMAIN_ID, else 0)"
+        "--domain",
+        type=domain_number,
+        metavar="N",
+        help="the domain (default: ROS_DOMAIN_ID, else 0)",
     )
     wire.add_argument(
         "--router",

@@ -1,0 +1,70 @@
+from __future__ import annotations
+
+import pytest
+
+from tests.support.command_line import studio
+from tests.support.wire import free_endpoint
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "topic list",
+        "topic info /x",
+        "topic echo /x",
+        "topic hz /x",
+        "node list",
+        "service list",
+        "service call /x std_srvs/srv/Empty",
+        "action list",
+        "action send_goal /x turtlesim/action/RotateAbsolute",
+        "param list",
+        "param set /n x -1.5",
+        "lifecycle nodes",
+        "doctor --report",
+    ],
+)
+def test_where_no_router_answers_a_verb_that_looks_says_so(line: str):
+    endpoint = free_endpoint()
+    ran = studio(*line.split(), "--connect", endpoint)
+    assert (ran.code, ran.out) == (2, "")
+    assert ran.err == (
+        f"studio: No Zenoh router answers at {endpoint}: start one there (studio router, or "
+        "ros2 run rmw_zenoh_cpp rmw_zenohd), or name another with --connect.\n"
+    )
+
+
+def test_a_verb_starts_a_router_when_it_is_told_to():
+    ran = studio("node", "list", "--connect", free_endpoint(), "--router", "auto")
+    assert (ran.code, ran.out) == (0, "")
+    assert "no node is in domain 0" in ran.err
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        ("--domain", "233"),
+        ("--domain", "-1"),
+        ("--domain", "x"),
+        ("--distro", "noetic"),
+        ("--router", "sometimes"),
+        ("--interfaces", "nowhere"),
+    ],
+)
+def test_a_wrong_option_ends_with_2_and_words(options: tuple[str, ...], endpoint: str):
+    ran = studio("topic", "list", *options, "--connect", endpoint)
+    assert (ran.code, ran.out) == (2, "")
+    assert "Traceback" not in ran.err
+
+
+def test_humble_is_spoken_when_asked_for(endpoint: str):
+    assert studio("topic", "list", "--distro", "humble", "--connect", endpoint).code == 0
+
+
+def test_the_domain_of_the_environment_is_taken(endpoint: str, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setenv("ROS_DOMAIN_ID", "42")
+    assert "domain 42" in studio("topic", "list", "--connect", endpoint).err
+    monkeypatch.setenv("ROS_DOMAIN_ID", "many")
+    ran = studio("topic", "list", "--connect", endpoint)
+    assert ran.code == 2
+    assert "ROS_DOMAIN_ID" in ran.err
