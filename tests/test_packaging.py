@@ -206,7 +206,7 @@ def test_the_installed_command_names_its_version(installed: Path, tmp_path: Path
 @pytest.fixture
 def demo(installed: Path, tmp_path: Path) -> Iterator[subprocess.Popen[str]]:
     """A running `studio demo` of the installed wheel."""
-    command = [installed / "studio", "demo", "--no-browser", "--port", "0"]
+    command = [installed / "studio", "demo", "--no-browser", "--no-graph", "--port", "0"]
     with subprocess.Popen(
         command,
         cwd=tmp_path,

@@ -18,17 +18,25 @@ def add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--fresh", action="store_true", help="renew the working copy; its changes are lost"
     )
+    parser.add_argument(
+        "--no-graph",
+        action="store_true",
+        help="without the ROS 2 node that drives the rover and tells of it (see: studio demos)",
+    )
     parser.set_defaults(run=run)
     add_server_options(parser)
 
 
 def run(options: argparse.Namespace) -> None:
-    """Open the working copy of the rover."""
-    open_demo(options, read_mappings(options.mappings), fresh=options.fresh)
+    """Open the working copy of the rover, and let it drive."""
+    arguments = read_mappings(options.mappings)
+    open_demo(options, arguments, fresh=options.fresh, moving=not options.no_graph)
 
 
-def open_demo(options: argparse.Namespace, arguments: dict[str, str], *, fresh: bool) -> None:
-    """Open the working copy of the rover, made or renewed first."""
+def open_demo(
+    options: argparse.Namespace, arguments: dict[str, str], *, fresh: bool, moving: bool = False
+) -> None:
+    """Open the working copy of the rover, made or renewed first; `moving` has a node drive it."""
     from studio.packages.working_copy import working_copy
     from studio.settings import repository_or_wheel
 
@@ -39,4 +47,14 @@ def open_demo(options: argparse.Namespace, arguments: dict[str, str], *, fresh: 
         from studio.engine.keeping.draft_store import forget_drafts
 
         forget_drafts(settings.data_folder, package.rglob("*"))
-    serve(options, settings, package, arguments)
+    if not moving:
+        serve(options, settings, package, arguments)
+        return
+    from studio.nodes.demos.starting import DemoProcesses, rover_words
+    from studio.ros.wire.settings import wire_settings
+
+    wire = wire_settings(settings.wire.connect, settings.wire.domain)
+    with DemoProcesses.at(wire) as nodes:
+        words = rover_words(package, arguments, settings.wire.router)
+        # Afterwards: the page comes first, and a studio that cannot start leaves no node behind.
+        serve(options, settings, package, arguments, lambda: nodes.start(*words))

@@ -57,12 +57,12 @@ def run(options: argparse.Namespace) -> int:
 
 def _start(demos: Sequence[Demo], options: argparse.Namespace) -> int:
     """Hold the router, if it is ours, for as long as one of them runs."""
-    from studio.nodes.demos.starting import DemoProcesses, environment_for
+    from studio.nodes.demos.starting import DemoProcesses
 
     arguments = ["--ros-args", *options.ros_args] if options.ros_args else []
     with (
         opened_wire(options) as wire,
-        DemoProcesses(environment_for(wire.settings)) as processes,
+        DemoProcesses.at(wire.settings) as processes,
     ):
         for demo in demos:
             processes.start(demo.module, arguments)

@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING
 from studio.settings import DEFAULT_HOST, DEFAULT_PORT
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from studio.settings import Settings
 
 _HIGHEST_PORT = 65535
@@ -125,12 +127,16 @@ def server_settings(options: argparse.Namespace) -> Settings:
 
 
 def serve(
-    options: argparse.Namespace, settings: Settings, path: Path, arguments: dict[str, str]
+    options: argparse.Namespace,
+    settings: Settings,
+    path: Path,
+    arguments: dict[str, str],
+    then: Callable[[], None] | None = None,
 ) -> None:
-    """Open a path and serve its page until the command is stopped."""
+    """Open a path, do `then` what comes after, and serve its page until the command is stopped."""
     gc.disable()  # all that is imported lives on: looking through it meanwhile costs a third
     from studio.web.launch import Opening, launch
 
     gc.freeze()
     gc.enable()
-    launch(settings, Opening(path, arguments), viewer_link=options.viewer_link)
+    launch(settings, Opening(path, arguments, then), viewer_link=options.viewer_link)

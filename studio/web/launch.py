@@ -27,15 +27,17 @@ from studio.web.server import Server
 
 if TYPE_CHECKING:
     import socket
+    from collections.abc import Callable
     from pathlib import Path
 
 
 @dataclass(frozen=True, slots=True)
 class Opening:
-    """What to open first."""
+    """What to open first, and what to do once it is open and the address is said."""
 
     path: Path
     arguments: dict[str, str]
+    then: Callable[[], None] | None = None
 
 
 def launch(settings: Settings, opening: Opening, *, viewer_link: bool = False) -> None:
@@ -138,6 +140,8 @@ class _Visit:
             _say(f"{name}: {link}")
         if self._open_browser:
             show(self._links[0])
+        if opening.then is not None:
+            opening.then()
 
 
 def _say(line: str) -> None:

@@ -119,7 +119,7 @@ def _children(pid: int) -> Iterator[int]:
 
 @contextmanager
 def running_studio(
-    arguments: Sequence[str], data_folder: Path, *, port: int | None = 0
+    arguments: Sequence[str], data_folder: Path, *, port: int | None = 0, moving: bool = False
 ) -> Generator[RunningStudio]:
     """Start `studio` with these arguments, and end it with the block.
 
@@ -127,12 +127,14 @@ def running_studio(
         arguments: The command and its options, e.g. `["demo", "--fresh"]`.
         data_folder: Given as `--data-dir`; what it writes to stderr is kept beside.
         port: None leaves `--port` out; 0 lets the system choose.
+        moving: With the node that drives the rover of `demo`, at the router that is named.
 
     Raises:
         StudioDidNotStartError: It printed no address in time.
     """
     options = ["--no-browser", "--data-dir", str(data_folder)]
     options += [] if port is None else ["--port", str(port)]
+    options += ["--no-graph"] if arguments[0] == "demo" and not moving else []
     errors = data_folder.with_name(f"{data_folder.name}.stderr")
     with running_process(["studio", *arguments, *options], errors) as running:
         yield running

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Self
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
+    from pathlib import Path
 
     from studio.ros.wire.settings import WireSettings
 
@@ -26,6 +27,11 @@ class DemoProcesses:
     def __init__(self, environment: Mapping[str, str] = os.environ) -> None:
         self._environment = dict(environment)
         self._processes: list[subprocess.Popen[bytes]] = []
+
+    @classmethod
+    def at(cls, settings: WireSettings) -> Self:
+        """Have all of them join the same routers and domain."""
+        return cls(environment_for(settings))
 
     def start(self, module: str, arguments: Iterable[str] = ()) -> None:
         """Run a module; what it prints comes out where ours does."""
@@ -67,6 +73,13 @@ class DemoProcesses:
             except subprocess.TimeoutExpired:
                 return False
         return True
+
+
+def rover_words(package: Path, arguments: Mapping[str, str], router: str) -> tuple[str, list[str]]:
+    """Give the rover's module and its words, for a copy of its package and arguments of xacro."""
+    file = package / "urdf" / "rover.urdf.xacro"
+    mapping = [f"{name}:={value}" for name, value in arguments.items()]
+    return "studio.nodes.demos.rover", [str(file), *mapping, "--router", router]
 
 
 def environment_for(
