@@ -52,6 +52,7 @@ StudioError
         CallError
             NotServedError
             NoAnswerError
+            DroppedError
             ActionServerGoneError
             CallRefusedError
         GoalStateError
@@ -84,6 +85,7 @@ from __future__ import annotations
 from studio.errors.calls import (
     ActionServerGoneError,
     CallError,
+    DroppedError,
     GoalStateError,
     InvalidParameterTypeError,
     InvalidParameterValueError,
@@ -186,6 +188,7 @@ __all__ = [
     "DescriptionError",
     "DestroyedError",
     "DraftError",
+    "DroppedError",
     "EditError",
     "ExpansionError",
     "ExportError",

@@ -96,6 +96,17 @@ class NoAnswerError(CallError):
         self.what, self.name, self.timeout_s = what, name, timeout_s
 
 
+class DroppedError(CallError):
+    """A server is there and let a request fall, as servers do when too many come at once."""
+
+    def __init__(self, what: str, name: str) -> None:
+        super().__init__(
+            f"The {what} {name} dropped a request: too many came at once, or its node just ended; "
+            "ask again, fewer at a time."
+        )
+        self.what, self.name = what, name
+
+
 class ActionServerGoneError(CallError):
     """The server of an action ended while a goal of ours was under way."""
 

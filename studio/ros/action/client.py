@@ -7,7 +7,7 @@ import time
 from collections import OrderedDict
 from typing import TYPE_CHECKING, Any
 
-from studio.errors import ActionServerGoneError, NotServedError, WireError
+from studio.errors import ActionServerGoneError, DroppedError, NotServedError
 from studio.ros.action.client_goal import ClientGoalHandle, waited
 from studio.ros.action.goal_ids import goal_id_message, goal_id_of, new_goal_id
 from studio.ros.action.names import ActionNames
@@ -150,7 +150,6 @@ class ActionClient:
         return self._ask(
             self._send,
             self._type.SendGoal.Request(goal_id=goal_id, goal=goal),
-            NotServedError("action", self._name),
             lambda reply: self._answered(goal_id, reply),
         )
 
@@ -169,7 +168,7 @@ class ActionClient:
         """Ask that a goal end; of goals."""
         info = self._goal_info_type(goal_id=goal.goal_id)
         request = self._cancel.srv_type.Request(goal_info=info)
-        return self._ask(self._cancel, request, ActionServerGoneError(self._name))
+        return self._ask(self._cancel, request)
 
     def get_result(self, goal: ClientGoalHandle) -> Future[Any]:
         """Ask for the result of a goal; of goals."""
@@ -189,7 +188,6 @@ class ActionClient:
         self,
         client: Client,
         request: MessageValue,
-        unserved: WireError,
         follow: Callable[[Any], Any] = lambda reply: reply,
     ) -> Future[Any]:
         """Ask the server; what becomes of the answer is what `follow` gives for the reply."""
@@ -201,13 +199,23 @@ class ActionClient:
             if asked.cancelled():
                 answer.cancel()
             elif error is not None:
-                answer.set_exception(unserved if isinstance(error, NotServedError) else error)
+                answer.set_exception(self._said(client, error))
             else:
                 answer.set_result(follow(asked.result()))
 
         asked.listen(settle)
         answer.listen(asked.cancel)
         return answer
+
+    def _said(self, client: Client, error: BaseException) -> BaseException:
+        """Say an error in terms of the action."""
+        if not isinstance(error, NotServedError):
+            return error
+        if client.service_is_ready():
+            return DroppedError("action", self._name)
+        if client is self._send:
+            return NotServedError("action", self._name)
+        return ActionServerGoneError(self._name)
 
     def _answered(self, goal_id: MessageValue, reply: MessageValue) -> ClientGoalHandle:
         goal = ClientGoalHandle(self, goal_id, reply)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio.errors import ActionServerGoneError, MessageValueError, NotServedError
+from studio.errors import ActionServerGoneError, DroppedError, MessageValueError, NotServedError
 from studio.ros.action import ActionClient, GoalStatus
 from studio.ros.messages import shared_types
 from tests.support.demos import node_at, running_demo
@@ -112,6 +112,17 @@ def test_goals_are_awaited_in_asyncio_too():
 
     with action_pair(lambda goal: goal.succeed()) as pair:
         assert asyncio.run(ask(pair.client)) == GoalStatus.SUCCEEDED
+
+
+def test_a_flood_of_goals_is_answered_or_said_to_be_dropped():
+    with action_pair(lambda goal: goal.succeed()) as pair:
+        kind = pair.client.action_type
+        sent = [pair.client.send_goal_async(kind.Goal(order=order)) for order in range(200)]
+        wait_until("all are settled", lambda: all(one.done() for one in sent))
+        errors = {type(error) for one in sent if (error := one.exception()) is not None}
+        assert errors <= {DroppedError}
+        assert sum(one.exception() is None for one in sent) >= 10
+        assert pair.send().accepted
 
 
 def test_goals_that_are_sent_together_keep_their_own_results():
