@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -9,6 +11,10 @@ from studio.ros.cdr import Codec
 from studio.ros.parameters.messages import ParameterMessages, usual_messages, value_of
 from studio.ros.parameters.parameter import Parameter
 from studio.ros.types.library import TypeLibrary
+from tests.support.ros_values import values_of
+
+if TYPE_CHECKING:
+    from studio.ros.types.classes import MessageValue
 
 CODEC = Codec(usual_messages().Parameter)
 INTEGERS = st.integers(-(2**63), 2**63 - 1)
@@ -48,3 +54,12 @@ def test_each_distribution_has_the_messages():
         assert Codec(messages.Parameter).encode(made) == CODEC.encode(
             Parameter("x", value=1.5).to_parameter_msg()
         )
+
+
+@given(values_of(usual_messages().Parameter))
+def test_any_message_is_a_parameter_or_one_named_error(message: MessageValue):
+    try:
+        parameter = Parameter.from_parameter_msg(message)
+    except InvalidParameterTypeError:
+        return
+    assert parameter.type_.check(parameter.value)

@@ -3,11 +3,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from studio.errors import TypeDescriptionError
 from studio.ros.cdr import Codec
 from studio.ros.types.descriptions import read_description, write_description
 from studio.ros.types.library import TypeLibrary
+from tests.support.ros_values import values_of
 
 if TYPE_CHECKING:
     from studio.ros.types.classes import MessageValue
@@ -100,3 +103,34 @@ def test_a_type_that_is_part_of_itself_is_refused():
     inner = description.referenced_type_descriptions[0].fields[0].type
     inner.type_id, inner.nested_type_name = 1, "std_msgs/msg/Header"
     refused(description, "part of itself", "std_msgs/msg/Header")
+
+
+@given(values_of(KIND))
+def test_any_description_is_read_or_refused(description: MessageValue):
+    with pytest.raises(TypeDescriptionError):
+        read_description(description, STRING, LIBRARY.hash_of(STRING))
+
+
+@given(st.data())
+@settings(max_examples=300)
+def test_a_description_with_one_number_or_name_changed_is_refused(data: st.DataObject):
+    description = written("geometry_msgs/msg/PoseWithCovariance")
+    parts = [description.type_description, *description.referenced_type_descriptions]
+    part = data.draw(st.sampled_from(parts))
+    field = data.draw(st.sampled_from(part.fields))
+    place, value = data.draw(
+        st.one_of(
+            st.tuples(st.just("type_id"), st.integers(0, 255)),
+            st.tuples(st.just("capacity"), st.integers(0, 2**64 - 1)),
+            st.tuples(st.just("nested_type_name"), st.sampled_from(LIBRARY.names())),
+        )
+    )
+    before = getattr(field.type, place)
+    setattr(field.type, place, value)
+    name = "geometry_msgs/msg/PoseWithCovariance"
+    if value == before or (place == "capacity" and field.type.type_id < 48):
+        return
+    if place == "nested_type_name" and field.type.type_id != 1:
+        return
+    with pytest.raises(TypeDescriptionError):
+        read_description(description, name, LIBRARY.hash_of(name))
