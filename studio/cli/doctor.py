@@ -7,7 +7,7 @@ import sys
 from typing import TYPE_CHECKING
 
 import studio
-from studio.cli.looking import add_looking_options, settle
+from studio.cli.looking import add_looking_options, settle, why_empty
 from studio.cli.wire import opened_wire
 
 if TYPE_CHECKING:
@@ -41,21 +41,21 @@ def _run(options: argparse.Namespace) -> int:
 
     with opened_wire(options) as wire, Graph(wire) as graph:
         settle(graph, options)
-        faults = faults_of(graph, wire.types)
+        faults = faults_of(graph, wire.types, wire.profile)
         if options.report:
             _print_sections([*_sections(wire, graph), *_fault_sections(faults)])
         elif options.report_failed:
             _print_sections(_fault_sections(faults))
         else:
-            _print_verdict(graph, faults)
+            _print_verdict(wire, graph, faults)
     return 1 if faults else 0
 
 
-def _print_verdict(graph: Graph, faults: list[Fault]) -> None:
+def _print_verdict(wire: WireSession, graph: Graph, faults: list[Fault]) -> None:
     for fault in faults:
         print(f"{fault.kind}: {fault.sentence}")
     if not graph.nodes():
-        print("No node is there: start one, or name another --domain or --connect.")
+        print(why_empty(wire))
     elif not faults:
         print(f"All is well: {len(graph.nodes())} nodes, {len(graph.topics())} topics.")
 

@@ -7,7 +7,7 @@ from itertools import groupby
 from typing import TYPE_CHECKING
 
 from studio.errors import StudioError
-from studio.ros.profiles import NO_HASH
+from studio.ros.graph.diagnosis import DistroHashes, foreign_hashes, why_not_heard
 from studio.ros.qos_matching import why_unmatched
 
 if TYPE_CHECKING:
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
     from studio.ros.graph.endpoints import GraphEndpoint
     from studio.ros.graph.graph import Graph
+    from studio.ros.profiles import WireProfile
     from studio.ros.types.library import TypeLibrary
 
 
@@ -26,12 +27,13 @@ class Fault:
     sentence: str
 
 
-def faults_of(graph: Graph, types: TypeLibrary) -> list[Fault]:
-    """Find all that is wrong, in the order of kinds and names."""
+def faults_of(graph: Graph, types: TypeLibrary, profile: WireProfile) -> list[Fault]:
+    """Find all that is wrong for one who speaks a profile, in the order of kinds and names."""
     return [
         *_duplicate_names(graph),
         *(fault for name, _ in graph.topics() for fault in _topic_faults(graph, name, types)),
         *(fault for name, _ in graph.services() for fault in _service_faults(graph, name, types)),
+        *_foreign_hashes(graph, types, profile),
         *_malformed(graph),
     ]
 
@@ -85,16 +87,15 @@ def _hash_faults(
         yield Fault("hash", f"{name}: {type_name} has several forms, which never meet ({who}).")
         return
     try:
-        known = types.hash_of(type_name)
+        types.hash_of(type_name)
     except StudioError as error:
         yield Fault("unknown type", f"{name}: {error}")
-        return
-    if hashes - {known, NO_HASH}:
-        yield Fault(
-            "hash",
-            f"{name}: {ends[0].node.path} has another form of {type_name} than {types.distro}: "
-            "choose its --distro, or give its package with --interfaces.",
-        )
+
+
+def _foreign_hashes(graph: Graph, types: TypeLibrary, profile: WireProfile) -> Iterator[Fault]:
+    ends = [end for node in graph.nodes() for end in graph.endpoints_of(node)]
+    for found in foreign_hashes(ends, profile, DistroHashes(types)):
+        yield Fault("hash", why_not_heard(found, profile))
 
 
 def _malformed(graph: Graph) -> Iterator[Fault]:

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Generator, Iterable
 
     from studio.ros.graph.graph import Graph
+    from studio.ros.wire.session import WireSession
 
 _FIRST_NEWS_S = 0.5
 _QUIET_S = 0.06
@@ -36,11 +37,19 @@ def looking(options: argparse.Namespace) -> Generator[Graph]:
     with opened_wire(options) as wire, Graph(wire) as graph:
         settle(graph, options)
         if not graph.nodes():
-            print(
-                f"studio: a router answers, but no node is in domain {wire.domain}.",
-                file=sys.stderr,
-            )
+            print(f"studio: {why_empty(wire)}", file=sys.stderr)
         yield graph
+
+
+def why_empty(wire: WireSession) -> str:
+    """Say why no node is seen, with the domains in which there are some."""
+    from studio.ros.graph.diagnosis import why_nobody
+    from studio.ros.graph.domains import nodes_by_domain
+
+    counts = dict(nodes_by_domain(wire))
+    counts.pop(wire.domain, None)  # what came while this was asked
+    endpoint = ", ".join(wire.settings.connect) or "the configured address"
+    return why_nobody(endpoint, wire.domain, counts) or ""
 
 
 def settle(graph: Graph, options: argparse.Namespace) -> None:

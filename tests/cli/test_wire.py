@@ -37,7 +37,7 @@ def test_where_no_router_answers_a_verb_that_looks_says_so(line: str):
 def test_a_verb_starts_a_router_when_it_is_told_to():
     ran = studio("node", "list", "--connect", free_endpoint(), "--router", "auto")
     assert (ran.code, ran.out) == (0, "")
-    assert "no node is in domain 0" in ran.err
+    assert "is there, but no node is: start one" in ran.err
 
 
 @pytest.mark.parametrize(
@@ -63,7 +63,7 @@ def test_humble_is_spoken_when_asked_for(endpoint: str):
 
 def test_the_domain_of_the_environment_is_taken(endpoint: str, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setenv("ROS_DOMAIN_ID", "42")
-    assert "domain 42" in studio("topic", "list", "--connect", endpoint).err
+    assert "domain          : 42\n" in studio("doctor", "--report", "--connect", endpoint).out
     monkeypatch.setenv("ROS_DOMAIN_ID", "many")
     ran = studio("topic", "list", "--connect", endpoint)
     assert ran.code == 2

@@ -70,10 +70,12 @@ def test_a_topic_that_nobody_has_is_told_as_ros2_tells_it(endpoint: str):
     assert studio("topic", "type", "/nope", *at).code == 1
 
 
-def test_another_domain_is_empty_and_says_so(endpoint: str):
+def test_q1_another_domain_is_empty_and_says_where_nodes_are(endpoint: str):
     ran = studio("topic", "list", "--domain", "7", "--connect", endpoint)
     assert (ran.code, ran.out) == (0, "")
-    assert "no node is in domain 7" in ran.err
+    assert ran.err == (
+        "studio: No node is in domain 7, but 1 node is in domain 0: choose --domain 0.\n"
+    )
 
 
 def test_n7_a_node_that_is_killed_is_listed_no_more(endpoint: str):

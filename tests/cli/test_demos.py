@@ -1,0 +1,26 @@
+from __future__ import annotations
+
+from studio.nodes.demos.table import DEMOS
+from tests.support.command_line import studio
+
+
+def test_without_names_the_demos_are_listed_with_what_they_show():
+    ran = studio("demos")
+    assert ran.code == 0
+    for demo in DEMOS:
+        assert f"{demo.name} " in ran.out
+        assert demo.shows in ran.out
+    assert "Start some with `studio demos NAME ...`" in ran.out
+
+
+def test_what_to_try_is_said_without_starting_anything():
+    ran = studio("demos", "--about", "song_requester", "my_tiny_sub")
+    assert ran.code == 0
+    assert "studio run radio_station song_requester Clocks" in ran.out
+    assert "the counter grows by 2" in ran.out
+
+
+def test_an_unknown_name_is_one_sentence_and_starts_none_of_the_others():
+    ran = studio("demos", "talker", "no_such")
+    assert (ran.code, ran.out) == (2, "")
+    assert ran.err == "studio: No demo is called no_such: `studio demos` lists them.\n"
