@@ -4,11 +4,20 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from studio.ros.action import CancelResponse, GoalResponse, GoalStatus
+from studio.ros.action import (
+    ActionClient,
+    ActionServer,
+    CancelResponse,
+    GoalResponse,
+    GoalStatus,
+)
 from studio.ros.action.cancelling import CancelCode
+from studio.ros.node.context import Context
+from studio.ros.node.executor import SingleThreadedExecutor
+from studio.ros.node.node import Node
 from studio.ros.qos import qos_profile_action_status_default
 from tests.support.goals import FIBONACCI, Held, action_pair, finished
-from tests.support.wire import wait_until
+from tests.support.wire import PATIENCE_S, open_test_session, running_router, wait_until
 
 if TYPE_CHECKING:
     from studio.ros.action import ServerGoalHandle
@@ -204,3 +213,24 @@ def test_a_server_that_is_destroyed_is_there_no_more():
     with action_pair(count_up) as pair:
         pair.server.destroy()
         wait_until("it is gone", lambda: not pair.client.server_is_ready())
+
+
+def test_an_action_works_between_nodes_of_humble():
+    with running_router() as endpoint, open_test_session(endpoint, distro="humble") as wire:
+        context = Context.over(wire)
+        executor = SingleThreadedExecutor(context=context)
+        server, client = (Node(name, context=context) for name in ("server", "client"))
+        executor.add_node(server)
+        executor.add_node(client)
+        kind = wire.types.action(FIBONACCI)
+        ActionServer(server, kind, "fibonacci", lambda goal: goal.succeed())
+        asking = ActionClient(client, kind, "fibonacci")
+        assert asking.wait_for_server(PATIENCE_S)
+        sent = asking.send_goal_async(kind.Goal())
+        executor.spin_until_future_complete(sent, PATIENCE_S)
+        asked = sent.result().get_result_async()
+        executor.spin_until_future_complete(asked, PATIENCE_S)
+        assert asked.result().status == GoalStatus.SUCCEEDED
+        hashes = {one.type_hash for one in client.graph.endpoints_of(client.graph.nodes()[0])}
+        assert hashes == {"TypeHashNotSupported"}
+        context.shutdown()

@@ -13,7 +13,7 @@ from studio.ros.node.context import Context
 from studio.ros.node.node import Node
 from studio.ros.parameters.messages import usual_messages
 from studio.ros.parameters.parameter import Parameter
-from tests.support.wire import open_test_session, running_router
+from tests.support.wire import open_test_session, running_router, wait_until
 
 if TYPE_CHECKING:
     from collections.abc import Generator
@@ -155,3 +155,13 @@ def test_descriptors_are_read_as_they_were_given(node: Node):
     node.declare_parameter("gain", 1.0)
     assert node.set_descriptor("gain", descriptor) == 1.0
     assert node.describe_parameter("gain").read_only
+
+
+def test_a_node_of_humble_describes_no_types():
+    with running_router() as endpoint, open_test_session(endpoint, distro="humble") as wire:
+        joined = Context.over(wire)
+        node = Node("old", context=joined)
+        assert set(node.get_parameters_by_prefix("")) == {"use_sim_time"}
+        wait_until("it is seen", lambda: node.graph.has_server("/old/get_parameters"))
+        assert not node.graph.has_server("/old/get_type_description")
+        joined.shutdown()
