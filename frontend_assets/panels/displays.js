@@ -319,7 +319,7 @@ function TreeRow({ row, place, current, setOpen, onPick }) {
     }}>
     <${Twisty} row=${row} setOpen=${setOpen} />
     ${row.icon && html`<${Icon} name=${row.icon} size=${15} />`}
-    <span class="tree-label" title=${row.label}><${LongName} text=${row.label} /></span>
+    <span class="tree-label" title=${row.label}>${row.link ? html`<${LongName} text=${row.label} />` : row.label}</span>
     ${row.meta && html`<span class=${`tree-meta ${row.warn ? "warn" : ""}`} title=${row.meta}>${row.meta}</span>`}
     ${row.slider && html`<${ShareSlider} ...${row.slider} />`}
     ${row.number && html`<${NumberBox} ...${row.number} />`}
