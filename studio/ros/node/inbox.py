@@ -24,15 +24,22 @@ class RawSample:
     received_ns: int
 
 
-class Inbox:
-    """Keeps the last `depth` samples, and never fewer than came within one look of the drain.
+BLINK_NS = 20_000_000
+SAMPLES_MAX = 4_096
 
-    The drain looks every 2 ms: what came between two looks is no backlog, however fast its
-    sender is, so that a reader that keeps up loses nothing.
+
+class Inbox:
+    """Keeps the last `depth` samples, and those of the last blink of 20 ms.
+
+    The drain looks every 2 ms and threads take turns: what came a moment ago is no backlog,
+    however fast its sender is, so that a reader that keeps up loses nothing. A depth of 1 means
+    the newest and nothing else.
     """
 
     def __init__(self, depth: int) -> None:
         self._depth = depth
+        self._most = max(depth, SAMPLES_MAX)
+        self._blink_ns = BLINK_NS if depth > 1 else 0
         self._samples: deque[RawSample] = deque()
         self._lock = threading.Lock()
         self.overwritten = 0
@@ -43,9 +50,13 @@ class Inbox:
     def post(self, samples: list[RawSample]) -> None:
         """Put in what came since the last look; what is too old falls out."""
         with self._lock:
-            self._samples.extend(samples)
-            for _ in range(len(self._samples) - max(self._depth, len(samples))):
-                self._samples.popleft()
+            waiting = self._samples
+            waiting.extend(samples)
+            since_ns = waiting[-1].received_ns - self._blink_ns if waiting else 0
+            while len(waiting) > self._depth and (
+                waiting[0].received_ns <= since_ns or len(waiting) > self._most
+            ):
+                waiting.popleft()
                 self.overwritten += 1
 
     def take(self) -> RawSample | None:
