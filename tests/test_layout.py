@@ -132,7 +132,16 @@ def test_every_requirement_is_pinned():
 
 
 # Folders of tests that go through several rooms, and tests of a room as a whole.
-ACROSS_ROOMS = {"bad_input", "benchmarks", "browser", "contract", "corpus", "course", "models"}
+ACROSS_ROOMS = {
+    "bad_input",
+    "benchmarks",
+    "browser",
+    "contract",
+    "corpus",
+    "course",
+    "faults",
+    "models",
+}
 OF_A_WHOLE_ROOM = {
     "test_browser_view.py",
     "test_comments.py",
