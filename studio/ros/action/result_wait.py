@@ -84,7 +84,9 @@ class ResultWait:
         )
 
     def _look(self) -> None:
-        if not self._stay_patient():
+        if self.answer.done():  # it was given up while the look was being prepared
+            self._stop_looking()
+        if self.answer.done() or not self._stay_patient():
             return
         if self._client.service_is_ready():
             self._stop_looking()

@@ -49,6 +49,13 @@ def test_an_empty_message_and_a_service_are_learned():
     assert library.service("my_pkg/srv/Ask").type_hash == PEER.hash_of("my_pkg/srv/Ask")
 
 
+def test_a_service_is_learned_from_the_topic_of_its_events():
+    library = TypeLibrary("jazzy")
+    name = "my_pkg/srv/Ask_Event"
+    assert learn(library, name, asked(name)) == ["my_pkg/msg/Inner", "my_pkg/srv/Ask"]
+    assert library.hash_of("my_pkg/srv/Ask") == PEER.hash_of("my_pkg/srv/Ask")
+
+
 def test_an_action_is_learned_from_its_three_parts():
     library = TypeLibrary("jazzy")
     go = "my_pkg/action/Go"
