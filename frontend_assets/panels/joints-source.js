@@ -44,7 +44,7 @@ function Choices() {
     busy.value = false;
   };
   const { publishes_robot: robotOut, publishes_joints: jointsOut } = feed.value;
-  const { description_from: from, trouble } = feed.value;
+  const { description_from: from, trouble, rivals } = feed.value;
   const off = !mayEdit.value || busy.value;
   return html`
     <label class="ros-row"><span>${t("source_of_joints.label")}</span>
@@ -58,6 +58,7 @@ function Choices() {
       onChange=${(/** @type {boolean} */ on) => run(() => publishRobot(on))} />
     <${PublishRow} label=${t("publish.joints")} topics="/joint_states" checked=${jointsOut} disabled=${off}
       onChange=${(/** @type {boolean} */ on) => run(() => publishJoints(on))} />
+    ${rivals.length > 0 && html`<p class="ros-note amber" role="status"><${Icon} name="alert" size=${12} /><span>${t("publish.rivals", { names: rivals.join(", ") })}</span></p>`}
     ${from && html`<p class="ros-note"><${Icon} name="link" size=${12} /><span>${t("source.described", { from })}</span></p>`}
     ${trouble && html`<p class="ros-note bad" role="alert"><${Icon} name="alert" size=${12} /><span>${trouble}</span></p>`}
     <${RosNote} />`;

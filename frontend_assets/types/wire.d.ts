@@ -1492,6 +1492,7 @@ export interface WireFeed {
   publishes_robot: boolean;
   publishes_joints: boolean;
   joints_paused: boolean;
+  rivals: string[];
   description_from: string;
   trouble: string;
 }

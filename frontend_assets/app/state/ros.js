@@ -28,6 +28,7 @@ export const feed = signal({
   publishes_robot: false,
   publishes_joints: false,
   joints_paused: false,
+  rivals: [],
   description_from: "",
   trouble: "",
 });

@@ -94,6 +94,8 @@ class WireFeed(Message):
     publishes_joints: bool
     joints_paused: bool
     """Nothing of them goes out now: they follow `/joint_states`, and would be an echo."""
+    rivals: tuple[str, ...]
+    """Nodes that publish what this robot publishes; the first ones."""
     description_from: str
     """The topic or parameter that the description comes from; empty: from files."""
     trouble: str

@@ -82,8 +82,9 @@ class WireDesk:
         self._tell()
         try:
             link = await asyncio.to_thread(self._open_link, asyncio.get_running_loop())
-        except StudioError as error:
-            self._phase, self._trouble = "failed", str(error)
+        except Exception as error:
+            said = str(error) if isinstance(error, StudioError) else "The terminal says why."
+            self._phase, self._trouble = "failed", said
             self._tell()
             raise
         if self._closed:

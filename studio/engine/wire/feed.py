@@ -200,6 +200,7 @@ class FeedDesk:
             publishes_robot=self._sending.sends_robot,
             publishes_joints=self._sending.sends_joints,
             joints_paused=self._sending.joints_paused and self._sending.sends_joints,
+            rivals=self._sending.rivals(),
             description_from=self._described.description.source if self._described else "",
             trouble=self._described.trouble if self._described else "",
         )

@@ -86,6 +86,11 @@ class WireLink:
         """Full names of the nodes of others."""
         return [one.path for one in self._graph.nodes() if one.zid != self._wire.zid]
 
+    def publishers(self, topic: str) -> list[str]:
+        """Full names of the nodes of others that publish a topic."""
+        found = self._graph.publishers(topic)
+        return [one.node.path for one in found if one.node.zid != self._wire.zid]
+
     def find_robots(self) -> tuple[tuple[str, ...], tuple[str, ...]]:
         """Topics that tell a robot description, and nodes that may have one as a parameter."""
         self._graph.settle()
@@ -93,7 +98,7 @@ class WireLink:
             name
             for name, types in self._graph.topics()
             if STRING in types and name.endswith("robot_description")
-            if any(one.node.zid != self._wire.zid for one in self._graph.publishers(name))
+            if self.publishers(name)
         ]
         nodes = [name for name in self.node_names() if "robot_state_publisher" in name]
         return tuple(sorted(topics, key=len)), tuple(nodes)

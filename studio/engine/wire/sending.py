@@ -21,6 +21,7 @@ RESTING_PERIOD_S: Final = 1 / 16
 """Between two messages of joints that stand still: they come at more than 10 Hz."""
 _PAUSE_SHARE: Final = 4
 """A robot so large that telling it takes long is told more seldom, by this much of that time."""
+_RIVALS_SHOWN: Final = 3
 DESCRIPTION_PERIOD_S: Final = 0.5
 """Between two descriptions while somebody drags."""
 
@@ -53,6 +54,16 @@ class RobotSending:
     def sends_joints(self) -> bool:
         """Whether the joints' positions go out."""
         return self._joints is not None
+
+    def rivals(self) -> tuple[str, ...]:
+        """Nodes of others that publish the same; the first ones."""
+        found = [
+            name
+            for out in (self._robot, None if self.joints_paused else self._joints)
+            if out is not None
+            for name in out.rivals()
+        ]
+        return tuple(dict.fromkeys(found))[:_RIVALS_SHOWN]
 
     async def start_robot(self, link: WireLink) -> None:
         """Tell the description and TF from now on.

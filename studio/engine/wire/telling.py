@@ -31,6 +31,10 @@ class RobotOut:
         self._node.set_parameters([Parameter(_DESCRIPTION, value=urdf)])
         self._publisher.describe(urdf, robot, kinematics)
 
+    def rivals(self) -> list[str]:
+        """Nodes of others that tell a robot, too."""
+        return self._link.publishers("/robot_description")
+
     def close(self) -> None:
         """Tell it no more."""
         self._link.let_go(self._node)
@@ -42,6 +46,10 @@ class JointsOut:
     def __init__(self, link: WireLink, node: Node) -> None:
         self._link, self._node = link, node
         self.tell = JointStatePublisher(node).tell
+
+    def rivals(self) -> list[str]:
+        """Nodes of others that tell joints, too."""
+        return self._link.publishers("/joint_states")
 
     def close(self) -> None:
         """Tell it no more."""

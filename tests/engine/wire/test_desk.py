@@ -107,6 +107,20 @@ def test_an_endpoint_that_something_else_holds_is_said():
     asyncio.run(run())
 
 
+def test_a_fault_of_ours_leaves_no_connection_being_made(monkeypatch: pytest.MonkeyPatch):
+    def break_down(*_: object) -> None:
+        raise RuntimeError("a bug")
+
+    async def run() -> None:
+        monkeypatch.setattr("studio.engine.wire.link.open_wire", break_down)
+        async with desk(WireChoice(connect=(free_endpoint(),))) as (made, ear):
+            with pytest.raises(RuntimeError):
+                await made.link()
+            assert state(ear) == "failed"
+
+    asyncio.run(run())
+
+
 def test_an_environment_that_cannot_be_is_said_before_anybody_asks(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setenv("ROS_DOMAIN_ID", "many")
 

@@ -249,6 +249,19 @@ def test_what_is_told_and_what_is_followed_make_no_echo(
     asyncio.run(run())
 
 
+def test_another_node_that_publishes_the_same_is_named(endpoint: str, tester: Node, tmp_path: Path):
+    async def run() -> None:
+        async with studio(endpoint, tmp_path) as one:
+            await one.do(PublishJoints(running=True))
+            assert one.ear.last("wire_feed")["rivals"] == []
+            out = states_out(tester)
+            await until(lambda: one.ear.last("wire_feed")["rivals"] == ["/tester"])
+            tester.destroy_publisher(out)
+            await until(lambda: one.ear.last("wire_feed")["rivals"] == [])
+
+    asyncio.run(run())
+
+
 def test_a_robot_opens_from_a_topic_and_follows_what_it_tells(
     endpoint: str, tester: Node, tmp_path: Path
 ):
