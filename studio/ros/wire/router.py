@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 _ACCEPT_TIMEOUT_MS = 5_000
 """A peer that begins a handshake and falls silent is let go after this."""
+_LOOK_AGAIN_S = 0.25
 _OF_SESSIONS = frozenset({"mode", "connect", "listen", "scouting", "open"})
 """Keys of an override that say how nodes find routers, which is no affair of a router here."""
 
@@ -109,7 +110,9 @@ def run_router(
         signal.signal(number, end)
     with start_router(parse_endpoint(listen), overrides) as router:
         ready(router.endpoint.text)
-        asked_to_end.wait()
+        # A signal that comes while a wait begins does not end that wait: look again.
+        while not asked_to_end.wait(_LOOK_AGAIN_S):
+            pass
 
 
 def _is_held(endpoint: Endpoint) -> bool:
