@@ -14,12 +14,7 @@ import numpy as np
 import pytest
 
 from studio.ros.attachment import Attachment
-from studio.ros.client import (
-    Context,
-    ExternalShutdownException,
-    QoSProfile,
-    ReliabilityPolicy,
-)
+from studio.ros.client import ExternalShutdownException, QoSProfile, ReliabilityPolicy
 from studio.ros.keys import DataKey
 from studio.ros.messages import message
 from studio.ros.node.executor import SingleThreadedExecutor
@@ -184,32 +179,47 @@ def test_a_message_of_50_megabytes_arrives_whole(router: str, node: Node):
 
 def test_a_slow_reader_of_20_khz_holds_up_no_other_and_no_memory(router: str):
     """The slow one sleeps 50 ms in each callback; another node of its process hears every beat."""
-    with open_test_session(router) as wire, flooded(router):
-        context = Context.over(wire)
-        slow, quick = Node("slow", context=context), Node("quick", context=context)
-        beats: list[int] = []
-        sensor = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
+    beats: list[int] = []
 
-        def dawdle(_: object) -> None:
-            time.sleep(0.05)
+    def dawdle(_: object) -> None:
+        time.sleep(0.05)
 
-        def count(said: Any) -> None:  # noqa: ANN401
-            beats.append(int(said.data))
+    def count(said: Any) -> None:  # noqa: ANN401
+        beats.append(int(said.data))
 
+    sensor = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
+    with flooded(router), node_at(router, "slow") as slow, beside(slow) as quick:
         reader = slow.create_subscription(message(STRING), "/fast", dawdle, sensor)
-        quick.create_subscription(message(STRING), "/beat", count, 10)
-        threads = [spun(node, context) for node in (slow, quick)]
+        other = quick.create_subscription(message(STRING), "/beat", count, 10)
         wait_until("it is behind", lambda: reader.losses.overwritten > 10_000)
         before_mb, from_beat = peak_mb(), len(beats)
         overwritten = reader.losses.overwritten
         wait_until("much more came", lambda: reader.losses.overwritten > overwritten + 40_000)
+        wait_until("it beats on", lambda: len(beats) > from_beat + 20)
         assert peak_mb() - before_mb < 64
-        heard_since = beats[from_beat:]
-        assert len(heard_since) > 20
-        assert heard_since == list(range(heard_since[0], heard_since[0] + len(heard_since)))
-        context.shutdown()
-        for thread in threads:
-            thread.join()
+        # Zenoh may drop a beat at the sender of so much; here none falls out.
+        assert beats == sorted(set(beats))
+        assert other.losses.overwritten == 0
+
+
+@contextmanager
+def beside(node: Node) -> Generator[Node]:
+    """Another node of the same session and drain, spun by a thread of its own."""
+    executor = SingleThreadedExecutor(context=node.context)
+    other = Node("quick", context=node.context)
+    executor.add_node(other)
+
+    def spin() -> None:
+        with suppress(ExternalShutdownException):
+            executor.spin()
+
+    thread = threading.Thread(target=spin)
+    thread.start()
+    try:
+        yield other
+    finally:
+        executor.shutdown()
+        thread.join()
 
 
 def peak_mb() -> float:
@@ -228,16 +238,3 @@ def flooded(router: str) -> Generator[None]:
             yield
         finally:
             process.kill()
-
-
-def spun(node: Node, context: Context) -> threading.Thread:
-    executor = SingleThreadedExecutor(context=context)
-    executor.add_node(node)
-
-    def spin() -> None:
-        with suppress(ExternalShutdownException):
-            executor.spin()
-
-    thread = threading.Thread(target=spin)
-    thread.start()
-    return thread
