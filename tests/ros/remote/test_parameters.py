@@ -68,3 +68,16 @@ def test_a_node_that_is_not_there_is_said_by_name(nodes: tuple[Node, Node]):
         pytest.raises(NotServedError, match="/nobody/list_parameters"),
     ):
         client.names()
+
+
+def test_a_node_that_leaves_values_out_has_them_not_set(nodes: tuple[Node, Node]):
+    robot, asking = nodes
+    for kind, name in (
+        ("GetParameters", "get_parameters"),
+        ("GetParameterTypes", "get_parameter_types"),
+    ):
+        service = robot.wire.types.service(f"rcl_interfaces/srv/{kind}")
+        robot.create_service(service, f"/curt/{name}", lambda _, response: response)
+    with ParameterClient(asking, "/curt") as client:
+        assert client.get(["a", "b"]) == [Parameter("a"), Parameter("b")]
+        assert client.types(["a"]) == [Parameter.Type.NOT_SET]
