@@ -1,4 +1,4 @@
-"""Types that only other nodes know, asked of one of them."""
+"""Types as other nodes have them: asked of them where unknown, and told where they differ."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from studio.errors import StudioError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
     from studio.cli.acting import Actor
     from studio.ros.graph.endpoints import GraphEndpoint
@@ -28,3 +28,12 @@ def learn_type(actor: Actor, endpoints: Iterable[GraphEndpoint]) -> None:
             print(f"{endpoint.node.path}: {error}", file=sys.stderr)
         else:
             return
+
+
+def say_foreign(actor: Actor, endpoints: Sequence[GraphEndpoint]) -> None:
+    """Say on stderr that others have another form of a type: they are not heard then."""
+    from studio.ros.graph.diagnosis import DistroHashes, foreign_hashes, why_not_heard
+
+    wire = actor.node.wire
+    for found in foreign_hashes(endpoints, wire.profile, DistroHashes(wire.types)):
+        print(f"WARNING: {why_not_heard(found, wire.profile)}", file=sys.stderr)

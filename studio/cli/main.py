@@ -27,6 +27,8 @@ examples:
   studio check ~/ws/src                    say what is wrong with every robot there
   studio xacro robot.urdf.xacro > robot.urdf
                                            expand as the xacro command does
+  studio demos talker listener             start two nodes of the course
+  studio topic echo /chatter               see what they say: the lines of ros2, without ROS
 """
 
 

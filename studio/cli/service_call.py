@@ -8,7 +8,7 @@ import time
 from typing import TYPE_CHECKING
 
 from studio.cli.acting import acting
-from studio.cli.learning import learn_type
+from studio.cli.learning import learn_type, say_foreign
 from studio.cli.looking import full_name
 from studio.cli.wire import add_wire_options
 from studio.errors import UnknownTypeError
@@ -57,6 +57,7 @@ def _run(options: argparse.Namespace) -> int:
         if not wait_for_service(client, options.timeout):
             print(f"Nobody serves {name} as {type_name}.", file=sys.stderr)
             return 1
+        say_foreign(actor, actor.graph.servers(name))
         while True:
             begun_s = time.monotonic()
             if not _ask(actor, client, request, options.timeout):

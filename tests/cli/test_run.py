@@ -32,6 +32,16 @@ def test_without_a_router_and_without_leave_to_start_one_a_sentence_is_said():
     assert "No Zenoh router answers" in ran.err
 
 
+def test_n8_a_remap_moves_the_topic(endpoint: str):
+    at = ("--connect", endpoint)
+    words = ("run", "demo_nodes_py", "talker", *at, "--ros-args", "-r", "chatter:=/x", "-r",
+             "__node:=other")  # fmt: skip
+    with started(endpoint, *words) as talker:
+        talker.wait_for("[other]: Publishing: ")
+        assert "/x" in studio("topic", "list", *at).out.split()
+        assert "/chatter" not in studio("topic", "list", *at).out.split()
+
+
 def test_executables_of_the_course_are_listed():
     listed = studio("pkg", "executables").out.splitlines()
     for line in (

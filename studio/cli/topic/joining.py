@@ -6,7 +6,7 @@ import sys
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from studio.cli.learning import learn_type
+from studio.cli.learning import learn_type, say_foreign
 from studio.cli.looking import full_name
 from studio.cli.topic.qos_options import given_profile, is_given, matching_profile
 from studio.errors import UnknownTypeError
@@ -44,11 +44,13 @@ def join_topic(actor: Actor, options: argparse.Namespace, given_type: str | None
     type_name = full_type_name(given_type) if given_type is not None else _only(name, types)
     if type_name is None:
         return None
-    offered = [one.qos for one in actor.graph.publishers(name)]
-    qos = matching_profile(offered)
+    publishers = actor.graph.publishers(name)
+    qos = matching_profile([one.qos for one in publishers])
     if is_given(options):
         qos = given_profile(options, qos)
-    return Joined(name, _class_of(actor, name, type_name), qos)
+    kind = _class_of(actor, name, type_name)
+    say_foreign(actor, [one for one in publishers if one.type_name == type_name])
+    return Joined(name, kind, qos)
 
 
 def _class_of(actor: Actor, name: str, type_name: str) -> type[MessageValue]:

@@ -106,3 +106,13 @@ def test_t11_a_type_that_only_the_publisher_knows_is_asked_of_it(endpoint: str, 
         ran = studio("topic", "echo", "/telemetry", "--once", "--connect", endpoint)
     assert ran.code == 0, ran.err
     assert ran.out == "voltage: 2.5\npath:\n- x: -1.0\n  y: 0.0\n  z: 0.0\n---\n"
+
+
+def test_q1_another_form_of_a_type_is_said_not_waited_for_in_silence(endpoint: str, tmp_path: Path):
+    folder = tmp_path / "std_msgs" / "msg"
+    folder.mkdir(parents=True)
+    (folder / "String.msg").write_text("string data\nstring more\n")
+    ran = studio("topic", "echo", "/latched", "--timeout", "0.2", "--interfaces",
+                 str(folder.parent), "--connect", endpoint)  # fmt: skip
+    assert ran.code == 1
+    assert ran.err.startswith("WARNING: Others have std_msgs/msg/String as of ")
