@@ -101,10 +101,12 @@ class GraphTable:
 
     def delete(self, token: str) -> Taken:
         """Forget a token; of a node, with its endpoints."""
-        self._refused.pop(token, None)
         key = self._tokens.pop(token, None)
         if key is None:
-            if token not in self._gone:
+            if token in self._refused:
+                del self._refused[token]
+                _remember(self._gone, token)
+            elif token not in self._gone:
                 _remember(self._gone_first, token)
             return Taken.KNOWN
         _remember(self._gone, token)

@@ -160,6 +160,15 @@ def test_a_token_that_is_none_is_counted_and_told_once():
     assert is_empty(table)
 
 
+def test_a_token_that_was_none_goes_and_comes_without_doubt():
+    table = GraphTable()
+    bad = "@ros2_lv/0/aa/0/0/XX/%/%/talker"
+    table.put(bad)
+    table.delete(bad)
+    assert table.put(bad) is Taken.REFUSED
+    assert table.malformed == 2
+
+
 def test_a_sample_is_traced_to_its_publisher_until_that_goes():
     table = filled()
     found = table.endpoint_of_gid(gid_of(TOKENS[1]))
