@@ -6,13 +6,19 @@ import re
 from typing import TYPE_CHECKING, Final
 
 from studio.errors import NotMadeError
+from studio.packages.choices import load_choices, save_choices
 from studio.settings import SOURCE_SIZE_LIMIT_BYTES
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
     from pathlib import Path
+
+    from studio.packages.index import PackageIndex
 
 FOLDER: Final = "from_ros"
 _NAME_LIMIT: Final = 80
+_NAMED: Final = re.compile(r"package://([A-Za-z0-9_.-]{1,100})/")
+_NAMED_LIMIT: Final = 100
 _ROBOT: Final = re.compile(r"<(?:\w+:)?robot\b")
 
 
@@ -43,9 +49,36 @@ def keep_description(data_folder: Path, source: str, text: str) -> Path:
         fresh.write_bytes(content)
         fresh.replace(file)
     except OSError as error:
-        reason = f"the data folder cannot take it ({error.strerror or type(error).__name__})."
-        raise NotMadeError(shown, reason) from error
+        raise NotMadeError(shown, _reason(error)) from error
     return file
+
+
+def choose_packages(
+    data_folder: Path, file: Path, text: str, open_ones: Iterable[PackageIndex]
+) -> None:
+    """Let a description find the packages that it names where open robots have them.
+
+    It lies beside none of them, so that its meshes would be missed; what a person chose stays.
+
+    Raises:
+        NotMadeError: The data folder cannot take it.
+    """
+    known = load_choices(data_folder, file.parent)
+    found: dict[str, Path] = {}
+    for name in sorted(set(_NAMED.findall(text)))[:_NAMED_LIMIT]:
+        index = next((one for one in open_ones if name in one), None)
+        if index is not None:
+            found[name] = index.best(name, file)
+    if not found.keys() - known.keys():
+        return
+    try:
+        save_choices(data_folder, file.parent, {**found, **known})
+    except OSError as error:
+        raise NotMadeError("A robot of ROS", _reason(error)) from error
+
+
+def _reason(error: OSError) -> str:
+    return f"the data folder cannot take it ({error.strerror or type(error).__name__})."
 
 
 def _folder_name(source: str) -> str:

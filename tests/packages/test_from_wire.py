@@ -7,8 +7,11 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.errors import NotMadeError
-from studio.packages.from_wire import FOLDER, keep_description
+from studio.packages.choices import load_choices, save_choices
+from studio.packages.from_wire import FOLDER, choose_packages, keep_description
+from studio.packages.index import PackageIndex
 from studio.settings import SOURCE_SIZE_LIMIT_BYTES
+from tests.support.packages import write_package
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -36,6 +39,18 @@ def test_the_same_text_again_touches_nothing(tmp_path: Path):
 def test_no_source_leads_out_of_the_folder(tmp_path: Path, source: str):
     file = keep_description(tmp_path, source, ROBOT)
     assert (tmp_path / FOLDER).resolve() == file.resolve().parent.parent
+
+
+def test_packages_that_an_open_robot_has_are_found_and_what_was_chosen_stays(tmp_path: Path):
+    for name in ("arm", "wheels", "other"):
+        write_package(tmp_path / name)
+    index = PackageIndex((), {"arm": tmp_path / "arm", "wheels": tmp_path / "wheels"})
+    text = ROBOT + "<!-- package://arm/a.stl package://wheels/b.stl package://missing/c.stl -->"
+    file = keep_description(tmp_path, "/r", text)
+    save_choices(tmp_path, file.parent, {"wheels": tmp_path / "other"})
+    choose_packages(tmp_path, file, text, [index])
+    found = load_choices(tmp_path, file.parent)
+    assert found == {"arm": tmp_path / "arm", "wheels": tmp_path / "other"}
 
 
 @pytest.mark.parametrize(

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import asyncio
-from typing import TYPE_CHECKING, TypeAlias
+from functools import partial
+from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 from studio.engine import messages as m
+from studio.engine.library import Opener
 from studio.engine.messages.wire import (
     ConnectWire,
     FindWireRobots,
@@ -13,24 +15,35 @@ from studio.engine.messages.wire import (
     WireRobots,
 )
 from studio.errors import CommandError
-from studio.packages.from_wire import keep_description
+from studio.packages.from_wire import choose_packages, keep_description
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
     from pathlib import Path
 
-    from studio.engine.library import Opener
+    from studio.engine.document import Document
     from studio.engine.wire.desk import WireDesk
     from studio.engine.wire.hearing import DescriptionIn
+    from studio.packages.index import PackageIndex
 
 EngineWireCommand: TypeAlias = ConnectWire | FindWireRobots | OpenFromWire
 _FIRST_PATIENCE_S = 5.0
 """For a description that is latched: it comes at once, or nobody tells one."""
 
 
+class OpenRobots(Opener, Protocol):
+    """What the engine does for it."""
+
+    @property
+    def documents(self) -> Mapping[str, Document]:
+        """Those that are open, by their ids."""
+        ...
+
+
 class WireRobotDesk:
     """Carries them out for the engine."""
 
-    def __init__(self, wire: WireDesk, data_folder: Path, opener: Opener) -> None:
+    def __init__(self, wire: WireDesk, data_folder: Path, opener: OpenRobots) -> None:
         self._wire, self._data_folder, self._opener = wire, data_folder, opener
 
     async def carry_out(self, command: EngineWireCommand) -> m.Event | None:
@@ -70,5 +83,12 @@ class WireRobotDesk:
                 f"Nothing told a robot at {description.source} within {_FIRST_PATIENCE_S:.0f} s: "
                 "is robot_state_publisher running, in this domain?"
             )
-        keep = keep_description, self._data_folder, description.source, text
-        return await self._opener.open_at(await asyncio.to_thread(*keep), {}, None)
+        indexes = [one.location.index for one in self._opener.documents.values()]
+        keep = partial(_keep, self._data_folder, description.source, text, indexes)
+        return await self._opener.open_at(await asyncio.to_thread(keep), {}, None)
+
+
+def _keep(data_folder: Path, source: str, text: str, indexes: list[PackageIndex]) -> Path:
+    file = keep_description(data_folder, source, text)
+    choose_packages(data_folder, file, text, indexes)
+    return file
