@@ -65,6 +65,7 @@ class ActionClient:
         self._lock = threading.Lock()
         self._listening: OrderedDict[bytes, Callable[[Any], object]] = OrderedDict()
         self._goals: OrderedDict[bytes, ClientGoalHandle] = OrderedDict()
+        self._told: dict[bytes, int] = {}
         names = ActionNames.of(self._name)
         types = node.wire.types
         cancel_type = types.service("action_msgs/srv/CancelGoal")
@@ -221,6 +222,7 @@ class ActionClient:
         goal = ClientGoalHandle(self, goal_id, reply)
         if goal.accepted:
             self._keep(self._goals, goal_id, goal)
+            goal.told(_status_of(self._told.get(goal_id_of(goal_id), GoalStatus.UNKNOWN)))
         return goal
 
     def _ended(self, goal: ClientGoalHandle, reply: MessageValue) -> MessageValue:
@@ -241,11 +243,14 @@ class ActionClient:
         return callback(message) if callback is not None else None
 
     def _on_status(self, message: MessageValue) -> None:
-        for told in message.status_list:
-            with self._lock:
-                goal = self._goals.get(goal_id_of(told.goal_info.goal_id))
+        told = {goal_id_of(one.goal_info.goal_id): one.status for one in message.status_list}
+        with self._lock:
+            # Of a goal whose acceptance is not taken in yet, too.
+            self._told = told
+            goals = [(self._goals.get(goal_id), status) for goal_id, status in told.items()]
+        for goal, status in goals:
             if goal is not None:
-                goal.told(_status_of(told.status))
+                goal.told(_status_of(status))
 
 
 def _status_of(number: int) -> GoalStatus:

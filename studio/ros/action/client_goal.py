@@ -42,9 +42,8 @@ class ClientGoalHandle:
         return self._status
 
     def told(self, status: GoalStatus) -> None:
-        """Take note of its status; of the client. One that is over stays so."""
-        if not self._status.is_over:
-            self._status = status
+        """Take note of its status; of the client. It never goes back."""
+        self._status = max(self._status, status) if not self._status.is_over else self._status
 
     def cancel_goal_async(self) -> Future[Any]:
         """Ask that it end; becomes an action_msgs/srv/CancelGoal response.

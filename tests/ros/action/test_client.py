@@ -135,3 +135,13 @@ def test_goals_that_are_sent_together_keep_their_own_results():
         sent = [pair.client.send_goal_async(kind.Goal(order=order)) for order in range(9)]
         asked = [finished(one).get_result_async() for one in sent]
         assert [list(finished(one).result.sequence) for one in asked] == [[n] for n in range(9)]
+
+
+def test_a_status_that_comes_before_the_acceptance_is_not_lost():
+    held = Held()
+    with action_pair(held) as pair:
+        goal = pair.send()
+        wait_until("it was told", lambda: goal.status is GoalStatus.EXECUTING)
+        answered = pair.client._answered  # pyright: ignore[reportPrivateUsage]
+        reply = pair.client.action_type.SendGoal.Response(accepted=True)
+        assert answered(goal.goal_id, reply).status is GoalStatus.EXECUTING
