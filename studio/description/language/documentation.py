@@ -19,15 +19,25 @@ _LIST_MARK: Final = re.compile(r"^[-*@\s]*(?:param(?:eter)?\s+)?")
 
 def documentation_of(element: SourceElement) -> str:
     """The comments on the lines right above an element, without rules, licences and old code."""
+    text = "\n".join(filter(None, (_plain(one) for one in _comments_above(element))))
+    return text if len(text) <= _LENGTH else text[: _LENGTH - 1] + "…"
+
+
+def _comments_above(element: SourceElement) -> list[str]:
     siblings = element.parent.children if element.parent else []
-    comments: list[str] = []
+    lines: list[list[str]] = [[]]
     for sibling in reversed(siblings[: _index(element)]):
         if isinstance(sibling, SourceComment):
-            comments.insert(0, sibling.text)
-        elif not isinstance(sibling, SourceText) or not _joins(sibling.text):
+            lines[0].insert(0, sibling.text)
+        elif not isinstance(sibling, SourceText):
+            # A comment behind another element on its line speaks of that one.
+            lines[0].clear()
             break
-    text = "\n".join(filter(None, (_plain(one) for one in comments)))
-    return text if len(text) <= _LENGTH else text[: _LENGTH - 1] + "…"
+        elif not _joins(sibling.text):
+            break
+        elif "\n" in sibling.text:
+            lines.insert(0, [])
+    return [comment for line in lines for comment in line]
 
 
 def _index(element: SourceElement) -> int:

@@ -64,3 +64,19 @@ def test_licences_and_old_code_are_no_documentation(tmp_path: Path):
   <xacro:m/>"""
     editor = Editor(tmp_path, write(tmp_path, {"a.xacro": robot(body)}))
     assert editor.meaning(editor.entry, "  <xacro:|m/>").doc == "A wheel."
+
+
+def test_a_comment_behind_one_value_is_not_told_of_the_next(tmp_path: Path):
+    body = """
+  <xacro:property name="a" value="1"/> <!-- [0:2] m the first one -->
+  <xacro:property name="b" value="2"/> <!-- [0:4] m -->
+  <xacro:property name="c" value="3"/> <!-- of c -->
+  <!-- above the macro -->
+  <xacro:macro name="m" params=""/> <!-- behind it -->
+  <xacro:macro name="n" params=""/>
+  <xacro:m/><xacro:n/><link name="l${a + b + c}"/>"""
+    editor = Editor(tmp_path, write(tmp_path, {"a.xacro": robot(body)}))
+    told = [editor.meaning(editor.entry, f"{name}|").doc for name in ("l${a", "a + b", "b + c")]
+    assert told == ["the first one", "", "of c"]
+    assert editor.meaning(editor.entry, "<xacro:|m/>").doc == "above the macro"
+    assert editor.meaning(editor.entry, "<xacro:|n/>").doc == ""
