@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from studio.errors import NotServedError
 from studio.ros.parameters.files import read_parameters, write_parameters
 from studio.ros.parameters.messages import value_of
 from studio.ros.parameters.parameter import Parameter
@@ -12,7 +13,7 @@ from studio.ros.remote.async_parameters import AsyncParameterClient
 from studio.ros.remote.waiting import TIMEOUT_S, answer
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Callable, Iterable, Sequence
     from typing import Self
 
     from studio.ros.node.future import Future
@@ -49,8 +50,8 @@ class ParameterClient:
 
     def names(self, prefixes: Iterable[str] = (), depth: int = 0) -> list[str]:
         """Name the parameters, in the order of the alphabet."""
-        asked = self._client.list_parameters(prefixes, depth)
-        return sorted(self._answer(asked, "list_parameters").result.names)
+        asked = self._ask("list_parameters", lambda: self._client.list_parameters(prefixes, depth))
+        return sorted(asked.result.names)
 
     def get(self, names: Sequence[str]) -> list[Parameter]:
         """Give parameters in the order asked; one that is not declared is not set.
@@ -58,7 +59,7 @@ class ParameterClient:
         Raises:
             InvalidParameterTypeError: The node sent a type that there is not.
         """
-        values = self._answer(self._client.get_parameters(names), "get_parameters").values
+        values = self._ask("get_parameters", lambda: self._client.get_parameters(names)).values
         # Some nodes leave out all values when one name is unknown to them.
         given = dict(zip(names, values, strict=False)) if len(values) == len(names) else {}
         return [
@@ -68,8 +69,8 @@ class ParameterClient:
 
     def types(self, names: Sequence[str]) -> list[ParameterType]:
         """Give the types of parameters in the order asked."""
-        asked = self._client.get_parameter_types(names)
-        types = list(self._answer(asked, "get_parameter_types").types)
+        asked = self._ask("get_parameter_types", lambda: self._client.get_parameter_types(names))
+        types = list(asked.types)
         known = types if len(types) == len(names) else [0] * len(names)
         return [
             ParameterType(kind) if kind in set(ParameterType) else ParameterType.NOT_SET
@@ -78,18 +79,21 @@ class ParameterClient:
 
     def describe(self, names: Sequence[str]) -> list[MessageValue]:
         """Give the ParameterDescriptors that the node has of these names."""
-        asked = self._client.describe_parameters(names)
-        return list(self._answer(asked, "describe_parameters").descriptors)
+        asked = self._ask("describe_parameters", lambda: self._client.describe_parameters(names))
+        return list(asked.descriptors)
 
     def set(self, parameters: Sequence[Parameter]) -> list[MessageValue]:
         """Set parameters one after another, and give a SetParametersResult of each."""
-        asked = self._client.set_parameters(parameters)
-        return list(self._answer(asked, "set_parameters").results)
+        asked = self._ask("set_parameters", lambda: self._client.set_parameters(parameters))
+        return list(asked.results)
 
     def set_atomically(self, parameters: Sequence[Parameter]) -> MessageValue:
         """Set all parameters or none, and give one SetParametersResult."""
-        asked = self._client.set_parameters_atomically(parameters)
-        return self._answer(asked, "set_parameters_atomically").result
+        asked = self._ask(
+            "set_parameters_atomically",
+            lambda: self._client.set_parameters_atomically(parameters),
+        )
+        return asked.result
 
     def dump(self) -> str:
         """Write all parameters as `ros2 param dump` does."""
@@ -107,5 +111,9 @@ class ParameterClient:
         parameters = read_parameters(text, self.remote, where, wildcards=wildcards)
         return list(zip(parameters, self.set(parameters), strict=True)) if parameters else []
 
-    def _answer(self, future: Future[Any], service: str) -> Any:  # noqa: ANN401  # a response
-        return answer(self._node, future, f"{self.remote}/{service}", self._timeout_s)
+    def _ask(self, service: str, ask: Callable[[], Future[Any]]) -> Any:  # noqa: ANN401
+        """Wait until the node is there, then ask; give the response."""
+        client = self._client.clients[service]
+        if not client.wait_for_service(timeout_sec=self._timeout_s):
+            raise NotServedError("service", client.srv_name)
+        return answer(self._node, ask(), client.srv_name, self._timeout_s)
