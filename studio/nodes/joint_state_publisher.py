@@ -11,7 +11,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, Final
 
 import studio.ros.client as rclpy
-from studio.errors import ExternalShutdownException, RobotError
+from studio.errors import ExternalShutdownException, RobotError, SettingsError
 from studio.nodes.robot_state_publisher import LATCHED, read_urdf
 from studio.robot.kinematics import Kinematics
 from studio.robot.urdf_text import robot_from_urdf
@@ -53,6 +53,9 @@ class JointStateNode(Node):
     """The node that upstream's program is without a window: all joints at zero, at a rate.
 
     The robot is that of a file, or the one that comes on `robot_description`.
+
+    Raises:
+        SettingsError: The parameter `rate` is not above 0.
     """
 
     def __init__(self, urdf: str = "") -> None:
@@ -60,6 +63,8 @@ class JointStateNode(Node):
         self._publisher = JointStatePublisher(self)
         self._positions: dict[str, float] = {}
         rate_hz = self.declare_parameter("rate", 10).value
+        if not rate_hz > 0:
+            raise SettingsError(f"rate is {rate_hz}: it must be above 0.")
         if urdf:
             self._positions = _at_zero(urdf)
         else:
