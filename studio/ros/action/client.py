@@ -11,6 +11,7 @@ from studio.errors import ActionServerGoneError, DroppedError, NotServedError
 from studio.ros.action.client_goal import ClientGoalHandle, waited
 from studio.ros.action.goal_ids import goal_id_message, goal_id_of, new_goal_id
 from studio.ros.action.names import ActionNames
+from studio.ros.action.qos import FEEDBACK_QOS, ActionQos
 from studio.ros.action.result_wait import ResultWait
 from studio.ros.action.states import GoalStatus
 from studio.ros.node.codecs import check_kind
@@ -28,11 +29,11 @@ if TYPE_CHECKING:
 
     from studio.ros.node.node import Node
     from studio.ros.node.service_client import Client
+    from studio.ros.node.subscription import Subscription
     from studio.ros.node.work import CallbackGroup
     from studio.ros.types.classes import MessageValue
     from studio.ros.types.library import ActionType
 
-FEEDBACK_QOS = QoSProfile(depth=10)
 RESULT_TIMEOUT_S = 365 * 24 * 3600.0
 """A goal may take as long as it likes: the end of its server ends the wait."""
 GOALS_KEPT_MAX = 1_000
@@ -66,46 +67,17 @@ class ActionClient:
         self._listening: OrderedDict[bytes, Callable[[Any], object]] = OrderedDict()
         self._goals: OrderedDict[bytes, ClientGoalHandle] = OrderedDict()
         self._told: dict[bytes, int] = {}
+        self._goal_info_type = node.wire.types.message("action_msgs/msg/GoalInfo")
         names = ActionNames.of(self._name)
-        types = node.wire.types
-        cancel_type = types.service("action_msgs/srv/CancelGoal")
-        self._send, self._cancel, self._result = (
-            node.create_client(
-                kind, name, qos_profile=qos, callback_group=callback_group, timeout_s=timeout_s
-            )
-            for kind, name, qos, timeout_s in (
-                (
-                    action_type.SendGoal,
-                    names.send_goal,
-                    goal_service_qos_profile,
-                    SERVICE_TIMEOUT_S,
-                ),
-                (cancel_type, names.cancel_goal, cancel_service_qos_profile, SERVICE_TIMEOUT_S),
-                (
-                    action_type.GetResult,
-                    names.get_result,
-                    result_service_qos_profile,
-                    RESULT_TIMEOUT_S,
-                ),
-            )
+        qos = ActionQos(
+            goal_service_qos_profile,
+            result_service_qos_profile,
+            cancel_service_qos_profile,
+            feedback_sub_qos_profile,
+            status_sub_qos_profile,
         )
-        self._goal_info_type = types.message("action_msgs/msg/GoalInfo")
-        self._subscriptions = [
-            node.create_subscription(
-                action_type.FeedbackMessage,
-                names.feedback,
-                self._on_feedback,
-                feedback_sub_qos_profile,
-                callback_group=callback_group,
-            ),
-            node.create_subscription(
-                types.message("action_msgs/msg/GoalStatusArray"),
-                names.status,
-                self._on_status,
-                status_sub_qos_profile,
-                callback_group=callback_group,
-            ),
-        ]
+        self._send, self._cancel, self._result = self._clients(names, qos, callback_group)
+        self._subscriptions = self._subscribe(names, qos, callback_group)
 
     @property
     def action_type(self) -> ActionType:
@@ -184,6 +156,34 @@ class ActionClient:
             self._node.destroy_subscription(subscription)
         for client in (self._send, self._cancel, self._result):
             self._node.destroy_client(client)
+
+    def _clients(
+        self, names: ActionNames, qos: ActionQos, group: CallbackGroup | None
+    ) -> tuple[Client, Client, Client]:
+        cancel = self._node.wire.types.service("action_msgs/srv/CancelGoal")
+        send, cancel, result = (
+            self._node.create_client(
+                kind, name, qos_profile=profile, callback_group=group, timeout_s=timeout_s
+            )
+            for kind, name, profile, timeout_s in (
+                (self._type.SendGoal, names.send_goal, qos.goal, SERVICE_TIMEOUT_S),
+                (cancel, names.cancel_goal, qos.cancel, SERVICE_TIMEOUT_S),
+                (self._type.GetResult, names.get_result, qos.result, RESULT_TIMEOUT_S),
+            )
+        )
+        return send, cancel, result
+
+    def _subscribe(
+        self, names: ActionNames, qos: ActionQos, group: CallbackGroup | None
+    ) -> list[Subscription]:
+        status = self._node.wire.types.message("action_msgs/msg/GoalStatusArray")
+        return [
+            self._node.create_subscription(kind, name, callback, profile, callback_group=group)
+            for kind, name, callback, profile in (
+                (self._type.FeedbackMessage, names.feedback, self._on_feedback, qos.feedback),
+                (status, names.status, self._on_status, qos.status),
+            )
+        ]
 
     def _ask(
         self,

@@ -18,6 +18,7 @@ from studio.ros.action.answers import (
 from studio.ros.action.cancelling import CancelCode, goals_meant
 from studio.ros.action.goal_ids import goal_id_of
 from studio.ros.action.names import ActionNames
+from studio.ros.action.qos import FEEDBACK_QOS, ActionQos
 from studio.ros.action.server_goal import ServerGoalHandle
 from studio.ros.action.server_goals import ServerGoals
 from studio.ros.action.states import GoalEvent, GoalStatus, can_follow
@@ -36,12 +37,12 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from studio.ros.node.node import Node
+    from studio.ros.node.service import Service
     from studio.ros.node.work import CallbackGroup
     from studio.ros.types.classes import MessageValue
     from studio.ros.types.library import ActionType
 
 RESULT_TIMEOUT_S = 900
-FEEDBACK_QOS = QoSProfile(depth=10)
 
 
 class ActionServer:
@@ -84,37 +85,18 @@ class ActionServer:
         self.register_cancel_callback(cancel_callback)
         self.register_execute_callback(execute_callback)
         names = ActionNames.of(node.resolve_service_name(action_name))
+        qos = ActionQos(
+            goal_service_qos_profile,
+            result_service_qos_profile,
+            cancel_service_qos_profile,
+            feedback_pub_qos_profile,
+            status_pub_qos_profile,
+        )
         self._feedback = node.create_publisher(
-            action_type.FeedbackMessage, names.feedback, feedback_pub_qos_profile
+            action_type.FeedbackMessage, names.feedback, qos.feedback
         )
-        self._status = node.create_publisher(
-            self._status_type, names.status, status_pub_qos_profile
-        )
-        cancel = node.wire.types.service("action_msgs/srv/CancelGoal")
-        self._services = [
-            node.create_service(
-                action_type.GetResult,
-                names.get_result,
-                self._on_get_result,
-                qos_profile=result_service_qos_profile,
-                # Each request waits for the end of its goal, and must not keep others waiting.
-                callback_group=ReentrantCallbackGroup(),
-            ),
-            node.create_service(
-                cancel,
-                names.cancel_goal,
-                self._on_cancel,
-                qos_profile=cancel_service_qos_profile,
-                callback_group=callback_group,
-            ),
-            node.create_service(
-                action_type.SendGoal,
-                names.send_goal,
-                self._on_send_goal,
-                qos_profile=goal_service_qos_profile,
-                callback_group=callback_group,
-            ),
-        ]
+        self._status = node.create_publisher(self._status_type, names.status, qos.status)
+        self._services = self._serve(names, qos, callback_group)
         node.on_destroy(self.destroy)
         self.publish_status()
 
@@ -200,6 +182,23 @@ class ActionServer:
     def forget(self, goal: ServerGoalHandle) -> None:
         """Know a goal no more; of goals."""
         self._goals.remove(goal)
+
+    def _serve(
+        self, names: ActionNames, qos: ActionQos, group: CallbackGroup | None
+    ) -> list[Service]:
+        cancel = self._node.wire.types.service("action_msgs/srv/CancelGoal")
+        # Each question for a result waits for the end of its goal: it must keep nobody waiting.
+        waiting = ReentrantCallbackGroup()
+        return [
+            self._node.create_service(
+                kind, name, callback, qos_profile=profile, callback_group=chosen
+            )
+            for kind, name, callback, profile, chosen in (
+                (self._type.GetResult, names.get_result, self._on_get_result, qos.result, waiting),
+                (cancel, names.cancel_goal, self._on_cancel, qos.cancel, group),
+                (self._type.SendGoal, names.send_goal, self._on_send_goal, qos.goal, group),
+            )
+        ]
 
     async def _on_send_goal(self, request: MessageValue, response: MessageValue) -> MessageValue:
         goal_id = goal_id_of(request.goal_id)
