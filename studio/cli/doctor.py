@@ -7,8 +7,8 @@ import sys
 from typing import TYPE_CHECKING
 
 import studio
-from studio.cli.looking import add_looking_options, settle, why_empty
-from studio.cli.wire import opened_wire
+from studio.cli.looking import settle, why_empty
+from studio.cli.wire import add_wire_options, opened_wire
 
 if TYPE_CHECKING:
     import argparse
@@ -31,7 +31,7 @@ def add(parser: argparse.ArgumentParser) -> None:
         "-iw", "--include-warnings", action="store_true", help="as is: warnings are shown"
     )
     parser.add_argument("verb", nargs="?", choices=["hello"], help="as is: whether all can be met")
-    add_looking_options(parser)
+    add_wire_options(parser)
     parser.set_defaults(run=_run)
 
 

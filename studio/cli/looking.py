@@ -16,13 +16,13 @@ if TYPE_CHECKING:
     from studio.ros.graph.graph import Graph
     from studio.ros.wire.session import WireSession
 
-_FIRST_NEWS_S = 0.5
-_QUIET_S = 0.06
+_FIRST_NEWS_S = 1.0
+_QUIET_S = 0.1
 
 
 def add_looking_options(parser: argparse.ArgumentParser) -> None:
     """Options of a verb that reads the graph and does nothing else."""
-    add_wire_options(parser)
+    add_wire_options(parser, own_types=False)
 
 
 @contextmanager
@@ -34,7 +34,7 @@ def looking(options: argparse.Namespace) -> Generator[Graph]:
     """
     from studio.ros.graph.graph import Graph
 
-    with opened_wire(options) as wire, Graph(wire) as graph:
+    with opened_wire(options, own_types=False) as wire, Graph(wire) as graph:
         settle(graph, options)
         if not graph.nodes():
             print(f"studio: {why_empty(wire)}", file=sys.stderr)

@@ -10,6 +10,7 @@ from studio.packages.discovery import discover
 from studio.packages.environment import RosEnvironment
 from studio.packages.folder_memory import FolderMemory
 from studio.packages.index import Indexed, PackageIndex
+from studio.packages.manifest import FILE_NAME
 from studio.packages.recent import last_opened
 from studio.packages.roots import ServedRoots, is_too_wide, package_folder_of, served_roots_for
 from studio.settings import data_folder, repository_or_wheel
@@ -17,6 +18,8 @@ from studio.settings import data_folder, repository_or_wheel
 if TYPE_CHECKING:
     import argparse
     from collections.abc import Iterable
+
+_MEMORY = "package_index/commands"
 
 
 def add_package_options(parser: argparse.ArgumentParser) -> None:
@@ -40,11 +43,13 @@ def opened_packages(options: argparse.Namespace) -> PackageIndex:
     environment = RosEnvironment.from_variables(os.environ)
     prefixes = environment.prefixes
     own = (repository_or_wheel("models"),)
-    memory = FolderMemory(None, ServedRoots((*roots, *environment.folders, *own)))
+    served = ServedRoots((*roots, *environment.folders, *own))
+    memory = FolderMemory(folder / _MEMORY, served)
     found = [
         *_found([*roots, *own, *environment.sources], memory, is_prefix=False),
         *_found(prefixes, memory, is_prefix=True),
     ]
+    memory.save()
     return PackageIndex({one.folder: one for one in reversed(found)}.values())
 
 
@@ -58,16 +63,17 @@ def _found(folders: Iterable[Path], memory: FolderMemory, *, is_prefix: bool) ->
 
 
 def _workspace_of(folder: Path) -> tuple[Path, ...]:
-    """The packages around a folder: beside the package it lies in, or below its `src`."""
+    """The packages around a folder: beside the one it lies in, below its `src`, or right in it."""
     if is_too_wide(folder):
         return ()
     package = package_folder_of(folder)
     if package is not None:
-        return served_roots_for(package / "package.xml")
+        return served_roots_for(package / FILE_NAME)
+    if folder.name == "src":
+        return (folder,)
     if (folder / "src").is_dir():
         return (folder / "src",)
-    holds_packages = next(folder.glob("*/package.xml"), None) is not None
-    return (folder,) if holds_packages or folder.name == "src" else ()
+    return tuple(sorted(manifest.parent for manifest in folder.glob(f"*/{FILE_NAME}")))
 
 
 def _last(data: Path) -> tuple[Path, ...]:

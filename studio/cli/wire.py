@@ -22,7 +22,9 @@ STARTING = "auto"
 _DISTRO = "jazzy"
 
 
-def add_wire_options(parser: argparse.ArgumentParser, router: str = LOOKING) -> None:
+def add_wire_options(
+    parser: argparse.ArgumentParser, router: str = LOOKING, *, own_types: bool = True
+) -> None:
     """Let a verb speak with nodes; `router` is what it does by itself where no router answers."""
     wire = parser.add_argument_group("ROS 2 over Zenoh")
     wire.add_argument(
@@ -57,12 +59,15 @@ def add_wire_options(parser: argparse.ArgumentParser, router: str = LOOKING) -> 
     )
     wire.add_argument("--no-daemon", action="store_true", help="as is: there is no daemon")
     parser.set_defaults(interrupted_code=int(signal.SIGINT))  # as ros2, 130 is that of shells
-    add_type_options(parser)
+    if own_types:
+        add_type_options(parser)
 
 
 @contextmanager
-def opened_wire(options: argparse.Namespace) -> Generator[WireSession]:
+def opened_wire(options: argparse.Namespace, *, own_types: bool = True) -> Generator[WireSession]:
     """Open the session of a verb, closed at its end, also when Ctrl-C or SIGTERM ends it.
+
+    A verb that encodes and decodes nothing needs no `own_types`, which take time to find.
 
     Raises:
         NoRouterError: None answers, and none may be started.
@@ -73,7 +78,7 @@ def opened_wire(options: argparse.Namespace) -> Generator[WireSession]:
 
     profile = profile_of(options)
     settings = wire_settings(tuple(options.connect), options.domain, profile)
-    types = known_types(options, profile.distro)
+    types = known_types(options, profile.distro) if own_types else None
     with ended_by_signals(), open_wire(settings, options.router, types) as wire:
         yield wire
 

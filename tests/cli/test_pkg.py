@@ -60,6 +60,21 @@ def test_a_manifest_and_its_tags_are_printed(workspace: Path):
     assert studio("pkg", "prefix", "own_pkg").out == f"{workspace}\n"
 
 
+def test_only_a_workspace_is_searched_not_whatever_folder_one_stands_in(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    for below in ("one", "deep/down/two"):
+        package = tmp_path / "downloads" / below
+        package.mkdir(parents=True)
+        (package / "package.xml").write_text(f"<package><name>{package.name}</name></package>")
+    monkeypatch.chdir(tmp_path / "downloads")
+    listed = studio("pkg", "list").out.split()
+    assert "one" in listed
+    assert "two" not in listed
+    monkeypatch.chdir(tmp_path / "downloads" / "deep")
+    assert "one" not in studio("pkg", "list").out.split()
+
+
 @pytest.mark.parametrize("verb", ["xml", "prefix", "executables"])
 def test_an_unknown_package_is_one_sentence(verb: str):
     ran = studio("pkg", verb, "no_such")

@@ -52,7 +52,7 @@ def test_a_verb_starts_a_router_when_it_is_told_to():
     ],
 )
 def test_a_wrong_option_ends_with_2_and_words(options: tuple[str, ...], endpoint: str):
-    ran = studio("topic", "list", *options, "--connect", endpoint)
+    ran = studio("topic", "echo", "/x", *options, "--connect", endpoint)
     assert (ran.code, ran.out) == (2, "")
     assert "Traceback" not in ran.err
 
