@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import logging
+from contextlib import asynccontextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final, Literal
 
@@ -13,7 +14,7 @@ from studio.errors import CommandError, StudioError
 from studio.packages.from_wire import keep_description
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import AsyncGenerator, Iterable
     from pathlib import Path
 
     from studio.engine.document import Document
@@ -51,6 +52,7 @@ class FeedDesk:
         self._ticking: asyncio.Task[None] | None = None
         self._turn = asyncio.Lock()
         """Two who switch at once do it one after the other."""
+        self._closed = False
 
     def events(self) -> Iterable[WireFeed]:
         """What a newcomer is told."""
@@ -62,50 +64,63 @@ class FeedDesk:
         Raises:
             StudioError: There is no way to the wire.
         """
-        async with self._turn:
+        async with self._switching():
             if source == "joint_states" or source == "tf":  # noqa: PLR1714 - it narrows the type
                 await self._follow(source)
             else:
                 await self._stop_following()
                 self._document.motion.animate(running=source == "animation")
-            self._go_on()
 
     async def publish_robot(self, *, running: bool) -> None:
         """Publish the description and TF, or stop; errors as for `choose`."""
-        async with self._turn:
+        async with self._switching():
             if running:
                 self._demand_other_description()
                 await self._sending.start_robot(await self._wire.link())
             else:
                 await self._sending.stop_robot()
-            self._go_on()
 
     async def publish_joints(self, *, running: bool) -> None:
         """Publish the joints' positions, or stop; errors as for `choose`."""
-        async with self._turn:
+        async with self._switching():
             if running:
                 await self._sending.start_joints(await self._wire.link())
             else:
                 await self._sending.stop_joints()
-            self._go_on()
 
     async def describe(self, description: DescriptionIn, data_folder: Path) -> None:
         """Let the description come from the wire: what comes anew is written into the file."""
-        before, self._described = self._described, _Described(description, data_folder)
-        if before is not None:
-            await asyncio.to_thread(before.description.close)
-        self._go_on()
+        async with self._switching():
+            await self._sending.stop_robot()  # it would be its own echo
+            before, self._described = self._described, _Described(description, data_folder)
+            if before is not None:
+                await asyncio.to_thread(before.description.close)
 
     async def close(self) -> None:
-        """Say nothing more, and hear nothing."""
+        """Say nothing more, and hear nothing; what is being switched on is ended by itself."""
+        self._closed = True
+        await self._end()
+
+    async def _end(self) -> None:
         if self._ticking is not None:
             self._ticking.cancel()
             await asyncio.gather(self._ticking, return_exceptions=True)
         await self._stop_following()
         await self._sending.stop_robot()
         await self._sending.stop_joints()
-        if self._described is not None:
-            await asyncio.to_thread(self._described.description.close)
+        described, self._described = self._described, None
+        if described is not None:
+            await asyncio.to_thread(described.description.close)
+
+    @asynccontextmanager
+    async def _switching(self) -> AsyncGenerator[None]:
+        """Switch something; a document that was closed meanwhile keeps nothing on."""
+        async with self._turn:
+            yield
+            if self._closed:
+                await self._end()
+            else:
+                self._go_on()
 
     async def _follow(self, source: Literal["joint_states", "tf"]) -> None:
         link = await self._wire.link()

@@ -316,6 +316,23 @@ def test_a_topic_on_which_nobody_tells_a_robot_is_said(endpoint: str, tmp_path: 
     asyncio.run(run())
 
 
+def test_a_document_that_is_closed_while_it_connects_leaves_nothing_on(
+    endpoint: str, tester: Node, tmp_path: Path
+):
+    async def run() -> None:
+        async with studio(endpoint, tmp_path) as one:
+            switched = asyncio.create_task(one.document.feed.publish_robot(running=True))
+            await until(lambda: one.ear.last("wire_state")["state"] == "connecting")
+            await one.engine.execute(m.CloseDocument(document=one.document.id), one.ear)
+            await switched
+            await until(lambda: not tester.get_publishers_info_by_topic("/robot_description"))
+            names = [name for name, _ in tester.get_node_names_and_namespaces()]
+            assert "studio" in names
+            assert "robot_state_publisher" not in names
+
+    asyncio.run(run())
+
+
 def test_two_open_robots_do_not_publish_at_once(endpoint: str, tmp_path: Path):
     async def run() -> None:
         async with studio(endpoint, tmp_path) as one:
