@@ -8,11 +8,16 @@ from dataclasses import dataclass
 from enum import IntEnum
 from typing import TYPE_CHECKING
 
-from studio.ros.duration import Duration
+from studio.ros.duration import NANOSECONDS, Duration
+from studio.ros.node.context import default_context
 from studio.ros.node.time import ClockType, Time
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+    from studio.ros.node.context import Context
+
+_LOOK_S = 0.1
 
 
 class ClockChange(IntEnum):
@@ -156,13 +161,32 @@ class Clock:
             if watcher in self._watchers:
                 self._watchers.remove(watcher)
 
-    def wait(self, timeout_s: float) -> None:
-        """Wait until the time is told anew, or that long."""
-        with self._moved:
-            self._moved.wait(timeout_s)
+    def sleep_until(self, until: Time, context: Context | None = None) -> bool:
+        """Sleep until an instant of this clock; whether it came before the context ended.
 
-    def wake(self) -> None:
-        """End all waits, as if the time were told."""
+        A clock that is told the time wakes when it is told; it is never told while the only
+        thread that carries out work sleeps.
+
+        Raises:
+            ValueError: The instant is one of another clock.
+        """
+        if until.clock_type is not self._clock_type:
+            raise ValueError("the instant is one of another clock")
+        ended = context or default_context()
+        ended.on_end(self._wake)
+        with self._moved:
+            while (left_ns := until.nanoseconds - self.now_ns()) > 0:
+                if not ended.ok():
+                    return False
+                told = self.ros_time_is_active
+                self._moved.wait(_LOOK_S if told else min(_LOOK_S, left_ns / NANOSECONDS))
+        return True
+
+    def sleep_for(self, rel_time: Duration, context: Context | None = None) -> bool:
+        """Sleep for a span of this clock; whether it went by before the context ended."""
+        return self.sleep_until(self.now() + rel_time, context)
+
+    def _wake(self) -> None:
         with self._moved:
             self._moved.notify_all()
 

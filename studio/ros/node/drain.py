@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Protocol, TypeVar, runtime_checkable
 import zenoh
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     from studio.ros.wire.door import Incoming
 
@@ -35,7 +35,7 @@ class Source(Protocol):
 
 
 class Drain:
-    """Looks into every ring in turn, every 2 ms while data flows and less often when none does.
+    """Looks into every ring in turn: every 2 ms where data flows, else every 10 ms.
 
     No Python runs on Zenoh's threads, so that a slow callback or a busy interpreter blocks no
     other topic of the link.
@@ -43,9 +43,10 @@ class Drain:
 
     def __init__(self) -> None:
         self._sources: tuple[Source, ...] = ()
+        self._flowing: dict[Source, float] = {}
+        self._failed: set[Source] = set()
         self._lock = threading.Lock()
         self._stopped = threading.Event()
-        self._flowed_s = time.monotonic()
         self._thread = threading.Thread(target=self._run, name="ros drain", daemon=True)
         self._thread.start()
 
@@ -53,16 +54,24 @@ class Drain:
         """Empty one more ring."""
         with self._lock:
             self._sources = (*self._sources, source)
-        self.hurry()
+        self.hurry(source)
 
     def remove(self, source: Source) -> None:
         """Leave a ring alone; again is harmless."""
         with self._lock:
             self._sources = tuple(one for one in self._sources if one is not source)
+            self._flowing.pop(source, None)
+            self._failed.discard(source)
 
-    def hurry(self) -> None:
-        """Look often for a while: something is expected."""
-        self._flowed_s = time.monotonic()
+    def hurry(self, source: Source) -> None:
+        """Look into a ring often for a while: something is expected."""
+        with self._lock:
+            self._flowing[source] = time.monotonic() + _FLOWS_S
+
+    @property
+    def is_flowing(self) -> bool:
+        """Whether something came, or is expected, of late."""
+        return bool(self._flowing)
 
     def stop(self) -> None:
         """End the thread; rings are looked into no more."""
@@ -71,16 +80,34 @@ class Drain:
             self._thread.join()
 
     def _run(self) -> None:
-        while not self._stopped.wait(self._pause_s()):
-            came = 0
-            for source in self._sources:
-                came += _drained(source)
-            if came:
-                self.hurry()
+        look_at_all_s = 0.0
+        while not self._stopped.wait(LOOK_S if self._flowing else IDLE_LOOK_S):
+            now_s = time.monotonic()
+            if now_s < look_at_all_s:
+                self._look_into(self._still_flowing(now_s))
+            else:
+                look_at_all_s = now_s + IDLE_LOOK_S
+                self._look_into(self._sources)
 
-    def _pause_s(self) -> float:
-        flows = time.monotonic() - self._flowed_s < _FLOWS_S
-        return LOOK_S if flows else IDLE_LOOK_S
+    def _look_into(self, sources: Iterable[Source]) -> None:
+        for source in sources:
+            if self._drained(source):
+                self.hurry(source)
+
+    def _drained(self, source: Source) -> int:
+        try:
+            return source.drain()
+        except Exception:  # one source that fails must not silence all others
+            if source not in self._failed:
+                self._failed.add(source)
+                logger.exception("what came in could not be taken, which is said once")
+            return 0
+
+    def _still_flowing(self, now_s: float) -> list[Source]:
+        with self._lock:
+            for source in [one for one, end_s in self._flowing.items() if end_s < now_s]:
+                del self._flowing[source]
+            return list(self._flowing)
 
 
 def waiting_in(incoming: Incoming[ItemT], most: int) -> Iterator[ItemT]:
@@ -93,11 +120,3 @@ def waiting_in(incoming: Incoming[ItemT], most: int) -> Iterator[ItemT]:
         if item is None:
             return
         yield item
-
-
-def _drained(source: Source) -> int:
-    try:
-        return source.drain()
-    except Exception:  # one source that fails must not silence all others
-        logger.exception("what came in could not be taken")
-        return 0

@@ -32,7 +32,7 @@ class RosoutPublisher:
             stamp=self._stamp(sec=seconds, nanosec=rest_ns),
             level=int(entry.severity),
             name=entry.name,
-            msg=entry.text,
+            msg=_sendable(entry.text),
             file=entry.file,
             function=entry.function,
             line=entry.line,
@@ -41,3 +41,8 @@ class RosoutPublisher:
             self._publisher.publish(said)
         except DestroyedError:
             self.stop()
+
+
+def _sendable(text: str) -> str:
+    """Replace what UTF-8 has no bytes for, such as in names of files: a log never fails."""
+    return text.encode(errors="replace").decode()

@@ -158,7 +158,7 @@ class Client(Work):
             )
             self._calls[number] = _Call(future, replies, token)
         future.listen(lambda: self._give_up(number, future))
-        self._node.context.drain.hurry()
+        self._node.context.drain.hurry(self)
         return future
 
     def remove_pending_request(self, future: Future[Any]) -> None:

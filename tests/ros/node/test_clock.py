@@ -1,14 +1,29 @@
 from __future__ import annotations
 
+import threading
 import time
+from typing import TYPE_CHECKING
 
 import pytest
 
 from studio.ros.duration import Duration
 from studio.ros.node.clock import Clock, ClockChange, JumpThreshold, TimeJump
-from studio.ros.node.time import ClockType
+from studio.ros.node.time import ClockType, Time
+from tests.support.node_pair import context_at
+from tests.support.wire import running_router
+
+if TYPE_CHECKING:
+    from collections.abc import Generator
+
+    from studio.ros.node.context import Context
 
 SECOND_NS = 10**9
+
+
+@pytest.fixture
+def context() -> Generator[Context]:
+    with running_router() as endpoint, context_at(endpoint) as found:
+        yield found
 
 
 def ros_clock() -> Clock:
@@ -92,3 +107,40 @@ def test_before_and_after_are_told_around_the_jump():
     handle.unregister()
     clock.tell(9)
     assert seen == [1, 7]
+
+
+def test_sleeping_lasts_as_long_as_it_should(context: Context):
+    clock = Clock(clock_type=ClockType.STEADY_TIME)
+    begin_ns = clock.now_ns()
+    assert clock.sleep_for(Duration(seconds=0.01), context)
+    assert clock.now_ns() - begin_ns >= 10_000_000
+
+
+def test_sleeping_by_told_time_ends_when_it_is_told(context: Context):
+    clock = ros_clock()
+    clock.tell(0)
+    until = Time(seconds=5, clock_type=ClockType.ROS_TIME)
+    slept: list[bool] = []
+    thread = threading.Thread(target=lambda: slept.append(clock.sleep_until(until, context)))
+    thread.start()
+    clock.tell(4 * SECOND_NS)
+    assert slept == []
+    clock.tell(5 * SECOND_NS)
+    thread.join()
+    assert slept == [True]
+
+
+def test_sleeping_ends_with_the_context(context: Context):
+    slept: list[bool] = []
+    thread = threading.Thread(
+        target=lambda: slept.append(Clock().sleep_for(Duration(seconds=600), context))
+    )
+    thread.start()
+    context.end()
+    thread.join()
+    assert slept == [False]
+
+
+def test_an_instant_of_another_clock_is_not_slept_for(context: Context):
+    with pytest.raises(ValueError, match="another clock"):
+        Clock().sleep_until(Time(clock_type=ClockType.ROS_TIME), context)
