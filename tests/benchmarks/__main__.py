@@ -14,6 +14,7 @@ from tests.benchmarks import (
     meshes_to_websocket,
     page,
     start,
+    wire,
 )
 from tests.benchmarks.report import say, say_machine, say_verdicts
 
@@ -29,6 +30,7 @@ BENCHMARKS: dict[str, Callable[[], None]] = {
     "drag": drag.run,
     "fanout": fan_out.run,
     "meshes": meshes_to_websocket.run,
+    "wire": wire.run,
 }
 
 
