@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 _JOINTS_FRAME = struct.Struct("<BxxxI")
 JOINTS_FRAME_KIND = 1
+_POSITION_LIMIT = 1e9
+"""rad or m that no robot is at: beyond it poses are no numbers any more."""
 
 
 class JointPositions:
@@ -48,6 +50,16 @@ class JointPositions:
             if name in free and np.isfinite(value)
         }
         self._set_all(self.kinematics.positions_with_mimic(self.by_name() | asked))
+
+    def follow(self, positions: Mapping[str, float]) -> None:
+        """Stand where a robot that runs says it does, be it beyond the limits of the model."""
+        free = set(self.kinematics.free)
+        told = {
+            name: value
+            for name, value in positions.items()
+            if name in free and abs(value) < _POSITION_LIMIT
+        }
+        self._set_all(self.kinematics.positions_with_mimic(self.by_name() | told))
 
     def zero(self) -> None:
         """All to zero, or to the nearest position within the limits."""

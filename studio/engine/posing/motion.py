@@ -75,8 +75,9 @@ class Motion:
         self.leader = leader
 
     def follow(self, positions: Mapping[str, float]) -> None:
-        """Move joints, rad or m by name, as their leader says."""
-        self._move(positions)
+        """Move joints, rad or m by name, to where their leader says they are."""
+        self._model.joints.follow(positions)
+        self._show()
 
     def close(self) -> None:
         """End a swing without telling anybody."""

@@ -41,6 +41,19 @@ def test_a_position_that_is_no_number_moves_nothing():
     assert joints.by_name() == {"shoulder": 0.0}
 
 
+def test_a_robot_that_runs_is_shown_where_it_is_beyond_its_limits_too():
+    joints = JointPositions(Kinematics(robot(SHOULDER, FOLLOWER)))
+    joints.follow({"shoulder": 1.25, "unknown": 1.0})
+    assert joints.by_name() == {"shoulder": 1.25, "follower": pytest.approx(2.6)}
+
+
+@pytest.mark.parametrize("position", [float("nan"), float("inf"), -1e300])
+def test_a_robot_that_says_it_is_nowhere_moves_nothing(position: float):
+    joints = JointPositions(Kinematics(robot(SHOULDER)))
+    joints.follow({"shoulder": position})
+    assert joints.by_name() == {"shoulder": 0.0}
+
+
 def test_positions_survive_a_new_model_by_name_within_its_limits():
     joints = JointPositions(Kinematics(robot(SHOULDER, ELBOW)))
     joints.set({"shoulder": 0.9, "elbow": 1.5})
