@@ -160,8 +160,8 @@ class Service(Work):
         try:
             asked = self._request_codec.decode(request.payload)
         except CdrError as error:
-            self._finish(request)
             self._say(str(error))
+            self._finish(request)
             return None
         try:
             given = self.callback(asked, self.srv_type.Response())
