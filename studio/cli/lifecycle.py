@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from studio.cli.acting import acting
 from studio.cli.asking import node_asked_for, nodes_with, say
+from studio.cli.terminal import harmless
 from studio.cli.verbs import Verbs
 from studio.cli.wire import add_wire_options
 from studio.errors import WireError
@@ -56,7 +57,7 @@ def _state(actor: Actor, node: str) -> str:
 
     with LifecycleClient(actor.node, node) as remote:
         state = remote.state()
-    return f"{state.label} [{state.id}]"
+    return f"{harmless(state.label)} [{state.id}]"
 
 
 def _get(options: argparse.Namespace) -> int:
@@ -85,7 +86,7 @@ def _list(options: argparse.Namespace) -> int:
         with LifecycleClient(actor.node, node) as remote:
             found = remote.transition_graph() if options.all else remote.available_transitions()
         for one in found:
-            print(f"- {one.transition.label} [{one.transition.id}]")
+            print(f"- {harmless(one.transition.label)} [{one.transition.id}]")
             print(f"\tStart: {one.start_state.label}\n\tGoal: {one.goal_state.label}")
     return 0
 
@@ -106,7 +107,9 @@ def _change(remote: LifecycleClient, wanted: str) -> int:
     chosen = next((one for one in offered if wanted in (one.label, str(one.id))), None)
     if chosen is None:
         print("Unknown transition requested, available ones are:", file=sys.stderr)
-        print(*(f"- {one.label} [{one.id}]" for one in offered), sep="\n", file=sys.stderr)
+        print(
+            *(f"- {harmless(one.label)} [{one.id}]" for one in offered), sep="\n", file=sys.stderr
+        )
         return 1
     succeeded = remote.change(int(chosen.id))
     print("Transitioning successful" if succeeded else "Transitioning failed")

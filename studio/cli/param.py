@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from studio.cli.acting import acting
 from studio.cli.asking import node_asked_for, nodes_with, say
+from studio.cli.terminal import harmless, shown
 from studio.cli.verbs import Verbs
 from studio.cli.wire import add_wire_options
 from studio.errors import WireError
@@ -85,7 +86,7 @@ def _list(options: argparse.Namespace) -> int:
                 say(error)
                 continue
             head = "" if options.node_name is not None else f"{node}:\n"
-            print(head + "".join(lines), end="")
+            print(shown(head + "".join(lines)), end="")
     return 0
 
 
@@ -103,7 +104,7 @@ def _get(remote: ParameterClient, options: argparse.Namespace) -> int:
     if not found or found[0].type_ is ParameterType.NOT_SET:
         print("Parameter not set", file=sys.stderr)
         return 1
-    value = found[0].value
+    value = shown(str(found[0].value))
     print(value if options.hide_type else f"{_label(found[0])} {value}")
     return 0
 
@@ -126,7 +127,7 @@ def _set(remote: ParameterClient, options: argparse.Namespace) -> int:
 
 def _report(result: MessageValue | None, what: str) -> int:
     """Say whether a parameter was set, and the node's reason; None when it did not answer that."""
-    reason = f": {result.reason}" if result is not None and result.reason else ""
+    reason = f": {harmless(result.reason)}" if result is not None and result.reason else ""
     if result is not None and result.successful:
         print(f"Set {what} successful{reason}")
         return 0
@@ -137,7 +138,7 @@ def _report(result: MessageValue | None, what: str) -> int:
 def _dump(remote: ParameterClient, options: argparse.Namespace) -> int:
     text = remote.dump()
     if options.output_dir is None:
-        print(text, end="")
+        print(shown(text), end="")
         return 0
     path = options.output_dir.expanduser() / f"{remote.remote.strip('/').replace('/', '__')}.yaml"
     _write(path, text)
@@ -169,5 +170,5 @@ def _describe(remote: ParameterClient, options: argparse.Namespace) -> int:
     from studio.cli.parameter_text import description_lines
 
     for one in remote.describe(options.parameter_names):
-        print("\n".join(description_lines(one)))
+        print(shown("\n".join(description_lines(one))))
     return 0

@@ -6,6 +6,7 @@ import argparse
 from typing import TYPE_CHECKING
 
 from studio.cli.acting import acting
+from studio.cli.terminal import shown
 from studio.cli.topic.joining import join_topic, subscribe
 from studio.cli.topic.qos_options import add_qos_options
 from studio.cli.wire import add_wire_options
@@ -66,7 +67,7 @@ def _run(options: argparse.Namespace) -> int:
         def show(message: MessageValue | bytes, info: MessageInfo) -> None:
             nonlocal count
             if count == 0 or not options.once:
-                print(printing.text(message, info), flush=True)
+                print(shown(printing.text(message, info)), flush=True)
                 count += 1
 
         subscription = subscribe(actor, joined, show, raw=options.raw)
