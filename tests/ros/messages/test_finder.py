@@ -37,7 +37,7 @@ def test_a_kind_that_a_package_has_not_is_no_module():
         imported("std_msgs.srv")
 
 
-@pytest.mark.parametrize("name", ["Strin", "string", "__path", "_x"])
+@pytest.mark.parametrize("name", ["Strings", "string", "__path", "_x"])
 def test_a_type_that_a_package_has_not_is_no_attribute(name: str):
     assert not hasattr(imported("std_msgs.msg"), name)
 
