@@ -105,9 +105,9 @@ class FeedDesk:
         if self._ticking is not None:
             self._ticking.cancel()
             await asyncio.gather(self._ticking, return_exceptions=True)
-        await self._stop_following()
         await self._sending.stop_robot()
         await self._sending.stop_joints()
+        await self._stop_following()
         described, self._described = self._described, None
         if described is not None:
             await asyncio.to_thread(described.description.close)
@@ -127,17 +127,18 @@ class FeedDesk:
         await self._stop_following()
         model = self._document.model
         hear = link.hear_tf if source == "tf" else link.hear_joint_states
+        await self._sending.pause_joints(paused=source == "joint_states")  # no echo
         self._following = await asyncio.to_thread(hear, model.robot, model.kinematics)
         self._source = source
-        self._sending.joints_paused = source == "joint_states"
         self._document.motion.lead(_TOPICS[source])
 
     async def _stop_following(self) -> None:
-        self._source, self._sending.joints_paused = "sliders", False
+        self._source = "sliders"
         self._document.motion.lead("")
         following, self._following = self._following, None
         if following is not None:
             await asyncio.to_thread(following.close)
+        await self._sending.pause_joints(paused=False)
 
     def _demand_other_description(self) -> None:
         """To tell a description where it comes from would be an echo.
@@ -214,7 +215,7 @@ class FeedDesk:
             strangers=following.strangers() if following else (),
             publishes_robot=self._sending.sends_robot,
             publishes_joints=self._sending.sends_joints,
-            joints_paused=self._sending.joints_paused and self._sending.sends_joints,
+            joints_paused=self._sending.joints_paused,
             rivals=self._sending.rivals(),
             description_from=self._described.description.source if self._described else "",
             trouble=self._described.trouble if self._described else "",

@@ -8,6 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Final
 
 from studio.engine.model import urdf_text
+from studio.errors import StudioError
 
 if TYPE_CHECKING:
     from studio.description.values import Expansion
@@ -33,8 +34,9 @@ class RobotSending:
         self._document = document
         self._robot: RobotOut | None = None
         self._joints: JointsOut | None = None
-        self.joints_paused = False
-        """While the joints follow `/joint_states`, telling them there would be an echo."""
+        self._joints_link: WireLink | None = None
+        """By which joints are to be told; None: they are not."""
+        self._paused = False
         self._description: Expansion | None = None
         """The one that was told last."""
         self._description_s = -DESCRIPTION_PERIOD_S
@@ -53,15 +55,17 @@ class RobotSending:
     @property
     def sends_joints(self) -> bool:
         """Whether the joints' positions go out."""
-        return self._joints is not None
+        return self._joints_link is not None
+
+    @property
+    def joints_paused(self) -> bool:
+        """Whether they are to go out, and do not for now."""
+        return self._paused and self.sends_joints
 
     def rivals(self) -> tuple[str, ...]:
         """Nodes of others that publish the same; the first ones."""
         found = [
-            name
-            for out in (self._robot, None if self.joints_paused else self._joints)
-            if out is not None
-            for name in out.rivals()
+            name for out in (self._robot, self._joints) if out is not None for name in out.rivals()
         ]
         return tuple(dict.fromkeys(found))[:_RIVALS_SHOWN]
 
@@ -77,9 +81,8 @@ class RobotSending:
 
     async def start_joints(self, link: WireLink) -> None:
         """Tell the joints' positions from now on; errors as for `start_robot`."""
-        if self._joints is None:
-            self._joints = await asyncio.to_thread(link.joints_out)
-            self._values = None
+        self._joints_link = link
+        await self._fit_joints()
 
     async def stop_robot(self) -> None:
         """Tell the description and TF no more."""
@@ -90,10 +93,31 @@ class RobotSending:
 
     async def stop_joints(self) -> None:
         """Tell the joints' positions no more."""
-        async with self._turn:
-            joints, self._joints = self._joints, None
-        if joints is not None:
-            await asyncio.to_thread(joints.close)
+        self._joints_link = None
+        await self._fit_joints()
+
+    async def pause_joints(self, *, paused: bool) -> None:
+        """Tell the joints' positions for a while not, or again; errors as for `start_robot`.
+
+        The node is gone meanwhile: others that would make room for it need not.
+        """
+        self._paused = paused
+        await self._fit_joints()
+
+    async def _fit_joints(self) -> None:
+        link = None if self._paused else self._joints_link
+        if link is not None and self._joints is None:
+            try:
+                self._joints = await asyncio.to_thread(link.joints_out)
+            except StudioError:
+                self._joints_link = None
+                raise
+            self._values = None
+        elif link is None:
+            async with self._turn:
+                joints, self._joints = self._joints, None
+            if joints is not None:
+                await asyncio.to_thread(joints.close)
 
     async def step(self, now_s: float) -> None:
         """Tell what is due."""
@@ -122,8 +146,7 @@ class RobotSending:
         self._values = None  # the links may stand elsewhere
 
     def _are_positions_due(self, now_s: float) -> bool:
-        joints = None if self.joints_paused else self._joints
-        if self._robot is None and joints is None:
+        if self._robot is None and self._joints is None:
             return False
         moved = self._document.model.joints.values is not self._values
         period_s = MOVING_PERIOD_S if moved else RESTING_PERIOD_S
@@ -133,7 +156,7 @@ class RobotSending:
         positions = self._document.model.joints
         self._values, self._values_s = positions.values, now_s
         by_name = positions.by_name()
-        robot, joints = self._robot, None if self.joints_paused else self._joints
+        robot, joints = self._robot, self._joints
 
         def tell() -> None:
             if robot is not None:

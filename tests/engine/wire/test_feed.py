@@ -241,10 +241,16 @@ def test_what_is_told_and_what_is_followed_make_no_echo(
             await until(lambda: bool(states))
             await one.do(SetJointSource(source="joint_states"))
             assert one.ear.last("wire_feed")["joints_paused"]
+            names = tester.get_node_names_and_namespaces
+            await until(lambda: "joint_state_publisher" not in dict(names()))
             await until(lambda: one.position("shoulder") == 0.5 or tell(0.5))
             await until(lambda: one.ear.last("wire_feed")["strangers"] == ["strange"])
             ours = [state for state in states if state.name == ["shoulder"]]
             assert all(state.position.tolist() == [0.0] for state in ours)
+            await one.do(SetJointSource(source="sliders"))
+            assert not one.ear.last("wire_feed")["joints_paused"]
+            await until(lambda: states[-1].name == ["shoulder"])
+            assert states[-1].position.tolist() == [0.5], "from where the other one left it"
 
     asyncio.run(run())
 
