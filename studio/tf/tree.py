@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
 Floats: TypeAlias = "NDArray[np.float64]"
 _NORM_MIN = 1e-6
+FRAMES_MAX = 20_000
 
 
 class TransformTree:
@@ -31,7 +32,8 @@ class TransformTree:
         """Take up a transform: the pose of `child` in `parent`.
 
         Raises:
-            TransformError: A number is none, the quaternion is zero, or a frame is its own parent.
+            TransformError: A number is none, the quaternion is zero, a frame is its own parent, or
+                there are too many frames.
         """
         parent, child = _plain(parent), _plain(child)
         matrix = np.eye(4)
@@ -47,6 +49,8 @@ class TransformTree:
         matrix[:3, :3] = _rotation(quaternion / norm)
         matrix.setflags(write=False)
         with self._lock:
+            if child not in self._parents and len(self._parents) >= FRAMES_MAX:
+                raise TransformError(parent, child, f"there are {FRAMES_MAX} frames already")
             self._parents[child] = (parent, matrix)
 
     def frames(self) -> list[str]:

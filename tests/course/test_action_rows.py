@@ -100,3 +100,15 @@ def test_a2_two_songs_at_once_both_end(router: str):
         answers = [finished(goal.get_result_async()) for goal in goals]
         said = [answer.result.final_message for answer in answers]
         assert said == ["Finished Clocks", "Finished Yellow"]
+
+
+def test_a2_one_of_many_songs_is_cancelled_while_the_others_play(router: str):
+    """More than the machine has cores: each is worked on nevertheless."""
+    with node_at(router) as node, running_demo(router, "radio_dj", *SLOW):
+        requester = Requester(node)
+        goals = [requester.wish(f"Song {number}") for number in range(12)]
+        playing = {f"Playing Song {number}" for number in range(12)}
+        wait_until("all play", lambda: {said.status_line for said in requester.said} == playing)
+        finished(goals[-1].cancel_goal_async())
+        assert finished(goals[-1].get_result_async()).status == GoalStatus.CANCELED
+        assert goals[0].status == GoalStatus.EXECUTING

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from studio.errors import TransformError, UnconnectedFramesError, UnknownFrameError
-from studio.tf.tree import TransformTree
+from studio.tf.tree import FRAMES_MAX, TransformTree
 
 NUMBERS = st.floats(-100, 100)
 PLACES = st.tuples(NUMBERS, NUMBERS, NUMBERS)
@@ -75,3 +75,13 @@ def test_what_is_no_transform_is_left_out(parent: str, place: Numbers, turn: Num
     with pytest.raises(TransformError, match=reason):
         tree.put(parent, "b", place, turn)
     assert tree.frames() == []
+
+
+def test_there_are_so_many_frames_and_no_more():
+    tree = TransformTree()
+    for number in range(FRAMES_MAX):
+        tree.put("map", f"f{number}", (0.0, 0.0, 0.0), QUARTER_LEFT)
+    with pytest.raises(TransformError, match="frames already"):
+        tree.put("map", "one more", (0.0, 0.0, 0.0), QUARTER_LEFT)
+    tree.put("map", "f7", (5.0, 0.0, 0.0), QUARTER_LEFT)
+    assert tree.target_from_source("map", "f7")[0, 3] == 5.0

@@ -15,6 +15,9 @@ from studio.ros.action import ActionServer, CancelResponse, GoalResponse, Server
 from studio.ros.client import MultiThreadedExecutor, Node, ReentrantCallbackGroup
 from studio.ros.messages.radio_station_interfaces.action import ChooseSong
 
+THREADS = 32
+"""Each song takes one while it plays."""
+
 
 class ActionServerNode(Node):
     """Plays what is wished; a song without a name is refused, one that is cancelled stops."""
@@ -59,7 +62,7 @@ class ActionServerNode(Node):
 def main(args: list[str] | None = None) -> None:
     """Play until stopped."""
     with until_stopped(args):
-        rclpy.spin(ActionServerNode(), executor=MultiThreadedExecutor())
+        rclpy.spin(ActionServerNode(), executor=MultiThreadedExecutor(THREADS))
 
 
 if __name__ == "__main__":

@@ -20,6 +20,8 @@ from studio.ros.messages.rcl_interfaces.msg import IntegerRange, ParameterDescri
 from studio.ros.messages.std_srvs.srv import Empty
 from studio.ros.messages.turtlesim.srv import Kill, Spawn
 
+THREADS = 32
+"""Each turtle that rotates takes one."""
 BACKGROUND = {"background_r": 69, "background_g": 86, "background_b": 255}
 
 
@@ -91,7 +93,7 @@ class TurtleSim(Node):
 def main(args: list[str] | None = None) -> None:
     """Run until stopped; rotations take threads of their own."""
     with until_stopped(args):
-        rclpy.spin(TurtleSim(), executor=MultiThreadedExecutor())
+        rclpy.spin(TurtleSim(), executor=MultiThreadedExecutor(THREADS))
 
 
 if __name__ == "__main__":

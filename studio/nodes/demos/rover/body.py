@@ -52,8 +52,9 @@ class Body:
         self._publish_imu(stamp, drive)
 
     def _publish_joints(self, stamp: Time, drive: Drive, seconds: float) -> None:
+        left, right = (math.remainder(turned, math.tau) for turned in drive.wheels_rad)
         positions = {
-            f"{wheel}_wheel_joint": drive.wheels_rad["right" in wheel] for wheel in _WHEELS
+            f"{wheel}_wheel_joint": right if "right" in wheel else left for wheel in _WHEELS
         }
         positions |= {"mast_pan_joint": pan_rad(seconds)}
         positions |= {"mast_tilt_joint": _swing(_TILT_RAD, _TILT_S, seconds)}
