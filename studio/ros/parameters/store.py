@@ -77,7 +77,8 @@ class ParameterStore:
         self._tell = tell
         self._allow_undeclared = allow_undeclared
         self._declared: dict[str, _Declared] = {}
-        # A callback may read, and set others: the lock lets its own thread in again.
+        # Of changes: a callback may set others, so its own thread is let in again. Reading takes
+        # no lock, so that a callback may wait for another thread that reads.
         self._lock = threading.RLock()
 
     def declare(
@@ -136,20 +137,18 @@ class ParameterStore:
             ParameterNotDeclaredError: There is none of that name.
             ParameterUninitializedError: It was declared by its type and never set.
         """
-        with self._lock:
-            known = self._declared.get(name)
-            if known is None and self._allow_undeclared:
-                return Parameter(name)
-            known = self._find(name)
-            unset = known.parameter.type_ is ParameterType.NOT_SET
-            if unset and not known.descriptor.dynamic_typing:
-                raise ParameterUninitializedError(name)
-            return known.parameter
+        if self._allow_undeclared and name not in self._declared:
+            return Parameter(name)
+        known = self._find(name)
+        parameter = known.parameter
+        if parameter.type_ is ParameterType.NOT_SET and not known.descriptor.dynamic_typing:
+            raise ParameterUninitializedError(name)
+        return parameter
 
     def all(self) -> dict[str, Parameter]:
         """Give every parameter in the order of the alphabet."""
-        with self._lock:
-            return {name: self._declared[name].parameter for name in sorted(self._declared)}
+        declared = dict(self._declared)
+        return {name: declared[name].parameter for name in sorted(declared)}
 
     def describe(self, name: str) -> MessageValue:
         """Give the descriptor of a parameter.
@@ -157,10 +156,9 @@ class ParameterStore:
         Raises:
             ParameterNotDeclaredError: There is none of that name.
         """
-        with self._lock:
-            if name not in self._declared and self._allow_undeclared:
-                return self.messages.ParameterDescriptor(name=name)
-            return self._find(name).descriptor
+        if self._allow_undeclared and name not in self._declared:
+            return self.messages.ParameterDescriptor(name=name)
+        return self._find(name).descriptor
 
     def redescribe(
         self,

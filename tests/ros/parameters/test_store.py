@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+from threading import Thread
+
 import pytest
 
 from studio.errors import (
@@ -190,6 +192,22 @@ def test_a_callback_may_read_and_set_others():
     store.callbacks.on_set.append(follow)
     store.set([Parameter("a", value=5)])
     assert (store.get("a").value, store.get("b").value) == (5, 6)
+
+
+def test_another_thread_may_read_while_a_callback_decides():
+    store = Watched().store
+    store.declare("a", 1)
+    read: list[object] = []
+
+    def wait_for_reader(_: list[Parameter]) -> object:
+        reader = Thread(target=lambda: read.extend([store.get("a").value, *store.all()]))
+        reader.start()
+        reader.join(timeout=10)
+        return RESULT(successful=True)
+
+    store.callbacks.on_set.append(wait_for_reader)
+    assert store.set([Parameter("a", value=2)])[0].successful
+    assert read == [1, "a"]
 
 
 def test_a_node_may_take_parameters_that_it_never_declared():
