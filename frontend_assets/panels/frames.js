@@ -3,6 +3,7 @@
 /** @import { Step } from "../lib/frame-pose.js" */
 
 import { html, useEffect, useRef } from "vendor/preact.js";
+import { Refusal } from "../app/refusal.js";
 import { robot } from "../app/state/document.js";
 import {
   BY_FRAMES,
@@ -14,7 +15,7 @@ import {
   swapFrames,
   target,
 } from "../app/state/frame-pair.js";
-import { followFrames } from "../app/state/frames.js";
+import { askFrames, followFrames, framesRefused } from "../app/state/frames.js";
 import { part, selectPart } from "../app/state/selection.js";
 import { wayBetween } from "../lib/frame-pose.js";
 import { t } from "../lib/i18n.js";
@@ -62,8 +63,9 @@ function wayOf() {
 /** Drawn anew with every joint frame, and nothing else of the panel. */
 function Values() {
   const pose = referenceFromTarget.value;
-  return pose
-    ? html`<${PoseForms} pose=${pose} />`
+  if (pose) return html`<${PoseForms} pose=${pose} />`;
+  return framesRefused.value
+    ? html`<${Refusal} sentence=${framesRefused.value} again=${askFrames} />`
     : html`<p class="note padded">${t("loading")}</p>`;
 }
 

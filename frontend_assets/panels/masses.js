@@ -6,9 +6,10 @@
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { commandById } from "../app/commands.js";
 import { PlaceLink } from "../app/place-link.js";
+import { Refusal } from "../app/refusal.js";
 import { robot } from "../app/state/document.js";
 import { followFrames, linkPoses } from "../app/state/frames.js";
-import { followMasses, masses } from "../app/state/masses.js";
+import { askMasses, followMasses, masses, massesRefused } from "../app/state/masses.js";
 import { selection, selectPart } from "../app/state/selection.js";
 import { hovered, notify, selected } from "../app/state/view.js";
 import { copyText } from "../lib/clipboard.js";
@@ -43,6 +44,8 @@ export function MassesPanel() {
 
 function Waiting() {
   if (!robot.value) return html`<${EmptyState} icon="masses" title=${t("urdf.none")} />`;
+  if (massesRefused.value)
+    return html`<${Refusal} sentence=${massesRefused.value} again=${askMasses} />`;
   return html`<${ProgressBar} label=${t("loading")} done=${0} total=${0} />`;
 }
 

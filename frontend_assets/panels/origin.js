@@ -4,8 +4,9 @@
 
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { PlaceLink } from "../app/place-link.js";
+import { Refusal } from "../app/refusal.js";
 import { documentState, robot, showingLastGood } from "../app/state/document.js";
-import { followOrigin, origin } from "../app/state/origin.js";
+import { askOrigin, followOrigin, origin } from "../app/state/origin.js";
 import { part, selection, selectPart, splitKey } from "../app/state/selection.js";
 import { degrees } from "../app/state/view.js";
 import { t } from "../lib/i18n.js";
@@ -33,7 +34,7 @@ function Content() {
   if (known?.part !== key)
     return html`<${Heading} part=${key} /><p class="note padded">${t("loading")}</p>`;
   if (!known.origin)
-    return html`<${Heading} part=${key} /><${EmptyState} icon="info" title=${known.refused} />`;
+    return html`<${Heading} part=${key} /><${Refusal} sentence=${known.refused} again=${() => askOrigin(key)} />`;
   return html`<${Heading} part=${key} />
     <div class="scroll" key=${key}>
       ${showingLastGood.value && html`<p class="note padded"><${Icon} name="info" size=${13} />${t("last_good")}</p>`}

@@ -4,9 +4,10 @@
 
 import { html, useEffect, useSignal } from "vendor/preact.js";
 import { PlaceLink } from "../app/place-link.js";
+import { Refusal } from "../app/refusal.js";
 import { connection } from "../app/state/connection.js";
 import { built, documentId, documentState } from "../app/state/document.js";
-import { fetchOutline, outline } from "../app/state/outline.js";
+import { fetchOutline, outline, outlineRefused } from "../app/state/outline.js";
 import { showFile, shownFile } from "../app/state/source.js";
 import { t } from "../lib/i18n.js";
 import { LongList } from "../lib/long-list.js";
@@ -25,7 +26,11 @@ export function OutlinePanel() {
   const known = outline.value;
   if (!known || known.files.length === 0) {
     return html`<section class="panel-body" aria-label=${t("panel.outline")}>
-      <${EmptyState} icon="includes" title=${known ? t("outline.none") : t("loading")} /></section>`;
+      ${
+        known || !outlineRefused.value
+          ? html`<${EmptyState} icon="includes" title=${known ? t("outline.none") : t("loading")} />`
+          : html`<${Refusal} sentence=${outlineRefused.value} again=${fetchOutline} />`
+      }</section>`;
   }
   const rows = { macros: macrosOf(known, filter.value), values: valuesOf(known, filter.value) };
   return html`<section class="panel-body" aria-label=${t("panel.outline")}>

@@ -1,14 +1,16 @@
 /** The URDF that the xacro came to, and what the unsaved edits change in it. Fetched when it is looked at. */
 
 /** @import { UrdfChanges } from "../types/wire.d.ts" */
+/** @import { Signal } from "vendor/preact.js" */
 
 import { html, useEffect, useMemo, useRef, useSignal } from "vendor/preact.js";
 import { commandById } from "../app/commands.js";
+import { Refusal } from "../app/refusal.js";
 import { connection } from "../app/state/connection.js";
 import { built, history, robot, title } from "../app/state/document.js";
+import { askOrKeepWhy } from "../app/state/refusals.js";
 import { selection, selectPart } from "../app/state/selection.js";
 import { notify } from "../app/state/view.js";
-import { send } from "../app/wire.js";
 import { copyText } from "../lib/clipboard.js";
 import { language, t } from "../lib/i18n.js";
 import { EmptyState, Icon, IconButton, ProgressBar } from "../lib/ui.js";
@@ -22,14 +24,27 @@ export function UrdfPanel() {
   const onlyChanges = useSignal(false);
   const changes = useSignal(/** @type {UrdfChanges | null} */ (null));
   const view = useRef(/** @type {UrdfText | null} */ (null));
-  useFresh(text, onlyChanges.value ? changes : null);
+  const refused = useSignal("");
+  const tries = useSignal(0);
+  useFresh(text, onlyChanges.value ? changes : null, refused, tries.value);
+  const again = () => {
+    tries.value += 1;
+  };
   if (!text.value) {
     return html`<section class="panel-body" aria-label=${t("panel.urdf")}>
-      <${EmptyState} icon="urdf" title=${robot.value ? t("loading") : t("urdf.none")} /></section>`;
+      ${
+        robot.value && refused.value
+          ? html`<${Refusal} sentence=${refused.value} again=${again} />`
+          : html`<${EmptyState} icon="urdf" title=${robot.value ? t("loading") : t("urdf.none")} />`
+      }</section>`;
   }
   return html`<section class="panel-body" aria-label=${t("panel.urdf")}>
     <${Bar} text=${text.value} onlyChanges=${onlyChanges} changes=${changes.value} find=${() => view.current?.find()} />
-    <${Body} text=${text.value} changes=${onlyChanges.value ? changes.value : undefined} view=${view} />
+    ${
+      onlyChanges.value && !changes.value && refused.value
+        ? html`<${Refusal} sentence=${refused.value} again=${again} />`
+        : html`<${Body} text=${text.value} changes=${onlyChanges.value ? changes.value : undefined} view=${view} />`
+    }
   </section>`;
 }
 
@@ -151,8 +166,15 @@ function whenInView(element, run) {
   return () => watcher.disconnect();
 }
 
-/** Asks again after every good run, but not at every step of a drag. @param {{value: string}} text @param {{value: UrdfChanges | null} | null} changes null: nobody looks at them */
-function useFresh(text, changes) {
+/**
+ * Asks again after every good run, but not at every step of a drag.
+ *
+ * @param {Signal<string>} text
+ * @param {Signal<UrdfChanges | null> | null} changes null: nobody looks at them
+ * @param {Signal<string>} refused why nothing was told
+ * @param {number} tries another number asks again, too
+ */
+function useFresh(text, changes, refused, tries) {
   const run = built.value;
   const unsaved = history.value;
   const there = connection.value === "connected" && robot.value !== null;
@@ -161,10 +183,10 @@ function useFresh(text, changes) {
     let isOld = false;
     const later = setTimeout(
       async () => {
-        const answer = await send({ type: "get_urdf" }).catch(() => null);
+        const answer = await askOrKeepWhy({ type: "get_urdf" }, refused);
         if (!isOld && answer?.type === "urdf") text.value = answer.text;
         if (!changes || isOld) return;
-        const found = await send({ type: "get_urdf_changes" }).catch(() => null);
+        const found = await askOrKeepWhy({ type: "get_urdf_changes" }, refused);
         if (!isOld && found?.type === "urdf_changes") changes.value = found;
       },
       text.value ? SETTLE_MS : 0,
@@ -173,7 +195,7 @@ function useFresh(text, changes) {
       isOld = true;
       clearTimeout(later);
     };
-  }, [run, unsaved, there, changes !== null]);
+  }, [run, unsaved, there, changes !== null, tries]);
 }
 
 /** @param {string} text */

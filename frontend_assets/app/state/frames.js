@@ -10,12 +10,14 @@
 
 import { computed, effect, signal, untracked } from "vendor/preact.js";
 import { rootFromLinks } from "../../lib/kinematics.js";
-import { send } from "../wire.js";
 import { connection } from "./connection.js";
 import { built, movable, position, robot } from "./document.js";
+import { askOrKeepWhy } from "./refusals.js";
 
 /** @type {Signal<Frames["origins"] | null>} */
 const origins = signal(null);
+/** Why they were not told at last; empty: they were. */
+export const framesRefused = signal("");
 const moving = computed(() => new Set(movable.value.map(({ name }) => name)));
 
 /**
@@ -43,8 +45,9 @@ export const linkPoses = computed(() => {
 /** Keep `linkPoses` true while somebody looks. @type {() => () => void} gives the end of looking */
 export const followFrames = sharedLook(() => askWhenBuilt(askFrames));
 
-async function askFrames() {
-  const answer = await send({ type: "get_frames" }).catch(() => null);
+/** Ask for the frames of the joints again. */
+export async function askFrames() {
+  const answer = await askOrKeepWhy({ type: "get_frames" }, framesRefused);
   if (answer?.type === "frames") origins.value = answer.origins;
 }
 

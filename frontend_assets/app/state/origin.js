@@ -43,8 +43,8 @@ export function followOrigin() {
   };
 }
 
-/** @param {string} key */
-async function askOrigin(key) {
+/** @param {string} key of the part */
+export async function askOrigin(key) {
   try {
     const answer = await send({ type: "get_origin", part: key });
     if (answer.type === "origin" && part.peek() === key)

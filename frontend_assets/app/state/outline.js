@@ -4,13 +4,16 @@
 /** @import { Outline } from "../../types/wire.d.ts" */
 
 import { signal } from "vendor/preact.js";
-import { send } from "../wire.js";
+import { askOrKeepWhy } from "./refusals.js";
 
 /** @type {Signal<Outline | null>} */
 export const outline = signal(null);
 
+/** Why it was not told at last; empty: it was. */
+export const outlineRefused = signal("");
+
 /** Ask for it again. */
 export async function fetchOutline() {
-  const answer = await send({ type: "get_outline" }).catch(() => null);
+  const answer = await askOrKeepWhy({ type: "get_outline" }, outlineRefused);
   if (answer?.type === "outline") outline.value = answer.outline;
 }
