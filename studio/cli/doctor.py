@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import studio
 from studio.cli.looking import settle, why_empty
+from studio.cli.terminal import harmless
 from studio.cli.wire import add_wire_options, opened_wire
 
 if TYPE_CHECKING:
@@ -53,7 +54,7 @@ def _run(options: argparse.Namespace) -> int:
 
 def _print_verdict(wire: WireSession, graph: Graph, faults: list[Fault]) -> None:
     for fault in faults:
-        print(f"{fault.kind}: {fault.sentence}")
+        print(f"{fault.kind}: {harmless(fault.sentence)}")
     if not graph.nodes():
         print(why_empty(wire))
     elif not faults:
@@ -100,7 +101,7 @@ def _ends(graph: Graph, name: str, types: list[str]) -> str:
 def _fault_sections(faults: list[Fault]) -> list[Section]:
     if not faults:
         return [("FINDINGS", [("none", "all is well")])]
-    return [("FINDINGS", [(fault.kind, fault.sentence) for fault in faults])]
+    return [("FINDINGS", [(fault.kind, harmless(fault.sentence)) for fault in faults])]
 
 
 def _print_sections(sections: list[Section]) -> None:

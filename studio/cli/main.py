@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import studio
 from studio.cli.commands import COMMANDS
 from studio.cli.mappings import part_mappings
+from studio.cli.terminal import harmless
 from studio.cli.values import shield_values
 from studio.errors import StudioError
 
@@ -40,7 +41,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         options = _read(words)
         return options.run(options) or 0
     except StudioError as error:
-        print(f"studio: {error}", file=sys.stderr)
+        print(f"studio: {harmless(str(error))}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
         return getattr(options, "interrupted_code", 130)

@@ -8,6 +8,7 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from studio.cli.values import domain_number
 from studio.settings import DEFAULT_HOST, DEFAULT_PORT
 
 if TYPE_CHECKING:
@@ -16,7 +17,6 @@ if TYPE_CHECKING:
     from studio.settings import Settings
 
 _HIGHEST_PORT = 65535
-_HIGHEST_DOMAIN = 232
 
 
 def add_server_options(parser: argparse.ArgumentParser) -> None:
@@ -49,7 +49,10 @@ def _add_wire_options(parser: argparse.ArgumentParser) -> None:
         help="the router, for example tcp/192.0.2.7:7447 (default: tcp/127.0.0.1:7447)",
     )
     wire.add_argument(
-        "--domain", type=_domain, metavar="N", help="the domain (default: ROS_DOMAIN_ID, else 0)"
+        "--domain",
+        type=domain_number,
+        metavar="N",
+        help="the domain (default: ROS_DOMAIN_ID, else 0)",
     )
     wire.add_argument(
         "--router",
@@ -84,13 +87,6 @@ def _port(text: str) -> int:
     number = int(text)
     if not 0 <= number <= _HIGHEST_PORT:
         raise argparse.ArgumentTypeError(f"{number} is no port: 0 to {_HIGHEST_PORT}")
-    return number
-
-
-def _domain(text: str) -> int:
-    number = int(text)
-    if not 0 <= number <= _HIGHEST_DOMAIN:
-        raise argparse.ArgumentTypeError(f"{number} is no domain: 0 to {_HIGHEST_DOMAIN}")
     return number
 
 

@@ -16,6 +16,7 @@ from studio.cli.looking import (
     say_unknown,
     shown,
 )
+from studio.cli.terminal import harmless
 from studio.ros.names import full_type_name
 
 if TYPE_CHECKING:
@@ -109,7 +110,7 @@ def endpoint_text(endpoint: GraphEndpoint, side: str) -> str:
             f"Node name: {endpoint.node.name}",
             f"Node namespace: {endpoint.node.namespace}",
             f"Topic type: {endpoint.type_name}",
-            f"Topic type hash: {endpoint.type_hash}",
+            f"Topic type hash: {harmless(endpoint.type_hash)}",
             f"Endpoint type: {side}",
             f"GID: {'.'.join(f'{byte:02x}' for byte in endpoint.gid)}",
             "QoS profile:",
