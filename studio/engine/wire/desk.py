@@ -108,10 +108,10 @@ class WireDesk:
             self._lookout.doubt()
 
     async def _look(self) -> None:
-        self._tell()
+        self._tell(await asyncio.to_thread(self._state))  # of thousands of nodes it takes its time
 
-    def _tell(self) -> None:
-        news = self._state()
+    def _tell(self, seen: WireState | None = None) -> None:
+        news = seen or self._state()
         if news != self._told:
             self._told = news
             self._audience.tell(news)

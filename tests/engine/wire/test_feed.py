@@ -14,7 +14,14 @@ import pytest
 
 from studio.engine import messages as m
 from studio.engine.engine import Engine
-from studio.engine.messages.wire import OpenFromWire, PublishJoints, PublishRobot, SetJointSource
+from studio.engine.messages.wire import (
+    ConnectWire,
+    FindWireRobots,
+    OpenFromWire,
+    PublishJoints,
+    PublishRobot,
+    SetJointSource,
+)
 from studio.errors import CommandError, NotServedError
 from studio.nodes.robot_state_publisher import LATCHED
 from studio.ros.messages import message
@@ -264,6 +271,24 @@ def test_another_node_that_publishes_the_same_is_named(endpoint: str, tester: No
             await until(lambda: one.ear.last("wire_feed")["rivals"] == ["/tester"])
             tester.destroy_publisher(out)
             await until(lambda: one.ear.last("wire_feed")["rivals"] == [])
+
+    asyncio.run(run())
+
+
+def test_robots_on_the_wire_are_found_and_our_own_is_not_among_them(
+    endpoint: str, tester: Node, tmp_path: Path
+):
+    tester.create_publisher(message(STRING), "/one/robot_description", LATCHED)
+    tester.create_publisher(message(STRING), "/chatter", 10)
+
+    async def run() -> None:
+        async with studio(endpoint, tmp_path) as one:
+            await one.do(PublishRobot(running=True))
+            await one.do(FindWireRobots())
+            assert one.ear.last("wire_robots")["topics"] == ["/one/robot_description"]
+            assert one.ear.last("wire_robots")["nodes"] == []
+            await one.do(ConnectWire())
+            assert one.ear.last("wire_state")["state"] == "connected"
 
     asyncio.run(run())
 
