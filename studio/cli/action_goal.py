@@ -38,6 +38,7 @@ def add_send_goal(verbs: Verbs) -> None:
     send.add_argument(
         "--timeout", type=float, metavar="SECONDS", help="wait no longer for the server"
     )
+    send.set_defaults(takes_late=("goal", "{}"))
     add_wire_options(send)
 
 

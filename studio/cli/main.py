@@ -57,10 +57,25 @@ def _read(words: list[str]) -> argparse.Namespace:
         words, mappings = part_mappings(words)
     parser = _parser(asked)
     options, rest = parser.parse_known_args(shield_values(words))
+    if rest[:1] == ["--"] or (len(rest) == 1 and not rest[0].startswith("-")):
+        rest = _take_late(options, rest)
     if rest and not getattr(options, "takes_rest", False):
         parser.error(f"unrecognized arguments: {' '.join(rest)}")
     options.mappings = mappings
     return options
+
+
+def _take_late(options: argparse.Namespace, rest: list[str]) -> list[str]:
+    """Take the last value of a line, which argparse thinks left out when options stand before it.
+
+    `takes_late` names the value, and what it is when it is left out.
+    """
+    name, left_out = getattr(options, "takes_late", ("", None))
+    values = [word for word in rest if word != "--"]
+    if not name or getattr(options, name) != left_out or len(values) != 1:
+        return rest
+    setattr(options, name, values[0])
+    return []
 
 
 def _parser(asked: str | None) -> argparse.ArgumentParser:

@@ -35,6 +35,7 @@ def add_call(verbs: Verbs) -> None:
         "--timeout", type=_seconds, metavar="SECONDS",
         help="wait no longer for the service and its answer, then end with 1",
     )  # fmt: skip
+    call.set_defaults(takes_late=("values", "{}"))
     add_wire_options(call)
 
 

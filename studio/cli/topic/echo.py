@@ -44,6 +44,7 @@ def add_echo(verbs: Verbs) -> None:
         "--no-lost-messages", action="store_true", help="do not say how many were lost"
     )
     add_qos_options(echo)
+    echo.set_defaults(takes_late=("message_type", None))
     add_wire_options(echo)
 
 

@@ -59,6 +59,7 @@ def add_pub(verbs: Verbs) -> None:
     )  # fmt: skip
     pub.add_argument("-n", "--node-name", help="name of the node (default: a hidden one)")
     add_qos_options(pub)
+    pub.set_defaults(takes_late=("values", "{}"))
     add_wire_options(pub, STARTING)
 
 

@@ -53,6 +53,18 @@ def test_as_many_as_asked_for_are_sent_and_each_nth_is_said(endpoint: str, liste
         == ["publishing #3", "publishing #6"]  # fmt: skip
 
 
+def test_the_message_may_stand_behind_options(endpoint: str, listener: Node):
+    numbers = heard(listener, "std_msgs/msg/Int64", "/late")
+    for last in (("data: 1",), ("--connect", endpoint, "data: 2"), ("--", "data: 3")):
+        ran = studio("topic", "pub", "-1", "/late", "std_msgs/msg/Int64", "--connect", endpoint,
+                     "-w", "1", *last)  # fmt: skip
+        assert ran.code == 0, ran.err
+    wait_until("all", lambda: [number.data for number in numbers] == [1, 2, 3])
+    assert (
+        studio("topic", "pub", "/late", "std_msgs/msg/Int64", "{}", "-r", "1", "data: 1").code == 2
+    )
+
+
 def test_nobody_listens_within_the_time(endpoint: str):
     ran = studio("topic", "pub", "-1", "/unheard", "std_msgs/msg/String", "--max-wait-time-secs",
                  "0.1", "--connect", endpoint)  # fmt: skip
