@@ -85,12 +85,13 @@ def rover_words(package: Path, arguments: Mapping[str, str], router: str) -> tup
 def environment_for(
     settings: WireSettings, environment: Mapping[str, str] = os.environ
 ) -> dict[str, str]:
-    """Give an environment in which nodes join the same routers and domain."""
+    """Give an environment in which nodes join the same routers and domain, as the same ROS."""
     routers = f"connect/endpoints={json.dumps(settings.connect)}"
     override = environment.get(_OVERRIDE, "")
     return {
         **environment,
         "ROS_DOMAIN_ID": str(settings.domain),
+        "ROS_DISTRO": settings.profile.distro,
         _OVERRIDE: f"{override};{routers}" if override else routers,
         "PYTHONUNBUFFERED": "1",  # what is printed is seen at once, also through a pipe
     }

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, cast
 import yaml
 
 from studio.errors import WireSettingsError
-from studio.ros.profiles import JAZZY, WireProfile
+from studio.ros.profiles import JAZZY, PROFILES, WireProfile
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -45,13 +45,14 @@ class WireSettings:
 def wire_settings(
     connect: tuple[str, ...] = (),
     domain: int | None = None,
-    profile: WireProfile = JAZZY,
+    profile: WireProfile | None = None,
     environment: Mapping[str, str] = os.environ,
 ) -> WireSettings:
     """Settings as rmw_zenoh finds them; what is given comes before the environment.
 
-    ROS_DOMAIN_ID, ZENOH_SESSION_CONFIG_URI (a file) and ZENOH_CONFIG_OVERRIDE (`key=json5;...`;
-    pairs without `=` are passed over) are read; routers named in the last are those to connect to.
+    ROS_DISTRO (where it is known, else Jazzy), ROS_DOMAIN_ID, ZENOH_SESSION_CONFIG_URI (a file) and
+    ZENOH_CONFIG_OVERRIDE (`key=json5;...`; pairs without `=` are passed over) are read; routers
+    named in the last are those to connect to.
 
     Raises:
         WireSettingsError: ROS_DOMAIN_ID is no number of a domain, or the endpoints are no list.
@@ -63,7 +64,7 @@ def wire_settings(
     return WireSettings(
         connect=connect or routers or (() if config_file else (ROUTER_ENDPOINT,)),
         domain=_domain(named) if domain is None else domain,
-        profile=profile,
+        profile=profile or PROFILES.get(environment.get("ROS_DISTRO", "").lower(), JAZZY),
         config_file=config_file,
         overrides=overrides,
     )

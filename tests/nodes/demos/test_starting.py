@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.nodes.demos.starting import DemoProcesses, environment_for
+from studio.ros.profiles import profile_named
 from studio.ros.wire.settings import WireSettings, wire_settings
 from tests.support.demos import ENDS_WITHIN_S, heard, node_at, running
 from tests.support.wire import running_router, wait_until
@@ -76,9 +77,12 @@ def test_the_first_code_that_is_not_zero_is_answered():
 
 
 def test_nodes_join_the_same_routers_and_domain_and_keep_the_rest_of_the_environment():
-    settings = WireSettings(connect=("tcp/127.0.0.1:1", "tcp/127.0.0.1:2"), domain=7)
+    settings = WireSettings(
+        connect=("tcp/127.0.0.1:1", "tcp/127.0.0.1:2"), domain=7, profile=profile_named("humble")
+    )
     environment = environment_for(settings, {"A": "b", "ZENOH_CONFIG_OVERRIDE": "x=1;y=2"})
     found = wire_settings(environment=environment)
     assert (found.connect, found.domain) == (settings.connect, settings.domain)
     assert found.overrides == {"x": "1", "y": "2"}
     assert environment["A"] == "b"
+    assert found.profile == settings.profile

@@ -42,3 +42,11 @@ def test_routers_that_are_no_list_are_refused(written: str):
 def test_a_domain_that_is_none_is_refused(written: str):
     with pytest.raises(WireSettingsError, match="ROS_DOMAIN_ID"):
         wire_settings(environment={"ROS_DOMAIN_ID": written})
+
+
+@pytest.mark.parametrize(
+    ("named", "spoken"),
+    [("humble", "humble"), ("Kilted", "kilted"), ("foxy", "jazzy"), ("", "jazzy")],
+)
+def test_the_distribution_is_that_of_the_shell_where_it_is_known(named: str, spoken: str):
+    assert wire_settings(environment={"ROS_DISTRO": named}).profile.distro == spoken
