@@ -60,9 +60,8 @@ def test_the_message_may_stand_behind_options(endpoint: str, listener: Node):
                      "-w", "1", *last)  # fmt: skip
         assert ran.code == 0, ran.err
     wait_until("all", lambda: [number.data for number in numbers] == [1, 2, 3])
-    assert (
-        studio("topic", "pub", "/late", "std_msgs/msg/Int64", "{}", "-r", "1", "data: 1").code == 2
-    )
+    twice = ("data: 4", "-r", "1", "data: 5")
+    assert studio("topic", "pub", "/late", "std_msgs/msg/Int64", *twice).code == 2
 
 
 def test_nobody_listens_within_the_time(endpoint: str):
