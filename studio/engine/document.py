@@ -95,7 +95,7 @@ class Document:
         self._services = services
         self._runs = EditLoop(services.description_worker(), self.sources, self.target, self._take)
         self._meshes = MeshDesk(self, services.meshes, self._watch_files)
-        self.robot_checks = RobotChecks(self, services.meshes)
+        self.robot_checks = RobotChecks(self, services.meshes, self._meshes)
         self.variants = VariantDesk(self, services, self._meshes.want)
         self._files: tuple[str, ...] = (self.path,)
         self._watch = FileWatch(self._changed_on_disk)

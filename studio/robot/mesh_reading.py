@@ -46,6 +46,8 @@ _READERS: Final[dict[str, Callable[[MeshFiles], list[Surface]]]] = {
     ".glb": read_gltf,
     ".ply": _read_ply,
 }
+MESH_SUFFIXES: Final = frozenset(_READERS)
+"""In lower case, with their dot."""
 
 
 def read_mesh(files: MeshFiles) -> LoadedMesh:

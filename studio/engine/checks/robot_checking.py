@@ -8,14 +8,14 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Final
 
 from studio.engine.meshes.hidden_meshes import HiddenMeshes
+from studio.engine.meshes.near_meshes import NearMeshes
 from studio.errors import PackageError
 from studio.robot.checks.robot_checks import CheckedRobot, check_robot
 from studio.robot.values import Mesh
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from studio.engine.document import Document
+    from studio.engine.meshes.mesh_desk import MeshDesk
     from studio.problems import Problem
     from studio.robot.measures import Bounds
     from studio.robot.meshes import MeshLibrary
@@ -29,8 +29,8 @@ _log = logging.getLogger(__name__)
 class RobotChecks:
     """Tells the document's board what is wrong with its robot; the looking is done in a thread."""
 
-    def __init__(self, document: Document, library: MeshLibrary) -> None:
-        self._document = document
+    def __init__(self, document: Document, library: MeshLibrary, meshes: MeshDesk) -> None:
+        self._document, self._meshes = document, meshes
         self._hidden = HiddenMeshes(document, library)
         self._looking: asyncio.Task[None] | None = None
 
@@ -63,8 +63,18 @@ class RobotChecks:
     async def _look(self) -> None:
         if self._document.failed:
             return  # the texts are ahead of the robot
-        found = await asyncio.to_thread(check_robot, self._snapshot())
-        self._document.board.find("checks", (*found, *self._of_hidden_meshes()))
+        snapshot = self._snapshot()
+        found = await asyncio.to_thread(check_robot, snapshot)
+        hidden, shown = self._of_hidden_meshes(), self._meshes.problems
+        near = await asyncio.to_thread(self._near(snapshot).mended, hidden | shown)
+        self._meshes.tell_nearer({shown[uri]: near[uri] for uri in near if uri in shown})
+        of_hidden = [near.get(uri, one) for uri, one in hidden.items()]
+        self._document.board.find("checks", (*found, *of_hidden))
+
+    def _near(self, snapshot: CheckedRobot) -> NearMeshes:
+        document = self._document
+        named = document.model.mesh_uris() | self._hidden_uris()
+        return NearMeshes(document.location, document.entry, snapshot.source, named)
 
     def _snapshot(self) -> CheckedRobot:
         """The robot and all that is known around it, as values that no edit changes."""
@@ -94,11 +104,11 @@ class RobotChecks:
             if isinstance(one.geometry, Mesh) and model.scene.mesh(one.geometry.uri) is None
         )
 
-    def _of_hidden_meshes(self) -> Iterator[Problem]:
+    def _of_hidden_meshes(self) -> dict[str, Problem]:
         users = self._document.model.mesh_users()
-        for uri, problem in self._hidden.problems.items():
-            part = users.get(uri)
-            if part is None:
-                yield problem
-            else:
-                yield replace(problem, place=part.place, parts=(part.key,))
+        return {
+            uri: replace(problem, place=part.place, parts=(part.key,))
+            if (part := users.get(uri))
+            else problem
+            for uri, problem in self._hidden.problems.items()
+        }

@@ -9,7 +9,7 @@ from studio.engine.meshes.mesh_loading import MeshLoading
 from studio.packages.uris import resolve_uri
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Iterable, Mapping
     from pathlib import Path
 
     from studio.description.values import Part
@@ -32,6 +32,8 @@ class MeshDesk:
         self, document: Document, library: MeshLibrary, arrived: Callable[[], None]
     ) -> None:
         self._document, self._told = document, arrived
+        self._nearer: dict[Problem, Problem] = {}
+        """Problems with what was meant, by what they are without."""
         self._loading = MeshLoading(library, self._resolve, self._arrived, self._count)
 
     @property
@@ -54,6 +56,18 @@ class MeshDesk:
         changed = set(files)
         self._loading.want([uri for uri, file in self._loading.files.items() if file in changed])
 
+    @property
+    def problems(self) -> dict[str, Problem]:
+        """What is wrong with meshes by URI, each at the first link that names it."""
+        found = self._loading.problems
+        users = self._document.model.mesh_users() if found else {}
+        return {uri: _placed(found[uri], users.get(uri)) for uri in found}
+
+    def tell_nearer(self, nearer: Mapping[Problem, Problem]) -> None:
+        """Say from now on what was meant by names of meshes that are not there."""
+        self._nearer = dict(nearer)
+        self._tell_problems()
+
     async def settled(self) -> None:
         """Wait until nothing is under way."""
         await self._loading.settled()
@@ -69,10 +83,8 @@ class MeshDesk:
         self._tell_problems()
 
     def _tell_problems(self) -> None:
-        """Say what is wrong with meshes, each at the first link that names it."""
-        found = self._loading.problems
-        users = self._document.model.mesh_users() if found else {}
-        self._document.board.find("mesh", [_placed(found[uri], users.get(uri)) for uri in found])
+        found = self.problems.values()
+        self._document.board.find("mesh", [self._nearer.get(one, one) for one in found])
 
     def _count(self, done: int, total: int) -> None:
         self._document.board.progress("meshes", done, total)
