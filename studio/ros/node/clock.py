@@ -174,17 +174,23 @@ class Clock:
             raise ValueError("the instant is one of another clock")
         ended = context or default_context()
         ended.on_end(self._wake)
-        with self._moved:
-            while (left_ns := until.nanoseconds - self.now_ns()) > 0:
-                if not ended.ok():
-                    return False
-                told = self.ros_time_is_active
-                self._moved.wait(_LOOK_S if told else min(_LOOK_S, left_ns / NANOSECONDS))
-        return True
+        try:
+            return self._slept_until(until, ended)
+        finally:
+            ended.forget_end(self._wake)  # a node that sleeps in a loop leaves nothing behind
 
     def sleep_for(self, rel_time: Duration, context: Context | None = None) -> bool:
         """Sleep for a span of this clock; whether it went by before the context ended."""
         return self.sleep_until(self.now() + rel_time, context)
+
+    def _slept_until(self, until: Time, context: Context) -> bool:
+        with self._moved:
+            while (left_ns := until.nanoseconds - self.now_ns()) > 0:
+                if not context.ok():
+                    return False
+                told = self.ros_time_is_active
+                self._moved.wait(_LOOK_S if told else min(_LOOK_S, left_ns / NANOSECONDS))
+        return True
 
     def _wake(self) -> None:
         with self._moved:

@@ -137,6 +137,11 @@ class Context:
                 return
         callback()
 
+    def forget_end(self, callback: Callable[[], None]) -> None:
+        """Do not call back; harmless when it was not to be, or was already."""
+        with contextlib.suppress(ValueError):
+            self._ending.remove(callback)
+
     def on_close(self, callback: Callable[[], None]) -> None:
         """Call back once before the session is closed."""
         with self._lock:

@@ -56,4 +56,5 @@ class Rate:
         timer, self._timer = self._timer, None
         if timer is not None:
             self._node.destroy_timer(timer)
+            self._node.context.forget_end(self._beat.set)
         self._beat.set()

@@ -1,9 +1,14 @@
 from __future__ import annotations
 
+import gc
+import weakref
+
 import pytest
 
 from studio.errors import AlreadyJoinedError, DestroyedError, NoRouterError, NotJoinedError
+from studio.ros.duration import Duration
 from studio.ros.messages import message
+from studio.ros.node.clock import Clock
 from studio.ros.node.context import Context
 from studio.ros.node.node import Node
 from studio.ros.wire.settings import WireSettings
@@ -72,6 +77,18 @@ def test_who_is_told_of_the_end_is_told_once_even_when_late():
         context.on_end(lambda: told.append("late"))
         assert told == ["early", "late"]
         assert not context.wire.zenoh.is_closed()
+
+
+def test_a_context_keeps_no_clock_that_slept_and_no_rate_that_was_destroyed():
+    with running_router() as endpoint, context_at(endpoint) as context:
+        node = Node("sleeper", context=context)
+        clock, rate = Clock(), node.create_rate(10)
+        kept = [weakref.ref(clock), weakref.ref(rate)]
+        clock.sleep_for(Duration(nanoseconds=1), context)
+        node.destroy_rate(rate)
+        del clock, rate
+        gc.collect()
+        assert [one() for one in kept] == [None, None]
 
 
 def test_a_context_that_is_told_to_end_while_it_joins_is_not_ok():
