@@ -63,6 +63,7 @@ StudioError
             AlreadyJoinedError
             DestroyedError
             RosArgumentError
+            OtherTypeError
             ExternalShutdownException
     WorkerError
         WorkerTimeoutError
@@ -143,6 +144,7 @@ from studio.errors.nodes import (
     ExternalShutdownException,
     NodeError,
     NotJoinedError,
+    OtherTypeError,
     RosArgumentError,
 )
 from studio.errors.root import (
@@ -211,6 +213,7 @@ __all__ = [
     "NotMadeError",
     "NotSavedError",
     "NotServedError",
+    "OtherTypeError",
     "OutsideRootsError",
     "PackageError",
     "PackageNotFoundError",

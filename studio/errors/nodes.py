@@ -42,6 +42,17 @@ class RosArgumentError(NodeError):
         self.word, self.reason = word, reason
 
 
+class OtherTypeError(NodeError):
+    """A class of messages is not what its name means on the wire that it is used on."""
+
+    def __init__(self, name: str, distro: str) -> None:
+        super().__init__(
+            f'The class "{name}" is not that of {distro}, or its text changed since it was '
+            "imported: set ROS_DISTRO before it is imported, or import it anew."
+        )
+        self.name, self.distro = name, distro
+
+
 class ExternalShutdownException(NodeError):  # noqa: N818  # the name that rclpy's users catch
     """The process was told to end while a node was spinning."""
 

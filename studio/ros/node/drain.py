@@ -21,6 +21,7 @@ LOOK_S = 0.002
 IDLE_LOOK_S = 0.01
 """Between two looks when nothing came for a while."""
 _FLOWS_S = 0.25
+_REST = 5
 
 logger = logging.getLogger(__name__)
 
@@ -86,8 +87,10 @@ class Drain:
             if now_s < look_at_all_s:
                 self._look_into(self._still_flowing(now_s))
             else:
-                look_at_all_s = now_s + IDLE_LOOK_S
                 self._look_into(self._sources)
+                # Ten thousand rings are looked into less often, so that looking costs no core.
+                took_s = time.monotonic() - now_s
+                look_at_all_s = now_s + max(IDLE_LOOK_S, _REST * took_s)
 
     def _look_into(self, sources: Iterable[Source]) -> None:
         for source in sources:

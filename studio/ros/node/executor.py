@@ -45,6 +45,8 @@ class Executor:
         self._changed = threading.Condition()
         self._nodes: list[NodeBase] = []
         self._ready: deque[Work | Task] = deque()
+        self._queued: set[Work] = set()
+        self._held: set[Work] = set()
         self._due: set[Work] = set()
         self.context.on_end(self.wake)
 
@@ -94,18 +96,20 @@ class Executor:
         """Carry it out no more."""
         with self._changed:
             self._due.discard(work)
-            if work in self._ready:
+            if work in self._queued:
+                self._queued.remove(work)
                 self._ready.remove(work)
+            self._held.discard(work)
             work.group.forget(work)
-            work.is_queued = False
 
     def announce(self, work: Work) -> None:
         """Take note that work is ready; from any thread."""
         with self._changed:
-            if not work.is_queued:
-                work.is_queued = True
-                self._ready.append(work)
-            self._changed.notify()
+            # A node that was taken away meanwhile tells whoever has it next.
+            if work.home in self._nodes:
+                self._held.discard(work)
+                self._queue(work)
+                self._changed.notify()
 
     def create_task(
         self,
@@ -204,6 +208,7 @@ class Executor:
             work = self._ready.popleft()
             if isinstance(work, Task):
                 return Piece(work.step)
+            self._queued.discard(work)
             piece = self._piece_of(work)
             if piece is not None:
                 return piece
@@ -211,16 +216,20 @@ class Executor:
 
     def _piece_of(self, work: Work) -> Piece | None:
         if not work.group.begin(work):
+            self._held.add(work)
             return None
-        work.is_queued = False
         run = work.take()
         if run is None:  # what was ready was overwritten, or taken back
             following = work.group.end()
-            return None if following is None else Piece(following.announce_again)
+            return None if following is None else Piece(following.announce)
         if work.is_ready:
-            work.is_queued = True
-            self._ready.append(work)
+            self._queue(work)
         return Piece(run, work)
+
+    def _queue(self, work: Work) -> None:
+        if work not in self._queued:
+            self._queued.add(work)
+            self._ready.append(work)
 
     def _carry_out(self, piece: Piece) -> None:
         """Run a piece; what an asynchronous callback awaits keeps its group taken."""
@@ -239,13 +248,12 @@ class Executor:
                 _end(piece.work)
 
     def _queue_due(self) -> None:
-        for work in self._due:
-            if not work.is_queued and work.is_ready:
-                work.is_queued = True
-                self._ready.append(work)
+        for work in self._due - self._held:
+            if work.is_ready:
+                self._queue(work)
 
     def _pause_s(self, now_s: float, end_s: float | None) -> float:
-        times_s = [due_s for work in self._due if (due_s := work.due_s) is not None]
+        times_s = [due_s for work in self._due - self._held if (due_s := work.due_s) is not None]
         if end_s is not None:
             times_s.append(end_s)
         return min(_WAIT_MAX_S, max(0.0, min(times_s, default=now_s + _WAIT_MAX_S) - now_s))
@@ -259,7 +267,7 @@ def _end(work: Work) -> None:
     """Let the next work of a group be tried, by whoever has its node now."""
     following = work.group.end()
     if following is not None:
-        following.announce_again()
+        following.announce()
 
 
 def _left(timeout_s: float | None) -> Any:  # noqa: ANN401

@@ -12,6 +12,7 @@ from studio.ros.node.guard import GuardCondition
 from studio.ros.node.publisher import Publisher
 from studio.ros.node.rate import Rate
 from studio.ros.node.rosout import RosoutPublisher
+from studio.ros.node.same_types import check_same_type
 from studio.ros.node.service import Service
 from studio.ros.node.service_client import SERVICE_TIMEOUT_S, Client
 from studio.ros.node.subscription import Subscription
@@ -21,7 +22,6 @@ from studio.ros.parameters.messages import DESCRIPTOR
 from studio.ros.parameters.of_node import USE_SIM_TIME, NodeParameters
 from studio.ros.qos import QoSProfile, qos_profile_services_default
 from studio.ros.tokens import EndpointKind
-from studio.ros.types.classes import MessageValue, definition_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from studio.ros.node.subscription import MessageCallback
     from studio.ros.node.work import CallbackGroup
     from studio.ros.parameters.parameter import Parameter
+    from studio.ros.types.classes import MessageValue
 
 
 class Node(GraphQueries, NodeParameters):
@@ -92,9 +93,10 @@ class Node(GraphQueries, NodeParameters):
 
         Raises:
             RosNameError: The topic cannot be named so.
+            OtherTypeError: The class is of another distribution than the wire.
             DestroyedError: The node was destroyed.
         """
-        type_name = definition_of(msg_type).name
+        type_name = check_same_type(self._wire.types, msg_type)
         endpoint = self.endpoint(EndpointKind.PUBLISHER, type_name, topic, qos_profile)
         publisher = publisher_class(endpoint, msg_type)
         with self._lock:
@@ -115,9 +117,10 @@ class Node(GraphQueries, NodeParameters):
 
         Raises:
             RosNameError: The topic cannot be named so.
+            OtherTypeError: The class is of another distribution than the wire.
             DestroyedError: The node was destroyed.
         """
-        type_name = definition_of(msg_type).name
+        type_name = check_same_type(self._wire.types, msg_type)
         endpoint = self.endpoint(EndpointKind.SUBSCRIPTION, type_name, topic, qos_profile)
         group = callback_group or self._default_group
         subscription = Subscription(endpoint, msg_type, callback, group, raw=raw)

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 from studio.errors import DestroyedError
 from studio.ros.duration import NANOSECONDS
-from studio.ros.messages import message
 from studio.ros.node.logger import listen_to
 from studio.ros.qos import qos_profile_rosout_default
 
@@ -21,8 +20,8 @@ class RosoutPublisher:
     """Publishes what a node and its parts say, until it is stopped."""
 
     def __init__(self, node: Node) -> None:
-        self._log = message("rcl_interfaces/msg/Log")
-        self._stamp = message("builtin_interfaces/msg/Time")
+        self._log = node.wire.types.message("rcl_interfaces/msg/Log")
+        self._stamp = node.wire.types.message("builtin_interfaces/msg/Time")
         self._publisher = node.create_publisher(self._log, ROSOUT, qos_profile_rosout_default)
         self.stop = listen_to(node.get_logger().name, self._publish)
 

@@ -9,6 +9,8 @@ from collections import deque
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+import zenoh
+
 from studio.errors import AttachmentError, CdrError
 from studio.ros.attachment import Attachment, unpack
 from studio.ros.node.codecs import check_kind, codec_of
@@ -69,7 +71,7 @@ class Service(Work):
         self._response = definition_of(srv_type.Response)
         self._depth = endpoint.token.qos.depth or DEPTH_DEFAULT
         self._waiting: deque[_Request] = deque()
-        self._pending: set[tuple[bytes, int]] = set()
+        self._pending: dict[tuple[bytes, int], _Request] = {}
         self._lock = threading.Lock()
         self._incoming: Incoming[Asked] | None = declare_queryable(
             endpoint.wire.zenoh, endpoint.key, max(_RING, self._depth)
@@ -110,15 +112,19 @@ class Service(Work):
 
     def destroy(self) -> None:
         """Take it back, and tell those who wait that there will be no answer."""
-        incoming, self._incoming = self._incoming, None
+        with self._lock:
+            incoming, self._incoming = self._incoming, None
         if incoming is None:
             return
         self.endpoint.hide(incoming)
+        for query in waiting_in(incoming, _RING):
+            query.drop()
         with self._lock:
-            left = list(self._waiting)
+            left = list(self._pending.values())
+            self._pending.clear()
             self._waiting.clear()
         for request in left:
-            self._finish(request)
+            request.query.drop()
 
     def _receive(self, query: Asked) -> None:
         payload, attachment = query.payload, query.attachment
@@ -134,12 +140,15 @@ class Service(Work):
 
     def _queue(self, request: _Request) -> None:
         with self._lock:
+            gone = self._incoming is None  # since the drain took it out of the ring
             twice = request.number in self._pending
-            if not twice:
-                self._pending.add(request.number)
+            if not (gone or twice):
+                self._pending[request.number] = request
                 self._waiting.append(request)
             late = self._waiting.popleft() if len(self._waiting) > self._depth else None
-        if twice:
+        if gone:
+            request.query.drop()
+        elif twice:
             self._refuse(request.query, "A request came twice before it was answered.")
         if late is not None:
             self._finish(late)
@@ -183,13 +192,15 @@ class Service(Work):
         payload = self._response_codec.encode(check_kind(self._response, given))
         number = request.attachment
         attachment = Attachment(number.sequence, time.time_ns(), number.gid)
-        if self._incoming is not None:
+        try:
             request.query.reply(request.query.key_expr, payload, attachment=attachment.pack())
+        except zenoh.ZError:
+            if self._incoming is not None:  # else it was taken back while the callback ran
+                raise
         self._finish(request)
 
     def _finish(self, request: _Request) -> None:
         with self._lock:
-            known = request.number in self._pending
-            self._pending.discard(request.number)
-        if known:
+            known = self._pending.pop(request.number, None)
+        if known is not None:
             request.query.drop()

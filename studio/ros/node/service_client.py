@@ -40,6 +40,8 @@ SERVICE_TIMEOUT_S = 600.0
 """How long rmw_zenoh lets a service take."""
 _REPLIES_WAITING = 64
 _LOOK_S = 0.1
+_LOST_LOOK_S = 0.25
+_LOST_LOOKS = 4
 _SILENCE = b"Timeout"
 
 
@@ -51,6 +53,8 @@ class _Call:
     replies: zenoh.Handler[zenoh.Reply]
     token: zenoh.CancellationToken
     answered: bool = False
+    was_served: bool = False
+    looks_without_server: int = 0
     failure: WireError | None = None
 
     def cancel(self) -> None:
@@ -82,6 +86,7 @@ class Client(Work):
         self._request = definition_of(srv_type.Request)
         self._sequence = 0
         self._said_several = False
+        self._look_at_s = 0.0
         self._lock = threading.Lock()
         self._calls: dict[int, _Call] = {}
         self._done: deque[tuple[Future[Any], bytes | WireError]] = deque()
@@ -142,6 +147,7 @@ class Client(Work):
             DestroyedError: The client was destroyed.
         """
         payload = self._codecs[0].encode(check_kind(self._request, request))
+        was_served = self.service_is_ready()
         future: Future[Any] = Future(executor=self._node.executor)
         with self._lock:
             if self._querier is None:
@@ -156,7 +162,7 @@ class Client(Work):
                 attachment=attachment.pack(),
                 cancellation_token=token,
             )
-            self._calls[number] = _Call(future, replies, token)
+            self._calls[number] = _Call(future, replies, token, was_served=was_served)
         future.listen(lambda: self._give_up(number, future))
         self._node.context.drain.hurry(self)
         return future
@@ -173,6 +179,8 @@ class Client(Work):
         with self._lock:
             calls = list(self._calls.items())
         came = sum(self._drain_call(number, call) for number, call in calls)
+        if calls and time.monotonic() > self._look_at_s:
+            self._look_for_lost(calls)
         if self._done:
             self.announce()
         return came
@@ -227,10 +235,24 @@ class Client(Work):
             call.failure = _failure(self.srv_name, payload, self._timeout_s)
 
     def _ended(self, number: int, call: _Call) -> None:
-        self._forget(number)
-        if not call.answered:
+        known = self._forget(number)
+        if known and not call.answered:
             failure = call.failure or NotServedError("service", self.srv_name)
             self._done.append((call.future, failure))
+
+    def _look_for_lost(self, calls: list[tuple[int, _Call]]) -> None:
+        """End calls whose server is gone for a while, and that Zenoh did not end.
+
+        It forgets a request that meets the end of its server on the way.
+        """
+        self._look_at_s = time.monotonic() + _LOST_LOOK_S
+        is_served = self.service_is_ready()
+        for number, call in calls:
+            call.was_served |= is_served
+            call.looks_without_server = 0 if is_served else call.looks_without_server + 1
+            if call.was_served and call.looks_without_server >= _LOST_LOOKS:
+                call.cancel()
+                self._ended(number, call)
 
     def _settle(self, future: Future[Any], answer: bytes | WireError) -> None:
         if isinstance(answer, WireError):
@@ -245,11 +267,13 @@ class Client(Work):
         if future.cancelled():
             self._forget(number, cancel=True)
 
-    def _forget(self, number: int, *, cancel: bool = False) -> None:
+    def _forget(self, number: int, *, cancel: bool = False) -> bool:
+        """Forget a call; whether it was known."""
         with self._lock:
             call = self._calls.pop(number, None)
         if call is not None and cancel:
             call.cancel()
+        return call is not None
 
 
 def _failure(name: str, payload: bytes, timeout_s: float) -> WireError:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from studio.ros.messages import message
 from studio.ros.node.time import stamp_ns
 from studio.ros.node.work import ReentrantCallbackGroup
 from studio.ros.qos import QoSProfile, ReliabilityPolicy
@@ -44,7 +43,7 @@ class TimeSource:
     def _follow(self) -> None:
         self._node.get_clock().tell(0)
         self._subscription = self._node.create_subscription(
-            message("rosgraph_msgs/msg/Clock"),
+            self._node.wire.types.message("rosgraph_msgs/msg/Clock"),
             CLOCK_TOPIC,
             self._told,
             CLOCK_QOS,

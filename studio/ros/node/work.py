@@ -46,7 +46,8 @@ class MutuallyExclusiveCallbackGroup(CallbackGroup):
         """Let it run when no other does."""
         with self._lock:
             if self._taken:
-                self._waiting.append(work)
+                if work not in self._waiting:
+                    self._waiting.append(work)
                 return False
             self._taken = True
             return True
@@ -80,13 +81,12 @@ class Work:
 
     Attributes:
         group: Which pieces may run beside its own.
-        is_queued: Whether it waits in an executor or a group; of the executor's.
+        home: The node that it is part of.
     """
 
     def __init__(self, group: CallbackGroup) -> None:
         self.group = group
         self.home: Home | None = None
-        self.is_queued = False
 
     @property
     def is_ready(self) -> bool:
@@ -112,11 +112,6 @@ class Work:
         home = self.home
         if home is not None:
             home.announce(self)
-
-    def announce_again(self) -> None:
-        """Say that it may be tried once more, after it waited for its group."""
-        self.is_queued = False
-        self.announce()
 
     def destroy(self) -> None:
         """Take back what was declared; again is harmless."""

@@ -5,10 +5,11 @@ from typing import TYPE_CHECKING
 import pytest
 import zenoh
 
-from studio.errors import MessageValueError
+from studio.errors import MessageValueError, NotServedError
 from studio.ros.attachment import Attachment, unpack
 from studio.ros.messages import service
 from studio.ros.node.codecs import codec_of
+from studio.ros.node.future import Future
 from studio.ros.node.spinning import spinning
 from studio.ros.qos import QoSProfile
 from studio.ros.wire.door import declare_querier
@@ -146,3 +147,43 @@ def test_an_asynchronous_callback_that_fails_leaves_nobody_waiting(nodes: tuple[
     with pytest.raises(KeyError):
         spin_until(lambda: False, server)
     spin_until(future.done, asker)
+
+
+def test_a_server_that_is_taken_back_while_it_works_leaves_nobody_waiting(
+    nodes: tuple[Node, Node],
+):
+    asker, server = nodes
+    begun: list[int] = []
+    never: Future[None] = Future()
+
+    async def answer(_asked: MessageValue, given: MessageValue) -> MessageValue:
+        begun.append(1)
+        await never
+        return given
+
+    served = server.create_service(AddTwoInts, "interrupted", answer)
+    client = asker.create_client(AddTwoInts, "interrupted")
+    with spinning(server) as executor:
+        assert client.wait_for_service(timeout_sec=30)
+        future = client.call_async(AddTwoInts.Request())
+        wait_until("it works", lambda: bool(begun))
+        server.destroy_service(served)
+        spin_until(future.done, asker)
+        never.set_result(None)
+        after = executor.create_task(lambda: None)
+        assert after.wait(30)
+    assert isinstance(future.exception(), NotServedError)
+
+
+def test_requests_that_come_while_a_server_is_taken_back_are_never_left_open(
+    nodes: tuple[Node, Node],
+):
+    asker, server = nodes
+    client = asker.create_client(AddTwoInts, "flickering")
+    for _ in range(20):
+        served = server.create_service(AddTwoInts, "flickering", add)
+        assert client.wait_for_service(timeout_sec=30)
+        futures = [client.call_async(AddTwoInts.Request()) for _ in range(5)]
+        server.destroy_service(served)
+        spin_until(lambda: all(future.done() for future in futures), asker)  # noqa: B023
+        wait_until("it is gone", lambda: not client.service_is_ready())
