@@ -84,5 +84,5 @@ def test_n7_a_node_that_is_killed_is_listed_no_more(endpoint: str):
     with started(endpoint, *words) as process:
         process.wait_for("publishing #1")
         assert "/short_lived" in studio("node", "list", *at).out.split()
-    wait_until("gone", lambda: "/gone" not in studio("topic", "list", *at).out.split(), 10)
-    assert studio("node", "list", *at).out == "/talker\n"
+    wait_until("gone", lambda: "/gone" not in studio("topic", "list", *at).out.split())
+    wait_until("the node, too", lambda: studio("node", "list", *at).out == "/talker\n")
