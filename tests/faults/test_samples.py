@@ -190,7 +190,7 @@ def test_a_slow_reader_of_20_khz_holds_up_no_other_and_no_memory(router: str):
     sensor = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
     with flooded(router), node_at(router, "slow") as slow, beside(slow) as quick:
         reader = slow.create_subscription(message(STRING), "/fast", dawdle, sensor)
-        other = quick.create_subscription(message(STRING), "/beat", count, 10)
+        other = quick.create_subscription(message(STRING), "/beat", count, 1000)
         wait_until("it is behind", lambda: reader.losses.overwritten > 10_000)
         before_mb, from_beat = peak_mb(), len(beats)
         overwritten = reader.losses.overwritten
