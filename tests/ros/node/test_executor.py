@@ -195,3 +195,17 @@ def test_an_executor_that_was_shut_down_spins_no_more(executor: SingleThreadedEx
         executor.create_task(lambda: 1 // 0)
     executor.spin()
     assert executor.is_shut_down
+
+
+def test_work_that_is_told_to_an_executor_too_late_is_carried_out_by_the_next(context: Context):
+    node = Node("late", context=context)
+    seen: list[int] = []
+    guard = node.create_guard_condition(lambda: seen.append(1))
+    before = SingleThreadedExecutor(context=context)
+    before.add_node(node)
+    before.remove_node(node)
+    guard.trigger()
+    before.announce(guard)
+    before.spin_once(timeout_sec=0)
+    assert seen == []
+    spin_until(lambda: seen == [1], node)
