@@ -71,7 +71,8 @@ class Worker:
 
     def __init__(self, name: str, module: str, codec: Codec, *arguments: str) -> None:
         self.name, self.generation = name, 0
-        self._command = (sys.executable, "-m", module, *arguments)
+        # -P: the folder that somebody works in, which may be anybody's, gives it no modules.
+        self._command = (sys.executable, "-P", "-m", module, *arguments)
         self._codec = codec
         self._process: asyncio.subprocess.Process | None = None
         self._lock = asyncio.Lock()

@@ -21,6 +21,7 @@ from tests.support.spending_worker import Spend, Spent
 
 if TYPE_CHECKING:
     from collections.abc import Generator
+    from pathlib import Path
 
 REQUEST = EditRequest((Edit("/nowhere", 0, 0, b""),))
 
@@ -43,6 +44,21 @@ def test_requests_that_come_together_are_all_answered():
         answers = await asyncio.gather(*(worker.ask(REQUEST, Failure, 30) for _ in range(50)))
         assert {answer.problem.code for answer in answers} == {"no-session"}
         assert worker.generation == 1
+        await worker.close()
+
+    asyncio.run(run())
+
+
+def test_a_worker_takes_no_module_from_the_folder_that_somebody_works_in(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    (tmp_path / "msgspec.py").write_text("raise SystemExit('taken from the workspace')\n")
+    monkeypatch.chdir(tmp_path)
+
+    async def run() -> None:
+        worker = Worker("xacro", "studio.description.worker", CODEC)
+        answer = await worker.ask(REQUEST, Failure, 30)
+        assert answer.problem.code == "no-session"
         await worker.close()
 
     asyncio.run(run())

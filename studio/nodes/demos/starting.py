@@ -34,8 +34,8 @@ class DemoProcesses:
         return cls(environment_for(settings))
 
     def start(self, module: str, arguments: Iterable[str] = ()) -> None:
-        """Run a module; what it prints comes out where ours does."""
-        words = [sys.executable, "-m", module, *arguments]
+        """Run a module, none of the folder we are in; what it prints comes out where ours does."""
+        words = [sys.executable, "-P", "-m", module, *arguments]
         self._processes.append(subprocess.Popen(words, env=self._environment))
 
     def wait(self) -> int:

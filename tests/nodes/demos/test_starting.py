@@ -69,6 +69,16 @@ def test_one_that_hears_no_signal_is_made_to_end(tmp_path: Path, capfd: pytest.C
     assert processes.wait() == -signal.SIGKILL
 
 
+def test_a_demo_takes_no_module_from_the_folder_that_somebody_works_in(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    (tmp_path / "this.py").write_text("raise SystemExit(3)\n")
+    monkeypatch.chdir(tmp_path)
+    with DemoProcesses() as processes:
+        processes.start("this")
+        assert processes.wait() == 0
+
+
 def test_the_first_code_that_is_not_zero_is_answered():
     with DemoProcesses() as processes:
         processes.start("this")
