@@ -222,12 +222,12 @@ class ActionClient:
         goal = ClientGoalHandle(self, goal_id, reply)
         if goal.accepted:
             self._keep(self._goals, goal_id, goal)
-            goal.told(_status_of(self._told.get(goal_id_of(goal_id), GoalStatus.UNKNOWN)))
+            goal.told(GoalStatus(self._told.get(goal_id_of(goal_id), GoalStatus.UNKNOWN)))
         return goal
 
     def _ended(self, goal: ClientGoalHandle, reply: MessageValue) -> MessageValue:
         # Its feedback is still heard: the last of it may come after the result.
-        goal.told(_status_of(reply.status))
+        goal.told(GoalStatus(reply.status))
         return reply
 
     def _keep(self, kept: OrderedDict[bytes, Any], goal_id: MessageValue, what: object) -> None:
@@ -250,8 +250,4 @@ class ActionClient:
             goals = [(self._goals.get(goal_id), status) for goal_id, status in told.items()]
         for goal, status in goals:
             if goal is not None:
-                goal.told(_status_of(status))
-
-
-def _status_of(number: int) -> GoalStatus:
-    return GoalStatus(number) if number in set(GoalStatus) else GoalStatus.UNKNOWN
+                goal.told(GoalStatus(status))

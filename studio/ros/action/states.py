@@ -18,6 +18,12 @@ class GoalStatus(IntEnum):
     CANCELED = 5
     ABORTED = 6
 
+    @classmethod
+    def _missing_(cls, value: object) -> GoalStatus:
+        """Take a number that is none, as any peer may send, for one that says nothing."""
+        del value
+        return cls.UNKNOWN
+
     @property
     def is_over(self) -> bool:
         """Whether the goal has its end; its state changes no more."""

@@ -242,7 +242,8 @@ class ParameterStore:
                 raise ParameterNotDeclaredError(parameter.name)
             deletes = parameter.type_ is ParameterType.NOT_SET
             if deletes and known is not None:
-                step.deleted.append(parameter)
+                if parameter not in step.deleted:  # a request may name one twice
+                    step.deleted.append(parameter)
             elif not deletes:
                 was_set = known and known.parameter.type_ is not ParameterType.NOT_SET
                 (step.changed if was_set else step.new).append(parameter)

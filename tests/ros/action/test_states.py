@@ -56,3 +56,8 @@ def test_numbers_are_those_of_action_msgs():
 def test_an_error_says_what_cannot_be():
     with pytest.raises(GoalStateError, match="A goal that is succeeded cannot be aborted"):
         next_status(GoalStatus.SUCCEEDED, GoalEvent.ABORT)
+
+
+@pytest.mark.parametrize("number", [-1, 7, 127])
+def test_a_number_that_is_no_status_says_nothing(number: int):
+    assert GoalStatus(number) is GoalStatus.UNKNOWN

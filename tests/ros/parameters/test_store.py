@@ -221,6 +221,15 @@ def test_a_node_may_take_parameters_that_it_never_declared():
     assert told[-1] == ParameterChange(deleted=(Parameter("a"),))
 
 
+def test_a_parameter_that_a_request_takes_away_twice_is_told_once():
+    told: list[ParameterChange] = []
+    store = ParameterStore(told.append, allow_undeclared=True)
+    store.set_atomically([Parameter("x", value=1)])
+    assert store.set_atomically([Parameter("x"), Parameter("x")]).successful
+    assert not store.has("x")
+    assert told[-1] == ParameterChange(deleted=(Parameter("x"),))
+
+
 def test_a_typed_parameter_needs_a_value_or_a_type():
     with pytest.raises(InvalidParameterTypeError, match="dynamic_typing"):
         Watched().store.declare("a", None, DESCRIPTOR())
