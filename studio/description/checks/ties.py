@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 from xml.sax.saxutils import quoteattr
 
 from studio.description.checks.element_mends import ElementMends
+from studio.description.checks.holding import Holding
 from studio.description.faults import shorten
 from studio.problems import Severity
 
@@ -66,7 +67,11 @@ def _dangling(
 ) -> Problem:
     """A joint names a link that is not there: another name was meant, or the link is missing."""
     meant = _meant(tie.link, links)
-    fix = _spelling_fix(tie, meant, links, named) or (None if meant else _link_fix(tie))
+    fix = _spelling_fix(tie, meant, links, named)
+    if not meant:
+        fix, meant = _link_fix(tie), ""
+        if tie.role == "parent" and (only := Holding(run).only_parent(_child(tie))):
+            fix, meant = _parent_fix(tie, only), only
     advice = f'did you mean "{meant}"?' if meant else "add the link, or name one that is there."
     sentence = (
         f'Joint "{_name(tie.joint)}" has the {tie.role} "{tie.link}", and no link has that name: '
@@ -103,6 +108,18 @@ def _spelling_fix(
         return link.fix(f'Rename the link to "{tie.link}"', link.value("name", tie.link))
     end = ElementMends(tie.end.origin)
     return end.fix(f'Write "{meant}"', end.value("link", meant))
+
+
+def _child(tie: _Tie) -> str:
+    return next((one.link for one in _ties(tie.joint) if one.role == "child"), "")
+
+
+def _parent_fix(tie: _Tie, only: str) -> Fix | None:
+    """Name the only link that can hold the child."""
+    if tie.joint.calls is not None:
+        return None
+    end = ElementMends(tie.end.origin)
+    return end.fix(f'Write "{only}"', end.value("link", only))
 
 
 def _link_fix(tie: _Tie) -> Fix | None:

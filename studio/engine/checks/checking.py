@@ -141,7 +141,12 @@ _EXPLAIN: Final = frozenset(
     }
 )
 """Codes of what makes yourdfpy fall as well: what it says of it then helps nobody."""
-_OF_BOTH: Final = frozenset({"dangling-parent", "dangling-child", "several-roots"})
+_OF_BOTH: Final = frozenset(
+    {
+        *("bad-element", "dangling-parent", "dangling-child", "duplicate-joint", "duplicate-link"),
+        *("second-parent", "several-roots"),
+    }
+)
 """Codes of what the robot's structure and the texts tell; the texts know the place and a fix."""
 
 
@@ -156,8 +161,14 @@ def merged(of_robot: Iterable[Problem], of_texts: Sequence[Problem]) -> tuple[Pr
 
 
 def _fact(problem: Problem) -> tuple[str, tuple[str, ...]]:
-    """What a finding is about; of the roots there is one finding."""
-    return problem.code, () if problem.code == "several-roots" else problem.parts
+    """What a finding is about; of the roots there is one finding, of an element there are many."""
+    match problem.code:
+        case "several-roots":
+            return problem.code, ()
+        case "bad-element":
+            return problem.code, (*problem.parts, problem.sentence)
+        case _:
+            return problem.code, problem.parts
 
 
 def _problems_of(read: ReadRobot) -> tuple[Problem, ...]:

@@ -102,3 +102,26 @@ def test_a_fact_that_both_tell_is_told_once_with_its_fix():
     assert merged([plain], [better, note]) == (better, note)
     assert merged([], [better, note]) == (note,)
     assert merged([plain], [note]) == (plain, note)
+
+
+def test_names_that_are_there_twice_are_told_once_and_mended(tmp_path: Path):
+    ends = '<parent link="{}"/><child link="{}"/>'
+    joints = (ends.format("a", "b"), ends.format("b", "c"))
+    body = "".join(f'<joint name="j" type="fixed">{one}</joint>' for one in joints)
+    links = "".join(f'<link name="{name}"/>' for name in "aabc")
+
+    async def run() -> None:
+        file = tmp_path / "r.urdf"
+        file.write_text(f'<robot name="r">{links}{body}</robot>')
+        async with engine(tmp_path / "data") as made:
+            document, _ = await opened(made, file)
+            await document.checks.settled()
+            codes = found(document)
+            assert [codes.count(one) for one in ("duplicate-link", "duplicate-joint")] == [1, 1]
+            await document.mending.apply_all()
+            await document.checks.settled()
+            assert not {"duplicate-link", "duplicate-joint"} & {*found(document)}
+            assert list(document.model.robot.links) == ["a", "a_2", "b", "c"]
+            assert list(document.model.robot.joints) == ["j", "j_2"]
+
+    asyncio.run(run())
