@@ -177,6 +177,7 @@ class Executor:
         self.is_shut_down = True
         for node in self.get_nodes():
             self.remove_node(node)
+        self.context.forget_end(self.wake)
         self.wake()
         return True
 

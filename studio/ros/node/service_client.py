@@ -206,8 +206,8 @@ class Client(Work):
         self.endpoint.hide(querier)
 
     def _drain_call(self, number: int, call: _Call) -> int:
-        came = 0
-        while True:
+        # No more at once than wait: a server that replies without end must not hold the drain.
+        for came in range(_REPLIES_WAITING):
             try:
                 reply = call.replies.try_recv()
             except zenoh.ZError:  # the last reply was taken, or the time is over
@@ -215,8 +215,8 @@ class Client(Work):
                 return came + 1
             if reply is None:
                 return came
-            came += 1
             self._replied(call, reply)
+        return _REPLIES_WAITING
 
     def _replied(self, call: _Call, reply: zenoh.Reply) -> None:
         sample, refusal = reply.ok, reply.err

@@ -10,6 +10,7 @@ from studio.ros.duration import Duration
 from studio.ros.messages import message
 from studio.ros.node.clock import Clock
 from studio.ros.node.context import Context
+from studio.ros.node.executor import SingleThreadedExecutor
 from studio.ros.node.node import Node
 from studio.ros.wire.settings import WireSettings
 from tests.support.node_pair import context_at
@@ -79,16 +80,18 @@ def test_who_is_told_of_the_end_is_told_once_even_when_late():
         assert not context.wire.zenoh.is_closed()
 
 
-def test_a_context_keeps_no_clock_that_slept_and_no_rate_that_was_destroyed():
+def test_a_context_keeps_nothing_that_slept_or_was_destroyed():
     with running_router() as endpoint, context_at(endpoint) as context:
         node = Node("sleeper", context=context)
         clock, rate = Clock(), node.create_rate(10)
-        kept = [weakref.ref(clock), weakref.ref(rate)]
+        executor = SingleThreadedExecutor(context=context)
+        kept = [weakref.ref(one) for one in (clock, rate, executor)]
         clock.sleep_for(Duration(nanoseconds=1), context)
         node.destroy_rate(rate)
-        del clock, rate
+        executor.shutdown()
+        del clock, rate, executor
         gc.collect()
-        assert [one() for one in kept] == [None, None]
+        assert [one() for one in kept] == [None, None, None]
 
 
 def test_a_context_that_is_told_to_end_while_it_joins_is_not_ok():
