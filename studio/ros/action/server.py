@@ -202,6 +202,8 @@ class ActionServer:
 
     async def _on_send_goal(self, request: MessageValue, response: MessageValue) -> MessageValue:
         goal_id = goal_id_of(request.goal_id)
+        if self._goals.find(goal_id) is not None:  # its callback is not asked again
+            return self._refused(goal_id, response)
         if await self._decide(self._goal_callback, request.goal) != GoalResponse.ACCEPT:
             return response
         stamp = self._node.get_clock().now().to_msg()
@@ -209,15 +211,18 @@ class ActionServer:
         goal = self._goals.add(
             goal_id, lambda: ServerGoalHandle(self, info, request.goal, stamp_ns(stamp))
         )
-        if goal is None:
-            self._node.get_logger().error(
-                f"A goal was refused: one with the id {goal_id.hex()} is known already."
-            )
-            return response
+        if goal is None:  # it came twice at the same time
+            return self._refused(goal_id, response)
         self.publish_status()
         response.accepted, response.stamp = True, stamp
         # After the answer: a client must not hear of the end before it heard of the beginning.
         self._create_task(self._begin(goal))
+        return response
+
+    def _refused(self, goal_id: bytes, response: MessageValue) -> MessageValue:
+        self._node.get_logger().error(
+            f"A goal was refused: one with the id {goal_id.hex()} is known already."
+        )
         return response
 
     async def _on_cancel(self, request: MessageValue, response: MessageValue) -> MessageValue:

@@ -183,14 +183,21 @@ def test_a_late_comer_hears_the_status_of_goals_that_were_before():
         assert [one.status for one in heard[-1].status_list] == [GoalStatus.SUCCEEDED]
 
 
-def test_an_id_that_is_known_already_is_refused():
+def test_an_id_that_is_known_already_is_refused_without_asking_about_its_goal():
     held = Held()
-    with action_pair(held) as pair:
+    asked: list[int] = []
+
+    def decide(request: Any) -> GoalResponse:  # noqa: ANN401
+        asked.append(request.order)
+        return GoalResponse.ACCEPT
+
+    with action_pair(held, goal_callback=decide) as pair:
         first = pair.send()
         again = pair.client.send_goal_async(
             pair.client.action_type.Goal(order=1), goal_uuid=first.goal_id
         )
         assert not finished(again).accepted
+        assert len(asked) == 1
         held.end("succeed")
         assert finished(first.get_result_async()).status == GoalStatus.SUCCEEDED
 
