@@ -6,6 +6,7 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, NamedTuple
 
+from studio.packages.presence import is_folder
 from studio.packages.roots import package_folder_of
 
 if TYPE_CHECKING:
@@ -16,6 +17,8 @@ if TYPE_CHECKING:
 
 FILE_LIMIT: Final = 60
 """Of each kind; a workspace of many robots has more, most of them of others."""
+FOLDERS_TOLD: Final = 300
+"""The system watches so many without being asked to."""
 _FOLDER_LIMIT: Final = 400
 """Of one package."""
 _DEPTH_LIMIT: Final = 5
@@ -29,6 +32,8 @@ class PoseFiles(NamedTuple):
 
     srdf: tuple[Path, ...]
     initial: tuple[Path, ...]
+    folders: tuple[Path, ...] = ()
+    """Where they were looked for, and where new ones would be."""
 
 
 def pose_files(entry: Path, index: PackageIndex, served: ServedRoots) -> PoseFiles:
@@ -38,14 +43,29 @@ def pose_files(entry: Path, index: PackageIndex, served: ServedRoots) -> PoseFil
     """
     srdf: dict[Path, None] = {}
     initial: dict[Path, None] = {}
+    places: list[Path] = []
     for folder in _folders(entry, index, served):
-        for path in _files_below(folder):
-            name = path.name.lower()
-            if name.endswith(_SRDF):
+        for path in _files_below(folder, places):
+            if _is_srdf(path.name):
                 srdf[path] = None
-            elif name.endswith(_YAML) and "initial_positions" in name:
+            elif _is_initial(path.name):
                 initial[path] = None
-    return PoseFiles(_served(srdf, served), _served(initial, served))
+    told = tuple(one for one in places if served.serves(one))[:FOLDERS_TOLD]
+    return PoseFiles(_served(srdf, served), _served(initial, served), told)
+
+
+def may_name_poses(path: str) -> bool:
+    """Whether a new file may do so, by its name; or it is a folder, which may hold such files."""
+    name = Path(path).name
+    return _is_srdf(name) or _is_initial(name) or is_folder(Path(path))
+
+
+def _is_srdf(name: str) -> bool:
+    return name.lower().endswith(_SRDF)
+
+
+def _is_initial(name: str) -> bool:
+    return name.lower().endswith(_YAML) and "initial_positions" in name.lower()
 
 
 def _served(paths: Iterable[Path], served: ServedRoots) -> tuple[Path, ...]:
@@ -67,12 +87,14 @@ def _shared_letters(one: str, other: str) -> int:
     return next((at for at, (a, b) in pairs if a != b), min(len(one), len(other)))
 
 
-def _files_below(folder: Path) -> Iterator[Path]:
+def _files_below(folder: Path, places: list[Path]) -> Iterator[Path]:
+    """The files, in order; `places` is given the folders as they are read."""
     waiting = [(folder, 0)]
     for _ in range(_FOLDER_LIMIT):
         if not waiting:
             return
         place, depth = waiting.pop()
+        places.append(place)
         try:
             entries = sorted(os.scandir(place), key=lambda one: one.name)
         except OSError:

@@ -33,6 +33,26 @@ def test_a_written_file_is_told_and_its_neighbours_are_not(tmp_path: Path):
     watched(tmp_path, [other, a], {str(a)})
 
 
+def test_a_new_file_that_fits_is_told_in_a_folder_beside(tmp_path: Path):
+    beside = tmp_path / "config"
+    beside.mkdir()
+
+    async def run() -> None:
+        told: asyncio.Queue[set[str]] = asyncio.Queue()
+        watch = FileWatch(told.put, lambda path: path.endswith(".srdf"))
+        watch.watch([str(tmp_path / "a.xacro")], [str(beside)])
+        try:
+            while told.empty():
+                for name in ("new.txt", "new.srdf"):
+                    (beside / name).write_text(str(asyncio.get_running_loop().time()))
+                await asyncio.sleep(0.1)
+            assert await told.get() == {str(beside / "new.srdf")}
+        finally:
+            await watch.close()
+
+    asyncio.run(run())
+
+
 def test_a_file_that_an_editor_replaces_is_told(tmp_path: Path):
     a = tmp_path / "a.xacro"
     a.write_text("")

@@ -34,6 +34,8 @@ class FoundPoses:
     group_states: tuple[NamedPose, ...] = ()
     initial: tuple[NamedPose, ...] = ()
     files: frozenset[str] = frozenset()
+    folders: frozenset[str] = frozenset()
+    """Where others would be found."""
 
 
 async def read_poses_around(
@@ -63,7 +65,10 @@ async def read_poses_around(
     read = {str(path) for path in (*files.srdf, *files.initial)}
     read |= {file for run in runs for file in run.files}
     return FoundPoses(
-        tuple(_once(states))[:_POSE_LIMIT], tuple(_once(initial))[:_POSE_LIMIT], frozenset(read)
+        tuple(_once(states))[:_POSE_LIMIT],
+        tuple(_once(initial))[:_POSE_LIMIT],
+        frozenset(read),
+        frozenset(map(str, files.folders)),
     )
 
 

@@ -18,6 +18,7 @@ from studio.engine.posing.pose_reading import FoundPoses, read_poses_around
 from studio.engine.states.second_robot import argument_values
 from studio.engine.watching import FileWatch
 from studio.errors import CommandError
+from studio.packages.pose_files import may_name_poses
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
@@ -48,7 +49,7 @@ class PoseDesk:
         self._made_from: object = None
         """Arguments, packages and robot that they were looked for with; None: look anew."""
         self._told: Poses | None = None
-        self._watch = FileWatch(self._changed_on_disk)
+        self._watch = FileWatch(self._changed_on_disk, may_name_poses)
         self._watch.watch({str(self._shelf.path)})
         self._lookout = Lookout(self._look, pause_s=_PAUSE_S)
         self._later: asyncio.Task[None] | None = None
@@ -154,8 +155,9 @@ class PoseDesk:
             name,
             self._services.description_worker,
         )
-        watched = {str(self._shelf.path), *self._found.files}
-        self._watch.watch(watched)
+        files, folders = {str(self._shelf.path), *self._found.files}, self._found.folders
+        self._watch.watch(files, folders)
+        watched = files | folders
         self._look_again_at(watched, await asyncio.to_thread(_stamps, watched))
         self._shelf.look()
 
@@ -203,7 +205,7 @@ class PoseDesk:
 
 
 def _stamps(files: Iterable[str]) -> dict[str, int]:
-    """When each file was written last; those that are not there are left out."""
+    """When each file or folder was written last; those that are not there are left out."""
     found: dict[str, int] = {}
     for file in files:
         with contextlib.suppress(OSError):

@@ -134,6 +134,27 @@ def test_a_changed_srdf_is_read_again(tmp_path: Path):
     asyncio.run(run())
 
 
+def test_files_that_come_while_the_robot_is_open_are_seen_and_those_that_go(tmp_path: Path):
+    entry = write_arm(tmp_path / "src")
+    config = tmp_path / "src/arm_moveit_config/config"
+    srdf = (config / "arm.srdf.xacro").rename(tmp_path / "kept")
+
+    async def run() -> None:
+        async with desk(entry, tmp_path / "data") as arm:
+            assert arm.names == []
+            (config / "readme.txt").write_text("")
+            srdf.rename(config / "new.srdf.xacro")
+            await until(lambda: arm.names == [("srdf", "folded")])
+            beside = entry.parent.parent / "config"
+            beside.mkdir()
+            (beside / "initial_positions.yaml").write_text("initial_positions:\n  shoulder: 0.5\n")
+            await until(lambda: len(arm.names) == 2)
+            (config / "new.srdf.xacro").unlink()
+            await until(lambda: [kind for kind, _ in arm.names] == ["initial"])
+
+    asyncio.run(run())
+
+
 def test_states_of_other_robots_are_left_out(tmp_path: Path):
     async def run() -> None:
         other = SRDF.replace('name="arm"', 'name="other"').replace("folded", "theirs")
