@@ -14,6 +14,27 @@ export function isChanged(site) {
   return site.saved_text !== null && site.saved_text !== site.text;
 }
 
+/**
+ * Whether a sentence names something, and not only another thing whose name holds that name.
+ *
+ * @param {string} sentence
+ * @param {string} name
+ * @returns {boolean}
+ */
+export function names(sentence, name) {
+  if (name === "") return false;
+  for (let at = sentence.indexOf(name); at >= 0; at = sentence.indexOf(name, at + 1)) {
+    const around = [sentence.slice(0, at), sentence.slice(at + name.length)];
+    if (!OF_A_NAME_BEFORE.test(around[0] ?? "") && !OF_A_NAME_AFTER.test(around[1] ?? ""))
+      return true;
+  }
+  return false;
+}
+
+/** What makes a name longer; a full stop does where more follows. */
+const OF_A_NAME_BEFORE = /(?:[\p{L}\p{N}_-]|[\p{L}\p{N}_]\.)$/u;
+const OF_A_NAME_AFTER = /^(?:[\p{L}\p{N}_-]|\.[\p{L}\p{N}_])/u;
+
 /** @param {SiteView} site @returns {string} its name without the path that its heading already says */
 export function shortName({ name, group }) {
   return group !== "" && name.startsWith(`${group}.`) ? name.slice(group.length + 1) : name;

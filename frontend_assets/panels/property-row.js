@@ -17,7 +17,7 @@ import { t } from "../lib/i18n.js";
 import { latestSender } from "../lib/latest.js";
 import { formatNumber, toDegrees } from "../lib/numbers.js";
 import { placeText } from "../lib/paths.js";
-import { isChanged, shortName } from "../lib/sites.js";
+import { isChanged, names, shortName } from "../lib/sites.js";
 import { Icon, IconButton, MenuButton } from "../lib/ui.js";
 import { Editor } from "./property-editors.js";
 
@@ -108,14 +108,14 @@ function useAttempt({ attempt }, site) {
 
 /** @param {SiteView} site @param {boolean} tried @returns {string | null} the error that stands at its very line */
 function failureOf(site, tried) {
-  const found = problems.value.find(
+  const found = problems.value.filter(
     ({ severity, place }) =>
       severity === "error" && place?.file === site.file && place.line === site.line,
   );
-  // Several texts may share a line: only one that was changed, or that alone stands there, is to blame.
-  return found && (tried || isChanged(site) || found.sentence.includes(site.name))
-    ? found.sentence
-    : null;
+  // Several texts may share a line: only one that was changed, or that is named, is to blame.
+  const own = found.find(({ sentence }) => names(sentence, site.name));
+  const failure = own ?? (tried || isChanged(site) ? found[0] : undefined);
+  return failure?.sentence ?? null;
 }
 
 /** @param {{site: SiteView, changed: boolean}} props */

@@ -1,6 +1,12 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { countKinds, groupSites, isChanged, shortName } from "../../frontend_assets/lib/sites.js";
+import {
+  countKinds,
+  groupSites,
+  isChanged,
+  names,
+  shortName,
+} from "../../frontend_assets/lib/sites.js";
 
 /** @import { SiteView } from "../../frontend_assets/types/wire.d.ts" */
 
@@ -94,4 +100,26 @@ test("a path is not said twice, in the heading and in the name", () => {
   assert.equal(shortName(site("limits.pan.max", { group: "limits.pan" })), "max");
   assert.equal(shortName(site("limits.panning", { group: "limits.pan" })), "limits.panning");
   assert.equal(shortName(site("limits", { group: "" })), "limits");
+});
+
+test("a sentence names a property by its whole name only", () => {
+  for (const sentence of [
+    '"wheel" is not defined',
+    "wheel: no number.",
+    "of ${wheel}",
+    "see wheel.",
+  ])
+    assert.ok(names(sentence, "wheel"), sentence);
+  for (const sentence of [
+    '"wheel_radius" is not defined',
+    "front_wheel: no number.",
+    "arm.wheel",
+    "wheel.radius",
+    "räwheel",
+    "wheel-2",
+    "",
+  ])
+    assert.ok(!names(sentence, "wheel"), sentence);
+  assert.ok(names("wheel_radius is twice wheel", "wheel"));
+  assert.ok(!names("anything", ""));
 });
