@@ -183,6 +183,8 @@ def test_folders_are_walked_through_and_filtered_by_keys(tab: StudioPage):
     dialog.get_by_role("navigation").get_by_text("own_robot").wait_for()
     dialog.get_by_role("button", name="urdf", exact=True).press("Enter")
     dialog.get_by_text("own.urdf", exact=True).wait_for()
+    holds_focus = "one => one.contains(document.activeElement)"
+    wait_until("the focus to be in the list again", lambda: dialog.evaluate(holds_focus))
     keys.press("z")
     dialog.get_by_text("Nothing matches").wait_for()
     keys.press("Escape")

@@ -14,7 +14,14 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Generator
     from pathlib import Path
 
-    from playwright.sync_api import Browser, BrowserContext, ConsoleMessage, Locator, Page
+    from playwright.sync_api import (
+        Browser,
+        BrowserContext,
+        ConsoleMessage,
+        FloatRect,
+        Locator,
+        Page,
+    )
 
     from tests.support.server import RunningStudio
 
@@ -123,6 +130,21 @@ class StudioPage:
             lambda: abs(float(self.box(name).input_value()) - wanted) < 1e-9,
         )
         return self.box(name).input_value()
+
+    def _resting_place(self, control: Locator) -> FloatRect:
+        """Where a control is seen once nothing moves it any more: a list may still close up."""
+        control.scroll_into_view_if_needed()
+        last = control.bounding_box()
+
+        def rests() -> bool:
+            nonlocal last
+            self.page.evaluate(_SEVERAL_FRAMES)
+            before, last = last, control.bounding_box()
+            return last is not None and before == last
+
+        wait_until("the control to stand still", rests)
+        assert last is not None
+        return last
 
     def agree_to_save(self) -> None:
         """Save what the window that shows the changes holds, by the one key that it takes."""
