@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from studio.robot.values import Robot
 from tests.support.robots import rover
 from tests.support.scene_page import HEIGHT, WIDTH, ScenePage
 from tests.support.scene_server import SceneServer
@@ -123,6 +124,48 @@ def test_the_link_under_the_mouse_is_told_when_it_hovers_and_is_clicked(
     assert view.heard("hover") == [{"link": link}]
     view.page.mouse.click(*view.place_of(node))
     assert view.heard("select") == [{"link": link}]
+
+
+@pytest.fixture
+def ghost(view: ScenePage) -> Iterator[ScenePage]:
+    """The same, with a ghost of the robot to be shown; it is gone for the next test."""
+    yield view
+    view.server.call(lambda scene: (scene.ghost.show(Robot("")), scene.flush()))
+    view.until("!window.__viserMutable.nodeRefFromName['/ghost/camera/0']")
+
+
+def show_ghost(view: ScenePage, up_m: float) -> tuple[float, float]:
+    """Show one so far above the robot; where its camera is on screen."""
+    robot, names = view.robot, view.kinematics.link_names
+    poses = view.kinematics.wxyz_xyz(view.kinematics.positions_with_mimic({}))
+    view.server.call(
+        lambda scene: (
+            scene.ghost.show(robot),
+            scene.ghost.set_poses(names, poses),
+            scene.ghost.shift((0, 0, up_m)),
+            scene.flush(),
+        )
+    )
+    view.until("window.__viserMutable.nodeRefFromName['/ghost/camera/0']")
+    view.pictures(2)
+    x, y = view.run("middleOf('/ghost/camera/0')")
+    return x, y
+
+
+def test_the_ghost_of_a_comparison_is_neither_pointed_at_nor_clicked(ghost: ScenePage):
+    x, y = show_ghost(ghost, 0.3)
+    red, green, blue, _ = ghost.run(f"colorAt({x}, {y})")
+    assert blue > red > green  # it is what is seen there
+    ghost.page.mouse.move(x, y)
+    ghost.page.mouse.click(x, y)
+    assert ghost.heard("select") == [{"link": None}]
+    assert {one["link"] for one in ghost.heard("hover")} <= {None}
+
+
+def test_a_click_goes_through_the_ghost_to_the_robot_in_it(ghost: ScenePage):
+    place = show_ghost(ghost, 0.0)
+    ghost.page.mouse.click(*place)
+    assert ghost.heard("select") == [{"link": "camera"}]
 
 
 def test_a_click_into_empty_space_takes_the_selection_back(view: ScenePage):
