@@ -52,6 +52,8 @@ class Holding:
             if one.tag == "joint"
         ]
         self._holders: dict[str, _Joint] = {}
+        self._known_roots: dict[str, str] = {}
+        """Of links that were asked for: long chains are walked once."""
         self.second: list[_Joint] = []
         for joint in self.joints:
             if joint.parent in self.links and joint.child in self.links:
@@ -83,10 +85,12 @@ class Holding:
     def _root(self, link: str) -> str:
         """The link above all; empty in a round."""
         seen: set[str] = set()
-        while link in self._holders and link not in seen:
+        while link not in self._known_roots and link not in seen and link in self._holders:
             seen.add(link)
             link = self._holders[link].parent
-        return "" if link in seen else link
+        root = self._known_roots.get(link, "" if link in seen else link)
+        self._known_roots |= dict.fromkeys(seen, root)
+        return root
 
     def _second_parent(self, joint: _Joint) -> Iterator[Problem]:
         first = self._holders[joint.child]

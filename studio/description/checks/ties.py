@@ -45,8 +45,9 @@ def loose_ties(run: CheckedRun) -> Iterator[Problem]:
     ties = [tie for one in run.keys if one.tag == "joint" for tie in _ties(one)]
     named = {tie.link for tie in ties}
     dangling = [tie for tie in ties if tie.link not in links]
+    holding = Holding(run) if dangling else None
     for tie in dangling[:_FOUND_LIMIT]:
-        yield _dangling(run, tie, links, named)
+        yield _dangling(run, tie, links, named, holding)
     if not dangling:
         yield from _several_roots(run, links, ties)
 
@@ -63,14 +64,18 @@ def _ties(joint: OutputElement) -> Iterator[_Tie]:
 
 
 def _dangling(
-    run: CheckedRun, tie: _Tie, links: dict[str, OutputElement], named: set[str]
+    run: CheckedRun,
+    tie: _Tie,
+    links: dict[str, OutputElement],
+    named: set[str],
+    holding: Holding | None,
 ) -> Problem:
     """A joint names a link that is not there: another name was meant, or the link is missing."""
     meant = _meant(tie.link, links)
     fix = _spelling_fix(tie, meant, links, named)
     if not meant:
         fix, meant = _link_fix(tie), ""
-        if tie.role == "parent" and (only := Holding(run).only_parent(_child(tie))):
+        if tie.role == "parent" and holding and (only := holding.only_parent(_child(tie))):
             fix, meant = _parent_fix(tie, only), only
     advice = f'did you mean "{meant}"?' if meant else "add the link, or name one that is there."
     sentence = (
