@@ -151,6 +151,8 @@ class Worker:
             stdin=asyncio.subprocess.PIPE,
             stdout=asyncio.subprocess.PIPE,
             limit=1 << 20,
+            # Ctrl-C reaches a whole group: it would meet the worker before it can ignore it.
+            process_group=0 if sys.platform != "win32" else None,
         )
 
     async def _exchange(self, process: asyncio.subprocess.Process, request: object) -> bytes:

@@ -76,6 +76,18 @@ def test_a_request_that_means_nothing_to_a_new_process_starts_none():
     asyncio.run(run())
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="there are no groups of processes")
+def test_ctrl_c_in_the_terminal_does_not_reach_a_worker_however_young():
+    async def run() -> None:
+        worker = Worker("xacro", "studio.description.worker", CODEC)
+        await worker.warm()
+        assert worker.pid is not None
+        assert os.getpgid(worker.pid) != os.getpgid(0)
+        await worker.close()
+
+    asyncio.run(run())
+
+
 def spender() -> Worker:
     return Worker("spending", "tests.support.spending_worker", spending_worker.CODEC)
 
