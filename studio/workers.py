@@ -152,7 +152,7 @@ class Worker:
             stdout=asyncio.subprocess.PIPE,
             limit=1 << 20,
             # Ctrl-C reaches a whole group: it would meet the worker before it can ignore it.
-            process_group=0 if sys.platform != "win32" else None,
+            start_new_session=True,
         )
 
     async def _exchange(self, process: asyncio.subprocess.Process, request: object) -> bytes:

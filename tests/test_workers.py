@@ -78,6 +78,8 @@ def test_a_request_that_means_nothing_to_a_new_process_starts_none():
 
 @pytest.mark.skipif(sys.platform == "win32", reason="there are no groups of processes")
 def test_ctrl_c_in_the_terminal_does_not_reach_a_worker_however_young():
+    uvloop = pytest.importorskip("uvloop")  # the loop of the server, where there is one
+
     async def run() -> None:
         worker = Worker("xacro", "studio.description.worker", CODEC)
         await worker.warm()
@@ -85,7 +87,9 @@ def test_ctrl_c_in_the_terminal_does_not_reach_a_worker_however_young():
         assert os.getpgid(worker.pid) != os.getpgid(0)
         await worker.close()
 
-    asyncio.run(run())
+    for loops in (asyncio.new_event_loop, uvloop.new_event_loop):
+        with asyncio.Runner(loop_factory=loops) as runner:
+            runner.run(run())
 
 
 def spender() -> Worker:
@@ -97,14 +101,18 @@ def neighbours(pid: int, count: int) -> Generator[None]:
     """Processes without end that share one processor with this one."""
     core = min(os.sched_getaffinity(0))
     os.sched_setaffinity(pid, {core})
-    busy = f"import os; os.sched_setaffinity(0, {{{core}}})\nwhile True: pass"
-    others = [subprocess.Popen([sys.executable, "-c", busy]) for _ in range(count)]
+    busy = f"import os; os.sched_setaffinity(0, {{{core}}}); print(flush=True)\nwhile True: pass"
+    command = [sys.executable, "-c", busy]
+    others = [subprocess.Popen(command, stdout=subprocess.PIPE) for _ in range(count)]
+    for other in others:
+        assert other.stdout is not None
+        other.stdout.readline()
     try:
         yield
     finally:
         for other in others:
             other.kill()
-            other.wait()
+            other.communicate()
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells how long a process waited")
