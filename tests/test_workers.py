@@ -103,7 +103,10 @@ def neighbours(pid: int, count: int) -> Generator[None]:
     os.sched_setaffinity(pid, {core})
     busy = f"import os; os.sched_setaffinity(0, {{{core}}}); print(flush=True)\nwhile True: pass"
     command = [sys.executable, "-c", busy]
-    others = [subprocess.Popen(command, stdout=subprocess.PIPE) for _ in range(count)]
+    others = [  # each a session, as the worker is: Linux shares a processor among those
+        subprocess.Popen(command, stdout=subprocess.PIPE, start_new_session=True)
+        for _ in range(count)
+    ]
     for other in others:
         assert other.stdout is not None
         other.stdout.readline()
