@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 
-# WebGL without a GPU, and the page around it drawn by the processor itself: composed by SwiftShader,
+# WebGL without a GPU; the page around it is drawn by the processor itself: composed by SwiftShader,
 # too, four browsers took twice as long. The rest keeps Chromium from calling home.
 FLAGS = (
     "--headless=new",
