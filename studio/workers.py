@@ -169,6 +169,9 @@ class Worker:
             return None
         with contextlib.suppress(ProcessLookupError):
             process.kill()
+        assert process.stdout is not None
+        with contextlib.suppress(RuntimeError):  # whoever asks reads it already
+            await process.stdout.read()  # to its end, or asyncio holds the pipe for open
         return await process.wait()
 
 

@@ -6,21 +6,26 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import time
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from watchfiles import awatch
 
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable, Iterable
 
-_DEBOUNCE_MS = 50
+_DEBOUNCE_MS: Final = 50
+_TICK_NS: Final = 20_000_000
+"""A file's time may be so much older than the moment that it was written."""
 
 
 class FileWatch:
     """Watches the folders of a set of files and reports those of the set that changed.
 
     Folders are watched rather than files, because editors replace a file instead of writing it.
+    Whoever asks has read the files since it asked before, so what changed between then and now,
+    when nobody watched yet, is told as well; now and then that is a word too many.
 
     Args:
         changed: Told of each bundle of changes.
@@ -38,8 +43,10 @@ class FileWatch:
         self._folders: frozenset[str] = frozenset()
         self._beside: frozenset[str] = frozenset()
         self._some_missing = False
+        self._seen_until_ns = time.time_ns()
         self._stop = asyncio.Event()
         self._task: asyncio.Task[None] | None = None
+        self._catching_up: set[asyncio.Task[None]] = set()
 
     def watch(self, files: Iterable[str], beside: Iterable[str] = ()) -> None:
         """Watch these files from now on; cheap when their folders stay the same.
@@ -47,9 +54,14 @@ class FileWatch:
         `beside` are more folders, in which files that fit may come.
         """
         wanted, more = frozenset(files), frozenset(beside)
+        since_ns, self._seen_until_ns = self._seen_until_ns, time.time_ns()
         if (wanted, more) == (self._files, self._beside) and not self._some_missing:
             return
         self._files, self._beside = wanted, more
+        self._watch_folders(wanted, more)
+        self._catch_up(since_ns - _TICK_NS)
+
+    def _watch_folders(self, wanted: frozenset[str], more: frozenset[str]) -> None:
         parents = {Path(file).parent for file in wanted} | {Path(folder) for folder in more}
         folders = frozenset(str(folder) for folder in parents if folder.is_dir())
         self._some_missing = len(folders) < len(parents)
@@ -63,10 +75,24 @@ class FileWatch:
     async def close(self) -> None:
         """End the watch."""
         self._stop.set()
-        if self._task:
-            self._task.cancel()
-            with contextlib.suppress(asyncio.CancelledError):
-                await self._task
+        for task in (self._task, *self._catching_up):
+            if task:
+                task.cancel()
+                with contextlib.suppress(asyncio.CancelledError):
+                    await task
+
+    def _catch_up(self, since_ns: int) -> None:
+        """Tell what changed before the watch stood; it stands as soon as its task has begun."""
+
+        async def tell() -> None:
+            paths = self._files | self._beside
+            touched = await asyncio.to_thread(_touched, paths, since_ns, time.time_ns())
+            if meant := {path for path in touched if self._is_meant(path)}:
+                await self._changed(meant)
+
+        task = asyncio.create_task(tell())
+        self._catching_up.add(task)
+        task.add_done_callback(self._catching_up.discard)
 
     async def _run(self, folders: frozenset[str], stop: asyncio.Event) -> None:
         watched = awatch(*folders, recursive=False, stop_event=stop, debounce=_DEBOUNCE_MS)
@@ -77,3 +103,16 @@ class FileWatch:
 
     def _is_meant(self, path: str) -> bool:
         return path in self._files or (self._fits is not None and self._fits(path))
+
+
+def _touched(paths: Iterable[str], since_ns: int, until_ns: int) -> set[str]:
+    """Those of the paths that were written or removed at that time."""
+    return {path for path in paths if since_ns <= _changed_at_ns(Path(path)) <= until_ns}
+
+
+def _changed_at_ns(path: Path) -> int:
+    """When it was written last, or its folder if it is not there; 0 if that is not either."""
+    for one in (path, path.parent):
+        with contextlib.suppress(OSError):
+            return one.stat().st_mtime_ns
+    return 0

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import asyncio
-import contextlib
 from dataclasses import replace
-from pathlib import Path
 from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
 from studio.description.poses.named_poses import NamedPose
@@ -30,7 +27,6 @@ if TYPE_CHECKING:
 
 _PAUSE_S: Final = 0.2
 """Between two looks while somebody edits."""
-_WATCH_BEGINS_S: Final = 1.5
 _NAMES_SHOWN: Final = 12
 _SLACK: Final = 1e-6
 """rad or m by which a limit may be passed without a word: files round."""
@@ -52,7 +48,6 @@ class PoseDesk:
         self._watch = FileWatch(self._changed_on_disk, may_name_poses)
         self._watch.watch({str(self._shelf.path)})
         self._lookout = Lookout(self._look, pause_s=_PAUSE_S)
-        self._later: asyncio.Task[None] | None = None
 
     def events(self) -> Iterable[Poses]:
         """What a newcomer is told."""
@@ -65,9 +60,6 @@ class PoseDesk:
     async def close(self) -> None:
         """End what runs for it."""
         await self._lookout.close()
-        if self._later:
-            self._later.cancel()
-            await asyncio.gather(self._later, return_exceptions=True)
         await self._watch.close()
 
     def apply(self, command: ApplyPose) -> None:
@@ -157,21 +149,7 @@ class PoseDesk:
         )
         files, folders = {str(self._shelf.path), *self._found.files}, self._found.folders
         self._watch.watch(files, folders)
-        watched = files | folders
-        self._look_again_at(watched, await asyncio.to_thread(_stamps, watched))
         self._shelf.look()
-
-    def _look_again_at(self, files: set[str], stamps: dict[str, int]) -> None:
-        """What changes before the watch stands is told by nobody: see once, a moment later."""
-
-        async def look() -> None:
-            await asyncio.sleep(_WATCH_BEGINS_S)
-            if await asyncio.to_thread(_stamps, files) != stamps:
-                await self._changed_on_disk(files)
-
-        if self._later:
-            self._later.cancel()
-        self._later = asyncio.create_task(look())
 
     def _fitting(self) -> Iterator[tuple[_Kind, NamedPose]]:
         """One's own, all of them; of those that were found the ones that mean this robot."""
@@ -202,15 +180,6 @@ class PoseDesk:
         if news != self._told:
             self._told = news
             self._document.board.audience.post(encode(news))
-
-
-def _stamps(files: Iterable[str]) -> dict[str, int]:
-    """When each file or folder was written last; those that are not there are left out."""
-    found: dict[str, int] = {}
-    for file in files:
-        with contextlib.suppress(OSError):
-            found[file] = Path(file).stat().st_mtime_ns
-    return found
 
 
 def _key(kind: _Kind, pose: NamedPose) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import inspect
 import threading
 import time
@@ -124,7 +125,8 @@ class Service(Work):
             self._pending.clear()
             self._waiting.clear()
         for request in left:
-            request.query.drop()
+            with contextlib.suppress(RuntimeError):  # another thread answers it just now
+                request.query.drop()
 
     def _receive(self, query: Asked) -> None:
         payload, attachment = query.payload, query.attachment

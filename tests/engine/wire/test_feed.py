@@ -353,13 +353,16 @@ def test_a_document_that_is_closed_while_it_connects_leaves_nothing_on(
     async def run() -> None:
         async with studio(endpoint, tmp_path) as one:
             switched = asyncio.create_task(one.document.feed.publish_robot(running=True))
-            await until(lambda: one.ear.last("wire_state")["state"] == "connecting")
+            await until(lambda: one.ear.last("wire_state")["state"] != "off")
             await one.engine.execute(m.CloseDocument(document=one.document.id), one.ear)
             await switched
             await until(lambda: not tester.get_publishers_info_by_topic("/robot_description"))
-            names = [name for name, _ in tester.get_node_names_and_namespaces()]
-            assert "studio" in names
-            assert "robot_state_publisher" not in names
+
+            def names() -> list[str]:
+                return [name for name, _ in tester.get_node_names_and_namespaces()]
+
+            await until(lambda: "studio" in names())
+            assert "robot_state_publisher" not in names()
 
     asyncio.run(run())
 

@@ -95,8 +95,13 @@ def test_t4_a_late_joiner_gets_the_last_of_its_depth(nodes: tuple[Node, Node], q
     talker, listener = nodes
     topic = f"latched_{qos.reliability.name.lower()}"
     publisher = talker.create_publisher(String, topic, qos)
+    early: list[str] = []
+    first = listener.create_subscription(String, topic, lambda said: early.append(said.data), qos)
+    spin_until(lambda: publisher.get_subscription_count() == 1, talker)
     for number in range(5):
         publisher.publish(String(data=str(number)))
+    spin_until(lambda: "4" in early, listener)  # none is on its way any more
+    listener.destroy_subscription(first)
     heard: list[str] = []
     late = listener.create_subscription(String, topic, lambda said: heard.append(said.data), qos)
     spin_until(lambda: len(heard) >= 3, listener)
