@@ -46,6 +46,9 @@ export function completion(link) {
 /** @param {TextLink} link @param {CompletionContext} context @returns {Promise<CompletionResult | null>} */
 async function source(link, context) {
   if (!mayEdit.value || link.readOnly !== "" || !asks(context)) return null;
+  // Whoever types on asks anew: the studio answers the newest question only, and the editor
+  // would wait for ever after an old one without an answer.
+  context.addEventListener("abort", () => {}, { onDocChange: true });
   const found = await complete(link, context.pos);
   if (!found || context.aborted || found.items.length === 0) return null;
   return resultOf(found);

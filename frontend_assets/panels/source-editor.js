@@ -44,6 +44,7 @@ import { language, t } from "../lib/i18n.js";
 import { indentationOf } from "../lib/indentation.js";
 import { shortPath } from "../lib/paths.js";
 import { iconElement } from "../lib/ui.js";
+import { steadyCaret } from "./source-caret.js";
 import { changeMarks } from "./source-changes.js";
 import { LIGHTS } from "./source-lights.js";
 import { SOURCE_LOOK } from "./source-look.js";
@@ -96,6 +97,7 @@ export function commonExtensions(events) {
     ]),
     SOURCE_LOOK,
     LIGHTS,
+    steadyCaret(),
     EditorView.updateListener.of(({ state, docChanged, selectionSet }) => {
       if (docChanged || selectionSet) tellCursor(state, events);
     }),
