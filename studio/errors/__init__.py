@@ -72,6 +72,8 @@ StudioError
         UnknownFrameError
         UnconnectedFramesError
         TransformError
+    DisplayError
+        DisplayPropertyError
     AccessError
         NotAllowedError
     CommandError
@@ -101,6 +103,7 @@ from studio.errors.calls import (
     TransitionError,
     TypeDescriptionError,
 )
+from studio.errors.displays import DisplayError, DisplayPropertyError
 from studio.errors.files import (
     DataFolderError,
     ExportError,
@@ -189,6 +192,8 @@ __all__ = [
     "DataFolderError",
     "DescriptionError",
     "DestroyedError",
+    "DisplayError",
+    "DisplayPropertyError",
     "DraftError",
     "DroppedError",
     "EditError",

@@ -1,0 +1,1 @@
+"""What RViz calls displays: each makes a Drawing of the messages of its topics."""

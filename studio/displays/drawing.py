@@ -1,0 +1,251 @@
+"""Drawings: what a display wants to be seen, as plain values in the frames of its messages.
+
+A drawing maps paths to `Placed` groups, and a group maps names to shapes. Whoever draws compares by
+identity: a shape that is the very same object as before is not sent again, so a display keeps the
+objects that did not change. Arrays belong to the shape: nobody writes into them afterwards.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Literal, TypeAlias
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    import numpy as np
+    from numpy.typing import NDArray
+
+Rgb: TypeAlias = tuple[int, int, int]
+"""sRGB, 0 to 255."""
+Xyz: TypeAlias = tuple[float, float, float]
+"""m."""
+Wxyz: TypeAlias = tuple[float, float, float, float]
+"""A quaternion of length 1."""
+
+NO_TURN: Wxyz = (1.0, 0.0, 0.0, 0.0)
+ORIGIN: Xyz = (0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Points:
+    """A cloud.
+
+    Attributes:
+        positions: Shape (N, 3), float32, m.
+        colors: Shape (N, 3), uint8; or (3,) when all have one.
+        size_m: Edge of a square or diameter of a ball.
+        style: How each is drawn.
+        opacity: 1 is opaque.
+        precise: Whether half precision would be seen: 8 mm at 8 m and more, 62 mm at 64 m.
+    """
+
+    positions: NDArray[np.float32]
+    colors: NDArray[np.uint8]
+    size_m: float = 0.01
+    style: Literal["points", "squares", "flat squares", "spheres", "boxes", "tiles"] = "squares"
+    opacity: float = 1.0
+    precise: bool = False
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Lines:
+    """Straight pieces.
+
+    Attributes:
+        ends: Shape (N, 2, 3), float32, m.
+        colors: Shape (N, 2, 3), uint8; or (3,) when all have one.
+        width_m: Thickness in the scene; 0 is a hair line on the screen.
+        opacity: 1 is opaque.
+    """
+
+    ends: NDArray[np.float32]
+    colors: NDArray[np.uint8]
+    width_m: float = 0.0
+    opacity: float = 1.0
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Arrows:
+    """Arrows of one thickness.
+
+    Attributes:
+        ends: Shape (N, 2, 3), float32, m: tail and tip.
+        colors: Shape (N, 3), uint8; or (3,) when all have one.
+        shaft_diameter_m: Of the shaft.
+        head_diameter_m: Of the head.
+        head_length_m: Of the head, which is a part of the whole length.
+        opacity: 1 is opaque.
+    """
+
+    ends: NDArray[np.float32]
+    colors: NDArray[np.uint8]
+    shaft_diameter_m: float
+    head_diameter_m: float
+    head_length_m: float
+    opacity: float = 1.0
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Axes:
+    """Crosses of red, green and blue along x, y and z.
+
+    Attributes:
+        positions: Shape (N, 3), float32, m.
+        wxyz: Shape (N, 4), float32.
+        length_m: Of each axis.
+        radius_m: Of each axis.
+        opacity: 1 is opaque.
+    """
+
+    positions: NDArray[np.float32]
+    wxyz: NDArray[np.float32]
+    length_m: float = 1.0
+    radius_m: float = 0.1
+    opacity: float = 1.0
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Solids:
+    """Many of one kind: boxes, balls, cylinders along z, or cones along z that stand on their tip.
+
+    Attributes:
+        kind: Each fits into a cube with edges of 1 m around the origin; a cone reaches from its tip
+            at the origin to its base, 1 m across, at z = 1.
+        positions: Shape (N, 3), float32, m.
+        wxyz: Shape (N, 4), float32.
+        scales: Shape (N, 3), float32: edges or diameters, m.
+        colors: Shape (N, 3), uint8; or (3,) when all have one.
+        opacities: Shape (N,), float32; or one for all.
+    """
+
+    kind: Literal["box", "sphere", "cylinder", "cone"]
+    positions: NDArray[np.float32]
+    wxyz: NDArray[np.float32]
+    scales: NDArray[np.float32]
+    colors: NDArray[np.uint8]
+    opacities: NDArray[np.float32] | float = 1.0
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Triangles:
+    """A surface, seen from both sides.
+
+    Attributes:
+        vertices: Shape (V, 3), float32, m.
+        faces: Shape (F, 3), uint32.
+        colors: Shape (V, 3), uint8; or (3,) when all have one.
+        opacity: 1 is opaque.
+    """
+
+    vertices: NDArray[np.float32]
+    faces: NDArray[np.uint32]
+    colors: NDArray[np.uint8]
+    opacity: float = 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class MeshFile:
+    """A mesh by its address, `package://` or `file://`; `rgb` None: in its own colours."""
+
+    uri: str
+    scale: Xyz = (1.0, 1.0, 1.0)
+    rgb: Rgb | None = None
+    opacity: float = 1.0
+    position: Xyz = ORIGIN
+    wxyz: Wxyz = NO_TURN
+
+
+@dataclass(frozen=True, slots=True)
+class Text:
+    """Words that always face the camera; `height_m` 0: of constant size on the screen."""
+
+    text: str
+    position: Xyz = ORIGIN
+    height_m: float = 0.0
+    rgb: Rgb = (255, 255, 255)
+    opacity: float = 1.0
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Picture:
+    """A flat picture with sharp pixels in the xy plane; its least x and y are at the origin.
+
+    Attributes:
+        pixels: Shape (H, W, 4), uint8, RGBA; row 0 is that of the smallest y, column 0 that of the
+            smallest x.
+        size_m: Along x and y.
+        position: Of the corner.
+        wxyz: How it is turned about the corner.
+        behind: Whether everything else is drawn over it.
+    """
+
+    pixels: NDArray[np.uint8]
+    size_m: tuple[float, float]
+    position: Xyz = ORIGIN
+    wxyz: Wxyz = NO_TURN
+    behind: bool = False
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Frustum:
+    """What a camera sees, along z with x to the right and y down, and its picture at the far end.
+
+    Attributes:
+        fov_y_rad: Angle of view from top to bottom.
+        aspect: Width by height.
+        far_m: Distance of the far end.
+        image: Shape (H, W, 3), uint8, row 0 on top; None draws the edges alone.
+        rgb: Of the edges.
+        opacity: Of the picture.
+    """
+
+    fov_y_rad: float
+    aspect: float
+    far_m: float
+    image: NDArray[np.uint8] | None = None
+    rgb: Rgb = (200, 200, 200)
+    opacity: float = 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class GridLines:
+    """A grid of lines centred on the origin; `plane` names the two axes that it spans."""
+
+    plane: Literal["xy", "xz", "yz"]
+    cells: int
+    cell_m: float
+    width_m: float = 0.0
+    rgb: Rgb = (160, 160, 164)
+    opacity: float = 0.5
+    position: Xyz = ORIGIN
+
+
+Shape: TypeAlias = (
+    Points | Lines | Arrows | Axes | Solids | Triangles | MeshFile | Text | Picture | Frustum
+    | GridLines
+)  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Placed:
+    """Shapes in one frame at one moment.
+
+    Attributes:
+        frame: Its name on /tf.
+        stamp_ns: When the shapes were there, since the epoch; 0 is the newest that is known.
+        shapes: By name; names are plain words without slashes.
+        follows: Whether the shapes move with the frame from now on, as `frame_locked` markers do;
+            else they stay in the fixed frame where they were at the stamp.
+    """
+
+    frame: str
+    stamp_ns: int
+    shapes: Mapping[str, Shape] = field(default_factory=dict[str, Shape])
+    follows: bool = False
+
+
+Drawing: TypeAlias = "Mapping[str, Placed]"
+"""By path: words with slashes between, unique within the display."""
+
+NOTHING: Drawing = {}
