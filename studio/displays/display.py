@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, TypeAlias
 
 from studio.displays.drawing import NOTHING, Drawing
+from studio.displays.limits import Limits
 from studio.errors import DisplayPropertyError
 from studio.ros.cdr import Codec
 
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
 
 Reason: TypeAlias = Literal[
     "no_points", "not_finite", "out_of_range", "transparent", "empty", "bad_message",
-    "no_mesh", "unknown_field", "no_camera_info", "unsupported",
+    "no_mesh", "unknown_field", "no_camera_info", "unsupported", "thinned",
 ]  # fmt: skip
 """Why nothing, or not everything, is seen, as far as the display itself can know."""
 
@@ -86,6 +87,7 @@ class Display(ABC):
     def __init__(self, types: TypeLibrary, values: Mapping[str, Value] | None = None) -> None:
         self._types = types
         self._codecs: dict[str, Codec] = {}
+        self.limits = Limits()
         self.values: dict[str, Value] = {one.name: one.default for one in self.PROPERTIES}
         for name, value in (values or {}).items():
             self.values[name] = self._property(name).checked(value)
@@ -102,6 +104,14 @@ class Display(ABC):
     def changed(self, name: str) -> None:
         """A property has another value, or all (empty): what was drawn may look different."""
         del name
+
+    def properties(self) -> tuple[Property, ...]:
+        """What can be set now: of some displays more than at first, as namespaces of markers."""
+        return self.PROPERTIES
+
+    def limit(self, limits: Limits) -> None:
+        """Show at most so much of what comes from now on."""
+        self.limits = limits
 
     def take(self, received: Received, role: str = "") -> None:
         """Take in a message of one of the topics.
@@ -136,12 +146,11 @@ class Display(ABC):
             self._codecs[received.type_name] = codec
         return codec.decode(received.cdr)
 
-    @classmethod
-    def _property(cls, name: str) -> Property:
-        for one in cls.PROPERTIES:
+    def _property(self, name: str) -> Property:
+        for one in self.PROPERTIES:
             if one.name == name:
                 return one
-        raise DisplayPropertyError(name, f"is no property of {cls.KIND}", None)
+        raise DisplayPropertyError(name, f"is no property of {self.KIND}", None)
 
 
 class StillDisplay(Display):

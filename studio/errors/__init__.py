@@ -71,8 +71,10 @@ StudioError
     FrameError
         UnknownFrameError
         UnconnectedFramesError
+        ExtrapolationError
         TransformError
     DisplayError
+        DisplayMessageError
         DisplayPropertyError
     AccessError
         NotAllowedError
@@ -103,7 +105,7 @@ from studio.errors.calls import (
     TransitionError,
     TypeDescriptionError,
 )
-from studio.errors.displays import DisplayError, DisplayPropertyError
+from studio.errors.displays import DisplayError, DisplayMessageError, DisplayPropertyError
 from studio.errors.files import (
     DataFolderError,
     ExportError,
@@ -118,6 +120,7 @@ from studio.errors.files import (
     UploadError,
 )
 from studio.errors.frames import (
+    ExtrapolationError,
     FrameError,
     TransformError,
     UnconnectedFramesError,
@@ -145,6 +148,7 @@ from studio.errors.nodes import (
     CallRefusedError,
     DestroyedError,
     ExternalShutdownException,
+    ForeignAnswerError,
     NodeError,
     NotJoinedError,
     OtherTypeError,
@@ -193,6 +197,7 @@ __all__ = [
     "DescriptionError",
     "DestroyedError",
     "DisplayError",
+    "DisplayMessageError",
     "DisplayPropertyError",
     "DraftError",
     "DroppedError",
@@ -200,6 +205,8 @@ __all__ = [
     "ExpansionError",
     "ExportError",
     "ExternalShutdownException",
+    "ExtrapolationError",
+    "ForeignAnswerError",
     "ForeignEndpointError",
     "FrameError",
     "GoalStateError",

@@ -9,6 +9,14 @@ class DisplayError(StudioError):
     """A display cannot do what is asked of it."""
 
 
+class DisplayMessageError(DisplayError):
+    """A message that was read makes no sense, or cannot be drawn."""
+
+    def __init__(self, kind: str, reason: str) -> None:
+        super().__init__(f"The {kind} cannot be drawn: {reason}.")
+        self.kind, self.reason = kind, reason
+
+
 class DisplayPropertyError(DisplayError):
     """A property of a display is not there, or does not take a value."""
 

@@ -66,3 +66,14 @@ class CallRefusedError(CallError):
     def __init__(self, name: str, said: str) -> None:
         super().__init__(f'The service {name} refused the request: "{said}".')
         self.name, self.said = name, said
+
+
+class ForeignAnswerError(CallError):
+    """A server answered a request as no node on rmw_zenoh does."""
+
+    def __init__(self, name: str, reason: str) -> None:
+        super().__init__(
+            f"An answer of the service {name} was dropped: {reason}; its node is to repeat number "
+            "and sender of the request."
+        )
+        self.name, self.reason = name, reason
