@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping  # noqa: TC003 - msgspec reads it
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Final
 
-from studio.displays.properties import Value
+from studio.displays.properties import Value  # noqa: TC001 - msgspec reads it
 from studio.errors import CommandError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterator
 
 DISPLAYS_MAX: Final = 200
 
