@@ -39,7 +39,7 @@ def add(parser: argparse.ArgumentParser) -> None:
         help="given to each node: -p NAME:=VALUE, -r FROM:=TO",
     )
     parser.set_defaults(run=run)
-    add_wire_options(parser, router=STARTING)
+    add_wire_options(parser, router=STARTING, own_types=False)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -61,7 +61,7 @@ def _start(demos: Sequence[Demo], options: argparse.Namespace) -> int:
 
     arguments = ["--ros-args", *options.ros_args] if options.ros_args else []
     with (
-        opened_wire(options) as wire,
+        opened_wire(options, own_types=False) as wire,
         DemoProcesses.at(wire.settings) as processes,
     ):
         for demo in demos:

@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
+import sys
 from typing import TYPE_CHECKING
 
 from studio.cli.interface_types import add_type_options, known_types
+from studio.cli.pasted_types import PASTED, is_pasted
 from studio.cli.verbs import Verbs
-from studio.errors import UnknownTypeError
+from studio.cli.wire import profile_of
+from studio.errors import SettingsError, UnknownTypeError
 from studio.ros.names import full_type_name
-from studio.ros.profiles import profile_named
 
 if TYPE_CHECKING:
     import argparse
 
     from studio.ros.types.library import TypeLibrary
 
+_NAME_CHARACTERS_MAX = 1_000
 _TITLES = {"msg": "Messages", "srv": "Services", "action": "Actions"}
 
 
@@ -32,12 +35,18 @@ def add(parser: argparse.ArgumentParser) -> None:
     package.add_argument("package_name", metavar="PACKAGE")
     _add_common(package)
     show = verbs.add("show", _show, "print a type with the fields of all that it is made of")
-    show.add_argument("type", metavar="TYPE", help="for example geometry_msgs/msg/Pose")
+    show.add_argument(
+        "type", metavar="TYPE",
+        help="for example geometry_msgs/msg/Pose; - reads it from standard input",
+    )  # fmt: skip
     show.add_argument("--no-comments", action="store_true", help="leave all comments out")
     show.add_argument("--all-comments", action="store_true", help="those of nested types, too")
     _add_common(show)
+    type_hash = verbs.add("hash", _hash, "print the hash by which nodes know a type from another")
+    type_hash.add_argument("type", metavar="TYPE", help="as for show")
+    _add_common(type_hash)
     proto = verbs.add("proto", _proto, "print a value of a type as YAML, to fill in")
-    proto.add_argument("type", metavar="TYPE")
+    proto.add_argument("type", metavar="TYPE", help="as for show")
     proto.add_argument("--no-quotes", action="store_true", help="leave the outer quotes out")
     _add_common(proto)
 
@@ -49,12 +58,14 @@ def _add_kinds(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_common(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--distro", default="jazzy", help="of which ROS 2 (default: jazzy)")
+    parser.add_argument(
+        "--distro", help="humble, jazzy or kilted (default: ROS_DISTRO where known, else jazzy)"
+    )
     add_type_options(parser)
 
 
 def _library(options: argparse.Namespace) -> TypeLibrary:
-    return known_types(options, profile_named(options.distro).distro)
+    return known_types(options, profile_of(options).distro)
 
 
 def _list(options: argparse.Namespace) -> None:
@@ -89,15 +100,35 @@ def _show(options: argparse.Namespace) -> None:
         comments = Comments.NONE
     elif options.all_comments:
         comments = Comments.ALL
-    library = _library(options)
-    print(type_text(library, full_type_name(options.type), comments), end="")
+    name = _type_name(options)
+    print(type_text(_library(options), name, comments), end="")
+
+
+def _hash(options: argparse.Namespace) -> None:
+    name = _type_name(options)
+    print(_library(options).hash_of(name))
+
+
+def _type_name(options: argparse.Namespace) -> str:
+    """Give the type that is meant: `topic type` may be piped into these verbs.
+
+    Raises:
+        RosNameError: It names no type.
+        SettingsError: Standard input holds texts of types already.
+    """
+    if options.type.strip() != PASTED:
+        return full_type_name(options.type)
+    if any(is_pasted(path) for path in options.interfaces):
+        raise SettingsError("Standard input is read once: as TYPE or for --interfaces, not both.")
+    return full_type_name(sys.stdin.readline(_NAME_CHARACTERS_MAX).strip())
 
 
 def _proto(options: argparse.Namespace) -> None:
     from studio.ros.types.definitions import messages_of
     from studio.ros.types.plain import to_yaml
 
+    name = _type_name(options)
     library = _library(options)
-    asked = messages_of(library.interface(full_type_name(options.type)))[0]
+    asked = messages_of(library.interface(name))[0]
     text = to_yaml(library.message(asked.name)())
     print(text if options.no_quotes else f'"{text}"', end="" if options.no_quotes else "\n")

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from studio.cli.opened import add_package_options, opened_packages
+from studio.cli.pasted_types import is_pasted, pasted_texts
 from studio.errors import RosNameError, StudioError, UnreadableFileError
 from studio.packages.manifest import FILE_NAME, SIZE_LIMIT_BYTES, package_name
 from studio.packages.roots import ServedRoots, package_folder_of
@@ -27,7 +29,8 @@ def add_type_options(parser: argparse.ArgumentParser) -> None:
         type=Path,
         metavar="PATH",
         help="take the types of a package's folder, a folder of packages, or of one "
-        ".msg, .srv or .action file; nothing is built; may be given again",
+        ".msg, .srv or .action file; - takes what is pasted, each text below a line such as "
+        '"MSG: my_interfaces/Telemetry"; nothing is built; may be given again',
     )
     add_package_options(parser)
 
@@ -37,6 +40,7 @@ def known_types(options: argparse.Namespace, distro: str) -> TypeLibrary:
 
     Raises:
         UnreadableFileError: What `--interfaces` names is not there, or holds no types.
+        SettingsError: What was pasted does not say which types it defines.
         InterfaceTextError: A text given by `--interfaces` breaks a rule.
     """
     from studio.ros.types.library import TypeLibrary
@@ -46,7 +50,9 @@ def known_types(options: argparse.Namespace, distro: str) -> TypeLibrary:
     for name in sorted(index.names):
         _take_if_sound(library, index.best(name, Path.cwd()), name)
     for path in options.interfaces:
-        library.add_texts(_texts_at(path.expanduser().absolute()))
+        library.add_texts(
+            pasted_texts(sys.stdin) if is_pasted(path) else _texts_at(path.expanduser().absolute())
+        )
     return library
 
 

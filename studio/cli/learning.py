@@ -19,13 +19,18 @@ def learn_type(actor: Actor, endpoints: Iterable[GraphEndpoint]) -> None:
 
     Why one did not is said on stderr; whether the type is known is seen by who needs it.
     """
+    from studio.ros.describing import SERVICE_NAME
     from studio.ros.remote.type_asking import learn_from
 
     for endpoint in endpoints:
+        node = endpoint.node.path
+        if not actor.graph.has_server(f"{node}/{SERVICE_NAME}"):  # asking would wait for it
+            print(f"{node} does not tell what its types are made of.", file=sys.stderr)
+            continue
         try:
             learn_from(actor.node, endpoint)
         except StudioError as error:
-            print(f"{endpoint.node.path}: {error}", file=sys.stderr)
+            print(f"{node}: {error}", file=sys.stderr)
         else:
             return
 

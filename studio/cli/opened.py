@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,6 +12,7 @@ from studio.packages.environment import RosEnvironment
 from studio.packages.folder_memory import FolderMemory
 from studio.packages.index import Indexed, PackageIndex
 from studio.packages.manifest import FILE_NAME
+from studio.packages.presence import is_file
 from studio.packages.recent import last_opened
 from studio.packages.roots import ServedRoots, is_too_wide, package_folder_of, served_roots_for
 from studio.settings import data_folder, repository_or_wheel
@@ -20,6 +22,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
 _MEMORY = "package_index/commands"
+ENTRIES_MAX = 2_000
+"""A folder in which more lies is nobody's workspace: it would be looked through for long."""
 
 
 def add_package_options(parser: argparse.ArgumentParser) -> None:
@@ -73,7 +77,20 @@ def _workspace_of(folder: Path) -> tuple[Path, ...]:
         return (folder,)
     if (folder / "src").is_dir():
         return (folder / "src",)
-    return tuple(sorted(manifest.parent for manifest in folder.glob(f"*/{FILE_NAME}")))
+    return _packages_in(folder)
+
+
+def _packages_in(folder: Path) -> tuple[Path, ...]:
+    """The packages right in a folder, which may be any: one of downloads, or of pictures."""
+    try:
+        with os.scandir(folder) as entries:
+            looked_at = list(islice(entries, ENTRIES_MAX + 1))
+            names = sorted(one.name for one in looked_at)
+    except OSError:
+        return ()
+    if len(looked_at) > ENTRIES_MAX:
+        return ()
+    return tuple(folder / name for name in names if is_file(folder / name / FILE_NAME))
 
 
 def _last(data: Path) -> tuple[Path, ...]:

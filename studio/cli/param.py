@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import argparse
+import re
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -14,7 +16,6 @@ from studio.cli.wire import add_wire_options
 from studio.errors import WireError
 
 if TYPE_CHECKING:
-    import argparse
     from collections.abc import Callable
 
     from studio.ros.parameters.parameter import Parameter
@@ -34,6 +35,9 @@ def add(parser: argparse.ArgumentParser) -> None:
     listing.add_argument("--include-hidden-nodes", action="store_true", dest="hidden")
     listing.add_argument("--param-prefixes", nargs="+", default=[], metavar="PREFIX")
     listing.add_argument("--param-type", action="store_true", help="with their types")
+    listing.add_argument(
+        "--filter", type=_pattern, metavar="REGEX", help="those whose names begin so"
+    )
     add_wire_options(listing)
     get = _add_of_node(verbs, "get", _get, "print the value of a parameter")
     get.add_argument("parameter_name", metavar="NAME")
@@ -47,8 +51,17 @@ def add(parser: argparse.ArgumentParser) -> None:
     load = _add_of_node(verbs, "load", _load, "set the parameters that a file names")
     load.add_argument("parameter_file", metavar="FILE", type=Path)
     load.add_argument("--no-use-wildcard", action="store_true", help="not what * stands for")
+    delete = _add_of_node(verbs, "delete", _delete, "take a parameter away from a node")
+    delete.add_argument("parameter_name", metavar="NAME")
     describe = _add_of_node(verbs, "describe", _describe, "say what parameters are for")
     describe.add_argument("parameter_names", metavar="NAME", nargs="+")
+
+
+def _pattern(text: str) -> re.Pattern[str]:
+    try:
+        return re.compile(text)
+    except re.error as error:
+        raise argparse.ArgumentTypeError(f'"{text}" is no regular expression: {error}') from None
 
 
 def _add_of_node(verbs: Verbs, name: str, use: Use, summary: str) -> argparse.ArgumentParser:
@@ -92,6 +105,8 @@ def _list(options: argparse.Namespace) -> int:
 
 def _lines(remote: ParameterClient, options: argparse.Namespace) -> list[str]:
     names = remote.names(options.param_prefixes)
+    if options.filter is not None:
+        names = [name for name in names if options.filter.match(name)]
     if not options.param_type:
         return [f"  {name}\n" for name in names]
     return [f"  {one.name} (type: {one.type_.words})\n" for one in remote.get(names)]
@@ -122,16 +137,23 @@ def _set(remote: ParameterClient, options: argparse.Namespace) -> int:
 
     value = read_value(options.value.strip())
     (result,) = remote.set([Parameter(options.parameter_name, value=value)]) or [None]
-    return _report(result, "parameter")
+    return _report(result, "Set parameter successful", "Setting parameter failed")
 
 
-def _report(result: MessageValue | None, what: str) -> int:
-    """Say whether a parameter was set, and the node's reason; None when it did not answer that."""
+def _delete(remote: ParameterClient, options: argparse.Namespace) -> int:
+    from studio.ros.parameters.parameter import Parameter
+
+    (result,) = remote.set([Parameter(options.parameter_name)]) or [None]
+    return _report(result, "Deleted parameter successfully", "Deleting parameter failed")
+
+
+def _report(result: MessageValue | None, done: str, failed: str) -> int:
+    """Say what became of it, and the node's reason; None when it did not answer that."""
     reason = f": {harmless(result.reason)}" if result is not None and result.reason else ""
     if result is not None and result.successful:
-        print(f"Set {what} successful{reason}")
+        print(f"{done}{reason}")
         return 0
-    print(f"Setting {what} failed{reason}", file=sys.stderr)
+    print(f"{failed}{reason}", file=sys.stderr)
     return 1
 
 
@@ -163,7 +185,14 @@ def _load(remote: ParameterClient, options: argparse.Namespace) -> int:
     if not results:
         print(f"{path} says nothing of {remote.remote}", file=sys.stderr)
         return 1
-    return max(_report(result, f"parameter {one.name}") for one, result in results)
+    return max(
+        _report(
+            result,
+            f"Set parameter {one.name} successful",
+            f"Setting parameter {one.name} failed",
+        )
+        for one, result in results
+    )
 
 
 def _describe(remote: ParameterClient, options: argparse.Namespace) -> int:

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.support.command_line import started, studio
+from tests.support.command_line import comes_to, started, studio
 from tests.support.demos import running_demo
 from tests.support.wire import wait_until
 
@@ -55,9 +55,8 @@ def test_actions_are_listed_and_told(endpoint: str):
     assert studio("action", "list", *at).out == f"{NAME}\n"
     assert studio("action", "list", "-t", *at).out == f"{NAME} [{KIND}]\n"
     assert studio("action", "type", NAME, *at).out == f"{KIND}\n"
-    assert studio("action", "info", NAME, *at).out == (
-        f"Action: {NAME}\nAction clients: 0\nAction servers: 1\n    /turtlesim\n"
-    )
+    told = f"Action: {NAME}\nAction clients: 0\nAction servers: 1\n    /turtlesim\n"
+    comes_to(lambda ran: ran.out == told, "action", "info", NAME, *at)
     assert studio("action", "info", NAME, "-t", *at).out.endswith(f"    /turtlesim [{KIND}]\n")
 
 

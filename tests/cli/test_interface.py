@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import io
 from typing import TYPE_CHECKING
 
 import pytest
@@ -8,6 +9,8 @@ from tests.support.command_line import studio
 
 if TYPE_CHECKING:
     from pathlib import Path
+
+STRING_HASH = "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18"
 
 
 @pytest.fixture(autouse=True)
@@ -44,13 +47,40 @@ def test_t5_a_short_name_and_that_of_a_service_are_shown_too():
 
 
 @pytest.mark.parametrize(
-    "package", ["std_msgs", "sensor_msgs", "geometry_msgs", "nav_msgs", "action_msgs"]
+    "package",
+    [
+        "std_msgs",
+        "sensor_msgs",
+        "geometry_msgs",
+        "nav_msgs",
+        "action_msgs",
+        "builtin_interfaces",
+    ],
 )
 def test_t6_every_type_of_a_usual_package_is_listed(package: str):
     listed = studio("interface", "package", package).out.split()
     assert listed
     assert set(listed) < set(studio("interface", "list").out.split())
     assert package in studio("interface", "packages").out.split()
+
+
+def test_the_distribution_is_that_of_the_environment(monkeypatch: pytest.MonkeyPatch):
+    shown = "variance"
+    assert shown in studio("interface", "show", "sensor_msgs/msg/Range").out
+    monkeypatch.setenv("ROS_DISTRO", "humble")
+    assert shown not in studio("interface", "show", "sensor_msgs/msg/Range").out
+    other = studio("interface", "show", "sensor_msgs/msg/Range", "--distro", "jazzy")
+    assert shown in other.out
+
+
+def test_t5_the_type_may_be_piped_in(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr("sys.stdin", io.StringIO("std_msgs/msg/String\n"))
+    assert studio("interface", "show", "-").out == "string data\n"
+    monkeypatch.setattr("sys.stdin", io.StringIO("std_msgs/msg/String\n"))
+    assert studio("interface", "hash", "-").out == f"{STRING_HASH}\n"
+    ran = studio("interface", "show", "-", "--interfaces", "-")
+    assert ran.code == 2
+    assert "Standard input is read once" in ran.err
 
 
 def test_kinds_are_listed_alone_on_demand():

@@ -4,8 +4,9 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from studio.ros.messages import message
 from tests.support.command_line import studio
-from tests.support.demos import running_demo
+from tests.support.demos import node_at, running_demo
 
 if TYPE_CHECKING:
     from collections.abc import Generator
@@ -73,6 +74,30 @@ def test_p1_a_dump_is_loaded_again(endpoint: str, tmp_path: Path):
     assert "background_b: 12\n" in (tmp_path / "turtlesim.yaml").read_text()
 
 
+def test_p1_parameters_are_listed_by_what_their_names_begin_with(endpoint: str):
+    at = ("--connect", endpoint)
+    out = studio("param", "list", "/turtlesim", "--filter", ".*_[gr]$", *at).out
+    assert out == "  background_g\n  background_r\n"
+    ran = studio("param", "list", "--filter", "[", *at)
+    assert ran.code == 2
+    assert "is no regular expression" in ran.err
+
+
+def test_p2_a_parameter_that_keeps_its_type_is_not_deleted(endpoint: str):
+    ran = studio("param", "delete", "/turtlesim", "background_r", "--connect", endpoint)
+    assert (ran.code, ran.out) == (1, "")
+    assert ran.err.startswith("Deleting parameter failed: ")
+
+
+def test_p2_a_parameter_of_any_type_is_deleted(endpoint: str):
+    descriptor = message("rcl_interfaces/msg/ParameterDescriptor")(dynamic_typing=True)
+    with node_at(endpoint, "free") as node:
+        node.declare_parameter("spare", 3, descriptor)
+        ran = studio("param", "delete", "/free", "spare", "--connect", endpoint)
+        assert (ran.code, ran.out) == (0, "Deleted parameter successfully\n")
+        assert not node.has_parameter("spare")
+
+
 def test_p1_a_parameter_is_described(endpoint: str):
     out = studio("param", "describe", "/turtlesim", "background_b", "--connect", endpoint).out
     assert out.startswith("Parameter name: background_b\n  Type: integer\n")
@@ -88,6 +113,8 @@ def test_p1_a_parameter_is_described(endpoint: str):
         ("dump", "/nope"),
         ("get", "/turtlesim", "no_such"),
         ("set", "/turtlesim", "no_such", "1"),
+        ("delete", "/turtlesim", "no_such"),
+        ("delete", "/nope", "x"),
     ],
 )
 def test_what_is_not_there_ends_with_1(endpoint: str, words: tuple[str, ...]):

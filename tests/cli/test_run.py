@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.support.command_line import started, studio
+from tests.support.command_line import comes_to, started, studio
 from tests.support.wire import free_endpoint, wait_until
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ def test_n8_a_remap_moves_the_topic(endpoint: str):
              "__node:=other")  # fmt: skip
     with started(endpoint, *words) as talker:
         talker.wait_for("[other]: Publishing: ")
-        assert "/x" in studio("topic", "list", *at).out.split()
+        comes_to(lambda ran: "/x" in ran.out.split(), "topic", "list", *at)
         assert "/chatter" not in studio("topic", "list", *at).out.split()
 
 

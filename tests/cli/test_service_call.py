@@ -2,13 +2,12 @@ from __future__ import annotations
 
 import signal
 import threading
-import time
 from typing import TYPE_CHECKING
 
 import pytest
 
 from studio.ros.messages import service
-from tests.support.command_line import started, studio
+from tests.support.command_line import comes_to, started, studio
 from tests.support.demos import node_at, running_demo
 from tests.support.wire import PATIENCE_S, wait_until
 
@@ -40,9 +39,8 @@ def test_sv2_a_call_answers_42(endpoint: str):
 def test_sv2_list_info_type_and_find(endpoint: str):
     at = ("--connect", endpoint)
     assert f"/add_two_ints [{KIND}]\n" in studio("service", "list", "-t", *at).out
-    assert studio("service", "info", "/add_two_ints", *at).out == (
-        f"Type: {KIND}\nClients count: 0\nServices count: 1\n"
-    )
+    told = f"Type: {KIND}\nClients count: 0\nServices count: 1\n"
+    comes_to(lambda ran: ran.out == told, "service", "info", "/add_two_ints", *at)
     assert studio("service", "type", "/add_two_ints", *at).out == f"{KIND}\n"
     assert studio("service", "find", KIND, *at).out == "/add_two_ints\n"
     assert studio("service", "find", KIND, "-c", *at).out == "1\n"
@@ -64,9 +62,7 @@ def test_a_service_that_nobody_serves_is_waited_for(endpoint: str):
     assert ran.out == "waiting for service to become available...\n"
     with started(endpoint, "service", "call", "/nope", KIND, *at) as call:
         call.wait_for("waiting for service")
-        begun_s = time.monotonic()
-        assert call.stop(signal.SIGINT) == 2
-        assert time.monotonic() - begun_s < 2
+        assert call.stop(signal.SIGINT) == 2  # which waits for two seconds
 
 
 def test_sv3_a_service_that_never_answers_is_given_up(endpoint: str):

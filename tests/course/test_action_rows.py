@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -10,6 +9,7 @@ import pytest
 from studio.ros.action import ActionClient, GoalStatus
 from studio.ros.client import Node, action
 from tests.support.demos import node_at, running_demo
+from tests.support.patience import Stopwatch
 from tests.support.wire import PATIENCE_S, running_router, wait_until
 
 if TYPE_CHECKING:
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from studio.ros.action import ClientGoalHandle
     from studio.ros.client import Future
 
-pytestmark = [pytest.mark.network, pytest.mark.timeout(120)]
+pytestmark = pytest.mark.network
 CHOOSE_SONG = "radio_station_interfaces/action/ChooseSong"
 FAST = ("--ros-args", "-p", "step_seconds:=0.05")
 SLOW = ("--ros-args", "-p", "step_seconds:=0.5")
@@ -78,10 +78,10 @@ def test_a2_a_goal_that_is_cancelled_ends_canceled_within_a_second(router: str):
         requester = Requester(node)
         goal = requester.wish("Clocks")
         wait_until("the song plays", lambda: bool(requester.said))
-        began = time.monotonic()
+        watch = Stopwatch()
         assert finished(goal.cancel_goal_async()).goals_canceling
         answer = finished(goal.get_result_async())
-        assert time.monotonic() - began < 1.0
+        assert watch.s < 1.0
         assert answer.status == GoalStatus.CANCELED
         assert answer.result.final_message == "Stopped Clocks"
 

@@ -13,7 +13,7 @@ from tests.support.wire import running_router, wait_until
 if TYPE_CHECKING:
     from studio.ros.client import Node
 
-pytestmark = [pytest.mark.network, pytest.mark.timeout(120)]
+pytestmark = pytest.mark.network
 STEPS = (
     ("configure", "inactive"),
     ("activate", "active"),

@@ -14,7 +14,7 @@ from tests.support.wire import running_router
 if TYPE_CHECKING:
     from collections.abc import Generator
 
-pytestmark = [pytest.mark.network, pytest.mark.timeout(120)]
+pytestmark = pytest.mark.network
 GET_NOW_PLAYING = "radio_station_interfaces/srv/GetNowPlaying"
 
 

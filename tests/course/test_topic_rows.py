@@ -13,7 +13,7 @@ from tests.support.wire import running_router, wait_until
 if TYPE_CHECKING:
     from collections.abc import Generator
 
-pytestmark = [pytest.mark.network, pytest.mark.timeout(120)]
+pytestmark = pytest.mark.network
 
 
 @pytest.fixture(scope="module")

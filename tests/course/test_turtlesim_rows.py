@@ -16,7 +16,7 @@ from tests.support.wire import PATIENCE_S, running_router, wait_until
 if TYPE_CHECKING:
     from collections.abc import Generator
 
-pytestmark = [pytest.mark.network, pytest.mark.timeout(120)]
+pytestmark = pytest.mark.network
 POSE, COLOR = "turtlesim/msg/Pose", "turtlesim/msg/Color"
 MIDDLE = pytest.approx(5.544445, abs=1e-5)
 

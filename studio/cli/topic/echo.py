@@ -7,14 +7,18 @@ from typing import TYPE_CHECKING
 
 from studio.cli.acting import acting
 from studio.cli.terminal import shown
+from studio.cli.topic.filter_expression import filter_of
 from studio.cli.topic.joining import join_topic, subscribe
 from studio.cli.topic.qos_options import add_qos_options
 from studio.cli.wire import add_wire_options
+from studio.errors import SettingsError
+from studio.ros.types.classes import MessageValue
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from studio.cli.verbs import Verbs
     from studio.ros.node.info import MessageInfo
-    from studio.ros.types.classes import MessageValue
 
 _LENGTH = 128
 
@@ -39,7 +43,13 @@ def add_echo(verbs: Verbs) -> None:
         help=f"cut arrays and texts off after this many (default: {_LENGTH})",
     )  # fmt: skip
     echo.add_argument("--include-message-info", action="store_true", help="when and from whom")
-    echo.add_argument("--raw", action="store_true", help="print the bytes")
+    echo.add_argument(
+        "--raw", action="store_true", help="print the bytes, also of types that nobody knows"
+    )
+    echo.add_argument(
+        "--filter", metavar="EXPR",
+        help="print only messages of which this holds, a Python expression such as 'm.x > 1'",
+    )  # fmt: skip
     echo.add_argument(
         "--no-lost-messages", action="store_true", help="do not say how many were lost"
     )
@@ -58,8 +68,11 @@ def _length(text: str) -> int:
 def _run(options: argparse.Namespace) -> int:
     from studio.cli.topic.printing import Printing
 
+    is_taken = _filter(options)
     with acting(options) as actor:
-        joined = join_topic(actor, options, options.message_type)
+        joined = join_topic(
+            actor, options, options.topic_name, options.message_type, raw=options.raw
+        )
         if joined is None:
             return 1
         printing = Printing(options)
@@ -67,6 +80,8 @@ def _run(options: argparse.Namespace) -> int:
 
         def show(message: MessageValue | bytes, info: MessageInfo) -> None:
             nonlocal count
+            if isinstance(message, MessageValue) and not is_taken(message):
+                return
             if count == 0 or not options.once:
                 print(shown(printing.text(message, info)), flush=True)
                 count += 1
@@ -80,3 +95,16 @@ def _run(options: argparse.Namespace) -> int:
 
         came = actor.work_until(is_done, options.timeout)
         return 0 if came or count else 1
+
+
+def _filter(options: argparse.Namespace) -> Callable[[MessageValue], bool]:
+    """Give what chooses messages.
+
+    Raises:
+        SettingsError: Bytes cannot be chosen from, or the expression is none.
+    """
+    if options.filter is None:
+        return lambda _message: True
+    if options.raw:
+        raise SettingsError("--filter looks into messages, --raw does not read them: give one.")
+    return filter_of(options.filter)

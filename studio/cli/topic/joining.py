@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from studio.cli.learning import learn_type, say_foreign
 from studio.cli.looking import full_name
 from studio.cli.topic.qos_options import given_profile, is_given, matching_profile
+from studio.cli.topic.unread import listen_unread
 from studio.errors import UnknownTypeError
 from studio.ros.names import full_type_name
 
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from studio.cli.acting import Actor
+    from studio.ros.graph.endpoints import GraphEndpoint
     from studio.ros.node.subscription import Subscription
     from studio.ros.qos import QoSProfile
     from studio.ros.types.classes import MessageValue
@@ -24,20 +26,24 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Joined:
-    """What a verb listens to."""
+    """What a verb listens to; of a type that is not known only the bytes, in another's form."""
 
     name: str
-    kind: type[MessageValue]
+    kind: type[MessageValue] | GraphEndpoint
     qos: QoSProfile
 
 
-def join_topic(actor: Actor, options: argparse.Namespace, given_type: str | None) -> Joined | None:
+def join_topic(
+    actor: Actor, options: argparse.Namespace, topic: str, given_type: str | None, *, raw: bool
+) -> Joined | None:
     """Find out how to listen to a topic; None, after words on stderr, where that is not known.
+
+    Where bytes are enough (`raw`), a type that nobody knows is said and taken as it comes.
 
     Raises:
         UnknownTypeError: No such type is known, and nobody describes it.
     """
-    name = full_name(options.topic_name)
+    name = full_name(topic)
     types = dict(actor.graph.topics()).get(name, [])
     if not types:
         print(f"WARNING: topic [{name}] does not appear to be published yet", file=sys.stderr)
@@ -48,13 +54,37 @@ def join_topic(actor: Actor, options: argparse.Namespace, given_type: str | None
     qos = matching_profile([one.qos for one in publishers])
     if is_given(options):
         qos = given_profile(options, qos)
-    kind = _class_of(actor, name, type_name)
+    kind = _kind_of(actor, name, type_name, raw=raw)
     say_foreign(actor, [one for one in publishers if one.type_name == type_name])
     return Joined(name, kind, qos)
 
 
-def _class_of(actor: Actor, name: str, type_name: str) -> type[MessageValue]:
-    """Find the type among those that are known, else ask a node that uses it what it is.
+def _kind_of(
+    actor: Actor, name: str, type_name: str, *, raw: bool
+) -> type[MessageValue] | GraphEndpoint:
+    """Give the class of a type, or one who has the type where it is not known and need not be.
+
+    Raises:
+        UnknownTypeError: It is not known, and its bytes are not enough.
+    """
+    ends = [*actor.graph.publishers(name), *actor.graph.subscriptions(name)]
+    same = [one for one in ends if one.type_name == type_name]
+    try:
+        return _class_of(actor, type_name, same)
+    except UnknownTypeError as error:
+        if not same:
+            raise
+        if not raw:
+            reason = error.reason or "no known package defines it: open its package"
+            raise UnknownTypeError(
+                error.name, f"{reason}, give --interfaces, or see its bytes with --raw"
+            ) from None
+        print(f"WARNING: {error} Its bytes come as they are.", file=sys.stderr)
+        return same[0]
+
+
+def _class_of(actor: Actor, type_name: str, ends: list[GraphEndpoint]) -> type[MessageValue]:
+    """Find the type among those that are known, else ask the nodes that use it what it is.
 
     Raises:
         UnknownTypeError: It is not known, and nobody could say.
@@ -62,7 +92,7 @@ def _class_of(actor: Actor, name: str, type_name: str) -> type[MessageValue]:
     try:
         return actor.types.message(type_name)
     except UnknownTypeError:
-        learn_type(actor, [*actor.graph.publishers(name), *actor.graph.subscriptions(name)])
+        learn_type(actor, ends)
         return actor.types.message(type_name)
 
 
@@ -81,4 +111,8 @@ def subscribe(
     actor: Actor, joined: Joined, callback: Callable[..., object], *, raw: bool = False
 ) -> Subscription:
     """Listen to a topic."""
-    return actor.node.create_subscription(joined.kind, joined.name, callback, joined.qos, raw=raw)
+    if isinstance(joined.kind, type):
+        return actor.node.create_subscription(
+            joined.kind, joined.name, callback, joined.qos, raw=raw
+        )
+    return listen_unread(actor.node, joined.kind, callback, joined.qos)

@@ -60,11 +60,15 @@ class Rate:
         total_s = math.fsum(self._gaps_s)
         return len(self._gaps_s) / total_s if total_s > 0 else None
 
+    def gaps(self) -> Spread:
+        """Take the measure of the times between samples, seconds; there must be some."""
+        return Spread.of(self._gaps_s)
+
     def report(self) -> str | None:
         """Say it as `ros2 topic hz` does; None when there is nothing to say."""
         if self.hertz is None:
             return None
-        gaps = Spread.of(self._gaps_s)
+        gaps = self.gaps()
         return f"average rate: {self.hertz:.3f}\n{_spread_text(gaps, gaps.count + 1)}"
 
 

@@ -6,16 +6,18 @@ import argparse
 import itertools
 import sys
 import time
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from studio.cli.acting import acting
 from studio.cli.looking import full_name
+from studio.cli.topic.message_source import source_of
 from studio.cli.topic.qos_options import add_qos_options, given_profile
 from studio.cli.wire import STARTING, add_wire_options
 from studio.ros.names import full_type_name
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     from studio.cli.acting import Actor
     from studio.cli.verbs import Verbs
@@ -39,6 +41,12 @@ def add_pub(verbs: Verbs) -> None:
     pub.add_argument(
         "values", metavar="YAML", nargs="?", default="{}",
         help="the fields, for example \"data: 'Hello'\"; now is the time, a header may be auto",
+    )  # fmt: skip
+    source = pub.add_mutually_exclusive_group()
+    source.add_argument("--stdin", action="store_true", help="read the fields from standard input")
+    source.add_argument(
+        "--yaml-file", type=Path, metavar="FILE",
+        help="publish the messages of a file one after another, as topic echo printed them",
     )  # fmt: skip
     often = pub.add_mutually_exclusive_group()
     often.add_argument("-r", "--rate", type=_rate, metavar="HZ", help="a second (default: 1)")
@@ -84,22 +92,17 @@ def _run(options: argparse.Namespace) -> int:
     name = full_name(options.topic_name)
     with acting(options, options.node_name, answers=True) as actor:
         kind = actor.types.message(type_name)
-        first = _message(kind, options.values)
+        source = source_of(options, kind)
         qos = given_profile(options, QoSProfile(depth=10))
         publisher = actor.node.create_publisher(kind, name, qos)
         times = 1 if options.once else options.times
         wanted = options.wait if options.wait is not None else int(times is not None)
         if not _wait_for_listeners(actor, name, wanted, options.wait_s):
             return 1
-        _publish(options, _beats(actor, 1 / (options.rate or 1.0)), publisher, first, times)
+        beats = _beats(actor, 1 / (options.rate or 1.0))
+        _publish(_numbers(times, source.count), beats, source.messages, publisher, options.print)
         actor.work_until(lambda: False, max(0.0, options.keep_alive))
     return 0
-
-
-def _message(kind: type[MessageValue], text: str) -> MessageValue:
-    from studio.ros.types.plain import from_yaml
-
-    return from_yaml(kind, text, now_ns=time.time_ns())
 
 
 def _wait_for_listeners(actor: Actor, name: str, wanted: int, timeout_s: float | None) -> bool:
@@ -115,20 +118,24 @@ def _wait_for_listeners(actor: Actor, name: str, wanted: int, timeout_s: float |
     return True
 
 
+def _numbers(*counts: int | None) -> Iterable[int]:
+    """Number messages, as many as the least of those counts that are given."""
+    given = [one for one in counts if one is not None]
+    return range(1, min(given) + 1) if given else itertools.count(1)
+
+
 def _publish(
-    options: argparse.Namespace,
+    numbers: Iterable[int],
     beats: Iterator[None],
+    messages: Iterator[MessageValue],
     publisher: Publisher,
-    first: MessageValue,
-    times: int | None,
+    said_every: int,
 ) -> None:
     print("publisher: beginning loop", flush=True)
-    has_time = "now" in options.values or "auto" in options.values
-    numbers = itertools.count(1) if times is None else range(1, times + 1)
     for number in numbers:
         next(beats)
-        message = _message(publisher.msg_type, options.values) if has_time else first
-        if number % options.print == 0:
+        message = next(messages)
+        if number % said_every == 0:
             print(f"publishing #{number}: {message!r}\n", flush=True)
         publisher.publish(message)
 

@@ -51,6 +51,22 @@ def test_t1_what_is_shown_can_be_chosen(endpoint: str, options: tuple[str, ...],
     assert out == said.replace("'...'", "...")
 
 
+def test_t1_only_messages_of_which_a_filter_holds_are_shown(endpoint: str):
+    at = ("--connect", endpoint)
+    ran = studio("topic", "echo", "/joints", "--once", "--filter", "'b' in m.name", *at)
+    assert "- -2.5\n" in ran.out
+    words = ("topic", "echo", "/joints", "--timeout", "1")
+    assert studio(*words, "--filter", "m.position[1] > 0", *at).out == ""
+    for options, said in (
+        (("--filter", "m.no_such"), "has no field no_such"),
+        (("--filter", "import os"), "is no expression"),
+        (("--filter", "m.name", "--raw"), "give one"),
+    ):
+        ran = studio(*words, *options, *at)
+        assert ran.code == 2
+        assert said in ran.err
+
+
 def test_arrays_are_abbreviated_in_whole_messages(endpoint: str):
     out = studio("topic", "echo", "/joints", "--once", "--no-arr", "--connect", endpoint).out
     assert "position: '<sequence type: double, length: 2>'" in out

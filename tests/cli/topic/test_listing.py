@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.support.command_line import started, studio
+from tests.support.command_line import comes_to, started, studio
 from tests.support.wire import wait_until
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ def talker(endpoint: str) -> Generator[None]:
 
 def test_t1_topics_are_listed_with_their_types(endpoint: str):
     at = ("--connect", endpoint)
-    assert studio("topic", "list", *at).out == "/chatter\n/parameter_events\n"
+    comes_to(lambda ran: ran.out == "/chatter\n/parameter_events\n", "topic", "list", *at)
     typed = studio("topic", "list", "-t", *at).out.splitlines()
     assert typed[0] == "/chatter [std_msgs/msg/String]"
     assert studio("topic", "list", "-c", *at).out == "2\n"
@@ -34,9 +34,8 @@ def test_t1_topics_are_listed_with_their_types(endpoint: str):
 
 def test_t1_info_and_type_of_a_topic(endpoint: str):
     at = ("--connect", endpoint)
-    assert studio("topic", "info", "/chatter", *at).out == (
-        "Type: std_msgs/msg/String\nPublisher count: 1\nSubscription count: 0\n"
-    )
+    told = "Type: std_msgs/msg/String\nPublisher count: 1\nSubscription count: 0\n"
+    comes_to(lambda ran: ran.out == told, "topic", "info", "/chatter", *at)
     assert studio("topic", "type", "/chatter", *at).out == "std_msgs/msg/String\n"
     assert studio("topic", "type", "chatter", *at).out == "std_msgs/msg/String\n"
 
@@ -83,6 +82,6 @@ def test_n7_a_node_that_is_killed_is_listed_no_more(endpoint: str):
     at = ("--connect", endpoint)
     with started(endpoint, *words) as process:
         process.wait_for("publishing #1")
-        assert "/short_lived" in studio("node", "list", *at).out.split()
+        comes_to(lambda ran: "/short_lived" in ran.out.split(), "node", "list", *at)
     wait_until("gone", lambda: "/gone" not in studio("topic", "list", *at).out.split())
     wait_until("the node, too", lambda: studio("node", "list", *at).out == "/talker\n")

@@ -5,12 +5,13 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.ros.qos import DurabilityPolicy, QoSProfile
-from tests.support.command_line import started, studio
+from tests.support.command_line import comes_to, started, studio
 from tests.support.demos import heard, node_at
 from tests.support.wire import free_endpoint, wait_until
 
 if TYPE_CHECKING:
     from collections.abc import Generator
+    from pathlib import Path
 
     from studio.ros.client import Node
 
@@ -64,6 +65,18 @@ def test_the_message_may_stand_behind_options(endpoint: str, listener: Node):
     assert studio("topic", "pub", "/late", "std_msgs/msg/Int64", *twice).code == 2
 
 
+def test_t2_what_echo_printed_is_published_again(endpoint: str, listener: Node, tmp_path: Path):
+    numbers = heard(listener, "std_msgs/msg/Int64", "/again")
+    file = tmp_path / "said.yaml"
+    file.write_text("data: 7\n---\ndata: -8\n---\n")
+    words = ("topic", "pub", "/again", "std_msgs/msg/Int64", "-r", "200", "-w", "1", "--connect",
+             endpoint)  # fmt: skip
+    assert studio(*words, "--yaml-file", str(file)).code == 0
+    assert studio(*words, "--yaml-file", str(file), "-t", "1").code == 0
+    wait_until("all", lambda: [number.data for number in numbers] == [7, -8, 7])
+    assert studio(*words, "--yaml-file", str(file), "--stdin").code == 2
+
+
 def test_nobody_listens_within_the_time(endpoint: str):
     ran = studio("topic", "pub", "-1", "/unheard", "std_msgs/msg/String", "--max-wait-time-secs",
                  "0.1", "--connect", endpoint)  # fmt: skip
@@ -100,7 +113,7 @@ def test_without_a_router_one_is_started_for_as_long_as_it_runs():
     words = ("topic", "pub", "/chatter", "std_msgs/msg/String", *at)
     with started(endpoint, *words) as pub:
         pub.wait_for("publishing #1")
-        assert "/chatter" in studio("topic", "list", *at).out.split()
+        comes_to(lambda ran: "/chatter" in ran.out.split(), "topic", "list", *at)
     ran = studio("topic", "pub", "/chatter", "std_msgs/msg/String", "--router", "off", *at)
     assert ran.code == 2
     assert "No Zenoh router answers" in ran.err

@@ -1,0 +1,52 @@
+"""The course's rows on who is there: N1 and N2, nodes in processes of their own."""
+
+from __future__ import annotations
+
+import signal
+import time
+from typing import TYPE_CHECKING
+
+import pytest
+
+from studio.ros.graph.graph import Graph
+from studio.ros.node.context import Context
+from studio.ros.node.node import Node
+from tests.support.demos import running_demo
+from tests.support.wire import PATIENCE_S, open_test_session, running_router
+
+if TYPE_CHECKING:
+    from collections.abc import Generator
+
+pytestmark = [pytest.mark.network, pytest.mark.timeout(120)]
+
+
+@pytest.fixture(scope="module")
+def router() -> Generator[str]:
+    with running_router() as endpoint:
+        yield endpoint
+
+
+@pytest.fixture
+def graph(router: str) -> Generator[Graph]:
+    with open_test_session(router) as wire, Graph(wire) as made:
+        made.settle()
+        yield made
+
+
+def test_n1_a_node_appears_within_a_second(router: str, graph: Graph):
+    with open_test_session(router) as wire:
+        context = Context.over(wire)
+        begun_s = time.monotonic()
+        Node("newcomer", namespace="/class", context=context)
+        assert graph.wait_for(lambda: graph.node("/class/newcomer") is not None, PATIENCE_S)
+        assert time.monotonic() - begun_s < 1.0
+        context.shutdown()
+
+
+def test_n1_a_node_whose_process_is_killed_vanishes(router: str, graph: Graph):
+    with running_demo(router, "talker") as talker:
+        talker.wait_for("Publishing")
+        assert graph.wait_for(lambda: bool(graph.publishers("/chatter")), PATIENCE_S)
+        talker.stop(signal.SIGKILL)
+        assert graph.wait_for(lambda: not graph.publishers("/chatter"), PATIENCE_S)
+        assert graph.node("/topic_helloworld_pub") is None
