@@ -6,7 +6,7 @@ from collections.abc import Mapping  # noqa: TC003 - msgspec reads it
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Final
 
-from studio.displays.properties import Value  # noqa: TC001 - msgspec reads it
+from studio.displays.properties import Value
 from studio.errors import CommandError
 
 if TYPE_CHECKING:
