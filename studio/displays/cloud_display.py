@@ -1,0 +1,159 @@
+"""Display of clouds: what scans and point clouds share, from the message to what still is seen."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections import deque
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+from studio.displays.cloud_look import LOOK, colours_of, needs_precision, points_of
+from studio.displays.display import Display, Status
+from studio.displays.drawing import NOTHING, Drawing, Placed
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from studio.displays.cloud import Cloud
+    from studio.displays.display import Received
+    from studio.displays.limits import Limits
+    from studio.displays.properties import Property, Value
+    from studio.ros.types.library import TypeLibrary
+
+
+@dataclass(slots=True, eq=False)
+class _Kept:
+    """A message that is seen, where it is drawn, and how it was drawn last."""
+
+    path: str
+    received_ns: int
+    cloud: Cloud
+    placed: Placed | None = None
+    said: Status | None = None
+
+
+class CloudDisplay(Display):
+    """Keeps the newest cloud, and those before it until they decayed; derived classes read one."""
+
+    PROPERTIES: ClassVar[tuple[Property, ...]] = LOOK
+
+    def __init__(self, types: TypeLibrary, values: Mapping[str, Value] | None = None) -> None:
+        super().__init__(types, values)
+        self._kept: deque[_Kept] = deque()
+        self._left_out = 0
+        self._drawing: Drawing | None = NOTHING
+
+    @abstractmethod
+    def read(self, received: Received, limits: Limits) -> Cloud:
+        """The cloud of a message.
+
+        Raises:
+            StudioError: It cannot be read, or makes no sense.
+        """
+
+    def take(self, received: Received, role: str = "") -> None:
+        """Take in a message; how long it is seen, the decay time says."""
+        del role
+        cloud = self.read(received, self.limits)
+        if not self._decay_ns():
+            self._kept.clear()
+        self._decay(received.received_ns)
+        self._kept.append(_Kept(self._free_path(), received.received_ns, cloud))
+        self._hold_limits()
+        self._drawing = None
+
+    def changed(self, name: str) -> None:
+        """Look different from now on."""
+        if name == "Decay Time" and not self._decay_ns():
+            self._keep_newest()
+        for one in self._kept:
+            one.placed = None
+        self._drawing = None
+
+    def reset(self) -> None:
+        """Forget all clouds."""
+        self._kept.clear()
+        self._left_out = 0
+        self._drawing = NOTHING
+
+    def draw(self, now_ns: int) -> Drawing:
+        """The clouds that have not decayed now."""
+        if self._decay_ns():
+            self._decay(now_ns)
+        if self._drawing is None:
+            self._drawing = {
+                one.path: placed for one in self._kept if (placed := self._placed(one)) is not None
+            }
+        return self._drawing
+
+    def statuses(self) -> tuple[Status, ...]:
+        """What is to be said of the newest cloud, and what is left out."""
+        if not self._kept:
+            return ()
+        newest = self._kept[-1]
+        found = [newest.cloud.nothing, newest.said, self._transparent(), *self._thinned()]
+        return tuple(one for one in found if one is not None)
+
+    def _placed(self, one: _Kept) -> Placed | None:
+        if not one.cloud.count:
+            return None
+        if one.placed is None:
+            size_m = float(self.values["Size (m)"])
+            colours, one.said = colours_of(one.cloud, self.values)
+            precise = needs_precision(one.cloud.positions, size_m)
+            shape = points_of(one.cloud, colours, self.values, precise=precise)
+            one.placed = Placed(one.cloud.frame, one.cloud.stamp_ns, {"points": shape})
+        return one.placed
+
+    def _decay_ns(self) -> int:
+        return int(float(self.values["Decay Time"]) * 1e9)
+
+    def _decay(self, now_ns: int) -> None:
+        """Drop what came longer ago than the decay time."""
+        decay_ns = self._decay_ns()
+        while self._kept and now_ns - self._kept[0].received_ns > decay_ns:
+            self._kept.popleft()
+            self._drawing = None
+
+    def _keep_newest(self) -> None:
+        while len(self._kept) > 1:
+            self._kept.popleft()
+        self._left_out = 0
+
+    def _hold_limits(self) -> None:
+        """Drop the oldest of what is more than may be shown; the newest stays."""
+        count = sum(one.cloud.count for one in self._kept)
+        size_bytes = sum(one.cloud.channels.size_bytes for one in self._kept)
+        self._left_out = 0
+        while len(self._kept) > 1 and (
+            count > self.limits.points
+            or size_bytes > self.limits.kept_bytes
+            or len(self._kept) > self.limits.messages
+        ):
+            dropped = self._kept.popleft().cloud
+            count, size_bytes = count - dropped.count, size_bytes - dropped.channels.size_bytes
+            self._left_out += 1
+
+    def _free_path(self) -> str:
+        """A path is used again, so that what is there is changed and not made anew."""
+        taken = {one.path for one in self._kept}
+        return next(str(n) for n in range(len(taken) + 1) if str(n) not in taken)
+
+    def _transparent(self) -> Status | None:
+        if float(self.values["Alpha"]) > 0.0:
+            return None
+        return Status("warn", "transparent", "Alpha is 0: nothing is seen.", ("Alpha", 1.0))
+
+    def _thinned(self) -> list[Status]:
+        found: list[Status] = []
+        cloud = self._kept[-1].cloud
+        if cloud.count < cloud.available:
+            sentence = f"Showing {cloud.count:,} of {cloud.available:,} points."
+            found.append(Status("ok", "thinned", sentence))
+        if self._left_out:
+            sentence = (
+                f"Showing the newest {len(self._kept):,} messages: with those before them there "
+                f"would be more than {self.limits.points:,} points."
+            )
+            found.append(Status("ok", "thinned", sentence))
+        return found

@@ -1,0 +1,209 @@
+"""Fields of a point cloud: columns of numbers out of its bytes, in any layout and byte order."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+
+from studio.errors import DisplayMessageError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+RAW_POINTS_MAX: Final = 8_000_000
+"""Of more raw points every second, third ... is looked at."""
+
+# By `datatype` of sensor_msgs/PointField: INT8 1 to FLOAT64 8.
+_NUMBERS: Final = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8"}
+_FIELDS_MAX: Final = 1000
+_PACKED: Final = ("rgb", "rgba")
+_PARTS: Final = ("r", "g", "b")
+
+
+class CloudFields:
+    """The columns of one PointCloud2; numbers are read from its bytes when they are asked for."""
+
+    def __init__(self, message: Any) -> None:  # noqa: ANN401 - a sensor_msgs/PointCloud2
+        """Check that the data holds all points.
+
+        Raises:
+            DisplayMessageError: It does not.
+        """
+        _check(message)
+        self._message = message
+        self._order = ">" if message.is_bigendian else "<"
+        self._columns, self._rows = int(message.width), int(message.height)
+        self._row_bytes = _row_bytes(message)
+        # As RViz: of two fields with one name the first counts.
+        self._fields = {field.name: field for field in reversed(message.fields)}
+        self.names: tuple[str, ...] = tuple(
+            dict.fromkeys(field.name for field in message.fields if field.name)
+        )
+
+    @property
+    def size_bytes(self) -> int:
+        """Of the data that is kept."""
+        return int(self._message.data.nbytes)
+
+    @property
+    def count(self) -> int:
+        """Of points, with those that have no place."""
+        return self._columns * self._rows
+
+    def positions(self) -> tuple[NDArray[np.float32], NDArray[np.intp] | None]:
+        """Places of the points, m, shape (N, 3), also of those that are NaN; a new array.
+
+        Of huge clouds only some are read: which is told beside, else None.
+
+        Raises:
+            DisplayMessageError: There is no x, y or z.
+        """
+        missing = [name for name in "xyz" if name not in self._fields]
+        if missing:
+            raise self._error(f"it has no {missing[0]}, its fields are {self._said_names()}")
+        if not self.count:
+            return np.empty((0, 3), dtype=np.float32), None
+        step = -(-self.count // RAW_POINTS_MAX)
+        if step > 1:
+            raw = np.arange(0, self.count, step)
+            return self._stacked(raw), raw
+        if self._interleaved():
+            view = self._view("x", np.dtype(f"{self._order}f4"), count=3)
+            return view.astype(np.float32, order="C").reshape(-1, 3), None
+        return self._stacked(None), None
+
+    def numbers(self, name: str, raw: NDArray[np.intp] | None) -> NDArray[np.float32] | None:
+        """The numbers of a field for these raw points, all when None; None when there is no such.
+
+        Of a field with several numbers for each point it is the first.
+        """
+        if name not in self._fields:
+            return None
+        with np.errstate(over="ignore", invalid="ignore"):
+            return self._taken(self._view(name, self._dtype(name)), raw).astype(np.float32)
+
+    def colours(self, raw: NDArray[np.intp] | None) -> NDArray[np.uint8] | None:
+        """Colours that were sent as bytes, shape (N, 3); None when there are none.
+
+        Those are packed into the bits of one number of four bytes, whatever its type, or lie in
+        three fields r, g and b of bytes.
+        """
+        name = next((one for one in _PACKED if one in self._fields), None)
+        if name is not None and self._fields[name].datatype in (5, 6, 7):
+            self._dtype(name)
+            view = self._bytes_view(name)
+            return np.ascontiguousarray(self._taken(view, raw))
+        if not self._are_parts(2):
+            return None
+        parts = [self._taken(self._view(one, self._dtype(one)), raw) for one in _PARTS]
+        return np.stack(parts, axis=1).astype(np.uint8, copy=False)
+
+    def float_colours(self, raw: NDArray[np.intp] | None) -> NDArray[np.uint8] | None:
+        """Colours of fields r, g and b between 0 and 1, shape (N, 3); None when there are none."""
+        if not self._are_parts(7):
+            return None
+        parts = [self.numbers(one, raw) for one in _PARTS]
+        whole = np.nan_to_num(np.clip(np.stack([p for p in parts if p is not None], axis=1), 0, 1))
+        return np.rint(whole * 255).astype(np.uint8)
+
+    def _are_parts(self, datatype: int) -> bool:
+        return all(one in self._fields and self._fields[one].datatype == datatype for one in _PARTS)
+
+    def _interleaved(self) -> bool:
+        """Whether x, y and z are floats that lie one after the other, as nearly everywhere."""
+        x, y, z = (self._fields[name] for name in "xyz")
+        return (
+            (x.datatype, y.datatype, z.datatype) == (7, 7, 7)
+            and y.offset == x.offset + 4
+            and z.offset == x.offset + 8
+            and x.offset + 12 <= self._message.point_step
+        )
+
+    def _stacked(self, raw: NDArray[np.intp] | None) -> NDArray[np.float32]:
+        parts = [self.numbers(name, raw) for name in "xyz"]
+        return np.stack([part for part in parts if part is not None], axis=1)
+
+    def _taken(self, view: NDArray[Any], raw: NDArray[np.intp] | None) -> NDArray[Any]:
+        """The points of a view of rows and columns in one row; a view again where that goes."""
+        if raw is None:
+            return view.reshape(-1, *view.shape[2:])
+        if self._rows == 1:
+            return view[0][raw]
+        return view[raw // self._columns, raw % self._columns]
+
+    def _dtype(self, name: str) -> np.dtype[Any]:
+        field = self._fields[name]
+        numbers = _NUMBERS.get(field.datatype)
+        if numbers is None:
+            raise self._error(f'its field "{name[:60]}" has the unknown datatype {field.datatype}')
+        dtype = np.dtype(self._order + numbers)
+        if field.offset + dtype.itemsize > self._message.point_step:
+            raise self._error(
+                f'its field "{name[:60]}" ends after the {self._message.point_step} bytes of a '
+                "point: point_step or the offset is wrong"
+            )
+        return dtype
+
+    def _view(self, name: str, dtype: np.dtype[Any], count: int = 0) -> NDArray[Any]:
+        """Numbers at the offset of a field, shape (rows, columns) or (rows, columns, count)."""
+        strides = (self._row_bytes, int(self._message.point_step))
+        inner = (count,) if count else ()
+        return np.ndarray(
+            (self._rows, self._columns, *inner), dtype, self._message.data,
+            int(self._fields[name].offset), strides + ((dtype.itemsize,) if count else ()),
+        )  # fmt: skip
+
+    def _bytes_view(self, name: str) -> NDArray[np.uint8]:
+        """Red, green and blue of a packed colour: bits 16 to 23, 8 to 15 and 0 to 7."""
+        at, step = (1, 1) if self._order == ">" else (2, -1)
+        return np.ndarray(
+            (self._rows, self._columns, 3), np.dtype(np.uint8), self._message.data,
+            int(self._fields[name].offset) + at,
+            (self._row_bytes, int(self._message.point_step), step),
+        )  # fmt: skip
+
+    def _said_names(self) -> str:
+        return said_names(self.names)
+
+    def _error(self, reason: str) -> DisplayMessageError:
+        return DisplayMessageError("PointCloud2", reason)
+
+
+def said_names(names: tuple[str, ...]) -> str:
+    """Names within a sentence, cut where there are many."""
+    shown = ", ".join(name[:40] for name in names[:12])
+    return f"{shown} and {len(names) - 12} more" if len(names) > 12 else shown or "none"
+
+
+def _row_bytes(message: Any) -> int:  # noqa: ANN401
+    """Bytes from row to row: some senders leave `row_step` as it is, and rows follow closely."""
+    packed = int(message.width) * int(message.point_step)
+    if message.height <= 1 or (
+        message.row_step < packed and packed * int(message.height) == message.data.nbytes
+    ):
+        return packed
+    return int(message.row_step)
+
+
+def _check(message: Any) -> None:  # noqa: ANN401
+    columns, rows = int(message.width), int(message.height)
+    if len(message.fields) > _FIELDS_MAX:
+        raise DisplayMessageError("PointCloud2", f"it has {len(message.fields):,} fields")
+    if not columns * rows:
+        return
+    point, row, held = int(message.point_step), _row_bytes(message), int(message.data.nbytes)
+    if not point:
+        raise DisplayMessageError("PointCloud2", "its point_step is 0")
+    if row < columns * point:
+        raise DisplayMessageError(
+            "PointCloud2",
+            f"its row_step of {row:,} bytes is shorter than {columns:,} points of {point:,} bytes",
+        )
+    needed = (rows - 1) * row + columns * point
+    if needed > held:
+        raise DisplayMessageError(
+            "PointCloud2",
+            f"{columns:,} x {rows:,} points of {point:,} bytes need {needed:,} bytes, and it has "
+            f"{held:,}",
+        )

@@ -1,0 +1,236 @@
+"""How clouds look: RViz's properties of points, and the colours that they give."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final, Literal, cast
+
+import numpy as np
+
+from studio.displays.cloud_fields import said_names
+from studio.displays.colour_maps import COLOUR_MAPS, RAINBOW, mapped
+from studio.displays.display import Status
+from studio.displays.drawing import Points
+from studio.displays.properties import Property, rgb_of
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from numpy.typing import NDArray
+
+    from studio.displays.cloud import Cloud
+    from studio.displays.properties import Value
+
+AUTOMATIC: Final = "Automatic"
+FLAT, AXIS, INTENSITY, RGB8, RGBF32 = "FlatColor", "AxisColor", "Intensity", "RGB8", "RGBF32"
+_STYLES: Final = ("Points", "Squares", "Flat Squares", "Spheres", "Boxes", "Tiles")
+_WITH_MAP: Final = (AUTOMATIC, AXIS, INTENSITY)
+_WITH_CHANNEL: Final = (AUTOMATIC, INTENSITY)
+_CHANNEL: Final = "intensity"
+_OTHER_NAME: Final = "intensities"
+
+LOOK: Final = (
+    Property("Style", "choice", "Flat Squares", "How each point is drawn.", choices=_STYLES),
+    Property("Size (m)", "number", 0.01, "Size of each point.", low=0.0001, high=100.0, unit="m"),
+    Property("Alpha", "number", 1.0, "How opaque the points are.", low=0.0, high=1.0),
+    Property(
+        "Decay Time", "number", 0.0, "How long points stay; with 0 only the newest message does.",
+        low=0.0, high=3600.0, unit="s",
+    ),
+    Property(
+        "Position Transformer", "choice", "XYZ", "Where the place of a point comes from.",
+        choices=("XYZ",),
+    ),
+    Property(
+        "Color Transformer", "choice", AUTOMATIC,
+        "Where colours come from; by itself it takes the colours that are sent, else intensities, "
+        "else the height.",
+        choices=(AUTOMATIC, INTENSITY, AXIS, FLAT, RGB8, RGBF32),
+    ),
+    Property(
+        "Color", "colour", "#ffffff", "Of all points.", when=("Color Transformer", (FLAT,))
+    ),
+    Property(
+        "Axis", "choice", "Z", "The axis along which colours change, in the frame of the message.",
+        choices=("X", "Y", "Z"), when=("Color Transformer", (AUTOMATIC, AXIS)),
+    ),
+    Property(
+        "Autocompute Value Bounds", "switch", True,  # noqa: FBT003 - its first value
+        "Whether colours reach from the least to the greatest value along the axis.",
+        when=("Color Transformer", (AUTOMATIC, AXIS)),
+    ),
+    Property(
+        "Autocompute Value Bounds/Min Value", "number", -10.0, "Where colours begin.", unit="m",
+        when=("Autocompute Value Bounds", (False,)),
+    ),
+    Property(
+        "Autocompute Value Bounds/Max Value", "number", 10.0, "Where colours end.", unit="m",
+        when=("Autocompute Value Bounds", (False,)),
+    ),
+    Property(
+        "Channel Name", "text", _CHANNEL, "The field whose numbers give the colours.",
+        when=("Color Transformer", _WITH_CHANNEL),
+    ),
+    Property(
+        "Use rainbow", "switch", True,  # noqa: FBT003
+        "Whether colours come of a map, or lie between two.",
+        when=("Color Transformer", _WITH_CHANNEL),
+    ),
+    Property(
+        "Color Map", "choice", RAINBOW, "Which colours there are from the least to the greatest.",
+        choices=COLOUR_MAPS, when=("Color Transformer", _WITH_MAP),
+    ),
+    Property(
+        "Invert Rainbow", "switch", False,  # noqa: FBT003
+        "Whether the map begins with its last colour.", when=("Use rainbow", (True,)),
+    ),
+    Property("Min Color", "colour", "#000000", "Of the least.", when=("Use rainbow", (False,))),
+    Property("Max Color", "colour", "#ffffff", "Of the greatest.", when=("Use rainbow", (False,))),
+    Property(
+        "Autocompute Intensity Bounds", "switch", True,  # noqa: FBT003
+        "Whether colours reach from the least to the greatest number of the message.",
+        when=("Color Transformer", _WITH_CHANNEL),
+    ),
+    Property(
+        "Min Intensity", "number", 0.0, "Where colours begin.",
+        when=("Autocompute Intensity Bounds", (False,)),
+    ),
+    Property(
+        "Max Intensity", "number", 4096.0, "Where colours end.",
+        when=("Autocompute Intensity Bounds", (False,)),
+    ),
+)  # fmt: skip
+
+_WHITE: Final = np.full(3, 255, dtype=np.uint8)
+Style = Literal["points", "squares", "flat squares", "spheres", "boxes", "tiles"]
+
+
+def points_of(
+    cloud: Cloud, colours: NDArray[np.uint8], values: Mapping[str, Value], *, precise: bool
+) -> Points:
+    """The shape of a cloud in its colours."""
+    return Points(
+        cloud.positions,
+        colours,
+        size_m=float(values["Size (m)"]),
+        style=cast("Style", str(values["Style"]).lower()),
+        opacity=float(values["Alpha"]),
+        precise=precise,
+    )
+
+
+def needs_precision(positions: NDArray[np.float32], size_m: float) -> bool:
+    """Whether half precision would move a point by a part of its size that is seen.
+
+    Between 8 and 16 m its steps are 8 mm, and twice that from one power of two to the next: as wide
+    as half a point they are seen as stripes.
+    """
+    if not len(positions):
+        return False
+    farthest_m = float(max(positions.max(), -positions.min()))
+    if farthest_m <= 0.0:
+        return False
+    step_m = 2.0 ** (np.floor(np.log2(farthest_m)) - 10)
+    return bool(step_m > size_m / 2)
+
+
+def colours_of(
+    cloud: Cloud, values: Mapping[str, Value]
+) -> tuple[NDArray[np.uint8], Status | None]:
+    """Colours of the points, shape (N, 3), or (3,) when all have one.
+
+    Returns:
+        The colours, white where there are none, and what is to be said of them.
+    """
+    wanted = str(values["Color Transformer"])
+    if wanted == AUTOMATIC:
+        return _automatic(cloud, values), None
+    if wanted == FLAT:
+        return np.array(rgb_of(values["Color"]), dtype=np.uint8), None
+    if wanted == AXIS:
+        return _by_axis(cloud, values), None
+    if wanted == INTENSITY:
+        found = _by_channel(cloud, values)
+        return (found, None) if found is not None else (_WHITE, _no_channel(cloud, values))
+    sent = cloud.channels.colours if wanted == RGB8 else cloud.channels.float_colours
+    found = sent(cloud.raw)
+    return (found, None) if found is not None else (_WHITE, _no_colours(cloud, wanted))
+
+
+def _automatic(cloud: Cloud, values: Mapping[str, Value]) -> NDArray[np.uint8]:
+    """As RViz chooses; where RViz finds nothing and draws white, height is seen on any ground."""
+    found = cloud.channels.colours(cloud.raw)
+    if found is None:
+        found = cloud.channels.float_colours(cloud.raw)
+    if found is None:
+        found = _by_channel(cloud, values)
+    return _by_axis(cloud, values) if found is None else found
+
+
+def _by_axis(cloud: Cloud, values: Mapping[str, Value]) -> NDArray[np.uint8]:
+    along = cloud.positions[:, "XYZ".index(str(values["Axis"]))]
+    given = None
+    if not values["Autocompute Value Bounds"]:
+        name = "Autocompute Value Bounds"
+        given = float(values[f"{name}/Min Value"]), float(values[f"{name}/Max Value"])
+    return mapped(_shares(along, given), str(values["Color Map"]))
+
+
+def _by_channel(cloud: Cloud, values: Mapping[str, Value]) -> NDArray[np.uint8] | None:
+    name = str(values["Channel Name"])
+    numbers = cloud.numbers(name)
+    if numbers is None and name == _CHANNEL:
+        numbers = cloud.numbers(_OTHER_NAME)
+    if numbers is None:
+        return None
+    given = None
+    if not values["Autocompute Intensity Bounds"]:
+        given = float(values["Min Intensity"]), float(values["Max Intensity"])
+    shares = _shares(numbers, given)
+    if values["Use rainbow"]:
+        inverted = bool(values["Invert Rainbow"])
+        return mapped(shares, str(values["Color Map"]), inverted=inverted)
+    low, high = (
+        np.array(rgb_of(values[one]), dtype=np.float32) for one in ("Min Color", "Max Color")
+    )
+    between = np.nan_to_num(np.clip(shares, 0, 1))[:, None]
+    return np.rint(low + between * (high - low)).astype(np.uint8)
+
+
+def _shares(
+    numbers: NDArray[np.float32], given: tuple[float, float] | None
+) -> NDArray[np.floating]:
+    """Where each number lies between the bounds, 0 to 1; numbers that are all alike are at 0."""
+    low, high = _bounds(numbers) if given is None else given
+    if low == high:
+        return np.zeros(len(numbers), dtype=np.float32)
+    with np.errstate(all="ignore"):
+        return (numbers - np.float32(low)) * np.float32(1.0 / (high - low))
+
+
+def _bounds(numbers: NDArray[np.float32]) -> tuple[float, float]:
+    """The least and the greatest number that is one."""
+    if not len(numbers):
+        return 0.0, 0.0
+    with np.errstate(invalid="ignore"):
+        low, high = float(numbers.min()), float(numbers.max())
+    if np.isfinite(low) and np.isfinite(high):
+        return low, high
+    finite = numbers[np.isfinite(numbers)]
+    return (float(finite.min()), float(finite.max())) if len(finite) else (0.0, 0.0)
+
+
+def _no_channel(cloud: Cloud, values: Mapping[str, Value]) -> Status:
+    names = cloud.channels.names
+    other = next((one for one in names if one not in "xyz"), None)
+    mend = ("Channel Name", other) if other else ("Color Transformer", AXIS)
+    name = str(values["Channel Name"])[:60]
+    sentence = f'The messages have no field "{name}": they have {said_names(names)}.'
+    return Status("warn", "unknown_field", sentence, mend)
+
+
+def _no_colours(cloud: Cloud, wanted: str) -> Status:
+    fields = '"rgb" or "rgba"' if wanted == RGB8 else '"r", "g" and "b" of floats'
+    sentence = (
+        f"The messages have no fields {fields}: they have {said_names(cloud.channels.names)}."
+    )
+    return Status("warn", "unknown_field", sentence, ("Color Transformer", AUTOMATIC))

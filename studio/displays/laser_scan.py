@@ -1,0 +1,115 @@
+"""LaserScan: one turn of a lidar, as points in the plane of its beams."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any, ClassVar, Final
+
+import numpy as np
+
+from studio.displays.cloud import Cloud, stamp_of
+from studio.displays.cloud_display import CloudDisplay
+from studio.displays.display import Status, TopicRole
+from studio.displays.spreading import spread_among
+from studio.errors import DisplayMessageError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from studio.displays.display import Received
+    from studio.displays.limits import Limits
+
+_BEAMS_MAX: Final = 4_000_000
+
+
+class LaserScanDisplay(CloudDisplay):
+    """Draws every return between the least and the greatest range of the scan."""
+
+    KIND: ClassVar[str] = "LaserScan"
+    DOC: ClassVar[str] = "What a lidar met, one point for each beam that came back."
+    TOPICS: ClassVar[tuple[TopicRole, ...]] = (
+        TopicRole("", ("sensor_msgs/msg/LaserScan",), reliable=False),
+    )
+
+    def read(self, received: Received, limits: Limits) -> Cloud:
+        """The points of a scan.
+
+        Raises:
+            StudioError: It cannot be read, or has no angles.
+        """
+        scan = self.decode(received)
+        _check(scan)
+        # As laser_geometry: the least range counts, the greatest does not.
+        with np.errstate(invalid="ignore"):
+            returned = (scan.ranges >= scan.range_min) & (scan.ranges < scan.range_max)
+        chosen = spread_among(returned, limits.points)
+        rays = _rays(float(scan.angle_min), float(scan.angle_increment), len(scan.ranges))
+        positions = rays[chosen] * scan.ranges[chosen, None].astype(np.float32, copy=False)
+        return Cloud(
+            scan.header.frame_id, stamp_of(scan.header), positions, chosen,
+            int(np.count_nonzero(returned)), _Beams(scan), _nothing(scan, len(chosen)),
+        )  # fmt: skip
+
+
+class _Beams:
+    """What is known of each beam of a scan."""
+
+    def __init__(self, scan: Any) -> None:  # noqa: ANN401 - a sensor_msgs/LaserScan
+        self._columns: dict[str, NDArray[np.float32]] = {"range": scan.ranges}
+        if len(scan.intensities) == len(scan.ranges):
+            self._columns["intensity"] = scan.intensities
+        self.names: tuple[str, ...] = (*sorted(self._columns), "index")
+
+    @property
+    def size_bytes(self) -> int:
+        return sum(column.nbytes for column in self._columns.values())
+
+    def numbers(self, name: str, raw: NDArray[np.intp] | None) -> NDArray[np.float32] | None:
+        if name == "index" and raw is not None:
+            return raw.astype(np.float32)
+        column = self._columns.get(name)
+        if column is None:
+            return None
+        return (column if raw is None else column[raw]).astype(np.float32)
+
+    def colours(self, raw: NDArray[np.intp] | None) -> None:
+        del raw
+
+    def float_colours(self, raw: NDArray[np.intp] | None) -> None:
+        del raw
+
+
+@lru_cache(maxsize=16)
+def _rays(first_rad: float, step_rad: float, count: int) -> NDArray[np.float32]:
+    """Directions of the beams, shape (N, 3), of length 1; lidars send the same ones each time."""
+    angles = first_rad + step_rad * np.arange(count)
+    rays = np.zeros((count, 3), dtype=np.float32)
+    rays[:, 0], rays[:, 1] = np.cos(angles), np.sin(angles)
+    rays.setflags(write=False)
+    return rays
+
+
+def _check(scan: Any) -> None:  # noqa: ANN401
+    if not np.isfinite([scan.angle_min, scan.angle_increment]).all():
+        raise DisplayMessageError("LaserScan", "its angle_min or angle_increment is no number")
+    if len(scan.ranges) > _BEAMS_MAX:
+        raise DisplayMessageError(
+            "LaserScan", f"it has {len(scan.ranges):,} ranges, at most {_BEAMS_MAX:,} are drawn"
+        )
+
+
+def _nothing(scan: Any, shown: int) -> Status | None:  # noqa: ANN401
+    count = len(scan.ranges)
+    if shown:
+        return None
+    if not count:
+        return Status("warn", "no_points", "The scan has no ranges.")
+    if np.isnan(scan.ranges).all():
+        return Status("warn", "not_finite", f"All {count:,} ranges are NaN.")
+    beyond = int(np.isinf(scan.ranges).sum())
+    free = f", {beyond:,} of them infinite: nothing came back" if beyond else ""
+    return Status(
+        "warn", "out_of_range",
+        f"All {count:,} ranges are outside of {scan.range_min:g} to {scan.range_max:g} m, as the "
+        f"scan itself names them{free}.",
+    )  # fmt: skip
