@@ -3,7 +3,7 @@
 import { html, useSignal } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
 import { Dialog, Icon } from "../lib/ui.js";
-import { connectRos } from "./ros.js";
+import { connectRos, disconnectRos } from "./ros.js";
 import { mayEdit } from "./state/connection.js";
 import { ros } from "./state/ros.js";
 import { dialog } from "./state/view.js";
@@ -39,21 +39,23 @@ export function RosDialog({ onClose }) {
       ${isThere && html`<dt>${t("ros.distro")}</dt><dd>${distro}</dd>`}
       ${state === "connected" && html`<dt>${t("ros.others")}</dt><dd><${Nodes} /></dd>`}
     </dl>
-    ${(state === "off" || state === "failed") && html`<${ConnectFoot} />`}
+    ${state !== "connecting" && html`<${Foot} isThere=${isThere} />`}
   <//>`;
 }
 
-function ConnectFoot() {
+/** @param {{isThere: boolean}} props a connection that can be ended; else one can be made */
+function Foot({ isThere }) {
   const busy = useSignal(false);
-  const connect = async () => {
+  const act = async () => {
     busy.value = true;
-    await connectRos();
+    await (isThere ? disconnectRos() : connectRos());
     busy.value = false;
   };
-  const hint = mayEdit.value ? "" : t("ros.viewer");
+  const note = isThere ? t("ros.disconnect.note") : "";
+  const hint = mayEdit.value ? note : t("ros.viewer");
   return html`<footer><span class="form-note">${hint}</span><span class="push"></span>
-    <button type="button" class="button primary" data-first disabled=${!mayEdit.value || busy.value} onClick=${connect}>
-      ${busy.value && html`<span class="spinner"></span>`}${t("ros.connect")}</button></footer>`;
+    <button key=${isThere} type="button" class=${`button ${isThere ? "" : "primary"}`} data-first=${isThere ? null : true} disabled=${!mayEdit.value || busy.value} onClick=${act}>
+      ${busy.value && html`<span class="spinner"></span>`}${t(isThere ? "ros.disconnect" : "ros.connect")}</button></footer>`;
 }
 
 function Nodes() {

@@ -7,6 +7,9 @@ import { RefusedError, send } from "./wire.js";
 
 export const connectRos = () => ask({ type: "connect_wire" });
 
+/** All that goes out or comes in, for any robot, ends with it. */
+export const disconnectRos = () => ask({ type: "disconnect_wire" });
+
 /** @param {"sliders" | "animation" | "joint_states" | "tf"} source of the joints' positions */
 export const chooseSource = (source) => ask({ type: "set_joint_source", source });
 

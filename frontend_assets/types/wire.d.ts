@@ -218,6 +218,13 @@ export interface DiscardRestored {
   type: "discard_restored";
 }
 
+/** Leave the ROS 2 system: all that went out or came in for any document ends before. */
+export interface DisconnectWire {
+  request?: number;
+  document?: string;
+  type: "disconnect_wire";
+}
+
 /** Another program wrote a file; its changes are taken, and so many edits are kept unsaved. */
 export interface DiskMerged {
   type: "disk_merged";
@@ -1567,6 +1574,7 @@ export type Command =
   | FindTexts
   | ReplaceTexts
   | ConnectWire
+  | DisconnectWire
   | SetJointSource
   | PublishRobot
   | PublishJoints

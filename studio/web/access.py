@@ -107,6 +107,7 @@ _CONTROL: Final = frozenset(
         "delete_pose",
         "choose_package",
         "connect_wire",
+        "disconnect_wire",
         "set_joint_source",
         "publish_robot",
         "publish_joints",

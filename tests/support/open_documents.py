@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from studio.engine.document import Document
 
-_PATIENCE_S = 30.0
+_PATIENCE_S = 60.0
 
 
 class Ear:

@@ -18,6 +18,12 @@ class ConnectWire(CommandMessage):
     type: Literal["connect_wire"] = "connect_wire"
 
 
+class DisconnectWire(CommandMessage):
+    """Leave the ROS 2 system: all that went out or came in for any document ends before."""
+
+    type: Literal["disconnect_wire"] = "disconnect_wire"
+
+
 class SetJointSource(CommandMessage):
     """Choose who moves the joints."""
 
@@ -56,7 +62,13 @@ class OpenFromWire(CommandMessage):
 
 
 WireCommand: TypeAlias = (
-    ConnectWire | SetJointSource | PublishRobot | PublishJoints | FindWireRobots | OpenFromWire
+    ConnectWire
+    | DisconnectWire
+    | SetJointSource
+    | PublishRobot
+    | PublishJoints
+    | FindWireRobots
+    | OpenFromWire
 )
 
 

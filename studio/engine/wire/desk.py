@@ -43,6 +43,8 @@ class WireDesk:
         self._told: WireState | None = None
         self._lookout = Lookout(self._look, pause_s=_PAUSE_S)
         self._closed = False
+        self._turn = asyncio.Lock()
+        """A connection is made once the one before is ended: their router has one place."""
 
     def attach(self, listener: Listener) -> None:
         """Tell a page how it stands, now and whenever that changes."""
@@ -67,6 +69,18 @@ class WireDesk:
             self._opening = asyncio.create_task(self._open())
         return await asyncio.shield(self._opening)
 
+    async def disconnect(self) -> None:
+        """End the connection, and the router if it is ours, until somebody asks for it again.
+
+        Whoever uses it has let go of it before.
+        """
+        async with self._turn:
+            link, self._link = self._link, None
+            self._phase, self._trouble = "off", ""
+            if link is not None:
+                await asyncio.to_thread(link.close)
+            self._tell()
+
     async def close(self) -> None:
         """End the connection, and the router if it is ours."""
         self._closed = True
@@ -78,6 +92,10 @@ class WireDesk:
             await asyncio.to_thread(link.close)
 
     async def _open(self) -> WireLink:
+        async with self._turn:
+            return await self._open_in_turn()
+
+    async def _open_in_turn(self) -> WireLink:
         self._phase, self._trouble = "connecting", ""
         self._tell()
         try:
@@ -108,7 +126,12 @@ class WireDesk:
             self._lookout.doubt()
 
     async def _look(self) -> None:
-        self._tell(await asyncio.to_thread(self._state))  # of thousands of nodes it takes its time
+        link = self._link
+        if link is not None:
+            # Of thousands of nodes it takes its time.
+            seen = await asyncio.to_thread(_state_with, link)
+            if link is self._link:  # else it is told how things stood before
+                self._tell(seen)
 
     def _tell(self, seen: WireState | None = None) -> None:
         news = seen or self._state()
@@ -117,20 +140,7 @@ class WireDesk:
             self._audience.tell(news)
 
     def _state(self) -> WireState:
-        link = self._link
-        if link is None:
-            return self._state_without()
-        nodes = link.node_names() if link.is_connected else []
-        return WireState(
-            state="connected" if link.is_connected else "lost",
-            router="own" if link.has_own_router else "joined",
-            endpoint=link.endpoint,
-            domain=link.domain,
-            distro=link.distro,
-            nodes=tuple(nodes[:_NODES_SHOWN]),
-            node_count=len(nodes),
-            trouble="",
-        )
+        return self._state_without() if self._link is None else _state_with(self._link)
 
     def _state_without(self) -> WireState:
         """How it stands while there is no connection; what the environment says may be wrong."""
@@ -150,3 +160,19 @@ class WireDesk:
             node_count=0,
             trouble=trouble,
         )
+
+
+def _state_with(link: WireLink) -> WireState:
+    """How a connection stands; any thread."""
+    is_connected = link.is_connected
+    nodes = link.node_names() if is_connected else []
+    return WireState(
+        state="connected" if is_connected else "lost",
+        router="own" if link.has_own_router else "joined",
+        endpoint=link.endpoint,
+        domain=link.domain,
+        distro=link.distro,
+        nodes=tuple(nodes[:_NODES_SHOWN]),
+        node_count=len(nodes),
+        trouble="",
+    )

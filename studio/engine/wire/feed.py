@@ -96,6 +96,12 @@ class FeedDesk:
             if before is not None:
                 await asyncio.to_thread(before.description.close)
 
+    async def let_go(self) -> None:
+        """Switch everything off, before the connection is ended."""
+        async with self._turn:
+            await self._end()
+            self._tell()
+
     async def close(self) -> None:
         """Say nothing more, and hear nothing; what is being switched on is ended by itself."""
         self._closed = True

@@ -18,6 +18,7 @@ from studio.ros.node.context import Context
 from studio.ros.node.executor import SingleThreadedExecutor
 from studio.ros.node.node import Node
 from studio.ros.wire.opening import open_wire
+from studio.ros.wire.watching import RouterWatch
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -29,7 +30,6 @@ if TYPE_CHECKING:
     from studio.ros.types.classes import MessageValue
     from studio.settings import WireChoice
 
-_WATCH_EVERY_S: Final = 0.25
 _log = logging.getLogger(__name__)
 _ANSWER_S: Final = 3.0
 
@@ -48,19 +48,20 @@ class WireLink:
         self._wire = open_wire(settings, choice.router, types_of(settings.profile.distro))
         self._context = Context.over(self._wire, owns_wire=True)
         self._executor = SingleThreadedExecutor(context=self._context)
-        self._changed = changed
         self._graph = self._context.graph
         self._graph.on_change(changed)
         self._node = self._new_node("studio")
         self._taken: set[str] = set()
-        self.is_connected = True
+        # Zenoh joins a router that comes back by itself.
+        self._watch = RouterWatch(self._wire, lambda _is_there: changed())
         self._ended = threading.Event()
-        self._threads = [
-            threading.Thread(target=target, name=name, daemon=True)
-            for target, name in ((self._spin, "wire-spin"), (self._watch, "wire-watch"))
-        ]
-        for thread in self._threads:
-            thread.start()
+        self._spinning = threading.Thread(target=self._spin, name="wire-spin", daemon=True)
+        self._spinning.start()
+
+    @property
+    def is_connected(self) -> bool:
+        """Whether the router is there."""
+        return self._watch.is_connected
 
     @property
     def has_own_router(self) -> bool:
@@ -170,10 +171,10 @@ class WireLink:
     def close(self) -> None:
         """End all nodes, the session, and the router if it is ours."""
         self._ended.set()
+        self._watch.close()
         self._context.shutdown()
         self._executor.shutdown()
-        for thread in self._threads:
-            thread.join()
+        self._spinning.join()
 
     def _new_node(self, name: str) -> Node:
         node = Node(name, context=self._context)
@@ -195,11 +196,3 @@ class WireLink:
                 return
             except Exception:  # noqa: BLE001 - one message that cannot be used must not end the rest
                 _log.exception("What came from the wire could not be used.")
-
-    def _watch(self) -> None:
-        """Notice that the router went away or came back; Zenoh joins it again by itself."""
-        while not self._ended.wait(_WATCH_EVERY_S):
-            is_there = bool(list(self._wire.zenoh.info.routers_zid()))
-            if is_there is not self.is_connected:
-                self.is_connected = is_there
-                self._changed()

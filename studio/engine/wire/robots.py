@@ -1,4 +1,4 @@
-"""WireRobots: the commands about ROS that concern no document yet: join, look around, open."""
+"""WireRobots: commands about ROS that concern no document yet: join, leave, look around, open."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from studio.engine import messages as m
 from studio.engine.library import Opener
 from studio.engine.messages.wire import (
     ConnectWire,
+    DisconnectWire,
     FindWireRobots,
     OpenFromWire,
     WireRobots,
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
     from studio.engine.wire.hearing import DescriptionIn
     from studio.packages.index import PackageIndex
 
-EngineWireCommand: TypeAlias = ConnectWire | FindWireRobots | OpenFromWire
+EngineWireCommand: TypeAlias = ConnectWire | DisconnectWire | FindWireRobots | OpenFromWire
 _FIRST_PATIENCE_S = 5.0
 """For a description that is latched: it comes at once, or nobody tells one."""
 
@@ -56,12 +57,23 @@ class WireRobotDesk:
             case ConnectWire():
                 await self._wire.link()
                 return None
+            case DisconnectWire():
+                await self._disconnect()
+                return None
             case FindWireRobots():
                 link = await self._wire.link()
                 topics, nodes = await asyncio.to_thread(link.find_robots)
                 return WireRobots(request=command.request, topics=topics, nodes=nodes)
             case OpenFromWire():
                 return m.Opened(request=command.request, document=await self._open(command))
+
+    async def _disconnect(self) -> None:
+        await self._let_go()
+        await self._wire.disconnect()
+        await self._let_go()  # of what was switched on with it meanwhile
+
+    async def _let_go(self) -> None:
+        await asyncio.gather(*(one.feed.let_go() for one in self._opener.documents.values()))
 
     async def _open(self, command: OpenFromWire) -> str:
         link = await self._wire.link()

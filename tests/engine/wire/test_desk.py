@@ -20,7 +20,7 @@ from tests.support.wire import free_endpoint, router_at, running_router
 if TYPE_CHECKING:
     from collections.abc import AsyncGenerator
 
-pytestmark = [pytest.mark.network, pytest.mark.timeout(120)]
+pytestmark = pytest.mark.network
 
 
 @asynccontextmanager
