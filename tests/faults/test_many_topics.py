@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import time
-
 import pytest
 
 from studio.ros.graph.graph import Graph
 from tests.support.many_topics import announce_topics, topic_named
+from tests.support.patience import Stopwatch
 from tests.support.wire import open_test_session, running_router
 
-pytestmark = [pytest.mark.network, pytest.mark.timeout(180)]
+pytestmark = pytest.mark.network
 TOPICS = 10_000
 
 
@@ -25,8 +24,8 @@ def test_ten_thousand_topics_are_seen_and_go_with_their_session():
             kept = announce_topics(busy, TOPICS)
             assert graph.wait_for(lambda: len(graph.publishers(last)) == 1, 60)
             assert graph.settle(60)
-            begin_s = time.monotonic()
+            watch = Stopwatch()
             assert len(graph.topics()) == TOPICS
-            assert time.monotonic() - begin_s < 2
+            assert watch.s < 2
             assert len(kept) == TOPICS + 1
         assert graph.wait_for(lambda: not graph.nodes() and not graph.topics(), 60)

@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING
 
 from studio.cli import main
 from tests.support.demos import running
+from tests.support.wire import ConditionNotMetError, wait_until
 
 if TYPE_CHECKING:
-    from collections.abc import Generator
+    from collections.abc import Callable, Generator
 
     from tests.support.demos import RunningDemo
 
@@ -35,6 +36,21 @@ def studio(*words: str) -> Ran:
         except SystemExit as end:
             code = end.code if isinstance(end.code, int) else 1
     return Ran(code, out.getvalue(), err.getvalue())
+
+
+def comes_to(said: Callable[[Ran], bool], *words: str) -> None:
+    """Run a line until what it prints is so: nodes that came or went are told a moment later."""
+    ran = Ran(0, "", "")
+
+    def is_so() -> bool:
+        nonlocal ran
+        ran = studio(*words)
+        return said(ran)
+
+    try:
+        wait_until(f"`studio {' '.join(words)}` to say so", is_so)
+    except ConditionNotMetError as error:
+        raise ConditionNotMetError(f"{error}; it says {ran}") from None
 
 
 @contextlib.contextmanager

@@ -7,7 +7,6 @@ import signal
 import subprocess
 import sys
 import threading
-import time
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -17,12 +16,14 @@ import httpx2
 from websockets.sync.client import connect
 from websockets.typing import Origin, Subprotocol
 
+from tests.support.patience import Stopwatch, ended_within
+
 if TYPE_CHECKING:
     from collections.abc import Generator, Iterator, Sequence
 
     from websockets.sync.connection import Connection
 
-START_TIMEOUT_S = 40.0
+START_TIMEOUT_S = 90.0
 _LISTENING = "0A"
 """State of a socket in /proc/net/tcp."""
 _END_TIMEOUT_S = 20.0
@@ -61,7 +62,7 @@ class RunningStudio:
             headers={"origin": self.origin},
             follow_redirects=True,
             trust_env=False,
-            timeout=20,
+            timeout=60,
         ) as client:
             client.get(f"/?token={self.token}").raise_for_status()
             yield client
@@ -76,15 +77,15 @@ class RunningStudio:
             subprotocols=[Subprotocol(one) for one in subprotocols] or None,
             additional_headers={"Cookie": cookie},
             proxy=None,
+            open_timeout=60,
             max_size=None,
         )
 
     def stop(self, number: signal.Signals = signal.SIGTERM) -> tuple[int, float]:
-        """Send a signal; answers the exit code and the seconds it took to end."""
-        begin_s = time.monotonic()
+        """Send a signal; answers the exit code and the seconds it took to end, as `Stopwatch`."""
+        watch = Stopwatch()
         self.process.send_signal(number)
-        code = self.process.wait(_END_TIMEOUT_S)
-        return code, time.monotonic() - begin_s
+        return ended_within(self.process, _END_TIMEOUT_S, watch), watch.s
 
     def listening_ports(self) -> set[int]:
         """Every TCP port that it or a worker of it listens on (Linux)."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import secrets
 import socket
 import time
 from contextlib import contextmanager
@@ -24,8 +25,10 @@ if TYPE_CHECKING:
     from studio.ros.wire.router import EmbeddedRouter
     from studio.ros.wire.session import WireSession
 
-PATIENCE_S = 30.0
+PATIENCE_S = 60.0
 _POLL_S = 0.005
+_PORTS = range(15_000, 32_000)
+"""Below those that systems lend to whoever connects to somebody."""
 
 
 class ConditionNotMetError(AssertionError):
@@ -43,9 +46,19 @@ def wait_until(what: str, condition: Callable[[], bool], patience_s: float = PAT
 
 def free_endpoint(protocol: str = "tcp") -> str:
     """An endpoint of this machine at which nobody listens; never the one of rmw_zenoh."""
-    with socket.socket() as found:
-        found.bind(("127.0.0.1", 0))
-        return f"{protocol}/127.0.0.1:{found.getsockname()[1]}"
+    return f"{protocol}/127.0.0.1:{free_port()}"
+
+
+def free_port() -> int:
+    """A port of this machine that nobody holds, and that nobody is lent before a test binds it."""
+    while True:
+        port = secrets.choice(_PORTS)
+        with socket.socket() as found:
+            try:
+                found.bind(("127.0.0.1", port))
+            except OSError:
+                continue
+            return port
 
 
 @contextmanager

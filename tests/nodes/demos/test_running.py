@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from studio.ros.client import Node
 
-pytestmark = [pytest.mark.network, pytest.mark.timeout(60)]
+pytestmark = pytest.mark.network
 WORDS = {"adder_client": ("1", "2")}
 AT_A_TERMINAL = "turtle_teleop_key"
 
@@ -40,7 +40,8 @@ def test_a_demo_is_seen_and_ends_by_ctrl_c_within_two_seconds(router: str, node:
     with running_demo(router, name, *WORDS.get(name, ())) as demo:
         wait_until("its node", lambda: len(node.graph.nodes()) > 1)
         # While it is still being made, Zenoh may hold up its end, and the signal ends it.
-        assert demo.stop(signal.SIGINT) in {0, -signal.SIGINT}
+        by_signal = {-signal.SIGINT, 128 + signal.SIGINT}
+        assert demo.stop(signal.SIGINT) in {0} | by_signal
         assert "Traceback" not in demo.printed, demo.printed
     wait_until("it has left", lambda: len(node.graph.nodes()) == 1)
 

@@ -14,11 +14,13 @@ from studio.ros.qos import QoSProfile
 from studio.ros.tokens import EndpointKind, EndpointToken, NodeToken
 from studio.ros.wire.door import declare_token
 from tests.support.wire import (
+    PATIENCE_S,
     free_endpoint,
     open_test_session,
     router_at,
     running_router,
     show_endpoints,
+    wait_until,
 )
 
 if TYPE_CHECKING:
@@ -27,8 +29,6 @@ if TYPE_CHECKING:
     from studio.ros.wire.door import Declared
     from studio.ros.wire.session import WireSession
 
-PATIENCE_S = 15.0
-MANY_PATIENCE_S = 50.0
 STRING = "std_msgs/msg/String"
 
 
@@ -137,8 +137,8 @@ def test_an_action_is_known_by_its_services(robot: WireSession, graph: Graph):
             for part, suffix in parts.items()
         ),
     )
-    assert graph.wait_for(lambda: len(graph.services()) == 2, PATIENCE_S)
-    assert graph.actions() == [("/turn", ["turtlesim/action/Turn"])]
+    turn = [("/turn", ["turtlesim/action/Turn"])]
+    assert graph.wait_for(lambda: graph.actions() == turn, PATIENCE_S)
     assert [one.name for one in graph.action_servers("/turn")] == ["turtle"]
     assert graph.action_clients("/turn") == []
     assert held
@@ -159,10 +159,12 @@ def test_a_listener_hears_of_changes_until_it_is_taken_back(robot: WireSession, 
     end = graph.on_change(lambda: versions.append(graph.version))
     held = show(robot, node_of(robot, "one"))
     assert graph.wait_for(lambda: graph.node("/one") is not None, PATIENCE_S)
+    wait_until("it is told", lambda: bool(versions))  # after those who wait
     end()
+    last = graph.version
     held += show(robot, node_of(robot, "two"))
     assert graph.wait_for(lambda: graph.node("/two") is not None, PATIENCE_S)
-    assert versions == versions[:1]
+    assert max(versions) <= last
     assert held
 
 
@@ -172,17 +174,16 @@ def test_tokens_that_are_none_are_counted(robot: WireSession, graph: Graph):
     held.undeclare()
 
 
-@pytest.mark.timeout(120)
 def test_ten_thousand_topics_of_ten_sessions_are_all_seen_and_all_go(router: str, graph: Graph):
     with ExitStack() as stack:
         held: list[Declared] = []
         for at in range(10):
             wire = stack.enter_context(open_test_session(router))
             held += show_endpoints(wire, 1_000, f"robot_{at}")
-        assert graph.wait_for(lambda: len(graph.topics()) == 10_000, MANY_PATIENCE_S)
+        assert graph.wait_for(lambda: len(graph.topics()) == 10_000, PATIENCE_S)
         assert len(graph.nodes()) == 10
         assert len(held) == 10_010
-    assert graph.wait_for(lambda: not graph.topics(), MANY_PATIENCE_S)
+    assert graph.wait_for(lambda: not graph.topics(), PATIENCE_S)
 
 
 NODE_OF_ITS_OWN = """
@@ -229,7 +230,7 @@ def test_a_closed_graph_keeps_what_it_knew_and_may_be_closed_again(
     robot: WireSession, graph: Graph
 ):
     held = show(robot, node_of(robot))
-    assert graph.wait_for(lambda: graph.node("/talker") is not None, PATIENCE_S)
+    assert graph.wait_for(lambda: [one.name for one in graph.nodes()] == ["talker"], PATIENCE_S)
     graph.close()
     graph.close()
     assert [one.name for one in graph.nodes()] == ["talker"]

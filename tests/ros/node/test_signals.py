@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from tests.support.patience import ended_within
 from tests.support.wire import free_endpoint, running_router
 
 if TYPE_CHECKING:
@@ -93,10 +94,10 @@ def ended_by(number: signal.Signals, program: str, endpoint: str) -> tuple[int, 
         assert process.stdout.readline() == "ready\n"
         process.send_signal(number)
         try:
-            _, errors = process.communicate(timeout=ENDS_WITHIN_S)
+            code = ended_within(process, ENDS_WITHIN_S)
         finally:
             process.kill()
-        return process.returncode, errors
+        return code, process.communicate()[1]
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM], ids=lambda one: one.name)
@@ -176,7 +177,7 @@ def test_no_router_ends_by_a_sentence_and_no_hang():
         [sys.executable, "-c", PREPARED + "join()", free_endpoint()],
         capture_output=True,
         text=True,
-        timeout=30,
+        timeout=60,
         check=False,
         env=os.environ,
     )

@@ -20,15 +20,19 @@ from studio.ros.wire.door import (
     queue,
 )
 from studio.ros.wire.watching import RouterWatch
-from tests.support.wire import free_endpoint, open_test_session, router_at, wait_until
+from tests.support.wire import (
+    PATIENCE_S,
+    free_endpoint,
+    open_test_session,
+    router_at,
+    wait_until,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from studio.ros.wire.door import Asked, Incoming
     from studio.ros.wire.session import WireSession
-
-PATIENCE_S = 15.0
 
 
 class Place:
