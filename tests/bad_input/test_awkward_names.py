@@ -20,7 +20,6 @@ from tests.support.packages import write_package
 if TYPE_CHECKING:
     from pathlib import Path
 
-pytestmark = pytest.mark.timeout(120)
 
 NAMES = (
     "<img src=x onerror=alert(1)>",

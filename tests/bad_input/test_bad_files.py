@@ -15,7 +15,6 @@ from tests.support.packages import write_package
 if TYPE_CHECKING:
     from pathlib import Path
 
-pytestmark = pytest.mark.timeout(120)
 
 XACRO = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
 LAMBDA = "(lambda: [c for c in ().__class__.__base__.__subclasses__()])()"

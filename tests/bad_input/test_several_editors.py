@@ -14,7 +14,6 @@ from tests.support.open_documents import Ear, engine, opened
 if TYPE_CHECKING:
     from pathlib import Path
 
-pytestmark = pytest.mark.timeout(120)
 
 ARM = """<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
   <xacro:property name="reach" value="0.4"/>

@@ -27,7 +27,6 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
-pytestmark = pytest.mark.timeout(60)
 
 QUICK = Limits(seconds=1.0)
 LISTS = chain("p", "${[1]}", "${[@, @]}")

@@ -189,7 +189,6 @@ def test_nothing_is_read_outside_the_roots(case: str, place: Path):
     assert SECRET not in stopped(placed(SECRETS[case], place), place)
 
 
-@pytest.mark.timeout(30)
 @pytest.mark.parametrize("case", ENDLESS)
 def test_nothing_goes_on_without_end(case: str, place: Path):
     stopped(placed(ENDLESS[case], place), place)

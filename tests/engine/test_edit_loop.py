@@ -27,7 +27,6 @@ if TYPE_CHECKING:
     from studio.description.session import Answer
     from studio.engine.edit_loop import Outcome
 
-pytestmark = pytest.mark.timeout(60)
 kills_processes = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGSTOP")
 
 

@@ -16,7 +16,6 @@ if TYPE_CHECKING:
 
     from studio.engine.document import Document
 
-pytestmark = pytest.mark.timeout(120)
 
 BOX = """<?xml version="1.0"?>
 <robot name="box" xmlns:xacro="http://www.ros.org/wiki/xacro">

@@ -16,7 +16,7 @@ from tests.support.wire import running_router
 if TYPE_CHECKING:
     from collections.abc import Generator
 
-pytestmark = [pytest.mark.network, pytest.mark.timeout(120)]
+pytestmark = pytest.mark.network
 SIGNALS = [signal.SIGINT, signal.SIGTERM]
 
 

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from studio.ros.node.node import Node
 
-pytestmark = [pytest.mark.network, pytest.mark.timeout(180)]
+pytestmark = pytest.mark.network
 STRING = message("std_msgs/msg/String")
 ADD = service("example_interfaces/srv/AddTwoInts")
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)

@@ -21,7 +21,7 @@ from studio.ros.node.executor import SingleThreadedExecutor
 from studio.ros.node.node import Node
 from studio.ros.wire.door import declare_publisher
 from tests.support.demos import heard, node_at
-from tests.support.wire import open_test_session, running_router, wait_until
+from tests.support.wire import PATIENCE_S, open_test_session, running_router, wait_until
 
 if TYPE_CHECKING:
     from collections.abc import Generator
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from studio.ros.node.subscription import Subscription
     from studio.ros.wire.door import Outgoing
 
-pytestmark = [pytest.mark.network, pytest.mark.timeout(120)]
+pytestmark = pytest.mark.network
 STRING = "std_msgs/msg/String"
 GOOD, BAD = b"\0\1\0\0\3\0\0\0ok\0", b"\0\1\0\0\3\0\0\0no\0"
 
@@ -164,7 +164,7 @@ def test_a_message_of_50_megabytes_arrives_whole(router: str, node: Node):
     came = heard(node, "sensor_msgs/msg/Image", "/large", 1)
     with node_at(router, "camera") as camera:
         publisher = camera.create_publisher(image, "/large", 1)
-        assert camera.graph.wait_for(lambda: bool(camera.graph.subscriptions("/large")), 10)
+        assert camera.graph.wait_for(lambda: bool(camera.graph.subscriptions("/large")), PATIENCE_S)
 
         def publish() -> bool:
             if not came:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from studio.ros.client import Node
     from tests.support.demos import RunningDemo
 
-pytestmark = [pytest.mark.network, pytest.mark.timeout(120)]
+pytestmark = pytest.mark.network
 
 URDF = """<robot name="arm">
   <link name="base"/><link name="upper"/><link name="tip"/>

@@ -183,7 +183,6 @@ def test_a_cut_zip_is_refused(tmp_path: Path):
 
 
 @pytest.mark.skipif(os.name == "nt", reason="pipes of Unix")
-@pytest.mark.timeout(10)
 def test_a_pipe_that_is_called_zip_does_not_block(tmp_path: Path):
     os.mkfifo(tmp_path / "a.zip")
     assert refused(tmp_path, tmp_path / "a.zip") == "it is no file."

@@ -96,7 +96,6 @@ def test_links_to_folders_are_not_followed_so_that_a_loop_ends(tmp_path: Path):
 
 
 @pytest.mark.skipif(os.name == "nt", reason="pipes of Unix")
-@pytest.mark.timeout(10)
 def test_a_manifest_that_is_a_pipe_or_leads_outside_is_no_package(tmp_path: Path):
     opened = tmp_path / "opened"
     for name in ("pipe", "link"):

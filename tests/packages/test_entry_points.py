@@ -171,7 +171,6 @@ def test_built_hidden_and_ignored_folders_are_left_out(tmp_path: Path):
 
 
 @pytest.mark.skipif(os.name == "nt", reason="symlinks and pipes of Unix")
-@pytest.mark.timeout(10)
 def test_pipes_and_links_that_lead_outside_are_not_readable(tmp_path: Path):
     (tmp_path / "secret.urdf").write_text("<robot name='secret'><link name='l'/></robot>")
     opened = tmp_path / "opened"

@@ -43,7 +43,6 @@ def test_a_manifest_without_a_proper_name_has_none(manifest: bytes):
     assert package_name(manifest) is None
 
 
-@pytest.mark.timeout(5)
 @pytest.mark.parametrize(
     "piece", [b"<!--", b"<package ", b"<name>", b"<package><name", b"<package>", b"<package><name>"]
 )

@@ -251,7 +251,6 @@ def test_what_was_read_only_stays_so_when_it_is_opened_from_the_page(desk: Desk,
 
 
 @needs_links
-@pytest.mark.timeout(10)
 def test_a_name_that_is_no_text_is_refused_in_a_sentence(desk: Desk, tmp_path: Path):
     with pytest.raises(UnreadableFileError, match="no text: rename it"):
         desk.open(tmp_path / os.fsdecode(b"r\xff.urdf"))

@@ -77,7 +77,6 @@ def test_the_bounds_are_those_of_the_turned_and_moved_boxes():
 
 
 @pytest.mark.browser
-@pytest.mark.timeout(180)
 def test_it_opens_from_the_disk_and_turns_under_the_mouse(browser: Browser, tmp_path: Path):
     file = tmp_path / "rover.html"
     with ThreadPoolExecutor(1) as thread:  # this one has the loop that speaks with the browser

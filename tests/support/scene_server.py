@@ -68,12 +68,12 @@ class SceneServer:
 
     def __enter__(self) -> SceneServer:
         self._thread.start()
-        assert self._ready.wait(10)
+        assert self._ready.wait(60)
         return self
 
     def __exit__(self, *_: object) -> None:
         self._loop.call_soon_threadsafe(self._stop.set)
-        self._thread.join(10)
+        self._thread.join(60)
         self._loop.close()
 
     @property
@@ -91,7 +91,7 @@ class SceneServer:
         return self.wait_for(run())
 
     def wait_for(self, coroutine: Coroutine[None, None, T]) -> T:
-        return asyncio.run_coroutine_threadsafe(coroutine, self._loop).result(30)
+        return asyncio.run_coroutine_threadsafe(coroutine, self._loop).result(60)
 
     def drop_connections(self) -> None:
         """Cut every websocket, as a network does."""

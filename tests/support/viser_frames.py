@@ -25,7 +25,7 @@ def messages_of(frame: bytes) -> list[Sent]:
 
 async def eventually(holds: Callable[[], bool]) -> None:
     """Let the loop run until that holds."""
-    async with asyncio.timeout(5):
+    async with asyncio.timeout(60):
         while not holds():  # noqa: ASYNC110 - nothing tells us when
             await asyncio.sleep(0)
 

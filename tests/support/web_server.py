@@ -46,7 +46,7 @@ class RunningWeb:
         """An HTTP client; with a role it sends that role's cookie and our own origin."""
         own = {"cookie": self.cookie(role), "origin": self.origin} if role else {}
         return httpx2.Client(
-            base_url=self.origin, headers=own | dict(headers or {}), trust_env=False
+            base_url=self.origin, headers=own | dict(headers or {}), trust_env=False, timeout=60
         )
 
     def websocket(
@@ -67,7 +67,7 @@ class RunningWeb:
             subprotocols=[Subprotocol(one) for one in subprotocols] or None,
             additional_headers=cookie | dict(headers or {}),
             proxy=None,
-            open_timeout=10,
+            open_timeout=60,
             max_size=None,
         )
 
@@ -100,10 +100,10 @@ def running_web(
     server = Server(app, life)
     thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
     thread.start()
-    assert life.answers.wait(10)
+    assert life.answers.wait(60)
     try:
         yield RunningWeb(engine, credentials, port)
     finally:
         server.should_exit = True
-        thread.join(10)
+        thread.join(60)
         assert not thread.is_alive()

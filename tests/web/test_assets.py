@@ -68,7 +68,7 @@ def test_a_file_of_another_state_of_the_tree_is_not_kept(web: RunningWeb):
 )
 def test_no_path_leads_to_another_file(web: RunningWeb, path: str):
     # http.client sends a path as it is given; other clients resolve its dots.
-    connection = HTTPConnection("127.0.0.1", web.port, timeout=10)
+    connection = HTTPConnection("127.0.0.1", web.port, timeout=60)
     connection.request("GET", base_of(web) + path)
     answer = connection.getresponse()
     assert answer.status in {403, 404}

@@ -50,7 +50,7 @@ def test_two_host_headers_are_refused(web: RunningWeb):
         f"Cookie: {web.cookie(Role.PRESENTER)}",
         "Connection: close",
     ]
-    with socket.create_connection(("127.0.0.1", web.port), timeout=10) as raw:
+    with socket.create_connection(("127.0.0.1", web.port), timeout=60) as raw:
         raw.sendall("\r\n".join([*lines, "", ""]).encode())
         assert raw.makefile("rb").readline().split()[1] in {b"400", b"403"}
 

@@ -27,12 +27,12 @@ def test_a_signal_ends_it_with_open_websockets_within_two_seconds(
 ):
     with running_process([SMALL, str(assets_folder)], tmp_path / "stderr") as small:
         lane = small.websocket("/control")
-        lane.recv(timeout=10)
+        lane.recv(timeout=60)
         lane.send('{"type": "redo"}')  # is still under way at the end
         code, took_s = small.stop(number)
         assert (code, took_s < 2) == (0, True)
         with pytest.raises(ConnectionClosed) as closed:
-            deque(iter(partial(lane.recv, timeout=5), None), maxlen=0)
+            deque(iter(partial(lane.recv, timeout=60), None), maxlen=0)
         assert closed.value.rcvd is not None
         assert closed.value.rcvd.code == 1012  # restart: the page waits for it to return
         assert small.stderr == ""
@@ -57,7 +57,7 @@ def test_a_request_under_way_does_not_hold_it_up(assets_folder: Path, tmp_path: 
         waits = pool.submit(client.post, "/api/commands", content='{"type": "redo"}')
         _, took_s = small.stop()
         assert took_s < 2
-        assert isinstance(waits.exception(5), httpx2.TransportError) or waits.result().is_error
+        assert isinstance(waits.exception(60), httpx2.TransportError) or waits.result().is_error
 
 
 def test_no_token_is_written_to_the_log(assets_folder: Path, tmp_path: Path):

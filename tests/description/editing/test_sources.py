@@ -281,7 +281,6 @@ def test_a_limit_and_a_length_of_a_real_arm_are_saved_and_only_their_bytes(
 
 
 @pytest.mark.corpus
-@pytest.mark.timeout(180)
 def test_edits_of_real_robots_keep_every_span_and_undo_gives_every_site_back(corpus: Path):
     """In each robot some numbers are turned; session and sources stay in step all the way."""
     folders, turned = package_folders(corpus), 0

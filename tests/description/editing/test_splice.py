@@ -95,7 +95,6 @@ def test_a_yaml_scalar_is_written_in_the_style_it_has():
 
 
 @pytest.mark.corpus
-@pytest.mark.timeout(120)
 def test_writing_what_stands_there_leaves_every_file_of_the_corpus_as_it_is(corpus: Path):
     """Every attribute, every macro default and every YAML scalar, decoded and spelled again."""
     from tests.support.corpus_files import xml_trees, yaml_files

@@ -91,7 +91,6 @@ def test_whatever_is_written_expands_as_xacro_expands_it(written: dict[str, str]
 
 
 @pytest.mark.corpus
-@pytest.mark.timeout(120)
 def test_every_comment_of_the_corpus_comes_out_as_from_stock(
     corpus: Path, tmp_path_factory: pytest.TempPathFactory
 ):

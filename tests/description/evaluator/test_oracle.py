@@ -53,7 +53,6 @@ def is_description(path: Path) -> bool:
 
 
 @pytest.mark.corpus
-@pytest.mark.timeout(120)
 def test_our_evaluator_equals_stock_on_every_file_of_the_corpus(expanded: Expanded):
     different: list[str] = []
     for file, text in expanded.texts.items():
@@ -71,7 +70,6 @@ def test_our_evaluator_equals_stock_on_every_file_of_the_corpus(expanded: Expand
 
 
 @pytest.mark.corpus
-@pytest.mark.timeout(120)
 def test_what_stock_cannot_expand_gets_a_sentence_and_a_place(expanded: Expanded):
     failed = [file for file, text in expanded.texts.items() if text is None]
     faults = {file: fault for file in failed if (fault := fault_in(file, expanded.policy))}
@@ -89,7 +87,6 @@ def fault_in(file: str, policy: ReadPolicy) -> Fault | None:
 
 
 @pytest.mark.corpus
-@pytest.mark.timeout(120)
 def test_the_exporter_is_byte_equal_to_the_command_on_the_corpus(expanded: Expanded):
     different = [
         file

@@ -19,7 +19,6 @@ ROOM = 10
 
 
 @pytest.mark.corpus
-@pytest.mark.timeout(120)
 def test_no_real_file_needs_more_than_a_tenth_of_any_bound(corpus: Path):
     policy = policy_for(corpus)
     limits = Limits()

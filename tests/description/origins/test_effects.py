@@ -185,7 +185,6 @@ def check_against_edits(traced: TracedRobot, count: int) -> tuple[int, int]:
     return changed_count, beside
 
 
-@pytest.mark.timeout(120)
 @pytest.mark.parametrize("name", ["rover", "arm6", "quadruped", "xacro_robot"])
 def test_what_is_told_is_what_changes_on_our_models(name: str):
     file = MODELS / f"{name}_description" / "urdf" / f"{name}.urdf.xacro"
@@ -195,7 +194,6 @@ def test_what_is_told_is_what_changes_on_our_models(name: str):
     assert beside <= changed * 0.05
 
 
-@pytest.mark.timeout(180)
 @pytest.mark.parametrize(
     ("file", "arguments"),
     [

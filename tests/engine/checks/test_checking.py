@@ -5,8 +5,6 @@ from __future__ import annotations
 import asyncio
 from typing import TYPE_CHECKING
 
-import pytest
-
 from studio.description.editing.sources import Change
 from studio.description.values import Edit
 from studio.engine.checks.checking import merged
@@ -18,8 +16,6 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from studio.engine.document import Document
-
-pytestmark = pytest.mark.timeout(120)
 
 
 def found(document: Document) -> list[str]:

@@ -18,7 +18,6 @@ if TYPE_CHECKING:
 
     from studio.engine.document import Document
 
-pytestmark = pytest.mark.timeout(120)
 
 CART = """<robot name="cart">
   <link name="base"/>

@@ -20,7 +20,6 @@ if TYPE_CHECKING:
 
     from studio.engine.keeping.exports import Download
 
-pytestmark = pytest.mark.timeout(120)
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n"
 ARM = """<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">

@@ -17,7 +17,6 @@ if TYPE_CHECKING:
 
     from studio.engine.document import Document
 
-pytestmark = pytest.mark.timeout(120)
 
 BOX = """<robot name="box" xmlns:xacro="http://www.ros.org/wiki/xacro">
   <xacro:arg name="wide" default="1"/>

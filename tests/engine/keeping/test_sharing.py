@@ -22,7 +22,6 @@ if TYPE_CHECKING:
 
     from studio.engine.engine import Engine
 
-pytestmark = pytest.mark.timeout(120)
 
 MAST = """<robot name="mast" xmlns:xacro="http://www.ros.org/wiki/xacro">
   <!-- Größe -->

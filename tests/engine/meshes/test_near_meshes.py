@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from studio.engine.document import Document
     from studio.problems import Problem
 
-pytestmark = pytest.mark.timeout(120)
-
 
 def shape(kind: str, uri: str) -> str:
     return f'<{kind}><geometry><mesh filename="{uri}"/></geometry></{kind}>'

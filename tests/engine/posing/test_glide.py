@@ -6,15 +6,11 @@ import asyncio
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-import pytest
-
 from studio.engine.posing.glide import Glide
 from tests.support.open_documents import until
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
-
-pytestmark = pytest.mark.timeout(120)
 
 
 class Joints:

@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from studio.engine.engine import Engine
     from tests.support.open_documents import Ear
 
-pytestmark = pytest.mark.timeout(120)
 
 ARM = """<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
   <xacro:arg name="prefix" default=""/>

@@ -5,8 +5,6 @@ from __future__ import annotations
 import asyncio
 from typing import TYPE_CHECKING, Any
 
-import pytest
-
 from studio.engine import messages as m
 from studio.engine.dispatch import carry_out
 from studio.engine.messages.expanded import GetUrdfChanges
@@ -18,7 +16,6 @@ if TYPE_CHECKING:
 
     from studio.engine.document import Document
 
-pytestmark = pytest.mark.timeout(120)
 
 ROBOT = """<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">
   <xacro:arg name="tail" default="false"/>

@@ -20,7 +20,6 @@ if TYPE_CHECKING:
 
     from studio.engine.document import Document
 
-pytestmark = pytest.mark.timeout(60)
 
 TETRAHEDRON = """v 0 0 0
 v 1 0 0

@@ -19,7 +19,6 @@ if TYPE_CHECKING:
 
     from studio.engine.document import Document
 
-pytestmark = pytest.mark.timeout(60)
 
 BODY = """
 <xacro:property name="reach" value="0.4"/>

@@ -22,7 +22,6 @@ from tests.support.open_documents import Ear, engine, opened
 if TYPE_CHECKING:
     from pathlib import Path
 
-pytestmark = pytest.mark.timeout(60)
 
 stops_processes = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGSTOP")
 

@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from studio.engine.document import Document
     from studio.engine.messages import Command
 
-pytestmark = pytest.mark.timeout(120)
 
 MAST = """<robot name="mast" xmlns:xacro="http://www.ros.org/wiki/xacro">
   <xacro:include filename="parts.xacro"/>

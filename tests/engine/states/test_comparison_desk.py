@@ -17,7 +17,6 @@ from tests.support.viser_frames import joined
 if TYPE_CHECKING:
     from pathlib import Path
 
-pytestmark = pytest.mark.timeout(120)
 
 PRESENT, SAVED = Side(kind="present"), Side(kind="saved")
 

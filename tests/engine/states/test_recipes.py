@@ -6,8 +6,6 @@ import asyncio
 import shutil
 from typing import TYPE_CHECKING
 
-import pytest
-
 from studio.engine import messages as m
 from tests.support.packages import write_package
 from tests.support.variant_desk import desk
@@ -15,7 +13,6 @@ from tests.support.variant_desk import desk
 if TYPE_CHECKING:
     from pathlib import Path
 
-pytestmark = pytest.mark.timeout(120)
 
 ROBOT = """<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">
   <xacro:include filename="$(find parts_description)/urdf/parts.xacro"/>

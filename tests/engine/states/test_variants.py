@@ -16,8 +16,6 @@ from tests.support.variant_desk import MAST, Desk, desk, write_mast
 if TYPE_CHECKING:
     from pathlib import Path
 
-pytestmark = pytest.mark.timeout(120)
-
 
 @pytest.fixture
 def mast(tmp_path: Path) -> Path:

@@ -8,7 +8,7 @@ from tests.support.demos import node_at
 from tests.support.goals import ActionPair, Held, finished
 from tests.support.wire import free_endpoint, router_at, wait_until
 
-pytestmark = [pytest.mark.network, pytest.mark.timeout(120)]
+pytestmark = pytest.mark.network
 
 
 def test_a_result_comes_though_the_router_was_away_meanwhile():

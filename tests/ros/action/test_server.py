@@ -179,8 +179,11 @@ def test_a_late_comer_hears_the_status_of_goals_that_were_before():
         pair.asking.create_subscription(
             kind, "/fibonacci/_action/status", heard.append, qos_profile_action_status_default
         )
-        wait_until("the last status", lambda: bool(heard))
-        assert [one.status for one in heard[-1].status_list] == [GoalStatus.SUCCEEDED]
+
+        def told() -> list[int]:
+            return [one.status for one in heard[-1].status_list] if heard else []
+
+        wait_until("the last status", lambda: told() == [GoalStatus.SUCCEEDED])
 
 
 def test_an_id_that_is_known_already_is_refused_without_asking_about_its_goal():
@@ -206,7 +209,11 @@ def test_a_result_that_is_no_longer_kept_is_of_an_unknown_goal():
     with action_pair(count_up, result_timeout=0.0) as pair:
         goal = pair.send()
         wait_until("it ended", lambda: goal.status.is_over)
-        assert finished(goal.get_result_async()).status == GoalStatus.UNKNOWN
+        # Its time begins when its work has returned, a moment after its end was told.
+        wait_until(
+            "it is unknown",
+            lambda: finished(goal.get_result_async()).status == GoalStatus.UNKNOWN,
+        )
 
 
 def test_the_graph_knows_the_action_and_its_parts():

@@ -142,7 +142,6 @@ def test_huge_texts_are_refused():
         message("\n".join(f"int8 a{number}" for number in range(2001)))
 
 
-@pytest.mark.timeout(20)
 @pytest.mark.parametrize(
     "text",
     [
