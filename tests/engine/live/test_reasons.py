@@ -1,0 +1,99 @@
+from dataclasses import replace
+
+import pytest
+from pydantic import TypeAdapter
+
+from studio.displays.display import Status
+from studio.engine.live.display_list import DisplaySpec
+from studio.engine.live.reasons import Facts, OnWire, remarks_on
+from studio.engine.messages.live import LiveCommand
+from studio.engine.messages.wire import WireCommand
+from studio.errors import ExtrapolationError, UnconnectedFramesError, UnknownFrameError
+
+COMMANDS: TypeAdapter[LiveCommand | WireCommand] = TypeAdapter(LiveCommand | WireCommand)
+SCAN = "sensor_msgs/msg/LaserScan"
+SPEC = DisplaySpec("d1", "LaserScan", "Front", "/scan")
+WELL = Facts(
+    SPEC,
+    types=(SCAN,),
+    wire=OnWire(connected=True, publishers=1, types=(SCAN,)),
+    heard=7,
+    draws=True,
+)
+NEAREST = UnconnectedFramesError("odom", "laser", "base")
+GROUPED = replace(SPEC, group="Sensors")
+CLOUD = "sensor_msgs/msg/PointCloud2"
+EMPTY = Status("warn", "transparent", "Its alpha is 0.", ("Alpha", 1.0))
+
+
+def test_of_a_display_that_shows_what_it_should_nothing_else_is_said():
+    assert [one.level for one in remarks_on(WELL)] == ["ok"]
+    assert remarks_on(replace(WELL, draws=False)) == ()
+
+
+@pytest.mark.parametrize(
+    ("facts", "reason", "words"),
+    [
+        (replace(WELL, spec=replace(SPEC, topic="")), "no_topic", "choose one"),
+        (replace(WELL, wire=OnWire()), "not_connected", "no connection"),
+        (replace(WELL, trouble="No type x.", heard=0), "not_heard", "No type x."),
+        (replace(WELL, wire=OnWire(True)), "no_publisher", "Nobody publishes /scan"),
+        (
+            replace(WELL, wire=OnWire(True, 1, (CLOUD,)), fitting_kind="PointCloud2", heard=0),
+            "other_type",
+            "is published as sensor_msgs/msg/PointCloud2",
+        ),
+        (replace(WELL, wire=OnWire(True, 1, ("a/msg/B",)), heard=0), "other_type", "another topic"),
+        (
+            replace(WELL, wire=OnWire(True, 1, (SCAN,), foreign_hash=True), heard=0),
+            "other_hash",
+            "of another form",
+        ),
+        (replace(WELL, heard=0), "no_message", "yet"),
+        (replace(WELL, silent_s=12.3), "silent", "12 s ago"),
+        (replace(WELL, frames=(NEAREST,)), "not_connected_frame", "No chain"),
+        (replace(WELL, frames=(UnknownFrameError("laser"),)), "no_frame", "tells of the frame"),
+        (
+            replace(WELL, frames=(ExtrapolationError("laser", 9 * 10**9, 0, 10**9),)),
+            "stamp_out_of_buffer",
+            "8.000 s newer",
+        ),
+        (replace(WELL, stamp_zero=True), "stamp_zero", "time 0"),
+        (replace(WELL, statuses=(EMPTY,)), "transparent", "alpha is 0"),
+        (replace(WELL, spec=GROUPED, shown=False), "group_off", "hidden as a whole"),
+    ],
+)
+def test_each_reason_is_one_sentence(facts: Facts, reason: str, words: str):
+    (remark,) = remarks_on(facts)
+    assert remark.reason == reason
+    assert words in remark.sentence
+    assert remark.sentence.endswith((".", "?"))
+
+
+@pytest.mark.parametrize(
+    ("facts", "label"),
+    [
+        (replace(WELL, wire=OnWire()), "Connect"),
+        (
+            replace(WELL, wire=OnWire(True, 1, (CLOUD,)), fitting_kind="PointCloud2"),
+            "Add a PointCloud2 for it",
+        ),
+        (replace(WELL, frames=(NEAREST,)), "Draw everything in base"),
+        (replace(WELL, statuses=(EMPTY,)), "Set Alpha to 1.0"),
+        (replace(WELL, spec=GROUPED, shown=False), "Show Sensors"),
+    ],
+)
+def test_the_click_that_mends_it_is_a_command_as_the_page_sends_it(facts: Facts, label: str):
+    mend = remarks_on(facts)[0].mend
+    assert mend is not None
+    assert mend.label == label
+    assert COMMANDS.validate_python(mend.command).type == mend.command["type"]
+
+
+def test_of_a_display_that_somebody_switched_off_nothing_is_said():
+    assert remarks_on(replace(WELL, spec=replace(SPEC, enabled=False), shown=False)) == ()
+
+
+def test_one_that_was_heard_before_and_is_not_any_more_says_what_else_is_in_the_way():
+    facts = replace(WELL, wire=OnWire(True), statuses=(EMPTY,))
+    assert [one.reason for one in remarks_on(facts)] == ["no_publisher", "transparent"]
