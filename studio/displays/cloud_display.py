@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, ClassVar
 from studio.displays.cloud_look import LOOK, colours_of, needs_precision, points_of
 from studio.displays.display import Display, Status
 from studio.displays.drawing import NOTHING, Drawing, Placed
+from studio.displays.reading import reading
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -54,7 +55,8 @@ class CloudDisplay(Display):
     def take(self, received: Received, role: str = "") -> None:
         """Take in a message; how long it is seen, the decay time says."""
         del role
-        cloud = self.read(received, self.limits)
+        with reading(received.type_name):
+            cloud = self.read(received, self.limits)
         if not self._decay_ns():
             self._kept.clear()
         self._decay(received.received_ns)

@@ -1,0 +1,216 @@
+"""Image: what a camera sees, at the far end of what its camera info says that it can see."""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from statistics import median
+from typing import TYPE_CHECKING, Any, ClassVar, Final, NamedTuple
+
+import numpy as np
+
+from studio.displays.cloud import stamp_of
+from studio.displays.compressed_images import read_compressed
+from studio.displays.display import Status, StillDisplay, TopicRole
+from studio.displays.drawing import NOTHING, Frustum, Placed
+from studio.displays.image_encodings import read_image
+from studio.displays.properties import Property, rgb_of
+from studio.displays.reading import reading
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from numpy.typing import NDArray
+
+    from studio.displays.display import Received
+    from studio.displays.drawing import Drawing
+    from studio.displays.properties import Value
+    from studio.ros.types.library import TypeLibrary
+
+_INFO: Final = "camera_info"
+_COMPRESSED: Final = "sensor_msgs/msg/CompressedImage"
+_WINDOW_MAX: Final = 100
+# Of usual cameras, until the camera info comes.
+_GUESSED_FOV_Y_RAD: Final = math.radians(45.0)
+_SKEWED: Final = 0.05
+
+
+class _View(NamedTuple):
+    """What a camera info says."""
+
+    fov_y_rad: float
+    aspect: float
+    skewed: bool
+
+
+class ImageDisplay(StillDisplay):
+    """Draws the newest picture where the camera is, as wide as it sees."""
+
+    KIND: ClassVar[str] = "Image"
+    DOC: ClassVar[str] = "The picture of a camera, in front of the camera in 3D."
+    TOPICS: ClassVar[tuple[TopicRole, ...]] = (
+        TopicRole("", ("sensor_msgs/msg/Image", _COMPRESSED), reliable=False),
+        TopicRole(_INFO, ("sensor_msgs/msg/CameraInfo",), beside="/camera_info", reliable=False),
+    )
+    PROPERTIES: ClassVar[tuple[Property, ...]] = (
+        Property(
+            "Far clip", "number", 1.0, "How far in front of the camera the picture is.",
+            low=0.01, high=1000.0, unit="m",
+        ),
+        Property("Alpha", "number", 1.0, "How opaque the picture is.", low=0.0, high=1.0),
+        Property("Edge color", "colour", "#7d7d7d", "Of the edges of what the camera sees."),
+        Property(
+            "Normalize Range", "switch", True,  # noqa: FBT003 - its first value
+            "Whether depths reach from black to white between the least and the greatest.",
+        ),
+        Property(
+            "Min Value", "number", 0.0, "What is black.", when=("Normalize Range", (False,))
+        ),
+        Property(
+            "Max Value", "number", 1.0, "What is white.", when=("Normalize Range", (False,))
+        ),
+        Property(
+            "Median window", "whole", 5, "Over how many pictures the range is evened out.",
+            low=1, high=_WINDOW_MAX, when=("Normalize Range", (True,)),
+        ),
+    )  # fmt: skip
+
+    def __init__(self, types: TypeLibrary, values: Mapping[str, Value] | None = None) -> None:
+        super().__init__(types, values)
+        self.reset()
+
+    def reset(self) -> None:
+        """Forget picture and camera."""
+        self._pixels: NDArray[Any] | None = None
+        self._frame, self._stamp_ns = "", 0
+        self._view: _View | None = None
+        self._heard_info = False
+        self._ranges: deque[tuple[float, float]] = deque(maxlen=_WINDOW_MAX)
+        self.redraw()
+
+    def take(self, received: Received, role: str = "") -> None:
+        """Take in a picture, or what is known of the camera.
+
+        Raises:
+            StudioError: It cannot be read, or is of an unknown encoding.
+        """
+        message = self.decode(received)
+        with reading(received.type_name):
+            if role == _INFO:
+                self._take_info(message)
+            else:
+                self._take_picture(received.type_name, message)
+
+    def _take_picture(self, type_name: str, message: Any) -> None:  # noqa: ANN401
+        read = read_compressed if type_name == _COMPRESSED else read_image
+        pixels, stamp_ns = read(message, self.limits.pixels), stamp_of(message.header)
+        self._pixels, self._frame, self._stamp_ns = pixels, message.header.frame_id, stamp_ns
+        if _is_numbers(pixels):
+            self._ranges.append(_range_of(pixels))
+        self.redraw()
+
+    def statuses(self) -> tuple[Status, ...]:
+        """Why no picture is seen, or not where the camera looks."""
+        if self._pixels is None:
+            return ()
+        if not self._pixels.size:
+            return (Status("warn", "empty", "The picture has no pixels."),)
+        found = (self._unseen(), self._no_view(), self._transparent())
+        return tuple(one for one in found if one is not None)
+
+    def _take_info(self, info: Any) -> None:  # noqa: ANN401 - a sensor_msgs/CameraInfo
+        view = view_of(info)
+        if view != self._view or not self._heard_info:
+            self._view, self._heard_info = view, True
+            self.redraw()
+
+    def _drawn(self) -> Drawing:
+        pixels = self._pixels
+        if pixels is None or not pixels.size:
+            return NOTHING
+        aspect = pixels.shape[1] / pixels.shape[0]
+        view = self._view or _View(_GUESSED_FOV_Y_RAD, aspect, skewed=False)
+        shape = Frustum(
+            fov_y_rad=view.fov_y_rad,
+            aspect=view.aspect,
+            far_m=float(self.values["Far clip"]),
+            image=self._shades(pixels),
+            rgb=rgb_of(self.values["Edge color"]),
+            opacity=float(self.values["Alpha"]),
+        )
+        return {"camera": Placed(self._frame, self._stamp_ns, {"picture": shape})}
+
+    def _shades(self, pixels: NDArray[Any]) -> NDArray[np.uint8]:
+        """The picture in colours; numbers become shades of grey."""
+        if pixels.ndim == 3:
+            return pixels
+        if pixels.dtype == np.uint8:
+            return np.repeat(pixels[..., None], 3, axis=2)
+        low, high = self._bounds()
+        with np.errstate(all="ignore"):
+            shares = (pixels.astype(np.float32) - low) / ((high - low) or 1.0)
+            shades = np.nan_to_num(np.clip(shares, 0, 1) * 255, nan=0.0).astype(np.uint8)
+        return np.repeat(shades[..., None], 3, axis=2)
+
+    def _bounds(self) -> tuple[float, float]:
+        if not self.values["Normalize Range"]:
+            return float(self.values["Min Value"]), float(self.values["Max Value"])
+        recent = list(self._ranges)[-int(self.values["Median window"]) :]
+        return median(low for low, _ in recent), median(high for _, high in recent)
+
+    def _unseen(self) -> Status | None:
+        pixels = self._pixels
+        if pixels is None or pixels.dtype.kind != "f" or np.isfinite(pixels).any():
+            return None
+        return Status("warn", "not_finite", "All depths are NaN or infinite: the picture is black.")
+
+    def _no_view(self) -> Status | None:
+        if self._view is None:
+            said = "says no focal length" if self._heard_info else "has not come"
+            degrees = round(math.degrees(_GUESSED_FOV_Y_RAD))
+            sentence = f"The camera info {said}: the angle of view is guessed as {degrees} degrees."
+            return Status("warn", "no_camera_info", sentence)
+        if self._view.skewed:
+            sentence = (
+                "The camera's axis is not in the middle of its picture: drawn as if it were there."
+            )
+            return Status("ok", None, sentence)
+        return None
+
+    def _transparent(self) -> Status | None:
+        if float(self.values["Alpha"]) > 0.0:
+            return None
+        sentence = "Alpha is 0: the edges alone are seen."
+        return Status("warn", "transparent", sentence, ("Alpha", 1.0))
+
+
+def view_of(info: Any) -> _View | None:  # noqa: ANN401 - a sensor_msgs/CameraInfo
+    """How wide a camera sees: by its projection, else by the matrix of the raw picture.
+
+    Returns:
+        None when there is no focal length.
+    """
+    width, height = float(info.width), float(info.height)
+    if not width * height:
+        return None
+    p, k = info.p, info.k
+    for fx, fy, cx, cy in ((p[0], p[5], p[2], p[6]), (k[0], k[4], k[2], k[5])):
+        values = np.array([fx, fy, cx, cy])
+        if np.isfinite(values).all() and fx > 0.0 and fy > 0.0:
+            fov_y_rad = 2.0 * math.atan(height / (2.0 * float(fy)))
+            aspect = (width * float(fy)) / (height * float(fx))
+            if not (1e-3 < fov_y_rad < 3.1 and 1e-3 < aspect < 1e3):
+                continue
+            away = max(abs(cx / width - 0.5), abs(cy / height - 0.5))
+            return _View(fov_y_rad, aspect, bool(away > _SKEWED))
+    return None
+
+
+def _is_numbers(pixels: NDArray[Any]) -> bool:
+    return pixels.ndim == 2 and pixels.dtype != np.uint8 and pixels.size > 0
+
+
+def _range_of(pixels: NDArray[Any]) -> tuple[float, float]:
+    """The least and the greatest number that is one; of none both are 0."""
+    finite = pixels if pixels.dtype.kind != "f" else pixels[np.isfinite(pixels)]
+    return (float(finite.min()), float(finite.max())) if finite.size else (0.0, 0.0)
