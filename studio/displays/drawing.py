@@ -237,12 +237,15 @@ class Placed:
         shapes: By name; names are plain words without slashes.
         follows: Whether the shapes move with the frame from now on, as `frame_locked` markers do;
             else they stay in the fixed frame where they were at the stamp.
+        turns: Whether the shapes are turned as the frame is; else they are at its origin, in the
+            axes of the fixed frame.
     """
 
     frame: str
     stamp_ns: int
     shapes: Mapping[str, Shape] = field(default_factory=dict[str, Shape])
     follows: bool = False
+    turns: bool = True
 
 
 Drawing: TypeAlias = "Mapping[str, Placed]"

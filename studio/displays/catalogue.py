@@ -1,0 +1,68 @@
+"""Catalogue: all displays there are, by RViz's names and by the messages that they draw."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+from studio.displays.accel import AccelDisplay
+from studio.displays.grid_cells import GridCellsDisplay
+from studio.displays.imu import ImuDisplay
+from studio.displays.odometry import OdometryDisplay
+from studio.displays.path import PathDisplay
+from studio.displays.point import PointStampedDisplay
+from studio.displays.polygon import PolygonDisplay
+from studio.displays.pose import PoseDisplay
+from studio.displays.pose_array import PoseArrayDisplay
+from studio.displays.pose_with_covariance import PoseWithCovarianceDisplay
+from studio.displays.range import RangeDisplay
+from studio.displays.twist import TwistDisplay
+from studio.displays.wrench import WrenchDisplay
+from studio.errors import DisplayError
+
+if TYPE_CHECKING:
+    from studio.displays.display import Display
+
+DISPLAYS: Final[tuple[type[Display], ...]] = (
+    AccelDisplay,
+    GridCellsDisplay,
+    ImuDisplay,
+    OdometryDisplay,
+    PathDisplay,
+    PointStampedDisplay,
+    PolygonDisplay,
+    PoseArrayDisplay,
+    PoseDisplay,
+    PoseWithCovarianceDisplay,
+    RangeDisplay,
+    TwistDisplay,
+    WrenchDisplay,
+)
+"""One row each. Of two that draw the same messages the one that fits them best comes first."""
+
+_BY_KIND: Final = {one.KIND: one for one in DISPLAYS}
+
+
+def display_of_kind(kind: str) -> type[Display]:
+    """The display of RViz's name, with or without a package before it, as `rviz_imu_plugin/Imu`.
+
+    Raises:
+        DisplayError: There is none.
+    """
+    found = _BY_KIND.get(kind.rpartition("/")[2])
+    if found is None:
+        raise DisplayError(
+            f'There is no display "{kind[:60]}" here: choose one of {", ".join(sorted(_BY_KIND))}.'
+        )
+    return found
+
+
+def displays_of_type(type_name: str) -> tuple[type[Display], ...]:
+    """Those whose main topic has messages of a type, the best first; none when nothing draws it."""
+    return tuple(one for one in DISPLAYS if one.TOPICS and type_name in one.TOPICS[0].types)
+
+
+def drawn_types() -> tuple[str, ...]:
+    """All types of messages that some display draws, in the order of the alphabet."""
+    return tuple(
+        sorted({name for one in DISPLAYS for topic in one.TOPICS[:1] for name in topic.types})
+    )

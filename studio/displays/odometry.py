@@ -1,0 +1,89 @@
+"""OdometryDisplay: where a robot was, step by step."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+
+from studio.displays import covariance_look
+from studio.displays.covariance_look import (
+    NOT_POSITIVE,
+    Spread,
+    covariance_shapes,
+    is_covariance,
+    spread_of,
+)
+from studio.displays.display import TopicRole
+from studio.displays.history import KEPT_MAX, Entry, HistoryDisplay, frame_and_stamp
+from studio.displays.pose_look import NOT_FINITE, pose_of, pose_properties, pose_shapes
+from studio.displays.properties import Property
+from studio.displays.turning import angle_between_rad
+
+if TYPE_CHECKING:
+    from studio.displays.display import Received
+    from studio.displays.drawing import Shape
+
+_UNDER: Final = "Shape/"
+_NOT_UNIT: Final = (
+    "The orientation is no quaternion of length 1, so the pose is not drawn: its publisher should "
+    "divide it by its length."
+)
+# How far the square of the length may be from 1, as in RViz.
+_SQUARE_OFF_MAX: Final = 0.01
+
+
+class OdometryDisplay(HistoryDisplay[Spread]):
+    """Draws a pose whenever the robot moved far enough from the last one that is drawn."""
+
+    KIND = "Odometry"
+    DOC = "Where a robot was, step by step."
+    TOPICS = (TopicRole("", ("nav_msgs/msg/Odometry",), newest_only=False),)
+    PROPERTIES = (
+        Property("Position Tolerance", "number", 0.1,
+                 "How far the robot moves until another pose is drawn.", 0.0, 1e6, "m"),
+        Property("Angle Tolerance", "number", 0.1,
+                 "How far the robot turns until another pose is drawn.", 0.0, math.pi, "rad"),
+        Property("Keep", "whole", 100,
+                 f"How many poses are shown; 0 shows all, up to {KEPT_MAX:,}.", 0, KEPT_MAX),
+        *pose_properties(_UNDER),
+        *covariance_look.PROPERTIES,
+    )  # fmt: skip
+    KEEPS = "Keep"
+
+    def read(self, received: Received) -> Entry[Spread] | None:
+        """The pose, unless it cannot be drawn or is where the last one is."""
+        message = self.decode(received)
+        pose = pose_of(message.pose.pose)
+        spread = None if pose is None else spread_of(pose, message.pose.covariance)
+        if spread is None:
+            return self.refuse("not_finite", NOT_FINITE)
+        if not _is_unit(message.pose.pose.orientation):
+            return self.refuse("bad_message", _NOT_UNIT)
+        if not is_covariance(spread):
+            self.warn(None, NOT_POSITIVE)
+        entry = Entry(*frame_and_stamp(message.header), spread)
+        return None if self._is_near_the_newest(entry) else entry
+
+    def shapes(self, content: Spread) -> dict[str, Shape]:
+        """The pose, an ellipsoid, and the spread of its axes."""
+        pose = pose_shapes(content.pose, self.values, _UNDER)
+        return pose | covariance_shapes(content, self.values)
+
+    def _is_near_the_newest(self, entry: Entry[Spread]) -> bool:
+        """Whether a pose is in the same frame and neither moved nor turned far."""
+        newest = self.newest
+        if newest is None or newest.frame != entry.frame:
+            return False
+        before, now = newest.content.pose, entry.content.pose
+        moved_m = float(np.linalg.norm(now.xyz[0] - before.xyz[0]))
+        turned_rad = angle_between_rad(before.wxyz[0], now.wxyz[0])
+        return moved_m < self.number("Position Tolerance") and turned_rad < self.number(
+            "Angle Tolerance"
+        )
+
+
+def _is_unit(turn: Any) -> bool:  # noqa: ANN401 - a message
+    square = math.fsum(min(abs(part), 2.0) ** 2 for part in (turn.w, turn.x, turn.y, turn.z))
+    return abs(square - 1.0) < _SQUARE_OFF_MAX

@@ -1,0 +1,44 @@
+"""PoseDisplay: one pose as an arrow or as axes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from studio.displays.display import TopicRole
+from studio.displays.history import Entry, HistoryDisplay, frame_and_stamp
+from studio.displays.pose_look import (
+    NO_TURN_SET,
+    NOT_FINITE,
+    Poses,
+    has_no_turn,
+    pose_of,
+    pose_properties,
+    pose_shapes,
+)
+
+if TYPE_CHECKING:
+    from studio.displays.display import Received
+    from studio.displays.drawing import Shape
+
+
+class PoseDisplay(HistoryDisplay[Poses]):
+    """Draws the newest pose."""
+
+    KIND = "Pose"
+    DOC = "A pose as an arrow or as axes, as a goal of navigation is."
+    TOPICS = (TopicRole("", ("geometry_msgs/msg/PoseStamped",)),)
+    PROPERTIES = pose_properties()
+
+    def read(self, received: Received) -> Entry[Poses] | None:
+        """The pose, unless its numbers cannot be drawn."""
+        message = self.decode(received)
+        poses = pose_of(message.pose)
+        if poses is None:
+            return self.refuse("not_finite", NOT_FINITE)
+        if has_no_turn(message.pose.orientation):
+            self.warn(None, NO_TURN_SET)
+        return Entry(*frame_and_stamp(message.header), poses)
+
+    def shapes(self, content: Poses) -> dict[str, Shape]:
+        """An arrow, or axes."""
+        return pose_shapes(content, self.values)

@@ -1,0 +1,81 @@
+"""PoseArrayDisplay: many poses, as the particles of a localisation are."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+
+from studio.displays.display import TopicRole
+from studio.displays.drawing import Lines
+from studio.displays.history import Entry, HistoryDisplay
+from studio.displays.pose_look import (
+    RVIZ_RED,
+    Poses,
+    Sizes,
+    arrow_properties,
+    axes_properties,
+    colour_of,
+    colour_properties,
+    length,
+    pose_shapes,
+)
+from studio.displays.properties import Property, rgb_of
+from studio.displays.rows import poses_of_rows
+from studio.displays.turning import turned
+from studio.ros.fast.poses import POSE_ARRAY, read_pose_array
+
+if TYPE_CHECKING:
+    from studio.displays.display import Received
+    from studio.displays.drawing import Shape
+
+_FLAT, _SOLID, _AXES = "Arrow (Flat)", "Arrow (3D)", "Axes"
+_SIZES = Sizes(0.23, 0.01, 0.07, 0.03, 0.3, 0.01)
+_ARROWS = ("Shape", (_FLAT, _SOLID))
+POSES_MAX: Final = 50_000
+
+# Of a flat arrow of length 1: its tail and tip, and the ends of the two strokes of its head.
+_STROKES = np.array(
+    [
+        [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]],
+        [[1.0, 0.0, 0.0], [0.75, 0.2, 0.0]],
+        [[1.0, 0.0, 0.0], [0.75, -0.2, 0.0]],
+    ]
+)
+
+
+class PoseArrayDisplay(HistoryDisplay[Poses]):
+    """Draws all poses of the newest message."""
+
+    KIND = "PoseArray"
+    DOC = "Many poses, as the particles of a localisation are."
+    TOPICS = (TopicRole("", (POSE_ARRAY,)),)
+    PROPERTIES = (
+        Property("Shape", "choice", _FLAT, "What a pose looks like.",
+                 choices=(_FLAT, _SOLID, _AXES)),
+        *colour_properties(RVIZ_RED, "arrows", when=_ARROWS),
+        length("Arrow Length", 0.3, "How long the flat arrows are.", ("Shape", (_FLAT,))),
+        *arrow_properties(_SIZES, when=("Shape", (_SOLID,))),
+        *axes_properties(_SIZES, when=("Shape", (_AXES,))),
+    )  # fmt: skip
+
+    def read(self, received: Received) -> Entry[Poses] | None:
+        """The poses that can be drawn."""
+        read = read_pose_array(received.cdr)
+        poses = poses_of_rows(read.rows, "poses", POSES_MAX, self)
+        return None if poses is None else Entry(read.frame, read.stamp_ns, poses)
+
+    def shapes(self, content: Poses) -> dict[str, Shape]:
+        """Flat arrows, arrows or axes."""
+        if self.values["Shape"] != _FLAT:
+            return pose_shapes(content, self.values)
+        if not len(content) or not self.values["Arrow Length"]:
+            return {}
+        return {"arrows": self._flat(content)}
+
+    def _flat(self, poses: Poses) -> Lines:
+        corners = (self.number("Arrow Length") * _STROKES).reshape(-1, 3)
+        places = [poses.xyz + turned(poses.wxyz, corner) for corner in corners]
+        ends = np.stack(places, axis=1).reshape(-1, 2, 3).astype(np.float32)
+        colour = colour_of(rgb_of(self.values["Color"]))
+        return Lines(ends, colour, 0.0, self.number("Alpha"))
