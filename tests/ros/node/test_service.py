@@ -103,8 +103,9 @@ def test_a_callback_that_fails_ends_the_spinning_and_leaves_nobody_waiting(
 @pytest.mark.parametrize("given", [None, 5, AddTwoInts.Request()], ids=["nothing", "5", "request"])
 def test_a_callback_that_gives_no_response_is_told_so(nodes: tuple[Node, Node], given: object):
     asker, server = nodes
-    served = server.create_service(AddTwoInts, "wrong", lambda _asked, _given: given)
-    client = asker.create_client(AddTwoInts, "wrong")
+    name = f"wrong_{type(given).__name__}"  # of its own: the asker may still see the one before
+    served = server.create_service(AddTwoInts, name, lambda _asked, _given: given)
+    client = asker.create_client(AddTwoInts, name)
     assert client.wait_for_service(timeout_sec=30)
     client.call_async(AddTwoInts.Request())
     wait_until("the request arrived", lambda: served.is_ready)
