@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from studio.cli.verbs import Verbs
+from studio.cli.wire import take_wire_options
 
 if TYPE_CHECKING:
     import argparse
@@ -22,7 +23,8 @@ def add(parser: argparse.ArgumentParser) -> None:
     """Give the parser the verbs of `daemon`."""
     verbs = Verbs(parser)
     for name, sentence in _SENTENCES.items():
-        verbs.add(name, _saying(sentence), sentence[0].lower() + sentence[1:].rstrip("."))
+        summary = sentence[0].lower() + sentence[1:].rstrip(".")
+        take_wire_options(verbs.add(name, _saying(sentence), summary))
 
 
 def _saying(sentence: str) -> Run:

@@ -10,6 +10,7 @@ import studio
 from studio.cli.looking import settle, why_empty
 from studio.cli.terminal import harmless
 from studio.cli.wire import add_wire_options, opened_wire
+from studio.ros.names import is_hidden
 
 if TYPE_CHECKING:
     import argparse
@@ -58,7 +59,8 @@ def _print_verdict(wire: WireSession, graph: Graph, faults: list[Fault]) -> None
     if not graph.nodes():
         print(why_empty(wire))
     elif not faults:
-        print(f"All is well: {len(graph.nodes())} nodes, {len(graph.topics())} topics.")
+        topics = [name for name, _ in graph.topics() if not is_hidden(name)]
+        print(f"All is well: {len(graph.nodes())} nodes, {len(topics)} topics.")
 
 
 def _sections(wire: WireSession, graph: Graph) -> list[Section]:

@@ -5,10 +5,11 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING
 
-from studio.cli.interface_types import add_type_options, known_types
+from studio.cli.interface_asking import library_with
+from studio.cli.interface_types import known_types
 from studio.cli.pasted_types import PASTED, is_pasted
 from studio.cli.verbs import Verbs
-from studio.cli.wire import profile_of
+from studio.cli.wire import add_wire_options, profile_of
 from studio.errors import SettingsError, UnknownTypeError
 from studio.ros.names import full_type_name
 
@@ -30,10 +31,10 @@ def add(parser: argparse.ArgumentParser) -> None:
     ):
         verb = verbs.add(name, run, summary)
         _add_kinds(verb)
-        _add_common(verb)
+        add_wire_options(verb)
     package = verbs.add("package", _package, "name the types of one package")
     package.add_argument("package_name", metavar="PACKAGE")
-    _add_common(package)
+    add_wire_options(package)
     show = verbs.add("show", _show, "print a type with the fields of all that it is made of")
     show.add_argument(
         "type", metavar="TYPE",
@@ -41,27 +42,20 @@ def add(parser: argparse.ArgumentParser) -> None:
     )  # fmt: skip
     show.add_argument("--no-comments", action="store_true", help="leave all comments out")
     show.add_argument("--all-comments", action="store_true", help="those of nested types, too")
-    _add_common(show)
+    add_wire_options(show)
     type_hash = verbs.add("hash", _hash, "print the hash by which nodes know a type from another")
     type_hash.add_argument("type", metavar="TYPE", help="as for show")
-    _add_common(type_hash)
+    add_wire_options(type_hash)
     proto = verbs.add("proto", _proto, "print a value of a type as YAML, to fill in")
     proto.add_argument("type", metavar="TYPE", help="as for show")
     proto.add_argument("--no-quotes", action="store_true", help="leave the outer quotes out")
-    _add_common(proto)
+    add_wire_options(proto)
 
 
 def _add_kinds(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("-m", "--only-msgs", action="append_const", dest="kinds", const="msg")
     parser.add_argument("-s", "--only-srvs", action="append_const", dest="kinds", const="srv")
     parser.add_argument("-a", "--only-actions", action="append_const", dest="kinds", const="action")
-
-
-def _add_common(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "--distro", help="humble, jazzy or kilted (default: ROS_DISTRO where known, else jazzy)"
-    )
-    add_type_options(parser)
 
 
 def _library(options: argparse.Namespace) -> TypeLibrary:
@@ -101,12 +95,12 @@ def _show(options: argparse.Namespace) -> None:
     elif options.all_comments:
         comments = Comments.ALL
     name = _type_name(options)
-    print(type_text(_library(options), name, comments), end="")
+    print(type_text(library_with(options, name), name, comments), end="")
 
 
 def _hash(options: argparse.Namespace) -> None:
     name = _type_name(options)
-    print(_library(options).hash_of(name))
+    print(library_with(options, name).hash_of(name))
 
 
 def _type_name(options: argparse.Namespace) -> str:
@@ -128,7 +122,7 @@ def _proto(options: argparse.Namespace) -> None:
     from studio.ros.types.plain import to_yaml
 
     name = _type_name(options)
-    library = _library(options)
+    library = library_with(options, name)
     asked = messages_of(library.interface(name))[0]
     text = to_yaml(library.message(asked.name)())
     print(text if options.no_quotes else f'"{text}"', end="" if options.no_quotes else "\n")

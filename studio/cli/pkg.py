@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from studio.cli.opened import add_package_options, opened_packages
 from studio.cli.unserved import refuse
 from studio.cli.verbs import Verbs
+from studio.cli.wire import take_wire_options
 from studio.errors import PackageNotFoundError
 from studio.packages.manifest import FILE_NAME, SIZE_LIMIT_BYTES
 from studio.packages.roots import ServedRoots
@@ -21,21 +22,26 @@ if TYPE_CHECKING:
 def add(parser: argparse.ArgumentParser) -> None:
     """Give the parser the verbs of `pkg`."""
     verbs = Verbs(parser)
-    add_package_options(verbs.add("list", _list, "name the packages of opened folders"))
+    _add_common(verbs.add("list", _list, "name the packages of opened folders"))
     xml = verbs.add("xml", _xml, "print the package.xml of a package")
     xml.add_argument("package_name", metavar="PACKAGE")
     xml.add_argument("-t", "--tag", help="only what stands in this tag")
-    add_package_options(xml)
+    _add_common(xml)
     executables = verbs.add("executables", _executables, "name what packages start")
     executables.add_argument("package_name", metavar="PACKAGE", nargs="?")
     executables.add_argument(
         "--full-path", action="store_true", help="print the file that each is in"
     )
-    add_package_options(executables)
+    _add_common(executables)
     prefix = verbs.add("prefix", _prefix, "print the folder of a package")
     prefix.add_argument("package_name", metavar="PACKAGE")
-    add_package_options(prefix)
+    _add_common(prefix)
     refuse(verbs, "create", "make a new package", "pkg create")
+
+
+def _add_common(parser: argparse.ArgumentParser) -> None:
+    add_package_options(parser)
+    take_wire_options(parser)
 
 
 def _list(options: argparse.Namespace) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import os
 import signal
 from contextlib import contextmanager
@@ -11,7 +12,6 @@ from studio.cli.interface_types import add_type_options, known_types
 from studio.cli.values import domain_number
 
 if TYPE_CHECKING:
-    import argparse
     from collections.abc import Generator
 
     from studio.ros.profiles import WireProfile
@@ -61,6 +61,12 @@ def add_wire_options(
     parser.set_defaults(interrupted_code=int(signal.SIGINT))  # as ros2, 130 is that of shells
     if own_types:
         add_type_options(parser)
+
+
+def take_wire_options(parser: argparse.ArgumentParser) -> None:
+    """Let a verb that asks nobody be told where others are: every line may say it."""
+    for name in ("--connect", "--domain", "--router"):
+        parser.add_argument(name, action="append", help=argparse.SUPPRESS)
 
 
 @contextmanager

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from tests.support.command_line import studio
+from tests.support.wire import free_endpoint
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -127,11 +128,14 @@ def test_the_workspace_that_the_command_runs_in_is_opened(
         ("show", "nonsense"),
         ("package", "no_such"),
         ("proto", "std_msgs/msg/string"),
+        ("hash", "no_such/action/Type", "--interfaces", "-"),
         ("list", "--distro", "noetic"),
         ("list", "--interfaces", "nowhere"),
     ],
 )
-def test_a_mistake_is_one_sentence(words: tuple[str, ...]):
+def test_a_mistake_is_one_sentence(words: tuple[str, ...], monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setenv("ZENOH_CONFIG_OVERRIDE", f'connect/endpoints=["{free_endpoint()}"]')
+    monkeypatch.setattr("sys.stdin", io.StringIO("MSG: own_interfaces/Twin\nstring data\n"))
     ran = studio("interface", *words)
     assert ran.code == 2
     assert ran.err.startswith("studio: ")

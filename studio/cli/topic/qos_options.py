@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from studio.errors import SettingsError
+from studio.ros.duration import Duration
 from studio.ros.qos import (
     DurabilityPolicy,
     HistoryPolicy,
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from enum import IntEnum
 
+_LEASE_MAX_S = 1e9
 _PROFILES = {
     "unknown": QoSProfile(depth=10),
     "default": QoSProfile(depth=10),
@@ -45,6 +47,10 @@ def add_qos_options(parser: argparse.ArgumentParser) -> None:
     """Let a verb be told its quality of service, in ros2's words."""
     parser.add_argument("--qos-profile", choices=sorted(_PROFILES), help="a profile by its name")
     parser.add_argument("--qos-depth", type=int, metavar="N", help="how many samples wait")
+    parser.add_argument(
+        "--qos-liveliness-lease-duration-seconds", type=float, metavar="SECONDS",
+        help="how long a publisher may be silent",
+    )  # fmt: skip
     for name, policies in _POLICIES.items():
         words = [policy.name.lower() for policy in policies if policy.name != "UNKNOWN"]
         parser.add_argument(f"--qos-{name}", choices=words, help=f"{name} alone")
@@ -52,7 +58,7 @@ def add_qos_options(parser: argparse.ArgumentParser) -> None:
 
 def is_given(options: argparse.Namespace) -> bool:
     """Whether an option says anything of it."""
-    names = ("profile", "depth", *_POLICIES)
+    names = ("profile", "depth", "liveliness_lease_duration_seconds", *_POLICIES)
     return any(getattr(options, f"qos_{name}") is not None for name in names)
 
 
@@ -60,7 +66,7 @@ def given_profile(options: argparse.Namespace, base: QoSProfile) -> QoSProfile:
     """Give what the options say, of a profile by name or else of `base`.
 
     Raises:
-        SettingsError: The depth is less than 0.
+        SettingsError: The depth, or a time, is less than 0.
     """
     named = options.qos_profile
     profile = as_profile(base if named is None else _PROFILES[named])
@@ -68,6 +74,13 @@ def given_profile(options: argparse.Namespace, base: QoSProfile) -> QoSProfile:
         if options.qos_depth < 0:
             raise SettingsError(f"--qos-depth {options.qos_depth}: give 0 or more.")
         profile.depth = options.qos_depth
+    lease_s = options.qos_liveliness_lease_duration_seconds
+    if lease_s is not None:
+        if not 0 <= lease_s < _LEASE_MAX_S:
+            raise SettingsError(
+                f"--qos-liveliness-lease-duration-seconds {lease_s}: give 0 or more."
+            )
+        profile.liveliness_lease_duration = Duration(seconds=lease_s)
     for name, policies in _POLICIES.items():
         word = getattr(options, f"qos_{name}")
         if word is not None:

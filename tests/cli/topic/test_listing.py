@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from tests.support.command_line import comes_to, started, studio
-from tests.support.wire import wait_until
+from tests.support.wire import open_test_session, show_endpoints, wait_until
 
 if TYPE_CHECKING:
     from collections.abc import Generator
@@ -67,6 +67,16 @@ def test_a_topic_that_nobody_has_is_told_as_ros2_tells_it(endpoint: str):
     ran = studio("topic", "info", "/nope", *at)
     assert (ran.code, ran.err) == (1, "Unknown topic '/nope'\n")
     assert studio("topic", "type", "/nope", *at).code == 1
+
+
+def test_n7_the_list_is_whole_right_after_joining_a_thousand_endpoints(endpoint: str):
+    """No daemon has learned of them before: each line asks anew."""
+    with open_test_session(endpoint, domain=11) as many:
+        kept = show_endpoints(many, 1_000)
+        for _ in range(3):
+            ran = studio("topic", "list", "-c", "--domain", "11", "--connect", endpoint)
+            assert ran.out == "1000\n"
+        assert len(kept) == 1_001
 
 
 def test_q1_another_domain_is_empty_and_says_where_nodes_are(endpoint: str):
