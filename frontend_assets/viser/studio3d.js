@@ -4,6 +4,7 @@ import { CameraView } from "./camera.js";
 import { Door } from "./door.js";
 import { forwardKeys } from "./keys.js";
 import { Light } from "./light.js";
+import { Live } from "./live.js";
 import { Looks } from "./looks.js";
 import { Marks } from "./marks.js";
 import { Measuring } from "./measuring.js";
@@ -51,6 +52,7 @@ class Studio3d {
   constructor() {
     /** Settles when the scene can be drawn. @type {Promise<void>} */
     this.ready = this.#door.ready.then(() => undefined);
+    new Live(this.#door);
     this.#door.onConnection((connected) => this.#tell("connection", { connected }));
     forwardKeys(
       (detail) => !this.#endsDrag(detail) && this.#tell("key", detail),

@@ -25,6 +25,14 @@ export interface Vector3 {
   unproject(camera: Camera): this;
 }
 
+export interface Quaternion {
+  set(x: number, y: number, z: number, w: number): this;
+  clone(): Quaternion;
+  copy(other: Quaternion): this;
+  invert(): this;
+  multiply(other: Quaternion): this;
+}
+
 export interface Matrix4 {
   elements: number[];
   copy(other: Matrix4): this;
@@ -55,8 +63,18 @@ export interface Color {
   lerp(other: Color, part: number): this;
 }
 
+export interface Texture {
+  magFilter: number;
+  needsUpdate: boolean;
+}
+
 export interface Material {
   isShaderMaterial?: boolean;
+  isLineMaterial?: boolean;
+  /** Of a line: its width is in metres. */
+  worldUnits?: boolean;
+  defines?: Record<string, unknown>;
+  map?: Texture | null;
   transparent: boolean;
   opacity: number;
   depthTest: boolean;
@@ -100,6 +118,7 @@ export interface Pointing {
 export interface Object3D {
   isMesh?: boolean;
   isInstancedMesh?: boolean;
+  isPoints?: boolean;
   /** Of a light that casts shadows. */
   shadow?: { normalBias: number; radius: number };
   intensity: number;
@@ -107,7 +126,12 @@ export interface Object3D {
   visible: boolean;
   parent: Object3D | null;
   children: Object3D[];
+  position: Vector3;
+  quaternion: Quaternion;
+  scale: Vector3;
   matrixWorld: Matrix4;
+  getWorldQuaternion(target: Quaternion): Quaternion;
+  updateMatrix(): void;
   geometry?: Geometry;
   material?: Material | Material[];
   raycast(pointing: Pointing, hits: Hit[]): void;
@@ -117,7 +141,6 @@ export interface Object3D {
 }
 
 export interface Camera extends Object3D {
-  position: Vector3;
   up: Vector3;
   fov: number;
   aspect: number;

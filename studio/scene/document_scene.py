@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from copy import deepcopy
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,7 +13,8 @@ from studio.scene.connection import SUBPROTOCOL
 from studio.scene.displays import DISPLAY_DEFAULTS, checked
 from studio.scene.ghost import GhostDrawing
 from studio.scene.graph import Graph
-from studio.scene.host import make_server
+from studio.scene.host import forget_removed, make_server
+from studio.scene.live_scene import LiveScene
 from studio.scene.naming import GRID
 from studio.scene.pose_writer import PoseWriter
 from studio.scene.robot_drawing import RobotDrawing
@@ -25,9 +27,10 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from studio.robot.loaded_mesh import LoadedMesh
-    from studio.robot.values import Robot
+    from studio.robot.values import Robot, Vector3
     from studio.scene.connection import Connection
     from studio.scene.displays import Value
+    from studio.scene.node import Quaternion
 
 _BAD_VERSION = 1002
 _STEP_M = 1e-5
@@ -47,6 +50,8 @@ class DocumentScene:
         self._robot = RobotDrawing(self._graph, self._poses.forget)
         self.ghost = GhostDrawing(self._graph, self._robot.mesh)
         """Another robot to compare with; nothing is drawn of it until it is shown one."""
+        self.live = LiveScene(self._graph, self._robot.mesh, partial(forget_removed, self.viser))
+        """What the document's displays draw."""
         self._settings = deepcopy(DISPLAY_DEFAULTS)
         self._height_m = 0.0
         self._shown_anew = self._must_settle = False
@@ -69,16 +74,18 @@ class DocumentScene:
 
     def missing_meshes(self) -> set[str]:
         """URIs of meshes to load and `provide`; changes with `show` and `set_display`."""
-        return self._robot.missing_meshes() | self.ghost.missing_meshes()
+        robots = self._robot.missing_meshes() | self.ghost.missing_meshes()
+        return robots | self.live.missing_meshes()
 
     def mesh(self, uri: str) -> LoadedMesh | None:
-        """A mesh that came for the robot or the ghost."""
-        return self._robot.mesh(uri) or self.ghost.mesh(uri)
+        """A mesh that came for the robot, the ghost or a display."""
+        return self._robot.mesh(uri) or self.ghost.mesh(uri) or self.live.mesh(uri)
 
     def provide_mesh(self, uri: str, mesh: LoadedMesh | None) -> None:
         """Draw a mesh that came; None marks one that cannot be loaded by a box of wire."""
         self._robot.provide_mesh(uri, mesh)
         self.ghost.provide_mesh(uri, mesh)
+        self.live.provide_mesh(uri, mesh)
         self._settle()
 
     def set_poses(self, link_names: Sequence[str], wxyz_xyz: NDArray[np.floating]) -> None:
@@ -92,6 +99,12 @@ class DocumentScene:
         self._last_poses = (link_names, wxyz_xyz)
         self._must_settle |= self._shown_anew  # a robot that only lifts a leg moves no ground
         self._shown_anew = False
+
+    def place_robot(self, wxyz: Quaternion, position_m: Vector3) -> None:
+        """Put the root link of the robot there in the fixed frame, and all that is drawn of it."""
+        with self._graph.atomic():
+            self._robot.place(wxyz, position_m)
+            self.ghost.place(wxyz, position_m)
 
     def set_display(self, display: str, name: str, value: Value) -> None:
         """Change a setting of a shared display; ask `missing_meshes` afterwards.

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 
 DEFAULT_RGB: Rgb = (196, 200, 206)
 COLLISION_LOOK = Look((255, 140, 60), opacity=0.45, shadow=False)
-_MISSING_LOOK = Look((255, 176, 32), wireframe=True, shadow=False)
-_MISSING_SIZE_M = (0.1, 0.1, 0.1)
+MISSING_LOOK = Look((255, 176, 32), wireframe=True, shadow=False)
+MISSING_SIZE_M = (0.1, 0.1, 0.1)
 
 
 class MeshShelf:
@@ -99,7 +99,7 @@ def _draw_mesh(
     wxyz, at = wxyz_and_position(origin)
     loaded = shelf.get(geometry.uri)
     if loaded is None:
-        return node.box(_MISSING_SIZE_M, _MISSING_LOOK, wxyz, at)
+        return node.box(MISSING_SIZE_M, MISSING_LOOK, wxyz, at)
     if loaded.glb and own_colors:
         return node.colored_mesh(loaded, geometry.scale, wxyz, at)
     return node.mesh(loaded, geometry.scale, look, wxyz, at)

@@ -11,6 +11,7 @@ from studio.scene import node
 from studio.scene.geometry_drawing import MeshShelf, draw
 from studio.scene.naming import GHOST, ghost_node
 from studio.scene.node import Look
+from studio.scene.pose import rotated
 from studio.scene.pose_writer import PoseWriter
 
 if TYPE_CHECKING:
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
     from studio.robot.values import Link, Vector3
     from studio.scene.graph import Graph
     from studio.scene.layers import Nodes
-    from studio.scene.node import Node, Rgb
+    from studio.scene.node import Node, Quaternion, Rgb
 
 GHOST_RGB: Rgb = (178, 108, 255)
 
@@ -45,6 +46,7 @@ class GhostDrawing:
         self._poses = PoseWriter(graph, ghost_node)
         self._opacity = 0.35
         self._offset_m: Vector3 = node.ORIGIN
+        self._root_pose: tuple[Quaternion, Vector3] = (node.NO_TURN, node.ORIGIN)
 
     @property
     def links(self) -> Set[str]:
@@ -89,6 +91,12 @@ class GhostDrawing:
         if self._drawn:
             self._put_root()
 
+    def place(self, wxyz: Quaternion, position_m: Vector3) -> None:
+        """Stand beside a robot whose root link is there in the fixed frame."""
+        self._root_pose = (wxyz, position_m)
+        if self._drawn:
+            self._put_root()
+
     def fade(self, opacity: float) -> None:
         """Be more or less see-through."""
         self._opacity = opacity
@@ -114,7 +122,9 @@ class GhostDrawing:
                     self._draw(link)
 
     def _put_root(self) -> None:
-        self._graph.put(GHOST, node.group(position=self._offset_m))
+        wxyz, (x, y, z) = self._root_pose
+        dx, dy, dz = rotated(wxyz, self._offset_m)
+        self._graph.put(GHOST, node.group(wxyz, (x + dx, y + dy, z + dz)))
 
     def _put_link(self, name: str) -> None:
         self._graph.put(ghost_node(name), node.group(visible=name not in self._hidden))

@@ -75,6 +75,11 @@ def make_server(loop: asyncio.AbstractEventLoop) -> tuple[viser.ViserServer, Hos
     return server, hosted
 
 
+def forget_removed(server: viser.ViserServer) -> None:
+    """Let viser drop its notes of nodes that are gone and that every page has heard of."""
+    server._run_garbage_collector()
+
+
 @contextmanager
 def _hosted(loop: asyncio.AbstractEventLoop) -> Generator[None]:
     """Within: viser builds its server from our class and keeps its banner to itself."""

@@ -1,4 +1,4 @@
-"""Names of nodes: links flat under `/robot` and `/ghost`, each percent-encoded."""
+"""Names of nodes, each part percent-encoded: links flat under `/robot` and `/ghost`, displays."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from urllib.parse import quote
 ROBOT = "/robot"
 GRID = "/grid"
 GHOST = "/ghost"
+LIVE = "/live"
 _KEPT = "!*'()"  # what encodeURIComponent of the page leaves as it is, beside quote's own
 
 
@@ -18,3 +19,9 @@ def link_node(link: str) -> str:
 def ghost_node(link: str) -> str:
     """The node that carries the pose of a link of the ghost."""
     return f"{GHOST}/{quote(link, safe=_KEPT)}"
+
+
+def live_node(display_id: str, *parts: str) -> str:
+    """The root of a display, or below it the group of a path, or below that one node of a shape."""
+    # An empty name would stand for the node above it.
+    return "/".join((LIVE, *(quote(part, safe=_KEPT) or "%" for part in (display_id, *parts))))

@@ -39,8 +39,9 @@ class Look:
 class Node:
     """What stands under one name; equal means that nothing need be sent.
 
-    `content` names the arrays of a node by their digest: they are sent again only when it changes,
-    while the small properties in `props` are updated in place.
+    `content` names the arrays of a node by their digest: when it changes, the node is made anew,
+    while the small properties in `props` are updated in place. `stream` names the arrays in
+    `flowing`, which are updated in place, too: those of a sensor, that come again and again.
     """
 
     kind: type[_messages._CreateSceneNodeMessage]
@@ -52,9 +53,14 @@ class Node:
     arrays: dict[str, NDArray[Any]] = field(
         default_factory=dict[str, "NDArray[Any]"], compare=False
     )
+    stream: str = ""
+    flowing: dict[str, NDArray[Any]] = field(
+        default_factory=dict[str, "NDArray[Any]"], compare=False
+    )
 
 
-def _surface(look: Look) -> dict[str, Any]:
+def surface(look: Look) -> dict[str, Any]:
+    """Properties that all of viser's meshes have."""
     return {
         "color": look.rgb,
         "opacity": None if look.opacity >= 1.0 else look.opacity,
@@ -92,24 +98,24 @@ def _frame(length_m: float, wxyz: Quaternion, position: Vector3, *, visible: boo
 
 def box(size_m: Vector3, look: Look, wxyz: Quaternion = NO_TURN, at: Vector3 = ORIGIN) -> Node:
     """A box centred on its pose."""
-    return Node(_messages.BoxMessage, {**_surface(look), "dimensions": size_m}, wxyz, at)
+    return Node(_messages.BoxMessage, {**surface(look), "dimensions": size_m}, wxyz, at)
 
 
 def cylinder(radius_m: float, length_m: float, look: Look, wxyz: Quaternion, at: Vector3) -> Node:
     """A cylinder along z, centred on its pose."""
     size = {"radius": radius_m, "height": length_m, "radial_segments": 48}
-    return Node(_messages.CylinderMessage, {**_surface(look), **size}, wxyz, at)
+    return Node(_messages.CylinderMessage, {**surface(look), **size}, wxyz, at)
 
 
 def sphere(radius_m: float, look: Look, wxyz: Quaternion, at: Vector3) -> Node:
     """A ball."""
     size = {"radius": radius_m, "subdivisions": 3}
-    return Node(_messages.IcosphereMessage, {**_surface(look), **size}, wxyz, at)
+    return Node(_messages.IcosphereMessage, {**surface(look), **size}, wxyz, at)
 
 
 def mesh(loaded: LoadedMesh, scale: Vector3, look: Look, wxyz: Quaternion, at: Vector3) -> Node:
     """Triangles in one colour, whatever colours the file has."""
-    props = {**_surface(look), "side": "double", "scale": scale}
+    props = {**surface(look), "side": "double", "scale": scale}
     arrays: dict[str, NDArray[Any]] = {"vertices": loaded.vertices, "faces": loaded.faces}
     return Node(_messages.MeshMessage, props, wxyz, at, content=loaded.digest, arrays=arrays)
 

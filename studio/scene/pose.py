@@ -50,3 +50,16 @@ def wxyz_and_translation(a_from_b: NDArray[np.float64]) -> tuple[Quaternion, Vec
     w, x, y, z = wxyz_from_matrices(a_from_b[:3, :3]).tolist()
     at_x, at_y, at_z = a_from_b[:3, 3].tolist()
     return (w, x, y, z), (at_x, at_y, at_z)
+
+
+def rotated(wxyz: Quaternion, point: Vector3) -> Vector3:
+    """A point turned about the origin by a quaternion of length 1."""
+    w, x, y, z = wxyz
+    px, py, pz = point
+    # 2 q x p, which counts once times the real part and once more crossed with q.
+    cx, cy, cz = 2 * (y * pz - z * py), 2 * (z * px - x * pz), 2 * (x * py - y * px)
+    return (
+        px + w * cx + y * cz - z * cy,
+        py + w * cy + z * cx - x * cz,
+        pz + w * cz + x * cy - y * cx,
+    )

@@ -17,9 +17,10 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Set
 
     from studio.robot.loaded_mesh import LoadedMesh
-    from studio.robot.values import Joint, Link
+    from studio.robot.values import Joint, Link, Vector3
     from studio.scene.graph import Graph
     from studio.scene.layers import Nodes
+    from studio.scene.node import Quaternion
 
 
 class RobotDrawing:
@@ -40,6 +41,7 @@ class RobotDrawing:
         self._joint_of: dict[str, Joint] = {}
         self._made: dict[str, bool] = {"visual": True}  # layer to whether it is shown
         self._opacity = 1.0
+        self._root_pose: tuple[Quaternion, Vector3] = (node.NO_TURN, node.ORIGIN)
         self.ground = Ground()
         self._put_root()
 
@@ -91,11 +93,16 @@ class RobotDrawing:
         self._opacity = opacity
         self._put_root()
 
+    def place(self, wxyz: Quaternion, position_m: Vector3) -> None:
+        """Put the root link there in the fixed frame."""
+        self._root_pose = (wxyz, position_m)
+        self._put_root()
+
     def _put_root(self) -> None:
         # The page reads the robot's opacity from a size that is never drawn: viser has no opacity
         # for meshes with materials of their own, and a value there costs one message, not one
         # for each node.
-        root = node.group()
+        root = node.group(*self._root_pose)
         self._graph.put(ROBOT, replace(root, props={**root.props, "origin_radius": self._opacity}))
 
     def _changed(

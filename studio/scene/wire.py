@@ -8,21 +8,24 @@ arrays of the messages, each aligned to 8 bytes. Client to server is plain msgpa
 # pyright: reportPrivateUsage=false
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import msgspec
+import numpy as np
 import zstandard
 from viser._messages import (
     SceneNodeUpdateMessage,
     SetOrientationMessage,
     SetPositionMessage,
+    _CreateSceneNodeMessage,
 )
 
 from studio.errors import SceneError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping
 
+    from numpy.typing import NDArray
     from viser.infra import Message
 
 _PADDING = tuple(bytes(count) for count in range(8))
@@ -43,13 +46,13 @@ class Encoder:
 
     def frame(self, messages: Iterable[Message]) -> bytes:
         """One frame that the page applies as a whole."""
-        arrays: list[memoryview] = []
+        arrays = _Arrays()
         self._stamp_s += 1.0
         inner = self._msgpack.encode(
             {
                 "messages": [_as_dict(message, arrays) for message in messages],
                 "timestampSec": self._stamp_s,
-                "binaryBufferLengths": [array.nbytes for array in arrays],
+                "binaryBufferLengths": [array.nbytes for array in arrays.views],
             }
         )
         packed = self._zstd.compress(inner)
@@ -58,11 +61,35 @@ class Encoder:
             len(packed).to_bytes(8, "little"),
             packed,
         ]
-        _append_aligned(parts, arrays, 16 + len(packed))
+        _append_aligned(parts, arrays.views, 16 + len(packed))
         return b"".join(parts)
 
 
-def _as_dict(message: Message, arrays: list[memoryview]) -> dict[str, Any]:
+class _Arrays:
+    """The arrays of one frame; one that several messages have is there once."""
+
+    def __init__(self) -> None:
+        self.views: list[memoryview] = []
+        self._places: dict[int, int] = {}  # by identity: the messages keep their arrays alive
+
+    def values(self, values: Mapping[str, Any]) -> dict[str, Any]:
+        """Properties with a reference to each array in its place."""
+        return {name: self._plain(value) for name, value in values.items()}
+
+    def _plain(self, value: Any) -> Any:  # noqa: ANN401 - what viser has in its properties
+        if isinstance(value, np.ndarray):
+            return self._reference(value)  # pyright: ignore[reportUnknownArgumentType]
+        return cast("Any", value.item()) if isinstance(value, np.generic) else value
+
+    def _reference(self, array: NDArray[Any]) -> dict[str, Any]:
+        at = self._places.get(id(array))
+        if at is None:
+            at = self._places[id(array)] = len(self.views)
+            self.views.append(array.data if array.flags.c_contiguous else array.copy().data)
+        return {"__binary_index": at, "dtype": array.dtype.str}
+
+
+def _as_dict(message: Message, arrays: _Arrays) -> dict[str, Any]:
     """As viser does; what an edit or a joint changes, without its walk over type hints."""
     if type(message) is SetPositionMessage:
         return {
@@ -79,14 +106,21 @@ def _as_dict(message: Message, arrays: list[memoryview]) -> dict[str, Any]:
             "owner": message.owner,
         }
     if type(message) is SceneNodeUpdateMessage:
-        # Of plain values only: graph.py sends arrays with a new node, never with an update.
         return {
             "type": "SceneNodeUpdateMessage",
             "name": message.name,
-            "updates": message.updates,
+            "updates": arrays.values(message.updates),
             "owner": message.owner,
         }
-    return message.as_serializable_dict(arrays)
+    if isinstance(message, _CreateSceneNodeMessage):
+        return {
+            "type": type(message).__name__,
+            "name": message.name,
+            "owner": message.owner,
+            "virtual": message.virtual,
+            "props": arrays.values(vars(message.props)),  # pyright: ignore[reportUnknownArgumentType, reportUnknownMemberType, reportAttributeAccessIssue]
+        }
+    return message.as_serializable_dict(arrays.views)
 
 
 def _append_aligned(parts: list[bytes | memoryview], arrays: list[memoryview], offset: int) -> None:

@@ -1,0 +1,244 @@
+/** @import { Door } from "./door.js" */
+/** @import { Camera, Material, Message, Object3D } from "./viser.d.ts" */
+import { FONT_PX, textPicture } from "./text-picture.js";
+
+const ROOT = "/live/";
+const NEAREST = 1003;
+const CUSTOM_BLENDING = 5;
+const ONE = 201;
+const ONE_MINUS_ALPHA = 205;
+/** Words of constant size on the screen. */
+const SCREEN_FONT_PX = 14;
+/** More words in colours than this are left to viser, which writes them black on white. */
+const TEXTS_MAX = 500;
+const BEFORE_ALL = -10;
+const OVER_ALL = 9;
+
+const VISER_POINT = "vec4(col, 1.0)";
+const OUR_POINT = "vec4(col, studioOpacity)";
+
+/**
+ * How a node of a display is to look, beyond what viser knows.
+ * @typedef {object} Look
+ * @property {string} kind the type of the message that made the node
+ * @property {number} opacity
+ * @property {boolean} sharp pixels of a picture are squares
+ * @property {boolean} behind drawn before all else
+ * @property {"screen" | "scene" | null} words in colour, and what their size is measured in
+ */
+
+/**
+ * What viser lacks for the displays' shapes, in one place: see-through points, lines, arrows, axes and
+ * meshes, sharp pixels, pictures behind everything, and words in colours.
+ *
+ * viser makes materials anew as it likes, so each picture begins with a look at those of our nodes.
+ */
+export class Live {
+  /** By node. @type {Map<string, Look>} */
+  #looks = new Map();
+  #texts = 0;
+  /** As viser made it. @type {WeakMap<Material, { opacity: number, transparent: boolean, depthWrite: boolean }>} */
+  #made = new WeakMap();
+  #door;
+
+  /** @param {Door} door */
+  constructor(door) {
+    this.#door = door;
+    door.onMessage((message) => this.#read(message));
+    door.onPicture(() => this.#finishAll());
+  }
+
+  /** @param {Message} message */
+  #read(message) {
+    const { name, props, updates } = message;
+    if (!name?.startsWith(ROOT)) return;
+    if (message.type === "RemoveSceneNodeMessage") this.#forget(name);
+    else if (props) this.#begin(message, name, props);
+    else if (updates) this.#change(message, name, updates);
+  }
+
+  /** @param {string} name */
+  #forget(name) {
+    if (this.#looks.get(name)?.words) this.#texts -= 1;
+    this.#looks.delete(name);
+  }
+
+  /** @param {Message} message @param {string} name @param {Record<string, unknown>} props */
+  #begin(message, name, props) {
+    this.#forget(name);
+    const look = lookOf(message.type, props);
+    if (look.words && this.#texts >= TEXTS_MAX) return;
+    if (look.words) this.#write(message, props);
+    if (isPlain(look)) return;
+    if (look.words) this.#texts += 1;
+    this.#looks.set(name, look);
+  }
+
+  /** @param {Message} message @param {string} name @param {Record<string, unknown>} updates */
+  #change(message, name, updates) {
+    const old = this.#looks.get(name);
+    const look = lookOf(old?.kind ?? "", updates);
+    if (old?.words) message.updates = pictureOf(updates);
+    // One that became plain is kept: its materials must become as viser made them.
+    if (old) this.#looks.set(name, { ...look, words: old.words && look.words });
+    else if (!look.words && !isPlain(look)) this.#looks.set(name, { ...look, kind: kindOf(name) });
+  }
+
+  /** Words in a colour become a picture that faces the eye. @param {Message} message @param {Record<string, unknown>} props */
+  #write(message, props) {
+    const written = { type: "ImageMessage", props: pictureOf(props) };
+    // What was there before us is not changed under viser's hands.
+    if (messageOf(message.name ?? "") === message) this.#door.inject({ ...message, ...written });
+    else Object.assign(message, written);
+  }
+
+  #finishAll() {
+    const camera = this.#door.mutable?.camera;
+    for (const [name, look] of this.#looks) {
+      const node = this.#door.node(name);
+      if (!node) continue;
+      if (look.words && camera) this.#turnToEye(node, camera, look.words);
+      node.traverse((object) => {
+        for (const material of [object.material ?? []].flat())
+          this.#finish(object, material, look);
+      });
+    }
+  }
+
+  /** @param {Object3D} object @param {Material} material @param {Look} look */
+  #finish(object, material, look) {
+    if (object.isPoints) fadePoints(material, look.opacity);
+    else if (material.isLineMaterial) {
+      if (look.kind !== "CameraFrustumMessage") fadeLines(object, material, look.opacity);
+    } else {
+      this.#fade(material, look.opacity);
+      if (look.sharp) sharpen(material);
+      if (look.behind) putBehind(object, material);
+      if (look.words) putWords(object, material, look.words);
+    }
+  }
+
+  /** @param {Material} material @param {number} opacity */
+  #fade(material, opacity) {
+    let made = this.#made.get(material);
+    if (!made) {
+      const { transparent, depthWrite } = material;
+      made = { opacity: material.opacity, transparent, depthWrite };
+      this.#made.set(material, made);
+    }
+    material.opacity = made.opacity * opacity;
+    setTransparent(material, made.transparent || opacity < 1);
+    material.depthWrite = made.depthWrite && opacity >= 1;
+  }
+
+  /** @param {Object3D} node @param {Camera} camera @param {"screen" | "scene"} size */
+  #turnToEye(node, camera, size) {
+    const eye = camera.getWorldQuaternion(node.quaternion.clone());
+    const parent = node.parent?.getWorldQuaternion(node.quaternion.clone()) ?? eye.clone();
+    // A picture of viser's lies on its face: half a turn about x.
+    const half = node.quaternion.clone().set(1, 0, 0, 0);
+    node.quaternion.copy(parent.invert()).multiply(eye).multiply(half);
+    if (size === "screen") node.scale.set(1, 1, 1).multiplyScalar(this.#pixel_m(node, camera));
+    node.updateMatrix();
+    node.updateWorldMatrix(false, true);
+  }
+
+  /** How large a pixel is at a node. @param {Object3D} node @param {Camera} camera */
+  #pixel_m(node, camera) {
+    const height = this.#door.mutable?.canvas?.clientHeight || 1;
+    const place = node.position.clone().setFromMatrixPosition(node.matrixWorld);
+    const back = node.position.clone().setFromMatrixColumn(camera.matrixWorld, 2);
+    const eye = node.position.clone().setFromMatrixPosition(camera.matrixWorld);
+    const depth = Math.max(eye.sub(place).dot(back), camera.near);
+    return (2 * Math.tan((camera.fov * Math.PI) / 360) * depth) / height;
+  }
+}
+
+/** @param {string} kind @param {Record<string, unknown>} props @returns {Look} */
+export function lookOf(kind, props) {
+  const { studio_opacity: opacity, studio_rgb: rgb } = props;
+  return {
+    kind,
+    opacity: typeof opacity === "number" ? Math.min(Math.max(opacity, 0), 1) : 1,
+    sharp: props.studio_sharp === true,
+    behind: props.studio_behind === true,
+    words: Array.isArray(rgb) ? (props.font_size_mode === "screen" ? "screen" : "scene") : null,
+  };
+}
+
+/** @param {Look} look */
+export const isPlain = (look) => look.opacity >= 1 && !look.sharp && !look.behind && !look.words;
+
+/** @param {string} name @returns {Message | undefined} */
+const messageOf = (name) => window.__viserSceneTree?.getState()[name]?.message;
+
+/** @param {string} name */
+const kindOf = (name) => messageOf(name)?.type ?? "";
+
+/** Properties of a picture of words, from those of a label. @param {Record<string, unknown>} props */
+function pictureOf(props) {
+  const { text, studio_rgb: rgb, font_size_mode: mode, font_scene_height: height } = props;
+  const picture = textPicture(String(text), /** @type {number[]} */ (rgb));
+  const unit = (mode === "screen" ? SCREEN_FONT_PX : Number(height)) / FONT_PX;
+  return {
+    ...props,
+    ...{ _format: "png", _data: picture.data, scale: 1, cast_shadow: false, receive_shadow: false },
+    ...{ render_width: picture.width * unit, render_height: picture.height * unit },
+  };
+}
+
+/** @param {Material} material @param {number} opacity */
+function fadePoints(material, opacity) {
+  if (!material.uniforms.studioOpacity) {
+    material.uniforms.studioOpacity = { value: 1 };
+    const shader = material.fragmentShader.replace(VISER_POINT, OUR_POINT);
+    material.fragmentShader = `uniform float studioOpacity;\n${shader}`;
+    material.needsUpdate = true;
+  }
+  material.uniforms.studioOpacity.value = opacity;
+  setTransparent(material, opacity < 1);
+  material.depthWrite = opacity >= 1;
+}
+
+/**
+ * viser draws a line twice, hard and with a soft edge: see-through, the soft one is the whole line.
+ * @param {Object3D} object @param {Material} material @param {number} opacity
+ */
+function fadeLines(object, material, opacity) {
+  const isSoft = material.defines?.VISER_LINE_FRINGE !== undefined;
+  if (material.worldUnits && !isSoft) object.visible = opacity >= 1;
+  material.opacity = opacity;
+  setTransparent(material, isSoft || opacity < 1);
+  material.depthWrite = !isSoft && opacity >= 1;
+}
+
+/** @param {Material} material @param {boolean} transparent */
+function setTransparent(material, transparent) {
+  if (material.transparent === transparent) return;
+  material.transparent = transparent;
+  material.needsUpdate = true;
+}
+
+/** @param {Material} material */
+function sharpen({ map }) {
+  if (!map || map.magFilter === NEAREST) return;
+  map.magFilter = NEAREST;
+  map.needsUpdate = true;
+}
+
+/** First among what is opaque, but blended, and in nobody's way. @param {Object3D} object @param {Material} material */
+function putBehind(object, material) {
+  object.renderOrder = BEFORE_ALL;
+  setTransparent(material, false);
+  material.depthWrite = false;
+  const blended = { blending: CUSTOM_BLENDING, blendSrcAlpha: ONE, blendDstAlpha: ONE_MINUS_ALPHA };
+  Object.assign(material, blended);
+}
+
+/** @param {Object3D} object @param {Material} material @param {"screen" | "scene"} size */
+function putWords(object, material, size) {
+  material.depthWrite = false;
+  if (size === "scene") return;
+  material.depthTest = false;
+  object.renderOrder = OVER_ALL;
+}

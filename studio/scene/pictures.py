@@ -1,0 +1,131 @@
+"""Pictures in the scene: maps in tiles, of which only those that changed are encoded and sent."""
+
+from __future__ import annotations
+
+import io
+from collections import OrderedDict
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+import xxhash
+from PIL import Image
+from viser import _messages
+
+from studio.scene.node import Node
+from studio.scene.pose import rotated
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from studio.displays.drawing import Frustum, Picture
+
+TILE_PX: Final = 1024
+"""Edge of a tile: a robot that maps a hall changes one or two of them at a time."""
+_KEPT_BYTES: Final = 32 << 20
+_FRUSTUM_PX: Final = 1024
+"""A camera's picture in the scene is not made larger than this; its panel shows it whole."""
+_JPEG_QUALITY: Final = 82
+_EDGE_PX: Final = 1.5
+
+
+class EncodedShelf:
+    """Encoded pictures by the digest of their pixels, the newest used last; bounded."""
+
+    def __init__(self) -> None:
+        self._encoded: OrderedDict[str, NDArray[np.uint8]] = OrderedDict()
+        self.kept_bytes = 0
+
+    def png(self, pixels: NDArray[np.uint8], digest: str) -> NDArray[np.uint8]:
+        """A PNG of RGBA pixels, made if it is not there.
+
+        Args:
+            pixels: Shape (H, W, 4).
+            digest: Of these very pixels and their shape.
+        """
+        found = self._encoded.get(digest)
+        if found is None:
+            found = _encoded(pixels, "PNG", compress_level=1)
+            self._encoded[digest] = found
+            self.kept_bytes += found.nbytes
+        self._encoded.move_to_end(digest)
+        while self.kept_bytes > _KEPT_BYTES and len(self._encoded) > 1:
+            self.kept_bytes -= self._encoded.popitem(last=False)[1].nbytes
+        return found
+
+
+def _encoded(pixels: NDArray[np.uint8], kind: str, **options: int) -> NDArray[np.uint8]:
+    file = io.BytesIO()
+    Image.fromarray(np.ascontiguousarray(pixels)).save(file, kind, **options)
+    return np.frombuffer(file.getvalue(), np.uint8)
+
+
+def tiles_of(shape: Picture, shelf: EncodedShelf) -> dict[str, Node]:
+    """A picture as nodes, by row and column of each tile."""
+    rows, columns = shape.pixels.shape[:2]
+    return {
+        f"{row // TILE_PX}-{column // TILE_PX}": _tile(shape, row, column, shelf)
+        for row in range(0, rows, TILE_PX)
+        for column in range(0, columns, TILE_PX)
+    }
+
+
+def _tile(shape: Picture, row: int, column: int, shelf: EncodedShelf) -> Node:
+    pixels = np.ascontiguousarray(shape.pixels[row : row + TILE_PX, column : column + TILE_PX])
+    rows, columns = pixels.shape[:2]
+    digest = f"{xxhash.xxh3_128_hexdigest(pixels.data)}/{columns}"
+    x_m, y_m = (
+        size_m / count
+        for size_m, count in zip(shape.size_m, reversed(shape.pixels.shape[:2]), strict=True)
+    )
+    centre = rotated(shape.wxyz, ((column + columns / 2) * x_m, (row + rows / 2) * y_m, 0.0))
+    at = tuple(a + b for a, b in zip(shape.position, centre, strict=True))
+    props: dict[str, Any] = {
+        "_format": "png",
+        "render_width": columns * x_m,
+        "render_height": rows * y_m,
+        "cast_shadow": False,
+        "receive_shadow": False,
+        "scale": 1.0,
+        "studio_sharp": True,
+        "studio_behind": shape.behind,
+    }
+    data: dict[str, NDArray[Any]] = {"_data": shelf.png(pixels, digest)}
+    return Node(
+        _messages.ImageMessage,
+        props,
+        shape.wxyz,
+        (at[0], at[1], at[2]),
+        stream=digest,
+        flowing=data,
+    )
+
+
+def frustum_of(shape: Frustum, stream: str) -> Node:
+    """The edges of what a camera sees, and its picture at their far end."""
+    fov_rad = min(max(shape.fov_y_rad, 1e-3), np.pi - 1e-3)
+    half_y = float(np.tan(fov_rad / 2))
+    # viser draws a pyramid of volume 1/3 for scale 1; ours is as long as it is said to be.
+    long_for_one = 1 / np.cbrt(half_y * half_y * shape.aspect / 3)
+    props: dict[str, Any] = {
+        "fov": float(fov_rad),
+        "aspect": shape.aspect,
+        "thickness": _EDGE_PX,
+        "thickness_units": "screen",
+        "color": shape.rgb,
+        "_format": "jpeg",
+        "cast_shadow": False,
+        "receive_shadow": False,
+        "variant": "wireframe",
+        "scale": float(shape.far_m / long_for_one),
+        "studio_opacity": shape.opacity,
+    }
+    if shape.image is None:
+        return Node(_messages.CameraFrustumMessage, {**props, "_image_data": None})
+    data: dict[str, NDArray[Any]] = {"_image_data": _jpeg(shape.image)}
+    return Node(_messages.CameraFrustumMessage, props, stream=stream, flowing=data)
+
+
+def _jpeg(image: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """A picture of bounded size: every second pixel of a large one, or every third, ..."""
+    step = -(-max(image.shape[:2]) // _FRUSTUM_PX)
+    return _encoded(image[::step, ::step], "JPEG", quality=_JPEG_QUALITY)

@@ -1,0 +1,131 @@
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from studio.displays.drawing import GridLines, Lines, MeshFile, Points, Shape, Text
+from studio.errors import SceneError
+from studio.scene.graph import kinds_of_nodes
+from studio.scene.shapes import BOXES_MAX, Shelves, nodes_of, same_arrays
+from tests.support.live_shapes import MESH_URI, RED, every_shape, solids
+from tests.support.watched_scene import triangle
+
+
+def shelves() -> Shelves:
+    """With the mesh of `every_shape`."""
+    made = Shelves()
+    made.meshes.put(MESH_URI, triangle())
+    return made
+
+
+def cloud(count: int, style: str = "squares", *, precise: bool = False) -> Points:
+    positions = np.full((count, 3), 12.3, np.float32)
+    return Points(positions, RED, 0.1, style, precise=precise)  # pyright: ignore[reportArgumentType]
+
+
+@pytest.mark.parametrize("name", every_shape())
+def test_every_shape_is_a_node_that_viser_can_be_told_of(name: str):
+    nodes = nodes_of(every_shape()[name], "1", shelves())
+    assert nodes
+    for made in nodes.values():
+        told = kinds_of_nodes()[made.kind](**made.props, **made.arrays, **made.flowing)
+        assert {one.name for one in dataclasses.fields(kinds_of_nodes()[made.kind])} == set(
+            vars(told)
+        )
+        assert all(array.flags.c_contiguous for array in made.flowing.values())
+
+
+@pytest.mark.parametrize("name", every_shape())
+def test_a_name_of_a_node_holds_no_dot(name: str):
+    assert not any("." in part for part in nodes_of(every_shape()[name], "1", shelves()))
+
+
+def test_points_are_halves_unless_that_would_be_seen():
+    (coarse,) = nodes_of(cloud(2), "1", shelves()).values()
+    (fine,) = nodes_of(cloud(2, precise=True), "1", shelves()).values()
+    assert (coarse.flowing["points"].dtype, fine.flowing["points"].dtype) == (
+        np.float16,
+        np.float32,
+    )
+    assert coarse.stream != fine.stream
+
+
+def test_a_point_beyond_halves_is_no_error():
+    far = Points(np.full((1, 3), 1e9, np.float32), RED)
+    (drawn,) = nodes_of(far, "1", shelves()).values()
+    assert np.isinf(drawn.flowing["points"]).all()
+
+
+def test_too_many_boxes_are_drawn_as_squares():
+    assert "many" in nodes_of(cloud(BOXES_MAX, "boxes"), "1", shelves())
+    assert "points" in nodes_of(cloud(BOXES_MAX + 1, "boxes"), "1", shelves())
+
+
+@pytest.mark.parametrize(
+    "shape",
+    [
+        cloud(0),
+        cloud(0, "boxes"),
+        Lines(np.zeros((0, 2, 3), np.float32), RED),
+        Text("  \n"),
+        dataclasses.replace(
+            solids("box", RED),
+            positions=np.zeros((0, 3), np.float32),
+            wxyz=np.zeros((0, 4), np.float32),
+            scales=np.zeros((0, 3), np.float32),
+        ),
+    ],
+    ids=lambda shape: type(shape).__name__,
+)
+def test_a_shape_without_anything_in_it_is_no_node(shape: Shape):
+    assert nodes_of(shape, "1", shelves()) == {}
+
+
+def test_more_than_a_browser_can_draw_is_refused_with_a_sentence():
+    positions = np.broadcast_to(np.zeros(3, np.float32), (5_000_001, 3))
+    with pytest.raises(SceneError, match=r"has 5000001 points, and the 3D view draws 5000000"):
+        nodes_of(Points(positions, RED), "1", shelves())
+
+
+def test_a_mesh_is_waited_for_and_one_that_failed_has_a_sign():
+    made = Shelves()
+    assert nodes_of(MeshFile(MESH_URI), "1", made) == {}
+    made.meshes.put(MESH_URI, None)
+    (sign,) = nodes_of(MeshFile(MESH_URI), "1", made).values()
+    assert sign.props["wireframe"]
+
+
+def test_a_mesh_shows_its_own_colours_unless_it_is_given_one():
+    made = Shelves()
+    made.meshes.put(MESH_URI, triangle(glb=b"glTF"))
+    own, given = (
+        nodes_of(MeshFile(MESH_URI, rgb=rgb, opacity=0.5), "1", made)["mesh"]
+        for rgb in (None, (1, 2, 3))
+    )
+    assert own.props["studio_opacity"] == 0.5
+    assert (given.props["color"], given.props["opacity"]) == ((1, 2, 3), 0.5)
+
+
+def test_shapes_that_differ_in_small_values_have_the_same_arrays():
+    one = cloud(2)
+    assert same_arrays(one, dataclasses.replace(one, size_m=1.0, opacity=0.1))
+    assert not same_arrays(one, dataclasses.replace(one, colors=RED.copy()))
+    assert not same_arrays(None, one)
+    assert not same_arrays(Text("a"), one)
+
+
+def test_a_grid_has_a_line_more_than_cells_each_way_around_its_middle():
+    for plane, missing in (("xy", 2), ("xz", 1), ("yz", 0)):
+        shape = GridLines(plane, 10, 0.5, position=(1, 2, 3))  # pyright: ignore[reportArgumentType]
+        ends = nodes_of(shape, "1", shelves())["lines"].flowing["points"]
+        assert ends.shape == (22, 2, 3)
+        spans = np.ptp(ends.reshape(-1, 3), axis=0)
+        assert spans.tolist() == [0 if axis == missing else 5 for axis in range(3)]
+        np.testing.assert_allclose(ends.reshape(-1, 3).mean(axis=0), (1, 2, 3), atol=1e-6)
+
+
+def test_text_that_never_ends_is_cut():
+    (drawn,) = nodes_of(Text("x" * 100_000), "1", shelves()).values()
+    assert len(drawn.props["text"]) == 500
