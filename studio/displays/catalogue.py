@@ -5,16 +5,24 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 
 from studio.displays.accel import AccelDisplay
+from studio.displays.fluid_pressure import FluidPressureDisplay
 from studio.displays.grid_cells import GridCellsDisplay
+from studio.displays.illuminance import IlluminanceDisplay
+from studio.displays.image import ImageDisplay
 from studio.displays.imu import ImuDisplay
+from studio.displays.laser_scan import LaserScanDisplay
+from studio.displays.map import MapDisplay
 from studio.displays.odometry import OdometryDisplay
 from studio.displays.path import PathDisplay
 from studio.displays.point import PointStampedDisplay
+from studio.displays.point_cloud2 import PointCloud2Display
 from studio.displays.polygon import PolygonDisplay
 from studio.displays.pose import PoseDisplay
 from studio.displays.pose_array import PoseArrayDisplay
 from studio.displays.pose_with_covariance import PoseWithCovarianceDisplay
 from studio.displays.range import RangeDisplay
+from studio.displays.relative_humidity import RelativeHumidityDisplay
+from studio.displays.temperature import TemperatureDisplay
 from studio.displays.twist import TwistDisplay
 from studio.displays.wrench import WrenchDisplay
 from studio.errors import DisplayError
@@ -24,16 +32,24 @@ if TYPE_CHECKING:
 
 DISPLAYS: Final[tuple[type[Display], ...]] = (
     AccelDisplay,
+    FluidPressureDisplay,
     GridCellsDisplay,
+    IlluminanceDisplay,
+    ImageDisplay,
     ImuDisplay,
+    LaserScanDisplay,
+    MapDisplay,
     OdometryDisplay,
     PathDisplay,
+    PointCloud2Display,
     PointStampedDisplay,
     PolygonDisplay,
     PoseArrayDisplay,
     PoseDisplay,
     PoseWithCovarianceDisplay,
     RangeDisplay,
+    RelativeHumidityDisplay,
+    TemperatureDisplay,
     TwistDisplay,
     WrenchDisplay,
 )

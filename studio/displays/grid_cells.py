@@ -54,8 +54,8 @@ class GridCellsDisplay(HistoryDisplay[Cells]):
             return self.refuse(
                 "empty", "A side of the cells is 0 m long, so that they cannot be seen."
             )
-        rows = read.cells.rows
-        middles = chosen_rows(rows, drawable(rows), "cells", CELLS_MAX, self)
+        rows, at_most = read.cells.rows, min(CELLS_MAX, self.limits.points)
+        middles = chosen_rows(rows, drawable(rows), "cells", at_most, self)
         if middles is None:
             return None
         return Entry(read.cells.frame, read.cells.stamp_ns, Cells(middles, size_m))

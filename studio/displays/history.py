@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any, ClassVar, Generic, NamedTuple, TypeVar
 
 from studio.displays.display import Status, StillDisplay
 from studio.displays.drawing import NOTHING, Placed
-from studio.errors import DisplayError
+from studio.displays.reading import reading
+from studio.errors import StudioError
 from studio.ros.duration import NANOSECONDS
 
 if TYPE_CHECKING:
@@ -64,14 +65,11 @@ class HistoryDisplay(StillDisplay, Generic[Content]):
         del role
         before, self._told = self._told, ()
         try:
-            entry = self.read(received)
-        except (AttributeError, TypeError, ValueError) as error:
+            with reading(received.type_name):
+                entry = self.read(received)
+        except StudioError:
             self._told = before
-            # Somebody's own text of the type may have other fields than the one of ROS.
-            raise DisplayError(
-                f"{received.type_name} is known here with other fields than those that "
-                f"{self.KIND} draws ({error}): take back the text that says so."
-            ) from error
+            raise
         if entry is not None:
             self._keep(entry)
 
@@ -94,6 +92,10 @@ class HistoryDisplay(StillDisplay, Generic[Content]):
     def refuse(self, reason: Reason, sentence: str) -> None:
         """Say of the newest message why it cannot be drawn: `read` gives None then."""
         self._told = (Status("error", reason, sentence),)
+
+    def thin(self, sentence: str) -> None:
+        """Say of the newest message how much of it is drawn."""
+        self._told = (*self._told, Status("ok", "thinned", sentence))
 
     def warn(
         self, reason: Reason | None, sentence: str, mend: tuple[str, Value] | None = None

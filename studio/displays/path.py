@@ -71,7 +71,7 @@ class PathDisplay(HistoryDisplay[Way]):
         sound = drawable_poses(read.rows)
         # With each row how many were left out before it: where that changes there is a gap.
         rows = np.column_stack((read.rows, np.cumsum(~sound, dtype=np.float64)))
-        chosen = chosen_rows(rows, sound, "poses", POSES_MAX, self)
+        chosen = chosen_rows(rows, sound, "poses", min(POSES_MAX, self.limits.points), self)
         if chosen is None:
             return None
         if len(read.rows) == 1:

@@ -35,7 +35,8 @@ class PolygonDisplay(HistoryDisplay["Floats"]):
     def read(self, received: Received) -> Entry[Floats] | None:
         """The corners that can be drawn."""
         read = read_polygon(received.cdr)
-        corners = chosen_rows(read.rows, drawable(read.rows), "corners", CORNERS_MAX, self)
+        at_most = min(CORNERS_MAX, self.limits.points)
+        corners = chosen_rows(read.rows, drawable(read.rows), "corners", at_most, self)
         if corners is None:
             return None
         if len(corners) == 1:

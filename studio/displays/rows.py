@@ -24,6 +24,10 @@ class Teller(Protocol):
         """Say why nothing of a message can be drawn."""
         ...
 
+    def thin(self, sentence: str) -> None:
+        """Say how much is drawn."""
+        ...
+
     def warn(
         self, reason: Reason | None, sentence: str, mend: tuple[str, Value] | None = None
     ) -> None:
@@ -87,5 +91,5 @@ def chosen_rows(
         )
     if len(chosen) <= at_most:
         return chosen
-    teller.warn(None, f"Showing {at_most:,} of {count:,} {what}: more would make the view slow.")
+    teller.thin(f"Showing {at_most:,} of {count:,} {what}: more would make the view slow.")
     return chosen[np.linspace(0, len(chosen) - 1, at_most).astype(np.intp)]

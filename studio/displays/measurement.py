@@ -1,0 +1,101 @@
+"""MeasurementDisplay: one number that a sensor measured, as the colour of a point at its place."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+
+import numpy as np
+
+from studio.displays.cloud import Cloud, stamp_of
+from studio.displays.cloud_display import CloudDisplay
+from studio.displays.cloud_look import INTENSITY, LOOK
+from studio.displays.display import Status
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from studio.displays.display import Received
+    from studio.displays.limits import Limits
+    from studio.displays.properties import Property
+
+_AT_ORIGIN = np.zeros((1, 3), dtype=np.float32)
+_NO_POINTS = np.zeros((0, 3), dtype=np.float32)
+
+
+class Scale(NamedTuple):
+    """What colours a measurement has at first: the field of its message, and where they end."""
+
+    field: str
+    low: float
+    high: float
+    inverted: bool = False
+
+
+def measurement_properties(scale: Scale) -> tuple[Property, ...]:
+    """Those of clouds, with the colours of a scale."""
+    first = {
+        "Color Transformer": INTENSITY,
+        "Channel Name": scale.field,
+        "Autocompute Intensity Bounds": False,
+        "Invert Rainbow": scale.inverted,
+        "Min Intensity": scale.low,
+        "Max Intensity": scale.high,
+    }
+    return tuple(replace(one, default=first.get(one.name, one.default)) for one in LOOK)
+
+
+class MeasurementDisplay(CloudDisplay):
+    """Draws one point at the origin of the sensor; derived classes say which number it shows."""
+
+    SCALE: ClassVar[Scale]
+
+    @abstractmethod
+    def measured(self, message: Any) -> float:  # noqa: ANN401 - a message
+        """The number of a message."""
+
+    def read(self, received: Received, limits: Limits) -> Cloud:
+        """A point, unless the number is none."""
+        del limits
+        message = self.decode(received)
+        number = float(self.measured(message))
+        finite = bool(np.isfinite(number))
+        return Cloud(
+            message.header.frame_id,
+            stamp_of(message.header),
+            _AT_ORIGIN if finite else _NO_POINTS,
+            None,
+            int(finite),
+            _Channel(self.SCALE.field, number),
+            None if finite else self._not_finite(number),
+        )
+
+    def _not_finite(self, number: float) -> Status:
+        what = self.SCALE.field.replace("_", " ")
+        sentence = f"The {what} is {number:g}, which has no colour: nothing is drawn."
+        return Status("error", "not_finite", sentence)
+
+
+class _Channel:
+    """The one number, as a cloud has it."""
+
+    size_bytes = 8
+
+    def __init__(self, name: str, number: float) -> None:
+        self.names: tuple[str, ...] = (name,)
+        # Colours are all one beyond the range of float32.
+        self._number = float(np.clip(number, -3e38, 3e38))
+
+    def numbers(self, name: str, raw: NDArray[np.intp] | None) -> NDArray[np.float32] | None:
+        """The number under its name."""
+        del raw
+        return np.array([self._number], dtype=np.float32) if name in self.names else None
+
+    def colours(self, raw: NDArray[np.intp] | None) -> None:
+        """None are sent."""
+        del raw
+
+    def float_colours(self, raw: NDArray[np.intp] | None) -> None:
+        """None are sent."""
+        del raw
