@@ -55,6 +55,7 @@ StudioError
             DroppedError
             ActionServerGoneError
             CallRefusedError
+            ForeignAnswerError
         GoalStateError
         TransitionError
         TypeDescriptionError
@@ -64,6 +65,8 @@ StudioError
             DestroyedError
             RosArgumentError
             OtherTypeError
+            QosOverrideError
+            UnsupportedEventTypeError
             ExternalShutdownException
     WorkerError
         WorkerTimeoutError
@@ -152,7 +155,9 @@ from studio.errors.nodes import (
     NodeError,
     NotJoinedError,
     OtherTypeError,
+    QosOverrideError,
     RosArgumentError,
+    UnsupportedEventTypeError,
 )
 from studio.errors.root import (
     StudioError,
@@ -237,6 +242,7 @@ __all__ = [
     "ParameterUninitializedError",
     "PortTakenError",
     "PosesFileError",
+    "QosOverrideError",
     "ReadOnlyTextError",
     "RefusedError",
     "RobotError",
@@ -260,6 +266,7 @@ __all__ = [
     "UnknownTypeError",
     "UnreadableFileError",
     "UnsafeArchiveError",
+    "UnsupportedEventTypeError",
     "UploadError",
     "VariantsFileError",
     "WireError",

@@ -53,6 +53,24 @@ class OtherTypeError(NodeError):
         self.name, self.distro = name, distro
 
 
+class QosOverrideError(NodeError):
+    """A parameter that overrides the QoS of a topic cannot be taken."""
+
+    def __init__(self, name: str, reason: str) -> None:
+        super().__init__(f'The parameter "{name[:200]}" overrides no QoS: {reason}.')
+        self.name, self.reason = name, reason
+
+
+class UnsupportedEventTypeError(NodeError):
+    """A callback was given for an event that is never told on Zenoh."""
+
+    def __init__(self, event: str) -> None:
+        super().__init__(
+            f"The event {event} is not told on Zenoh, nor by rmw_zenoh: leave its callback out."
+        )
+        self.event = event
+
+
 class ExternalShutdownException(NodeError):  # noqa: N818  # the name that rclpy's users catch
     """The process was told to end while a node was spinning."""
 

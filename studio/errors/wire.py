@@ -80,7 +80,7 @@ class AttachmentError(WireError):
     """A sample or call came without the number, time and sender that rmw_zenoh attaches."""
 
     def __init__(self, reason: str) -> None:
-        super().__init__(f"A sample has no attachment that can be read: {reason}.")
+        super().__init__(f"Its attachment cannot be read: {reason}.")
         self.reason = reason
 
 

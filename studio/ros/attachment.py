@@ -27,7 +27,12 @@ class Attachment(NamedTuple):
 
     def pack(self) -> bytes:
         """Write the 33 bytes."""
-        return _LAYOUT.pack(self.sequence, self.source_time_ns, GID_BYTES, self.gid)
+        return packed(self.sequence, self.source_time_ns, self.gid)
+
+
+def packed(sequence: int, source_time_ns: int, gid: bytes) -> bytes:
+    """Write the 33 bytes of an attachment that nobody else needs."""
+    return _LAYOUT.pack(sequence, source_time_ns, GID_BYTES, gid)
 
 
 def unpack(data: bytes | None) -> Attachment:
@@ -36,15 +41,17 @@ def unpack(data: bytes | None) -> Attachment:
     Raises:
         AttachmentError: It is missing, in the old form, or none of rmw_zenoh's.
     """
-    if not data:
-        raise AttachmentError("it came without one, which no rmw_zenoh does")
-    if data.startswith(_OLD_FORM):
-        raise AttachmentError(
-            "its sender is an rmw_zenoh from before 2025 that names each part: update the sender"
-        )
-    if len(data) != ATTACHMENT_BYTES:
-        raise AttachmentError(f"it has {len(data)} bytes instead of {ATTACHMENT_BYTES}")
+    if data is None or len(data) != ATTACHMENT_BYTES:
+        raise AttachmentError(_misfit(data))
     sequence, source_time_ns, gid_bytes, gid = _LAYOUT.unpack(data)
     if gid_bytes != GID_BYTES or sequence < 0 or source_time_ns < 0:
         raise AttachmentError("its number, time or length is below zero or wrong")
     return Attachment(sequence, source_time_ns, gid)
+
+
+def _misfit(data: bytes | None) -> str:
+    if not data:
+        return "it came without one, which no rmw_zenoh does"
+    if data.startswith(_OLD_FORM):
+        return "its sender is an rmw_zenoh from before 2025 that names each part: update the sender"
+    return f"it has {len(data)} bytes instead of {ATTACHMENT_BYTES}"

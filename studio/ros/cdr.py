@@ -71,14 +71,15 @@ class Codec:
         Raises:
             CdrError: The bytes are no such message.
         """
-        body = memoryview(data).toreadonly()
-        header = bytes(body[:HEADER_BYTES])
-        if len(header) < HEADER_BYTES or header[:2] not in {_LITTLE[:2], _BIG[:2]}:
+        # Plain CDR begins with 0, and 0 or 1 for the order of bytes.
+        if len(data) < HEADER_BYTES or data[0] or data[1] > 1:
             raise CdrError(self._name, "they do not begin with the header of plain CDR")
         part = self._part
-        read = part.deserialize_cdr_le if header[1] else part.deserialize_cdr_be
+        read = part.deserialize_cdr_le if data[1] else part.deserialize_cdr_be
+        body = memoryview(data)[HEADER_BYTES:]
         try:
-            return read(body[HEADER_BYTES:], 0, part.cls, self._parts)[0]
+            # Of bytes it is read-only already.
+            return read(body if body.readonly else body.toreadonly(), 0, part.cls, self._parts)[0]
         except (*_MISFITS, MessageValueError) as error:
             raise CdrError(self._name, str(error).rstrip(".")) from None
 

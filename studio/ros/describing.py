@@ -2,38 +2,20 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING
 
 from studio.errors import InterfaceError, RosNameError
 from studio.ros.names import split_type_name
 from studio.ros.types.learning import described, sources
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
+    from studio.ros.hosting import Host
     from studio.ros.types.classes import MessageValue
     from studio.ros.types.library import TypeLibrary
 
 SERVICE_TYPE = "type_description_interfaces/srv/GetTypeDescription"
 SERVICE_NAME = "get_type_description"
 START_PARAMETER = "start_type_description_service"
-
-
-class Host(Protocol):
-    """What of a node the service needs."""
-
-    def create_service(
-        self,
-        srv_type: Any,  # noqa: ANN401
-        srv_name: str,
-        callback: Callable[[Any, Any], Any],
-    ) -> Any:  # noqa: ANN401
-        """Serve; the callback fills the response and gives it back."""
-        ...
-
-    def get_fully_qualified_name(self) -> str:
-        """Namespace and name."""
-        ...
 
 
 def serve_descriptions(host: Host, types: TypeLibrary) -> None:

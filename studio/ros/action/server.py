@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import threading
 import traceback
 from typing import TYPE_CHECKING, Any
@@ -24,6 +25,7 @@ from studio.ros.action.server_goals import ServerGoals
 from studio.ros.action.states import GoalEvent, GoalStatus, can_follow
 from studio.ros.node.codecs import check_kind
 from studio.ros.node.future import Future
+from studio.ros.node.later import Later
 from studio.ros.node.time import stamp_ns
 from studio.ros.node.work import ReentrantCallbackGroup
 from studio.ros.qos import (
@@ -43,6 +45,8 @@ if TYPE_CHECKING:
     from studio.ros.types.library import ActionType
 
 RESULT_TIMEOUT_S = 900
+# Of a callback of the user's; what it awaits may be cancelled, which is no Exception.
+_RAISED = (Exception, asyncio.CancelledError)
 
 
 class ActionServer:
@@ -96,6 +100,8 @@ class ActionServer:
             action_type.FeedbackMessage, names.feedback, qos.feedback
         )
         self._status = node.create_publisher(self._status_type, names.status, qos.status)
+        self._later = Later()
+        node.add_work(self._later)
         self._services = self._serve(names, qos, callback_group)
         node.on_destroy(self.destroy)
         self.publish_status()
@@ -137,8 +143,10 @@ class ActionServer:
         """Take the action back; clients of goals under way are told that nobody serves it."""
         with self._status_lock:
             self._destroyed = True
+        self._node.forget_destroy(self.destroy)
         for service in self._services:
             self._node.destroy_service(service)
+        self._node.remove_work(self._later)
         # After the services: what waits for results must not be answered with one of no goal.
         for goal in self._goals.all():
             goal.result.set_result(self._type.Result())
@@ -153,7 +161,7 @@ class ActionServer:
         self, goal: ServerGoalHandle, callback: Callable[[ServerGoalHandle], Any] | None
     ) -> None:
         """Have the work on a goal carried out; of goals."""
-        self._create_task(self._execute(goal, callback or self._execute_callback))
+        self._later.add(self._execute(goal, callback or self._execute_callback))
 
     def publish_feedback(self, goal: ServerGoalHandle, feedback: MessageValue) -> None:
         """Tell how far a goal is; of goals.
@@ -216,7 +224,7 @@ class ActionServer:
         self.publish_status()
         response.accepted, response.stamp = True, stamp
         # After the answer: a client must not hear of the end before it heard of the beginning.
-        self._create_task(self._begin(goal))
+        self._later.add(self._begin(goal))
         return response
 
     def _refused(self, goal_id: bytes, response: MessageValue) -> MessageValue:
@@ -258,14 +266,14 @@ class ActionServer:
         """Ask a callback of the user's; one that raises says no."""
         try:
             return await called(callback, about)
-        except Exception as error:  # noqa: BLE001
+        except _RAISED as error:
             self._say_raised(callback, error)
             return None
 
     async def _begin(self, goal: ServerGoalHandle) -> None:
         try:
             await called(self._accepted_callback, goal)
-        except Exception as error:  # noqa: BLE001  # of a callback of the user's
+        except _RAISED as error:
             self._say_raised(self._accepted_callback, error)
             if goal.status is GoalStatus.ACCEPTED:
                 goal.change(GoalEvent.EXECUTE)
@@ -276,7 +284,7 @@ class ActionServer:
     ) -> None:
         try:
             result = await called(callback, goal)
-        except Exception as error:  # noqa: BLE001  # of a callback of the user's
+        except _RAISED as error:
             self._say_raised(callback, error)
             self._end(goal, None)
             return
@@ -300,16 +308,9 @@ class ActionServer:
         self._goals.end(goal)
         goal.result.set_result(given)
 
-    def _say_raised(self, callback: Callable[..., Any], error: Exception) -> None:
+    def _say_raised(self, callback: Callable[..., Any], error: BaseException) -> None:
         if self._destroyed:  # what it met then is the end of the node
             return
         name = getattr(callback, "__name__", "a callback")
         said = "".join(traceback.format_exception(error)[-2:]).strip()
         self._node.get_logger().error(f"Error raised in {name} of the action: {said}")
-
-    def _create_task(self, coroutine: Any) -> None:  # noqa: ANN401
-        executor = self._node.executor
-        if executor is not None:
-            executor.create_task(coroutine)
-        else:
-            coroutine.close()

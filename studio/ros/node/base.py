@@ -135,14 +135,20 @@ class NodeBase:
             DestroyedError: The node was destroyed.
         """
         with self._lock:
+            is_late = self._destroyed
+            if not is_late:
+                self._all_work.append(work)
+                work.home = self
+                if isinstance(work, Source):
+                    self._context.drain.add(work)
+        if is_late:
+            work.destroy()  # what it declared would outlive the node
             self._refuse_destroyed()
-            self._all_work.append(work)
-        work.home = self
-        if isinstance(work, Source):
-            self._context.drain.add(work)
         executor = self._executor
         if executor is not None:
             executor.adopt(work)
+            if work.home is not self:  # it was destroyed by another thread meanwhile
+                executor.forget(work)
 
     def remove_work(self, work: Work) -> bool:
         """Destroy a piece of work; whether it was the node's."""
@@ -169,6 +175,12 @@ class NodeBase:
         """Call back once before the node's own things are taken back, the last ones first."""
         with self._lock:
             self._ends.append(callback)
+
+    def forget_destroy(self, callback: Callable[[], None]) -> None:
+        """Do not call back; harmless when it was not to be."""
+        with self._lock:
+            if callback in self._ends:
+                self._ends.remove(callback)
 
     def destroy_node(self) -> None:
         """Take back all that is its own, and then itself; again is harmless."""

@@ -86,6 +86,12 @@ class Future(Generic[ResultT]):
                 return
         listener()
 
+    def unlisten(self, listener: Callable[[], object]) -> None:
+        """Tell no more; harmless when it was told, or was never to be."""
+        with self._changed:
+            if listener in self._listeners:
+                self._listeners.remove(listener)
+
     def wait(self, timeout_s: float | None = None) -> bool:
         """Block until it is done, or that long; whether it is. Never within a callback."""
         with self._changed:
@@ -93,14 +99,14 @@ class Future(Generic[ResultT]):
 
     def __await__(self) -> Generator[Any, None, ResultT]:
         if not self._done and _in_asyncio():
-            yield from self._in_loop().__await__()
+            yield from self._wait_in_loop()
         while not self._done:
             yield self
         if self._cancelled:
             raise asyncio.CancelledError
         return self.result()
 
-    def _in_loop(self) -> asyncio.Future[None]:
+    def _wait_in_loop(self) -> Generator[Any, None, None]:
         loop = asyncio.get_running_loop()
         there: asyncio.Future[None] = loop.create_future()
 
@@ -113,7 +119,10 @@ class Future(Generic[ResultT]):
                 loop.call_soon_threadsafe(tell)
 
         self.listen(listener)
-        return there
+        try:
+            yield from there.__await__()
+        finally:  # a wait that was given up leaves nothing behind
+            self.unlisten(listener)
 
     def _settle(
         self,

@@ -175,6 +175,17 @@ def get_logger(name: str = "") -> Logger:
         return _loggers.setdefault(name, Logger(name))
 
 
+def own_level(name: str) -> LoggingSeverity:
+    """Give the level that a logger was given, UNSET where its parent's counts."""
+    return own_levels().get(name, LoggingSeverity.UNSET)
+
+
+def own_levels() -> dict[str, LoggingSeverity]:
+    """Give the levels of all loggers that were given one."""
+    with _families.lock:
+        return dict(_families.levels)
+
+
 def listen_to(name: str, listener: Callable[[Entry], None]) -> Callable[[], None]:
     """Tell what a logger and its children say; give what ends it."""
     with _families.lock:

@@ -7,9 +7,12 @@ from typing import TYPE_CHECKING, Any
 from studio.ros.describing import START_PARAMETER, serve_descriptions
 from studio.ros.duration import NANOSECONDS
 from studio.ros.node.context import default_context
+from studio.ros.node.events import CountEvent, events_of
 from studio.ros.node.graph_queries import GraphQueries
 from studio.ros.node.guard import GuardCondition
+from studio.ros.node.logger_services import LoggerServices
 from studio.ros.node.publisher import Publisher
+from studio.ros.node.qos_overrides import overridden
 from studio.ros.node.rate import Rate
 from studio.ros.node.rosout import RosoutPublisher
 from studio.ros.node.same_types import check_same_type
@@ -20,18 +23,24 @@ from studio.ros.node.time_source import TimeSource
 from studio.ros.node.timer import Timer
 from studio.ros.parameters.messages import DESCRIPTOR
 from studio.ros.parameters.of_node import USE_SIM_TIME, NodeParameters
-from studio.ros.qos import QoSProfile, qos_profile_services_default
+from studio.ros.qos import (
+    QoSProfile,
+    qos_profile_rosout_default,
+    qos_profile_services_default,
+)
 from studio.ros.tokens import EndpointKind
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
+    from studio.ros.event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks
     from studio.ros.node.clock import Clock
     from studio.ros.node.context import Context
     from studio.ros.node.kinds import ServiceKind
     from studio.ros.node.subscription import MessageCallback
-    from studio.ros.node.work import CallbackGroup
+    from studio.ros.node.work import CallbackGroup, Work
     from studio.ros.parameters.parameter import Parameter
+    from studio.ros.qos_overriding_options import QoSOverridingOptions
     from studio.ros.types.classes import MessageValue
 
 
@@ -49,23 +58,25 @@ class Node(GraphQueries, NodeParameters):
         *,
         context: Context | None = None,
         cli_args: Sequence[str] | None = None,
-        namespace: str = "/",
+        namespace: str | None = None,
         use_global_arguments: bool = True,
         enable_rosout: bool = True,
         start_parameter_services: bool = True,
         parameter_overrides: Iterable[Parameter] | None = None,
         allow_undeclared_parameters: bool = False,
         automatically_declare_parameters_from_overrides: bool = False,
+        enable_logger_service: bool = False,
+        rosout_qos_profile: QoSProfile | int = qos_profile_rosout_default,
     ) -> None:
         joined = context or default_context()
         arguments = joined.arguments_of(node_name, cli_args, use_global=use_global_arguments)
-        super().__init__(node_name, namespace, joined, arguments)
+        super().__init__(node_name, namespace or "/", joined, arguments)
         self._all_publishers: list[Publisher] = []
         self._rates: list[Rate] = []
         self._rosout: RosoutPublisher | None = None  # Ctrl-C may come before there is one
         self.on_destroy(self._destroy_publishers)
         if enable_rosout:
-            self._rosout = RosoutPublisher(self)
+            self._rosout = RosoutPublisher(self, rosout_qos_profile)
         self._time_source = TimeSource(self)
         said = {one.name: one for one in parameter_overrides or ()}
         said |= {one.name: one for one in arguments.overrides(self.get_fully_qualified_name())}
@@ -78,32 +89,41 @@ class Node(GraphQueries, NodeParameters):
             serve=start_parameter_services,
         )
         self._describe_types()
+        if enable_logger_service:
+            LoggerServices(self, self._wire.types)
         self._follow_sim_time(list(self.get_parameters([USE_SIM_TIME])))
         self.add_post_set_parameters_callback(self._follow_sim_time)
 
-    def create_publisher(
+    def create_publisher(  # noqa: PLR0913  # as in rclpy
         self,
         msg_type: type[MessageValue],
         topic: str,
         qos_profile: QoSProfile | int,
         *,
+        callback_group: CallbackGroup | None = None,
+        event_callbacks: PublisherEventCallbacks | None = None,
+        qos_overriding_options: QoSOverridingOptions | None = None,
         publisher_class: type[Publisher] = Publisher,
     ) -> Publisher:
-        """Make a publisher.
+        """Make a publisher; the group is that of its event callbacks.
 
         Raises:
             RosNameError: The topic cannot be named so.
             OtherTypeError: The class is of another distribution than the wire.
+            QosOverrideError: A parameter overrides the QoS with what it does not take.
             DestroyedError: The node was destroyed.
         """
+        kind = EndpointKind.PUBLISHER
         type_name = check_same_type(self._wire.types, msg_type)
-        endpoint = self.endpoint(EndpointKind.PUBLISHER, type_name, topic, qos_profile)
+        qos = overridden(self, kind, topic, qos_profile, qos_overriding_options)
+        endpoint = self.endpoint(kind, type_name, topic, qos)
         publisher = publisher_class(endpoint, msg_type)
-        with self._lock:
-            self._all_publishers.append(publisher)
+        self._keep_publisher(publisher)
+        group = callback_group or self._default_group
+        self._add_events(publisher.events, events_of(event_callbacks, endpoint, group))
         return publisher
 
-    def create_subscription(
+    def create_subscription(  # noqa: PLR0913  # as in rclpy
         self,
         msg_type: type[MessageValue],
         topic: str,
@@ -111,6 +131,8 @@ class Node(GraphQueries, NodeParameters):
         qos_profile: QoSProfile | int,
         *,
         callback_group: CallbackGroup | None = None,
+        event_callbacks: SubscriptionEventCallbacks | None = None,
+        qos_overriding_options: QoSOverridingOptions | None = None,
         raw: bool = False,
     ) -> Subscription:
         """Make a subscription.
@@ -118,13 +140,21 @@ class Node(GraphQueries, NodeParameters):
         Raises:
             RosNameError: The topic cannot be named so.
             OtherTypeError: The class is of another distribution than the wire.
+            QosOverrideError: A parameter overrides the QoS with what it does not take.
             DestroyedError: The node was destroyed.
         """
+        kind = EndpointKind.SUBSCRIPTION
         type_name = check_same_type(self._wire.types, msg_type)
-        endpoint = self.endpoint(EndpointKind.SUBSCRIPTION, type_name, topic, qos_profile)
+        qos = overridden(self, kind, topic, qos_profile, qos_overriding_options)
+        endpoint = self.endpoint(kind, type_name, topic, qos)
         group = callback_group or self._default_group
         subscription = Subscription(endpoint, msg_type, callback, group, raw=raw)
+        events = events_of(event_callbacks, endpoint, group)
+        if event_callbacks is not None and event_callbacks.message_lost is not None:
+            subscription.lost_event = CountEvent(event_callbacks.message_lost, group)
+            events.append(subscription.lost_event)
         self.add_work(subscription)
+        self._add_events(subscription.events, events)
         return subscription
 
     def create_service(
@@ -204,11 +234,15 @@ class Node(GraphQueries, NodeParameters):
             if publisher not in self._all_publishers:
                 return False
             self._all_publishers.remove(publisher)
+        for event in publisher.events:
+            self.remove_work(event)
         publisher.destroy()
         return True
 
     def destroy_subscription(self, subscription: Subscription) -> bool:
         """Take back a subscription; whether it was the node's."""
+        for event in subscription.events:
+            self.remove_work(event)
         return self.remove_work(subscription)
 
     def destroy_service(self, service: Service) -> bool:
@@ -234,6 +268,20 @@ class Node(GraphQueries, NodeParameters):
         self._rates.remove(rate)
         rate.destroy()
         return True
+
+    def _keep_publisher(self, publisher: Publisher) -> None:
+        with self._lock:
+            is_late = self._destroyed
+            if not is_late:
+                self._all_publishers.append(publisher)
+        if is_late:
+            publisher.destroy()  # its token would outlive the node
+            self._refuse_destroyed()
+
+    def _add_events(self, known: list[Work], events: list[Work]) -> None:
+        for event in events:
+            known.append(event)
+            self.add_work(event)
 
     def _describe_types(self) -> None:
         """Tell others what types are made of, as nodes do where keys carry hashes."""

@@ -7,7 +7,7 @@ import time
 from typing import TYPE_CHECKING
 
 from studio.errors import DestroyedError
-from studio.ros.attachment import Attachment
+from studio.ros.attachment import packed
 from studio.ros.node.codecs import check_kind, codec_of
 from studio.ros.qos import DEPTH_DEFAULT, DurabilityPolicy, HistoryPolicy, ReliabilityPolicy
 from studio.ros.tokens import EndpointKind
@@ -16,13 +16,18 @@ from studio.ros.wire.door import declare_publisher
 
 if TYPE_CHECKING:
     from studio.ros.node.endpoint import Endpoint
+    from studio.ros.node.work import Work
     from studio.ros.qos import QoSProfile
     from studio.ros.types.classes import MessageValue
     from studio.ros.wire.door import Outgoing
 
 
 class Publisher:
-    """One topic's sender; any thread may publish."""
+    """One topic's sender; any thread may publish.
+
+    Attributes:
+        events: What calls back on events of it, work of its node.
+    """
 
     def __init__(self, endpoint: Endpoint, msg_type: type[MessageValue]) -> None:
         self.endpoint = endpoint
@@ -31,7 +36,9 @@ class Publisher:
         self._codec = codec_of(msg_type)
         self._lock = threading.Lock()
         self._sequence = 0
+        self._gid = endpoint.gid
         self._outgoing: Outgoing | None = _declared(endpoint)
+        self.events: list[Work] = []
         endpoint.show()
 
     @property
@@ -53,13 +60,13 @@ class Publisher:
             MessageValueError: It is of another type, or a field holds what it does not take.
             DestroyedError: The publisher was destroyed.
         """
-        payload = msg if isinstance(msg, bytes | bytearray) else self._written(msg)
+        payload = self._written(msg)
         with self._lock:
-            if self._outgoing is None:
+            outgoing = self._outgoing
+            if outgoing is None:
                 raise DestroyedError(f"publisher of {self.topic_name}")
-            self._sequence += 1
-            attachment = Attachment(self._sequence, time.time_ns(), self.endpoint.gid)
-            self._outgoing.put(payload, attachment=attachment.pack())
+            self._sequence = number = self._sequence + 1
+            outgoing.put(payload, attachment=packed(number, time.time_ns(), self._gid))
 
     def get_subscription_count(self) -> int:
         """Count who subscribes to the topic."""
@@ -72,7 +79,11 @@ class Publisher:
         if outgoing is not None:
             self.endpoint.hide(outgoing)
 
-    def _written(self, msg: MessageValue) -> bytearray:
+    def _written(self, msg: MessageValue | bytes | bytearray) -> bytes | bytearray:
+        if isinstance(msg, self.msg_type):  # the usual case comes first
+            return self._codec.encode(msg)
+        if isinstance(msg, bytes | bytearray):
+            return msg
         return self._codec.encode(check_kind(self._definition, msg))
 
 

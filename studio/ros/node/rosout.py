@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 from studio.errors import DestroyedError
 from studio.ros.duration import NANOSECONDS
 from studio.ros.node.logger import listen_to
-from studio.ros.qos import qos_profile_rosout_default
 
 if TYPE_CHECKING:
     from studio.ros.node.logger import Entry
     from studio.ros.node.node import Node
+    from studio.ros.qos import QoSProfile
 
 ROSOUT = "/rosout"
 
@@ -19,10 +19,10 @@ ROSOUT = "/rosout"
 class RosoutPublisher:
     """Publishes what a node and its parts say, until it is stopped."""
 
-    def __init__(self, node: Node) -> None:
+    def __init__(self, node: Node, qos: QoSProfile | int) -> None:
         self._log = node.wire.types.message("rcl_interfaces/msg/Log")
         self._stamp = node.wire.types.message("builtin_interfaces/msg/Time")
-        self._publisher = node.create_publisher(self._log, ROSOUT, qos_profile_rosout_default)
+        self._publisher = node.create_publisher(self._log, ROSOUT, qos)
         self.stop = listen_to(node.get_logger().name, self._publish)
 
     def _publish(self, entry: Entry) -> None:

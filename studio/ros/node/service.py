@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
 import inspect
 import threading
 import time
-from collections import deque
+from collections import Counter, deque
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import zenoh
 
 from studio.errors import AttachmentError, CdrError
-from studio.ros.attachment import Attachment, unpack
+from studio.ros.attachment import Attachment, packed, unpack
 from studio.ros.node.codecs import check_kind, codec_of
-from studio.ros.node.drain import waiting_in
 from studio.ros.node.logger import get_logger
 from studio.ros.node.work import Work
 from studio.ros.qos import DEPTH_DEFAULT
@@ -32,6 +32,9 @@ if TYPE_CHECKING:
     from studio.ros.wire.door import Asked, Incoming
 
 _RING = 4_096
+PENDING_MAX = 10_000
+PENDING_OF_CLIENT_MAX = 1_000
+"""Requests without an answer: an asynchronous callback may take as long as it likes."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,6 +76,7 @@ class Service(Work):
         self._depth = endpoint.token.qos.depth or DEPTH_DEFAULT
         self._waiting: deque[_Request] = deque()
         self._pending: dict[tuple[bytes, int], _Request] = {}
+        self._askers: Counter[bytes] = Counter()
         self._lock = threading.Lock()
         self._incoming: Incoming[Asked] | None = declare_queryable(
             endpoint.wire.zenoh, endpoint.key, max(_RING, self._depth)
@@ -99,11 +103,10 @@ class Service(Work):
     def drain(self) -> int:
         """Take in requests; of the drain's thread."""
         incoming = self._incoming
-        taken = 0
-        for query in () if incoming is None else waiting_in(incoming, _RING):
-            taken += 1
+        queries = [] if incoming is None else incoming.take(_RING)
+        for query in queries:
             self._receive(query)
-        return taken
+        return len(queries)
 
     def take(self) -> Callable[[], object] | None:
         """Take the oldest request, and give what answers it."""
@@ -118,11 +121,12 @@ class Service(Work):
         if incoming is None:
             return
         self.endpoint.hide(incoming)
-        for query in waiting_in(incoming, _RING):
+        for query in incoming.take(_RING):
             query.drop()
         with self._lock:
             left = list(self._pending.values())
             self._pending.clear()
+            self._askers.clear()
             self._waiting.clear()
         for request in left:
             with contextlib.suppress(RuntimeError):  # another thread answers it just now
@@ -136,25 +140,35 @@ class Service(Work):
             self._refuse(query, str(error))
             return
         if payload is None:
-            self._refuse(query, "A request came without content, which no rmw_zenoh sends.")
+            self._refuse(query, "It came without content, which no rmw_zenoh sends.")
             return
         self._queue(_Request(query, payload.to_bytes(), unpacked))
 
     def _queue(self, request: _Request) -> None:
         with self._lock:
             gone = self._incoming is None  # since the drain took it out of the ring
-            twice = request.number in self._pending
-            if not (gone or twice):
+            refusal = self._refusal(request)
+            if not (gone or refusal):
                 self._pending[request.number] = request
+                self._askers[request.attachment.gid] += 1
                 self._waiting.append(request)
             late = self._waiting.popleft() if len(self._waiting) > self._depth else None
         if gone:
             request.query.drop()
-        elif twice:
-            self._refuse(request.query, "A request came twice before it was answered.")
+        elif refusal:
+            self._refuse(request.query, refusal)
         if late is not None:
             self._finish(late)
         self.announce()
+
+    def _refusal(self, request: _Request) -> str | None:
+        if request.number in self._pending:
+            return "It came twice before it was answered."
+        if self._askers[request.attachment.gid] >= PENDING_OF_CLIENT_MAX:
+            return f"Its client waits for {PENDING_OF_CLIENT_MAX} answers already."
+        if len(self._pending) >= PENDING_MAX:
+            return f"Clients wait for {PENDING_MAX} answers already."
+        return None
 
     def _refuse(self, query: Asked, reason: str) -> None:
         self._say(reason)
@@ -163,7 +177,7 @@ class Service(Work):
     def _say(self, reason: str) -> None:
         """Count a request that was not taken, and log the first."""
         if not self.refused:
-            get_logger("studio.ros").warning(f"A request to {self.srv_name} was dropped: {reason}")
+            get_logger("studio.ros").warning(f"A request to {self.srv_name} was dropped. {reason}")
         self.refused += 1
         self.reason = reason
 
@@ -187,15 +201,18 @@ class Service(Work):
     async def _answer_later(self, request: _Request, given: Coroutine[Any, Any, object]) -> None:
         try:
             self._reply(request, await given)
+        except asyncio.CancelledError:
+            self._say("What its callback awaited was cancelled.")
+            raise
         finally:
             self._finish(request)
 
     def _reply(self, request: _Request, given: object) -> None:
         payload = self._response_codec.encode(check_kind(self._response, given))
         number = request.attachment
-        attachment = Attachment(number.sequence, time.time_ns(), number.gid)
+        attachment = packed(number.sequence, time.time_ns(), number.gid)
         try:
-            request.query.reply(request.query.key_expr, payload, attachment=attachment.pack())
+            request.query.reply(request.query.key_expr, payload, attachment=attachment)
         except zenoh.ZError:
             if self._incoming is not None:  # else it was taken back while the callback ran
                 raise
@@ -204,5 +221,12 @@ class Service(Work):
     def _finish(self, request: _Request) -> None:
         with self._lock:
             known = self._pending.pop(request.number, None)
+            if known is not None:
+                self._forget_asker(request.attachment.gid)
         if known is not None:
             request.query.drop()
+
+    def _forget_asker(self, gid: bytes) -> None:
+        self._askers[gid] -= 1
+        if not self._askers[gid]:
+            del self._askers[gid]

@@ -11,14 +11,16 @@ from typing import TYPE_CHECKING, Any, cast
 import zenoh
 
 from studio.errors import (
+    AttachmentError,
     CallRefusedError,
     CdrError,
     DestroyedError,
+    ForeignAnswerError,
     NoAnswerError,
     NotServedError,
     WireError,
 )
-from studio.ros.attachment import Attachment
+from studio.ros.attachment import packed, unpack
 from studio.ros.node.codecs import check_kind, codec_of
 from studio.ros.node.future import Future
 from studio.ros.node.work import Work
@@ -154,12 +156,11 @@ class Client(Work):
                 raise DestroyedError(f"client of {self.srv_name}")
             self._sequence += 1
             number = self._sequence
-            attachment = Attachment(number, time.time_ns(), self.endpoint.gid)
             token = zenoh.CancellationToken()
             replies = self._querier.get(
                 zenoh.handlers.FifoChannel(_REPLIES_WAITING),
                 payload=payload,
-                attachment=attachment.pack(),
+                attachment=packed(number, time.time_ns(), self.endpoint.gid),
                 cancellation_token=token,
             )
             self._calls[number] = _Call(future, replies, token, was_served=was_served)
@@ -215,24 +216,36 @@ class Client(Work):
                 return came + 1
             if reply is None:
                 return came
-            self._replied(call, reply)
+            self._replied(number, call, reply)
         return _REPLIES_WAITING
 
-    def _replied(self, call: _Call, reply: zenoh.Reply) -> None:
+    def _replied(self, number: int, call: _Call, reply: zenoh.Reply) -> None:
         sample, refusal = reply.ok, reply.err
-        if sample is not None:
-            if not call.answered:
-                call.answered = True
-                self._done.append((call.future, sample.payload.to_bytes()))
-            elif not self._said_several:
-                self._said_several = True
-                self._node.get_logger().warning(
-                    f"The service {self.srv_name} is served by more than one node: each did what "
-                    "was asked, and the first answer was taken."
-                )
-        elif refusal is not None:
+        if refusal is not None:
             payload = refusal.payload.to_bytes()
             call.failure = _failure(self.srv_name, payload, self._timeout_s)
+        elif sample is not None and (reason := self._why_foreign(number, sample)):
+            call.failure = ForeignAnswerError(self.srv_name, reason)
+        elif sample is not None and not call.answered:
+            call.answered = True
+            self._done.append((call.future, sample.payload.to_bytes()))
+        elif not self._said_several:
+            self._said_several = True
+            self._node.get_logger().warning(
+                f"The service {self.srv_name} is served by more than one node: each did what "
+                "was asked, and the first answer was taken."
+            )
+
+    def _why_foreign(self, number: int, sample: zenoh.Sample) -> str | None:
+        """Say why a reply is not rmw_zenoh's to a request, None when it is."""
+        attachment = sample.attachment
+        try:
+            told = unpack(None if attachment is None else attachment.to_bytes())
+        except AttachmentError as error:
+            return error.reason
+        if (told.sequence, told.gid) != (number, self.endpoint.gid):
+            return "it carries the number of another request"
+        return None
 
     def _ended(self, number: int, call: _Call) -> None:
         known = self._forget(number)

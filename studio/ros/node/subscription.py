@@ -5,12 +5,12 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any, Self
 
 from studio.errors import AttachmentError, CdrError
 from studio.ros.attachment import unpack
 from studio.ros.node.codecs import codec_of
-from studio.ros.node.drain import waiting_in
 from studio.ros.node.future import Future
 from studio.ros.node.inbox import Inbox, RawSample
 from studio.ros.node.info import MessageInfo, info_of, wants_info
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     import zenoh
 
     from studio.ros.node.endpoint import Endpoint
+    from studio.ros.node.events import CountEvent
     from studio.ros.node.work import CallbackGroup
     from studio.ros.qos import QoSProfile
     from studio.ros.types.classes import MessageValue
@@ -61,6 +62,10 @@ class Subscription(Work):
 
     The callback takes the message, or the message and a `MessageInfo`. With `raw` it is given
     the bytes of the CDR instead of the message. Without a callback, `async for` takes messages.
+
+    Attributes:
+        events: What calls back on events of it, work of its node.
+        lost_event: That of them which is told of lost messages.
     """
 
     def __init__(
@@ -83,6 +88,8 @@ class Subscription(Work):
         depth, ring = _sizes(endpoint.token.qos)
         self._inbox = Inbox(depth)
         self._arrived: Future[None] | None = None
+        self.events: list[Work] = []
+        self.lost_event: CountEvent | None = None
         self._incoming: Incoming[zenoh.Sample] | None = _declared(endpoint, ring)
         endpoint.show()
 
@@ -117,22 +124,17 @@ class Subscription(Work):
         incoming = self._incoming
         if incoming is None:
             return 0
-        came: list[RawSample] = []
-        taken = 0
-        for sample in waiting_in(incoming, RING):
-            taken += 1
-            raw = self._received(sample)
-            if raw is not None:
-                came.append(raw)
+        samples = incoming.take(RING)
+        came = [raw for sample in samples if (raw := self._received(sample)) is not None]
         if came:
             self._inbox.post(came)
             self._tell()
-        return taken
+        return len(samples)
 
     def take(self) -> Callable[[], object] | None:
         """Take the oldest sample, and give what calls back with it."""
         sample = self._inbox.take()
-        return None if sample is None else lambda: self._call_back(sample)
+        return None if sample is None else partial(self._call_back, sample)
 
     def destroy(self) -> None:
         """Take it back; again is harmless."""
@@ -176,7 +178,9 @@ class Subscription(Work):
             self._losses.refused += 1
             self._say(str(error))
             return None
-        self._gaps.count(unpacked.gid, unpacked.sequence)
+        missing = self._gaps.count(unpacked)
+        if missing and self.lost_event is not None:
+            self.lost_event.count(missing)
         return RawSample(sample.payload.to_bytes(), unpacked, time.time_ns())
 
     def _call_back(self, sample: RawSample) -> object:
@@ -201,7 +205,7 @@ class Subscription(Work):
     def _say(self, reason: str) -> None:
         """Keep why a sample was lost, and log the first of a kind: a flood is no flood of lines."""
         if self._losses.reason is None:
-            get_logger("studio.ros").warning(f"A sample on {self.topic_name} was dropped: {reason}")
+            get_logger("studio.ros").warning(f"A sample on {self.topic_name} was dropped. {reason}")
         self._losses.reason = reason
 
 

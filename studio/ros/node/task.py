@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import inspect
 from typing import TYPE_CHECKING, Any
 
@@ -49,6 +50,8 @@ class Task(Future[Any]):
                     return
                 self._coroutine = result
             self._go_on()
+        except asyncio.CancelledError:
+            self.cancel()  # what it awaited was given up, which is nobody's fault
         except BaseException as error:
             self.set_exception(error)
             raise

@@ -39,23 +39,19 @@ class MutuallyExclusiveCallbackGroup(CallbackGroup):
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
-        self._taken = False
+        self._running = threading.Lock()
         self._waiting: deque[Work] = deque()
 
     def begin(self, work: Work) -> bool:
         """Let it run when no other does."""
-        with self._lock:
-            if self._taken:
-                if work not in self._waiting:
-                    self._waiting.append(work)
-                return False
-            self._taken = True
-            return True
+        return self._running.acquire(blocking=False) or self._begin_or_wait(work)
 
     def end(self) -> Work | None:
         """Let the next one run."""
+        self._running.release()
+        if not self._waiting:
+            return None
         with self._lock:
-            self._taken = False
             return self._waiting.popleft() if self._waiting else None
 
     def forget(self, work: Work) -> None:
@@ -63,6 +59,16 @@ class MutuallyExclusiveCallbackGroup(CallbackGroup):
         with self._lock:
             if work in self._waiting:
                 self._waiting.remove(work)
+
+    def _begin_or_wait(self, work: Work) -> bool:
+        with self._lock:
+            # It waits before it tries again: whoever ends meanwhile sees it, or leaves it room.
+            if work not in self._waiting:
+                self._waiting.append(work)
+            if not self._running.acquire(blocking=False):
+                return False
+            self._waiting.remove(work)
+            return True
 
 
 class Home(Protocol):

@@ -12,13 +12,13 @@ from studio.ros.parameters.store import ParameterStore
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
+    from studio.ros.hosting import Host
     from studio.ros.parameters.callbacks import (
         OnSetCallback,
         ParameterCallbacks,
         PostSetCallback,
         PreSetCallback,
     )
-    from studio.ros.parameters.services import Host
     from studio.ros.parameters.values import ParameterType
     from studio.ros.types.classes import MessageValue
     from studio.ros.types.library import TypeLibrary

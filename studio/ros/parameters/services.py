@@ -2,62 +2,23 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from studio.errors import ParameterError
 from studio.ros.parameters.listing import listed, prefixes_of
 from studio.ros.parameters.parameter import Parameter
 from studio.ros.parameters.values import ParameterType
-from studio.ros.qos import (
-    QoSProfile,
-    qos_profile_parameter_events,
-    qos_profile_parameters,
-)
+from studio.ros.qos import qos_profile_parameter_events, qos_profile_parameters
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
+    from studio.ros.hosting import Host
     from studio.ros.parameters.store import ParameterChange, ParameterStore
     from studio.ros.types.classes import MessageValue
     from studio.ros.types.library import ServiceType, TypeLibrary
 
 EVENTS_TOPIC = "/parameter_events"
-
-
-class Host(Protocol):
-    """What of a node its parameters need."""
-
-    def create_service(
-        self,
-        srv_type: Any,  # noqa: ANN401
-        srv_name: str,
-        callback: Callable[[Any, Any], Any],
-        *,
-        qos_profile: QoSProfile = ...,
-    ) -> Any:  # noqa: ANN401
-        """Serve; the callback fills the response and gives it back."""
-        ...
-
-    def create_publisher(
-        self,
-        msg_type: Any,  # noqa: ANN401
-        topic: str,
-        qos_profile: QoSProfile | int,
-    ) -> Any:  # noqa: ANN401
-        """Publish."""
-        ...
-
-    def get_fully_qualified_name(self) -> str:
-        """Namespace and name."""
-        ...
-
-    def get_clock(self) -> Any:  # noqa: ANN401
-        """Tell the time."""
-        ...
-
-    def get_logger(self) -> Any:  # noqa: ANN401
-        """Say what went wrong."""
-        ...
 
 
 class ParameterEvents:
@@ -149,13 +110,27 @@ class ParameterServices:
 
     def _try(self, wanted: Iterable[MessageValue]) -> MessageValue:
         try:
-            return self._store.set_atomically([Parameter.from_parameter_msg(one) for one in wanted])
+            given = [Parameter.from_parameter_msg(one) for one in wanted]
+            result, parameters = self._store.settle(given)
         except ParameterError as error:
             return self._refusal(str(error))
         except Exception as error:  # noqa: BLE001  # of a callback of the user's
             said = f"a callback of the node failed: {type(error).__name__}: {error}"
             self._host.get_logger().error(f"A parameter was not set: {said}")
             return self._refusal(said)
+        if result.successful:
+            self._tell_set(parameters)
+        return result
+
+    def _tell_set(self, parameters: list[Parameter]) -> None:
+        """Call back after parameters were set: whatever that raises, they are."""
+        try:
+            self._store.callbacks.after(parameters)
+        except Exception as error:  # noqa: BLE001  # of a callback of the user's
+            self._host.get_logger().error(
+                "A callback of the node failed after parameters were set: "
+                f"{type(error).__name__}: {error}"
+            )
 
     def _refusal(self, reason: str) -> MessageValue:
         return self._store.messages.SetParametersResult(successful=False, reason=reason)

@@ -200,16 +200,28 @@ class ParameterStore:
         Raises:
             ParameterNotDeclaredError: One is not declared; none is set.
         """
+        result, wanted = self.settle(parameters)
+        if result.successful:
+            self.callbacks.after(wanted)
+        return result
+
+    def settle(self, parameters: Iterable[Parameter]) -> tuple[MessageValue, list[Parameter]]:
+        """Set all or none, and give the result and what was wanted in the end.
+
+        The callbacks that are told after are the affair of whoever asks.
+
+        Raises:
+            ParameterNotDeclaredError: One is not declared; none is set.
+        """
         with self._lock:
             wanted = self.callbacks.before(list(parameters))
             step = self._sorted(wanted)
             result = self._judge(wanted)
             if not result.successful:
-                return result
+                return result, wanted
             self._apply(step)
         self._tell(ParameterChange(tuple(step.new), tuple(step.changed), tuple(step.deleted)))
-        self.callbacks.after(wanted)
-        return result
+        return result, wanted
 
     def _descriptor(self, name: str, value: object, given: MessageValue | None) -> MessageValue:
         """Complete a descriptor of our own: its name, and the type that the parameter keeps."""

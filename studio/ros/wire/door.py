@@ -52,6 +52,15 @@ class Incoming(Generic[ItemT]):
         except zenoh.ZError:
             return None
 
+    def take(self, most: int) -> list[ItemT]:
+        """Take what waits, the oldest first, and no more than so many."""
+        taken: list[ItemT] = []
+        receive = self._handler.try_recv
+        with contextlib.suppress(zenoh.ZError):  # no more will come
+            while len(taken) < most and (item := receive()) is not None:
+                taken.append(item)
+        return taken
+
     def __iter__(self) -> Iterator[ItemT]:
         """Wait for one after the other, without holding the interpreter, until the end."""
         return iter(self._handler)

@@ -171,6 +171,36 @@ def test_goals_may_wait_until_they_are_begun():
         assert finished(goal.get_result_async()).status == GoalStatus.SUCCEEDED
 
 
+def test_a_goal_that_is_begun_while_nobody_spins_is_worked_on_when_somebody_does():
+    waiting: list[ServerGoalHandle] = []
+    with action_pair(count_up, handle_accepted_callback=waiting.append) as pair:
+        goal = pair.send()
+        wait_until("it was handed over", lambda: bool(waiting))
+        executor = pair.serving.executor
+        assert executor is not None
+        executor.remove_node(pair.serving)
+        waiting[0].execute()
+        assert waiting[0].status is GoalStatus.EXECUTING
+        executor.add_node(pair.serving)
+        assert finished(goal.get_result_async()).status == GoalStatus.SUCCEEDED
+
+
+def test_work_whose_awaited_future_is_cancelled_aborts_its_goal_and_the_server_goes_on(
+    capsys: pytest.CaptureFixture[str],
+):
+    async def execute(goal: ServerGoalHandle) -> object:
+        if goal.request.order == 1:
+            given_up = goal.result.__class__()
+            given_up.cancel()
+            await given_up
+        return count_up(goal)
+
+    with action_pair(execute) as pair:
+        assert finished(pair.send(1).get_result_async()).status == GoalStatus.ABORTED
+        assert finished(pair.send(2).get_result_async()).status == GoalStatus.SUCCEEDED
+    assert "CancelledError" in capsys.readouterr().err
+
+
 def test_a_late_comer_hears_the_status_of_goals_that_were_before():
     with action_pair(count_up) as pair:
         finished(pair.send().get_result_async())
@@ -225,7 +255,9 @@ def test_the_graph_knows_the_action_and_its_parts():
 
 def test_a_server_that_is_destroyed_is_there_no_more():
     with action_pair(count_up) as pair:
+        before = len(pair.serving._ends) - 1  # pyright: ignore[reportPrivateUsage]
         pair.server.destroy()
+        assert len(pair.serving._ends) == before  # pyright: ignore[reportPrivateUsage]
         wait_until("it is gone", lambda: not pair.client.server_is_ready())
 
 

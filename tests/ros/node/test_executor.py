@@ -1,7 +1,9 @@
 from __future__ import annotations
 
 import asyncio
+import gc
 import threading
+import weakref
 from typing import TYPE_CHECKING
 
 import pytest
@@ -56,6 +58,51 @@ def test_spinning_until_a_future_is_done_ends_in_time(executor: SingleThreadedEx
     future: Future[None] = Future()
     executor.spin_until_future_complete(future, timeout_sec=0.01)
     assert not future.done()
+
+
+def test_spinning_again_and_again_until_a_future_is_done_leaves_nothing_in_it(
+    executor: SingleThreadedExecutor,
+):
+    future: Future[None] = Future()
+    for _ in range(3):
+        executor.spin_until_future_complete(future, timeout_sec=0)
+        executor.spin_once_until_future_complete(future, timeout_sec=0)
+    assert future._listeners == []  # pyright: ignore[reportPrivateUsage]
+
+
+def test_a_callback_that_awaits_a_cancelled_future_is_cancelled_and_raises_nothing(
+    executor: SingleThreadedExecutor,
+):
+    future: Future[None] = Future()
+
+    async def wait() -> None:
+        await future
+
+    task = executor.create_task(wait)
+    executor.spin_once(timeout_sec=0)
+    future.cancel()
+    executor.spin_once(timeout_sec=0)
+    assert task.cancelled()
+
+
+def test_a_task_that_awaits_what_nobody_else_holds_is_not_lost(executor: SingleThreadedExecutor):
+    gates: list[weakref.ref[Future[int]]] = []
+
+    async def wait() -> int:
+        gate: Future[int] = Future()
+        gates.append(weakref.ref(gate))
+        return await gate
+
+    executor.create_task(wait)
+    executor.spin_once(timeout_sec=0)
+    gc.collect()
+    gate = gates[0]()
+    assert gate is not None
+    gate.set_result(3)
+    executor.spin_once(timeout_sec=0)
+    del gate
+    gc.collect()
+    assert gates[0]() is None  # and is let go of when it is done
 
 
 def test_a_future_that_another_thread_settles_ends_the_spinning(

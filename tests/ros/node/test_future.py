@@ -83,6 +83,19 @@ def test_asyncio_awaits_what_another_thread_settles():
     assert asyncio.run(ask()) == 7
 
 
+def test_a_wait_that_asyncio_gives_up_leaves_nothing_behind():
+    future: Future[int] = Future()
+
+    async def ask() -> None:
+        async with asyncio.timeout(0):
+            await future
+
+    for _ in range(2):
+        with pytest.raises(TimeoutError):
+            asyncio.run(ask())
+    assert future._listeners == []  # pyright: ignore[reportPrivateUsage]
+
+
 def test_asyncio_awaits_what_is_known_already():
     async def ask() -> int:
         future: Future[int] = Future()

@@ -7,6 +7,8 @@ import pytest
 from studio.errors import DestroyedError, RosNameError
 from studio.ros.messages import message, service
 from studio.ros.node.node import Node
+from studio.ros.node.publisher import Publisher
+from studio.ros.node.subscription import Subscription
 from studio.ros.parameters.parameter import Parameter
 from studio.ros.qos import QoSProfile, qos_profile_rosout_default
 from studio.ros.tokens import EndpointKind, tokens_of_domain
@@ -18,6 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Generator
 
     from studio.ros.node.context import Context
+    from studio.ros.node.endpoint import Endpoint
     from studio.ros.types.classes import MessageValue
 
 String = message("std_msgs/msg/String")
@@ -105,6 +108,46 @@ def test_a_destroyed_node_leaves_no_token(endpoint: str, context: Context):
         node.create_publisher(String, "a", 10)
     with pytest.raises(DestroyedError, match="/leaves"):
         node.create_timer(1.0, print)
+
+
+def test_what_is_made_while_its_node_is_destroyed_leaves_no_token(endpoint: str, context: Context):
+    node = Node("races", context=context)
+
+    class LatePublisher(Publisher):
+        def __init__(self, endpoint: Endpoint, msg_type: type[MessageValue]) -> None:
+            node.destroy_node()
+            super().__init__(endpoint, msg_type)
+
+    place = node.endpoint(EndpointKind.SUBSCRIPTION, "std_msgs/msg/String", "late", 10)
+    with pytest.raises(DestroyedError, match="/races"):
+        node.create_publisher(String, "late", 10, publisher_class=LatePublisher)
+    subscription = Subscription(place, String, print, node.default_callback_group)
+    with pytest.raises(DestroyedError, match="/races"):
+        node.add_work(subscription)
+    with open_test_session(endpoint) as wire:
+        wait_until(
+            "no token is left",
+            lambda: (
+                not any(
+                    "races" in token
+                    for token in standing_tokens(wire.zenoh, tokens_of_domain(0), 3)
+                )
+            ),
+        )
+
+
+def test_what_is_forgotten_is_not_called_at_the_end(context: Context):
+    node = Node("ends", context=context)
+    ended: list[str] = []
+
+    def end() -> None:
+        ended.append("end")
+
+    node.on_destroy(end)
+    node.forget_destroy(end)
+    node.forget_destroy(end)
+    node.destroy_node()
+    assert ended == []
 
 
 def test_a_node_sees_the_others(context: Context, endpoint: str):

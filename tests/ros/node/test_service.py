@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+import gc
+import weakref
 from typing import TYPE_CHECKING
 
 import pytest
@@ -11,6 +13,7 @@ from studio.ros.messages import service
 from studio.ros.node.codecs import codec_of
 from studio.ros.node.future import Future
 from studio.ros.node.spinning import spinning
+from studio.ros.node.work import ReentrantCallbackGroup
 from studio.ros.qos import QoSProfile
 from studio.ros.wire.door import declare_querier
 from tests.support.node_pair import node_pair, spin_until
@@ -84,6 +87,97 @@ def test_a_request_that_is_none_is_counted_and_gets_no_answer(
         assert served.refused == 1
         assert reason in str(served.reason)
         assert len(asked(asker, served)) == 1
+
+
+def test_what_is_said_of_a_dropped_request_begins_once(
+    nodes: tuple[Node, Node], capsys: pytest.CaptureFixture[str]
+):
+    asker, server = nodes
+    served = server.create_service(AddTwoInts, "worded", add)
+    asked(asker, served, attachment=b"short")
+    said = capsys.readouterr().err
+    assert "A request to /worded was dropped. Its attachment cannot be read: it has 5 b" in said
+
+
+def test_a_client_may_leave_so_many_requests_without_an_answer(
+    nodes: tuple[Node, Node], monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr("studio.ros.node.service.PENDING_OF_CLIENT_MAX", 2)
+    asker, server = nodes
+    gate: Future[None] = Future()
+    seen: list[int] = []
+
+    async def answer(request: MessageValue, response: MessageValue) -> MessageValue:
+        seen.append(request.a)
+        await gate
+        return response
+
+    served = server.create_service(
+        AddTwoInts, "patient", answer, callback_group=ReentrantCallbackGroup()
+    )
+    client, other = (asker.create_client(AddTwoInts, "patient") for _ in range(2))
+    assert client.wait_for_service(timeout_sec=30)
+    with spinning(server):
+        calls = [client.call_async(AddTwoInts.Request(a=number)) for number in range(3)]
+        spin_until(calls[2].done, asker)
+        calls.append(other.call_async(AddTwoInts.Request(a=3)))
+        wait_until("the others are begun", lambda: seen == [0, 1, 3])
+        assert isinstance(calls[2].exception(), NotServedError)
+        assert served.reason == "Its client waits for 2 answers already."
+        gate.set_result(None)
+        spin_until(lambda: all(call.done() for call in calls), asker)
+        again = client.call_async(AddTwoInts.Request(a=4))
+        spin_until(again.done, asker)
+    assert again.exception() is None
+
+
+def test_a_callback_that_awaits_what_nobody_else_holds_is_not_lost(nodes: tuple[Node, Node]):
+    asker, server = nodes
+    gates: list[weakref.ref[Future[None]]] = []
+
+    async def answer(_request: MessageValue, response: MessageValue) -> MessageValue:
+        gate: Future[None] = Future()
+        gates.append(weakref.ref(gate))
+        await gate
+        return response
+
+    server.create_service(AddTwoInts, "held", answer)
+    client = asker.create_client(AddTwoInts, "held")
+    assert client.wait_for_service(timeout_sec=30)
+    with spinning(server):
+        future = client.call_async(AddTwoInts.Request())
+        wait_until("it waits", lambda: bool(gates))
+        gc.collect()
+        held = gates[0]()
+        assert held is not None
+        held.set_result(None)
+        spin_until(future.done, asker)
+    assert future.exception() is None
+
+
+def test_a_callback_whose_awaited_future_is_cancelled_gives_no_answer_and_ends_no_spinning(
+    nodes: tuple[Node, Node],
+):
+    asker, server = nodes
+
+    async def answer(request: MessageValue, response: MessageValue) -> MessageValue:
+        gate: Future[None] = Future()
+        if request.a:
+            gate.cancel()
+            await gate
+        return response
+
+    served = server.create_service(AddTwoInts, "given_up", answer)
+    client = asker.create_client(AddTwoInts, "given_up")
+    assert client.wait_for_service(timeout_sec=30)
+    with spinning(server):
+        cancelled = client.call_async(AddTwoInts.Request(a=1))
+        spin_until(cancelled.done, asker)
+        answered = client.call_async(AddTwoInts.Request())
+        spin_until(answered.done, asker)
+    assert isinstance(cancelled.exception(), NotServedError)
+    assert answered.exception() is None
+    assert served.reason == "What its callback awaited was cancelled."
 
 
 def test_a_callback_that_fails_ends_the_spinning_and_leaves_nobody_waiting(

@@ -9,11 +9,14 @@ import pytest
 from studio.errors import (
     CallRefusedError,
     CdrError,
+    ForeignAnswerError,
     MessageValueError,
     NoAnswerError,
     NotServedError,
 )
+from studio.ros.attachment import Attachment
 from studio.ros.messages import message, service
+from studio.ros.node.codecs import codec_of
 from studio.ros.node.future import Future
 from studio.ros.node.spinning import spinning
 from studio.ros.node.work import ReentrantCallbackGroup
@@ -240,13 +243,42 @@ def test_bytes_that_are_no_response_are_an_error(nodes: tuple[Node, Node]):
 
     def garble() -> None:
         query = next(iter(queries))
-        query.reply(query.key_expr, b"junk", attachment=b"")
+        assert query.attachment is not None
+        query.reply(query.key_expr, b"junk", attachment=query.attachment.to_bytes())
         query.drop()
 
     thread = threading.Thread(target=garble)
     thread.start()
     future = call_until_taken(asker, client, thread)
     assert isinstance(future.exception(), CdrError)
+    queries.undeclare()
+
+
+@pytest.mark.parametrize(
+    ("name", "attachment", "reason"),
+    [
+        ("bare_answer", b"", "came without one"),
+        ("foreign_answer", Attachment(1, 1, b"another client..").pack(), "another request"),
+    ],
+)
+def test_an_answer_that_carries_no_number_of_its_request_is_none(
+    nodes: tuple[Node, Node], name: str, attachment: bytes, reason: str
+):
+    asker, server = nodes
+    client = asker.create_client(AddTwoInts, name)
+    queries = declare_queryable(server.wire.zenoh, client.endpoint.key, 10)
+    response = bytes(codec_of(AddTwoInts.Response).encode(AddTwoInts.Response(sum=1)))
+
+    def answer() -> None:
+        query = next(iter(queries))
+        query.reply(query.key_expr, response, attachment=attachment)
+        query.drop()
+
+    thread = threading.Thread(target=answer)
+    thread.start()
+    future = call_until_taken(asker, client, thread)
+    with pytest.raises(ForeignAnswerError, match=reason):
+        future.result()
     queries.undeclare()
 
 

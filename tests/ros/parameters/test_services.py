@@ -119,3 +119,19 @@ def test_a_callback_that_raises_is_a_refusal_and_the_node_goes_on(
     assert "ValueError: no max_velocity today" in result.reason
     assert "no max_velocity today" in capsys.readouterr().err
     assert set_one(nodes, "max_velocity", 3.0).successful
+
+
+def test_a_callback_that_fails_after_a_value_was_set_makes_no_failure_of_it(
+    nodes: tuple[Node, Node], capsys: pytest.CaptureFixture[str]
+):
+    robot, _ = nodes
+
+    def fails(_: list[Parameter]) -> None:
+        raise ValueError("told too late")
+
+    robot.add_post_set_parameters_callback(fails)
+    result = set_one(nodes, "max_velocity", 0.25)
+    robot.remove_post_set_parameters_callback(fails)
+    assert (result.successful, result.reason) == (True, "")
+    assert robot.get_parameter("max_velocity").value == 0.25
+    assert "failed after parameters were set: ValueError: told too late" in capsys.readouterr().err
