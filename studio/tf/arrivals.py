@@ -1,0 +1,136 @@
+"""Arrivals: when and by whom frames were told of, by the clock of this machine."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+
+from studio.tf.growing import grown
+
+if TYPE_CHECKING:
+    from studio.tf.columns import Floats, Numbers
+
+_KEPT: Final = 64
+WINDOW_NS: Final = 10_000_000_000
+_PAUSES: Final = 16
+_STALE_AFTER_PAUSES: Final = 3
+_STALE_AT_LEAST_NS: Final = 1_000_000_000
+_PUBLISHERS_MAX: Final = 4096
+
+
+class Arrivals:
+    """Of frames by number: the last arrivals, who told the newest pose, and who else tells."""
+
+    def __init__(self) -> None:
+        self._times_ns = np.zeros((0, _KEPT), np.int64)
+        self._count = np.zeros(0, np.int64)
+        self._teller = np.zeros(0, np.int64)
+        self._other = np.zeros(0, np.int64)
+        self._other_ns = np.zeros(0, np.int64)
+        self._publishers: dict[str, int] = {"": 0}
+
+    def fit(self, count: int) -> None:
+        """Let there be frames of numbers below this."""
+        if count > len(self._count):
+            for name in ("_times_ns", "_count", "_teller", "_other", "_other_ns"):
+                setattr(self, name, grown(getattr(self, name), count))
+
+    def publisher(self, name: str) -> int:
+        """The number of a publisher."""
+        number = self._publishers.get(name)
+        if number is None:
+            if len(self._publishers) >= _PUBLISHERS_MAX:
+                self._forget_publishers()
+            number = max(self._publishers.values()) + 1
+            self._publishers[name] = number
+        return number
+
+    def note(self, frames: Numbers, publisher: int, now_ns: int) -> None:
+        """Frames, each named once, were told of, and what was told is the newest."""
+        tellers = self._teller[frames]
+        changed = tellers != publisher
+        if changed.any():
+            to = frames[changed & (self._count[frames] > 0)]
+            self._other[to], self._other_ns[to] = self._teller[to], self._last_ns(to)
+            self._teller[frames] = publisher
+        self._times_ns[frames, self._count[frames] % _KEPT] = now_ns
+        self._count[frames] += 1
+
+    def note_older(self, frame: int, publisher: int, now_ns: int) -> None:
+        """A frame was told of, but newer was known: whoever told that stays its publisher."""
+        if publisher != self._teller[frame]:
+            self._other[frame], self._other_ns[frame] = publisher, now_ns
+        self._times_ns[frame, self._count[frame] % _KEPT] = now_ns
+        self._count[frame] += 1
+
+    def clear(self, frame: int) -> None:
+        """Forget a frame."""
+        for one in (self._count, self._teller, self._other, self._other_ns):
+            one[frame] = 0
+
+    def last_ns(self, frame: int) -> int:
+        """When a frame was told of last."""
+        return int(self._times_ns[frame, (self._count[frame] - 1) % _KEPT])
+
+    def ages_s(self, frames: Numbers, now_ns: int) -> Floats:
+        """How long each has not been told of, shape (N,); 0 for one that never was."""
+        told = self._count[frames] > 0
+        return np.where(told, np.maximum(now_ns - self._last_ns(frames), 0) / 1e9, 0.0)
+
+    def teller(self, frame: int) -> int:
+        """The number of who told the newest of a frame."""
+        return int(self._teller[frame])
+
+    def told_by(self, publisher: int) -> list[int]:
+        """The frames of which a publisher told the newest."""
+        return np.flatnonzero((self._teller == publisher) & (self._count > 0)).tolist()
+
+    def publishers_of(self, frame: int, now_ns: int) -> tuple[str, ...]:
+        """Who told the newest of a frame, and who else did in the last seconds."""
+        numbers = [self._teller[frame]]
+        other_is_new = self._other_ns[frame] and now_ns - self._other_ns[frame] <= WINDOW_NS
+        if other_is_new and self._other[frame] != numbers[0]:
+            numbers.append(self._other[frame])
+        names = {number: name for name, number in self._publishers.items() if number in numbers}
+        return tuple(names.get(int(number), "") for number in numbers)
+
+    def rate_hz(self, frame: int, now_ns: int) -> float:
+        """How often a frame comes, of the last 64 times within 10 s; 0 when that is not known.
+
+        Who is silent for longer than the mean period becomes slower from then on.
+        """
+        times_ns = self._kept(frame)
+        times_ns = times_ns[times_ns > now_ns - WINDOW_NS]
+        if len(times_ns) < 2 or times_ns[-1] <= times_ns[0]:
+            return 0.0
+        lately = (len(times_ns) - 1) / (times_ns[-1] - times_ns[0])
+        until_now = len(times_ns) / max(now_ns - times_ns[0], 1)
+        return float(min(lately, until_now)) * 1e9
+
+    def is_stale(self, frame: int, now_ns: int) -> bool:
+        """Whether a frame has been silent for 3 of its longer pauses, and for a second at least."""
+        times_ns = self._kept(frame)[-_PAUSES - 1 :]
+        silent_ns = now_ns - int(times_ns[-1]) if len(times_ns) else WINDOW_NS
+        pauses_ns = np.sort(np.diff(times_ns))
+        if not pauses_ns.size:
+            return silent_ns >= WINDOW_NS
+        # The longest may be from when its publisher was not there.
+        usual_ns = int(pauses_ns[-2:][0])
+        return silent_ns > max(_STALE_AT_LEAST_NS, _STALE_AFTER_PAUSES * usual_ns)
+
+    def _kept(self, frame: int) -> Numbers:
+        """The last arrivals, from the oldest."""
+        count = int(self._count[frame])
+        times_ns = self._times_ns[frame, : min(count, _KEPT)]
+        return np.roll(times_ns, -(count % _KEPT)) if count > _KEPT else times_ns
+
+    def _last_ns(self, frames: Numbers) -> Numbers:
+        return self._times_ns[frames, (self._count[frames] - 1) % _KEPT]
+
+    def _forget_publishers(self) -> None:
+        """Keep those that tell of a frame now."""
+        used = {0, *self._teller.tolist(), *self._other.tolist()}
+        self._publishers = {
+            name: number for name, number in self._publishers.items() if number in used
+        }

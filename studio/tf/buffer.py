@@ -1,0 +1,241 @@
+"""TransformBuffer: where every frame was in the last seconds, seen from any other."""
+
+from __future__ import annotations
+
+import threading
+import time
+from typing import TYPE_CHECKING, Final, NamedTuple
+
+import numpy as np
+
+from studio.errors import ExtrapolationError, UnconnectedFramesError, UnknownFrameError
+from studio.tf.admission import plain
+from studio.tf.all_frames import AllFrames
+from studio.tf.arrivals import Arrivals
+from studio.tf.forest import Forest
+from studio.tf.histories import Histories
+from studio.tf.intake import Intake
+from studio.tf.report import FrameReport, report_of
+from studio.tf.rotations import IDENTITY, Pose, compose, inverse
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    from studio.tf.admission import Notice
+    from studio.tf.columns import TransformColumns
+    from studio.tf.frames_now import FramesNow
+
+HISTORY_NS: Final = 10_000_000_000
+
+
+class FramePose(NamedTuple):
+    """The pose of a frame in another one at a time."""
+
+    wxyz: tuple[float, float, float, float]
+    """A quaternion of length 1."""
+    xyz: tuple[float, float, float]
+    """m."""
+    stamp_ns: int
+    """When; 0 where all transforms on the way are static."""
+
+
+class TransformBuffer:
+    """Keeps what /tf and /tf_static tell for 10 s of stamps, and answers as tf2 does. Any thread.
+
+    Args:
+        history_ns: How far back from the newest stamp of each frame.
+        clock: Tells the time of arrivals, in ns; stamps are of any clock.
+    """
+
+    def __init__(
+        self, history_ns: int = HISTORY_NS, clock: Callable[[], int] = time.monotonic_ns
+    ) -> None:
+        self._clock, self._lock = clock, threading.Lock()
+        self._history_ns = history_ns
+        self.changes = 0
+        """Grows with all that is told: who waits for a transform looks at this first."""
+        self._begin()
+
+    def put(
+        self,
+        columns: TransformColumns,
+        *,
+        static: bool = False,
+        publisher: str = "",
+        received_ns: int | None = None,
+    ) -> tuple[Notice, ...]:
+        """Take transforms up.
+
+        Args:
+            columns: As of one message.
+            static: Whether they hold at all times.
+            publisher: Who tells, by any name; who is not known is nobody.
+            received_ns: By the buffer's clock; now, if it is not said.
+
+        Returns:
+            What was left out, and what is worth knowing; empty when all is well.
+        """
+        now_ns = self._clock() if received_ns is None else received_ns
+        with self._lock:
+            self.changes += 1
+            return self._intake.put(columns, publisher, now_ns, static=static)
+
+    def fixed_from(self, fixed: str, frame: str, stamp_ns: int = 0) -> FramePose:
+        """The pose of a frame in the fixed frame.
+
+        Args:
+            fixed: Its name; a frame seen from itself needs no transform.
+            frame: Its name.
+            stamp_ns: When; 0 is the newest time at which the whole way is known.
+
+        Raises:
+            UnknownFrameError: No transform has told of one of them.
+            UnconnectedFramesError: No chain leads from one to the other.
+            ExtrapolationError: A transform on the way is not known at that time.
+        """
+        fixed, frame = plain(fixed), plain(frame)
+        if fixed == frame:
+            return FramePose(IDENTITY[:4], IDENTITY[4:], stamp_ns)
+        with self._lock:
+            down, up = self._way(fixed, frame)
+            poses, stamp_ns = self._poses(down + up, stamp_ns)
+        ancestor_from_fixed, ancestor_from_frame = IDENTITY, IDENTITY
+        for pose in poses[: len(down)]:
+            ancestor_from_fixed = compose(pose, ancestor_from_fixed)
+        for pose in poses[len(down) :]:
+            ancestor_from_frame = compose(pose, ancestor_from_frame)
+        fixed_from_frame = compose(inverse(ancestor_from_fixed), ancestor_from_frame)
+        return FramePose(fixed_from_frame[:4], fixed_from_frame[4:], stamp_ns)
+
+    def all_in(self, fixed: str, stamp_ns: int = 0, now_ns: int | None = None) -> FramesNow:
+        """All frames seen from the fixed one; none is connected with one that is not known.
+
+        Args:
+            fixed: Its name.
+            stamp_ns: When; 0 takes the newest of each transform, whatever its stamp.
+            now_ns: Ages are as of this, by the buffer's clock.
+        """
+        now_ns = self._clock() if now_ns is None else now_ns
+        with self._lock:
+            return self._all.seen_from(plain(fixed), stamp_ns, now_ns)
+
+    def chain(self, fixed: str, frame: str) -> tuple[str, ...]:
+        """The frames on the way from one to another, both with it.
+
+        Raises:
+            UnknownFrameError: No transform has told of one of them.
+            UnconnectedFramesError: No chain leads from one to the other.
+        """
+        fixed, frame = plain(fixed), plain(frame)
+        with self._lock:
+            down, up = self._way(fixed, frame)
+            names, parents = self._forest.names, self._forest.parents
+            last = (down or up)[-1] if down or up else None
+            ancestor = fixed if last is None else names[parents[last]]
+            return (
+                *(names[number] for number in down),
+                ancestor,
+                *(names[number] for number in reversed(up)),
+            )
+
+    def frames(self) -> list[str]:
+        """All frames, in the order of the alphabet."""
+        with self._lock:
+            return sorted(name for name in self._forest.names if name)
+
+    def roots(self) -> list[str]:
+        """The frame that each tree hangs on, from that of the largest tree."""
+        with self._lock:
+            return list(self._all.tree_sizes())
+
+    def report(self, fixed: str = "", now_ns: int | None = None) -> list[FrameReport]:
+        """What is to be said of each frame, in the order of the alphabet.
+
+        Args:
+            fixed: What is not connected with it is broken; without one, the root of the largest
+                tree.
+            now_ns: By the buffer's clock.
+        """
+        now_ns = self._clock() if now_ns is None else now_ns
+        with self._lock:
+            fixed = plain(fixed) or next(iter(self._all.tree_sizes()), "")
+            return report_of(self._forest, self._histories, self._arrivals, fixed, now_ns)
+
+    def jump_back(self, stamp_ns: int) -> None:
+        """Time begins anew here, as /clock tells: what is newer is forgotten, static or not at all.
+
+        A frame of which nothing is left loses its edge.
+        """
+        with self._lock:
+            self.changes += 1
+            self._intake.jump_back(self._hanging(), stamp_ns)
+
+    def drop(self, children: Iterable[str]) -> None:
+        """Forget the edges of frames, as when links are no more."""
+        with self._lock:
+            self.changes += 1
+            for child in children:
+                number = self._forest.number(plain(child))
+                if number is not None and self._forest.parents[number] >= 0:
+                    self._intake.drop(number)
+
+    def clear(self) -> None:
+        """Forget everything."""
+        with self._lock:
+            self.changes += 1
+            self._begin()
+
+    def _begin(self) -> None:
+        self._forest, self._arrivals = Forest(), Arrivals()
+        self._histories = Histories(self._history_ns)
+        parts = self._forest, self._histories, self._arrivals
+        self._intake, self._all = Intake(*parts), AllFrames(*parts)
+
+    def _hanging(self) -> list[int]:
+        parents = self._forest.parents
+        return [number for number in self._forest.numbers() if parents[number] >= 0]
+
+    def _way(self, fixed: str, frame: str) -> tuple[list[int], list[int]]:
+        """The frames whose edges lead up from the fixed frame, and from the other, to an ancestor.
+
+        Raises:
+            UnknownFrameError: No transform has told of one of them.
+            UnconnectedFramesError: No chain leads from one to the other.
+        """
+        chains: list[list[int]] = []
+        for name in (fixed, frame):
+            number = self._forest.number(name)
+            if number is None:
+                raise UnknownFrameError(name)
+            chains.append(self._forest.chain(number))
+        down, up = chains
+        if down[-1] != up[-1]:
+            raise UnconnectedFramesError(fixed, frame, self._forest.names[up[-1]])
+        while down and up and down[-1] == up[-1]:
+            down.pop()
+            up.pop()
+        return down, up
+
+    def _poses(self, frames: list[int], stamp_ns: int) -> tuple[list[Pose], int]:
+        """The poses of frames in their parents, at a time or at the newest common one; and when.
+
+        Raises:
+            ExtrapolationError: One is not known at that time.
+        """
+        numbers = np.array(frames, np.int64)
+        if stamp_ns == 0:
+            stamp_ns = self._newest_common_ns(numbers)
+        poses, known = self._histories.at(numbers, stamp_ns)
+        if not known.all():
+            at = numbers[~known][:1]
+            raise ExtrapolationError(
+                self._forest.names[int(at[0])],
+                stamp_ns,
+                int(self._histories.oldest_ns(at)[0]),
+                int(self._histories.newest_ns(at)[0]),
+            )
+        return [tuple(pose) for pose in poses.tolist()], stamp_ns
+
+    def _newest_common_ns(self, frames: np.ndarray[tuple[int], np.dtype[np.int64]]) -> int:
+        moving = frames[~self._histories.is_static(frames)]
+        return int(self._histories.newest_ns(moving).min()) if moving.size else 0

@@ -1,0 +1,266 @@
+"""Intake: takes transforms up into forest, histories and arrivals, and says what it leaves out."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final, NamedTuple
+
+import numpy as np
+
+from studio.tf.admission import (
+    Notice,
+    fault_of_names,
+    fault_of_numbers,
+    plain,
+    poses_of,
+    refusal,
+    sound,
+)
+from studio.tf.forest import DEPTH_MAX, FRAMES_MAX, NONE
+
+if TYPE_CHECKING:
+    from studio.tf.admission import Kind
+    from studio.tf.arrivals import Arrivals
+    from studio.tf.columns import Flags, Floats, Numbers, TransformColumns
+    from studio.tf.forest import Forest
+    from studio.tf.histories import Histories
+
+_NOTICES_MAX: Final = 20
+_LAYOUTS_MAX: Final = 256
+_SILENT_NS: Final = 1_000_000_000
+"""After this long without a word, a publisher's place is free for another one."""
+_REST_NS: Final = 1_000_000_000
+"""For this long a publisher that moved its own frame cannot move it again."""
+_BEHIND_MAX: Final = 10
+"""So many transforms in a row behind what their own publisher told are a jump of time."""
+
+
+class _Row(NamedTuple):
+    parent: str
+    child: str
+    stamp_ns: int
+    pose: Floats
+    publisher: str
+    static: bool
+    now_ns: int
+
+    def refused(self, kind: Kind, reason: str) -> Notice:
+        return refusal(kind, self.parent, self.child, self.publisher, reason)
+
+
+class Intake:
+    """Who feeds the buffer comes here; whoever calls holds the buffer's lock."""
+
+    def __init__(self, forest: Forest, histories: Histories, arrivals: Arrivals) -> None:
+        self._forest, self._histories, self._arrivals = forest, histories, arrivals
+        self._layouts: dict[tuple[tuple[str, ...], tuple[str, ...]], tuple[int, Numbers]] = {}
+        self._behind: dict[int, int] = {}
+        self._moved_ns: dict[int, int] = {}
+
+    def put(
+        self, columns: TransformColumns, publisher: str, now_ns: int, *, static: bool
+    ) -> tuple[Notice, ...]:
+        """Take columns up; answers what was left out, and what is worth knowing."""
+        good, poses = sound(columns), poses_of(columns)
+        frames = self._known_frames(columns)
+        if frames is not None and not static:
+            fast = self._newer(frames, columns.stamps_ns, good)
+            self._append(frames[fast], columns.stamps_ns[fast], poses[fast], publisher, now_ns)
+            rest = np.flatnonzero(~fast).tolist()
+        else:
+            rest = range(len(columns.parents))
+        notices: list[Notice] = []
+        for at in rest:
+            row = _Row(
+                plain(columns.parents[at]),
+                plain(columns.children[at]),
+                int(columns.stamps_ns[at]),
+                poses[at],
+                publisher,
+                static,
+                now_ns,
+            )
+            said = self._put_row(row) if good[at] else _unsound(row, columns, at)
+            if said is not None:
+                notices.append(said)
+        if frames is None and len(notices) < len(columns.parents):
+            self._remember(columns)
+        return _shortened(notices)
+
+    def drop(self, frame: int) -> None:
+        """Forget the edge of a frame."""
+        self._histories.clear(frame)
+        self._arrivals.clear(frame)
+        self._behind.pop(frame, None)
+        self._moved_ns.pop(frame, None)
+        self._forest.cut(frame)
+
+    def jump_back(self, frames: list[int], stamp_ns: int) -> None:
+        """Forget what is newer; a frame of which nothing is left loses its edge."""
+        for frame in frames:
+            self._behind.pop(frame, None)
+            self._histories.drop_newer(frame, stamp_ns)
+            if not self._histories.has_rows(frame):
+                self.drop(frame)
+
+    def _known_frames(self, columns: TransformColumns) -> Numbers | None:
+        """The children's numbers, if all edges stood as they are when this layout came last."""
+        version, frames = self._layouts.get((columns.parents, columns.children), (None, None))
+        return frames if version == self._forest.version else None
+
+    def _remember(self, columns: TransformColumns) -> None:
+        """Keep the numbers of a message all of whose edges stand, each once."""
+        key = columns.parents, columns.children
+        frames = [self._edge(*names) for names in zip(*key, strict=True)]
+        self._layouts.pop(key, None)
+        if None in frames or len(set(frames)) < len(frames):
+            return
+        if len(self._layouts) >= _LAYOUTS_MAX:
+            del self._layouts[next(iter(self._layouts))]
+        self._layouts[key] = self._forest.version, np.array(frames, np.int64)
+
+    def _edge(self, parent: str, child: str) -> int | None:
+        """The child's number, if it hangs on that parent."""
+        number, upper = self._forest.number(plain(child)), self._forest.number(plain(parent))
+        if number is None or upper is None or self._forest.parents[number] != upper:
+            return None
+        return number
+
+    def _newer(self, frames: Numbers, stamps_ns: Numbers, good: Flags) -> Flags:
+        """Which rows are sound, of moving frames, and not older than what is known of them."""
+        is_newer = stamps_ns >= self._histories.newest_ns(frames)
+        return good & is_newer & ~self._histories.is_static(frames)
+
+    def _append(
+        self, frames: Numbers, stamps_ns: Numbers, poses: Floats, publisher: str, now_ns: int
+    ) -> None:
+        self._histories.append(frames, stamps_ns, poses)
+        self._arrivals.note(frames, self._arrivals.publisher(publisher), now_ns)
+        if self._behind:
+            for frame in frames.tolist():
+                self._behind.pop(frame, None)
+
+    def _put_row(self, row: _Row) -> Notice | None:
+        fault = fault_of_names(row.parent, row.child)
+        if fault is not None:
+            return row.refused(*fault)
+        frame = self._forest.number(row.child)
+        moved = None
+        if frame is None or self._forest.parents[frame] == NONE:
+            refused = self._refused_edge(row)
+        elif self._forest.names[self._forest.parents[frame]] == row.parent:
+            return self._put_pose(row, frame)
+        else:
+            refused = self._refused_move(row, frame) or self._refused_edge(row)
+            moved = self._moved(row, frame)
+        if refused is not None:
+            return refused
+        self._hang(row)
+        if moved is not None and frame is not None:
+            self._moved_ns[frame] = row.now_ns
+        return moved
+
+    def _hang(self, row: _Row) -> None:
+        """A frame gets a parent, or another one: what was known of it does not hold there."""
+        frame = self._forest.hang(row.parent, row.child)
+        for one in (self._histories, self._arrivals):
+            one.fit(len(self._forest.names))
+            one.clear(frame)
+        self._store(row, frame)
+
+    def _store(self, row: _Row, frame: int) -> None:
+        if row.static:
+            self._histories.put_static(frame, row.stamp_ns, row.pose)
+        else:
+            self._histories.insert(frame, row.stamp_ns, row.pose)
+        publisher = self._arrivals.publisher(row.publisher)
+        self._arrivals.note(np.array([frame]), publisher, row.now_ns)
+        self._behind.pop(frame, None)
+
+    def _put_pose(self, row: _Row, frame: int) -> Notice | None:
+        """Take up a pose of an edge that stands."""
+        at = np.array([frame])
+        newest_ns = int(self._histories.newest_ns(at)[0])
+        if row.static or self._histories.is_static(at)[0] or row.stamp_ns >= newest_ns:
+            self._store(row, frame)
+            return None
+        if self._time_jumped(row, frame, newest_ns):
+            return self._jump(row, frame, newest_ns)
+        if row.stamp_ns < newest_ns - self._histories.history_ns:
+            late_s = (newest_ns - row.stamp_ns) / 1e9
+            reason = f"its stamp is {late_s:.1f} s older than the newest: compare the clocks"
+            return row.refused("too_old", reason)
+        self._histories.insert(frame, row.stamp_ns, row.pose)
+        publisher = self._arrivals.publisher(row.publisher)
+        self._arrivals.note_older(frame, publisher, row.now_ns)
+        return None
+
+    def _time_jumped(self, row: _Row, frame: int, newest_ns: int) -> bool:
+        """Whether a stamp behind the newest means that time began anew.
+
+        It does when it comes from who told the newest, or from somebody else after silence; a stamp
+        of 0 is one that was forgotten.
+        """
+        is_own = self._is_from_teller(row, frame)
+        if row.stamp_ns >= newest_ns - self._histories.history_ns:
+            self._behind[frame] = self._behind.get(frame, 0) + 1 if is_own else 0
+            return self._behind[frame] >= _BEHIND_MAX
+        is_silent = row.now_ns - self._arrivals.last_ns(frame) >= _SILENT_NS
+        return row.stamp_ns > 0 and (is_own or is_silent)
+
+    def _jump(self, row: _Row, frame: int, newest_ns: int) -> Notice:
+        """The clock of a publisher went back: what it told of later times does not hold."""
+        self.jump_back(self._arrivals.told_by(self._arrivals.teller(frame)), row.stamp_ns)
+        if self._edge(row.parent, row.child) is None:
+            self._hang(row)
+        else:
+            self._store(row, frame)
+        sentence = (
+            f'Time went back by {(newest_ns - row.stamp_ns) / 1e9:.3f} s for "{row.child}": what '
+            "its publisher had told of later times was forgotten."
+        )
+        return Notice("time_jumped", *row[:2], row.publisher, sentence, left_out=False)
+
+    def _refused_edge(self, row: _Row) -> Notice | None:
+        is_above = self._forest.is_above(row.child, row.parent)
+        if is_above is None:
+            return row.refused("too_deep", f"{DEPTH_MAX} frames are above it already")
+        if is_above:
+            reason = "the parent hangs on the child already, and frames in a circle are nowhere"
+            return row.refused("circle", reason)
+        if not self._forest.room_for(row.parent, row.child):
+            return row.refused("too_many", f"there are {FRAMES_MAX} frames already")
+        return None
+
+    def _refused_move(self, row: _Row, frame: int) -> Notice | None:
+        """Another parent is taken from the frame's own publisher, or when the edge is old."""
+        newest_ns = int(self._histories.newest_ns(np.array([frame]))[0])
+        is_old = row.stamp_ns - newest_ns > self._histories.history_ns
+        moves_own = bool(row.publisher) and self._is_from_teller(row, frame)
+        has_rested = row.now_ns - self._moved_ns.get(frame, row.now_ns - _REST_NS) >= _REST_NS
+        if is_old or (moves_own and has_rested):
+            return None
+        parent = self._forest.names[self._forest.parents[frame]]
+        who = "its publisher tells of both" if moves_own else "another publisher tells of that"
+        return row.refused("other_parent", f'"{row.child}" hangs on "{parent}", and {who}')
+
+    def _is_from_teller(self, row: _Row, frame: int) -> bool:
+        return self._arrivals.publisher(row.publisher) == self._arrivals.teller(frame)
+
+    def _moved(self, row: _Row, frame: int) -> Notice:
+        parent = self._forest.names[self._forest.parents[frame]]
+        sentence = f'"{row.child}" was moved from "{parent}" to "{row.parent}".'
+        return Notice("moved", row.parent, row.child, row.publisher, sentence, left_out=False)
+
+
+def _unsound(row: _Row, columns: TransformColumns, at: int) -> Notice:
+    fault = fault_of_names(row.parent, row.child) or fault_of_numbers(
+        columns.translations[at], columns.rotations_wxyz[at], row.stamp_ns
+    )
+    return row.refused(*fault)
+
+
+def _shortened(notices: list[Notice]) -> tuple[Notice, ...]:
+    if len(notices) <= _NOTICES_MAX:
+        return tuple(notices)
+    more = f"{len(notices) - _NOTICES_MAX} more transforms of this message have faults."
+    return (*notices[:_NOTICES_MAX], Notice("and_more", "", "", notices[0].publisher, more))

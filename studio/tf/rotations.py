@@ -1,0 +1,143 @@
+"""Turns as unit quaternions and as matrices, many at once."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from studio.tf.columns import Floats
+
+Pose: TypeAlias = tuple[float, float, float, float, float, float, float]
+"""w, x, y, z of a unit quaternion, then x, y, z in m."""
+
+IDENTITY: Pose = (1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+_STRAIGHT = 1e-9
+"""Sine of an angle below which an arc is its chord."""
+
+
+def between(before: Floats, after: Floats, shares: Floats) -> Floats:
+    """Poses on the way: places along a line, turns along the shorter arc.
+
+    Args:
+        before: Shape (N, 7), as `Pose`.
+        after: Shape (N, 7).
+        shares: Shape (N,), 0 at `before` to 1 at `after`.
+    """
+    mixed = before + shares[:, None] * (after - before)
+    mixed[:, :4] = _slerp(before[:, :4], after[:, :4], shares)
+    return mixed
+
+
+def _slerp(before: Floats, after: Floats, shares: Floats) -> Floats:
+    # A quaternion and its negative are one turn: the nearer of both is the shorter way.
+    near = np.where(np.einsum("ij,ij->i", before, after)[:, None] < 0, -after, after)
+    # Of chord and bisector, since the arc cosine forgets small angles.
+    chord, bisector = before - near, before + near
+    angles = 2 * np.arctan2(
+        np.sqrt(np.einsum("ij,ij->i", chord, chord)),
+        np.sqrt(np.einsum("ij,ij->i", bisector, bisector)),
+    )
+    sines = np.sin(angles)
+    straight = sines < _STRAIGHT
+    sines[straight] = 1.0
+    of_before = np.where(straight, 1 - shares, np.sin((1 - shares) * angles) / sines)
+    of_after = np.where(straight, shares, np.sin(shares * angles) / sines)
+    mixed = of_before[:, None] * before + of_after[:, None] * near
+    return mixed / np.sqrt(np.einsum("ij,ij->i", mixed, mixed))[:, None]
+
+
+def matrices_from_poses(poses: Floats) -> Floats:
+    """Homogeneous matrices, shape (N, 4, 4), of poses (N, 7)."""
+    w, x, y, z = poses[:, :4].T
+    matrices = np.zeros((len(poses), 4, 4))
+    xx, yy, zz = x * x, y * y, z * z
+    xy, xz, yz, wx, wy, wz = x * y, x * z, y * z, w * x, w * y, w * z
+    matrices[:, 0, 0] = 1 - 2 * (yy + zz)
+    matrices[:, 0, 1] = 2 * (xy - wz)
+    matrices[:, 0, 2] = 2 * (xz + wy)
+    matrices[:, 1, 0] = 2 * (xy + wz)
+    matrices[:, 1, 1] = 1 - 2 * (xx + zz)
+    matrices[:, 1, 2] = 2 * (yz - wx)
+    matrices[:, 2, 0] = 2 * (xz - wy)
+    matrices[:, 2, 1] = 2 * (yz + wx)
+    matrices[:, 2, 2] = 1 - 2 * (xx + yy)
+    matrices[:, :3, 3] = poses[:, 4:]
+    matrices[:, 3, 3] = 1.0
+    return matrices
+
+
+def poses_from_matrices(matrices: Floats) -> Floats:
+    """Poses, shape (N, 7), of homogeneous matrices (N, 4, 4) without scale."""
+    poses = np.empty((len(matrices), 7))
+    poses[:, :4] = _quaternions(matrices)
+    poses[:, 4:] = matrices[:, :3, 3]
+    return poses
+
+
+_PART_OF_PRODUCTS = np.zeros((16, 9))
+_PART_OF_NOTHING = np.zeros(16)
+for _row, _signs in enumerate(((1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1))):
+    _PART_OF_NOTHING[5 * _row] = 1.0
+    _PART_OF_PRODUCTS[5 * _row, [0, 4, 8]] = _signs
+for _one, _other, _plus, _minus in ((0, 1, 7, 5), (0, 2, 2, 6), (0, 3, 3, 1)):
+    for _place in (4 * _one + _other, 4 * _other + _one):
+        _PART_OF_PRODUCTS[_place, [_plus, _minus]] = 1.0, -1.0
+for _one, _other, _first, _second in ((1, 2, 1, 3), (1, 3, 2, 6), (2, 3, 5, 7)):
+    for _place in (4 * _one + _other, 4 * _other + _one):
+        _PART_OF_PRODUCTS[_place, [_first, _second]] = 1.0
+
+
+def _quaternions(matrices: Floats) -> Floats:
+    """Unit quaternions (N, 4): of the products of all four parts, the row of the largest part.
+
+    Each product of two parts, times 4, is a sum of entries of the rotation.
+    """
+    entries = matrices[:, :3, :3].reshape(-1, 9)
+    products = (entries @ _PART_OF_PRODUCTS.T + _PART_OF_NOTHING).reshape(-1, 4, 4)
+    largest = np.einsum("nii->ni", products).argmax(axis=1)
+    rows = products[np.arange(len(products)), largest]
+    return rows / np.sqrt(np.einsum("ij,ij->i", rows, rows))[:, None]
+
+
+def inverse_of(a_from_b: Floats) -> Floats:
+    """The inverse of a homogeneous matrix (4, 4) without scale."""
+    b_from_a = np.eye(4)
+    b_from_a[:3, :3] = a_from_b[:3, :3].T
+    b_from_a[:3, 3] = -b_from_a[:3, :3] @ a_from_b[:3, 3]
+    return b_from_a
+
+
+def compose(a_from_b: Pose, b_from_c: Pose) -> Pose:
+    """The pose of c in a."""
+    w, x, y, z, px, py, pz = a_from_b
+    ow, ox, oy, oz, qx, qy, qz = b_from_c
+    rx, ry, rz = _turned(a_from_b, qx, qy, qz)
+    return (
+        w * ow - x * ox - y * oy - z * oz,
+        w * ox + x * ow + y * oz - z * oy,
+        w * oy - x * oz + y * ow + z * ox,
+        w * oz + x * oy - y * ox + z * ow,
+        px + rx,
+        py + ry,
+        pz + rz,
+    )
+
+
+def inverse(a_from_b: Pose) -> Pose:
+    """The pose of a in b."""
+    w, x, y, z, px, py, pz = a_from_b
+    back: Pose = (w, -x, -y, -z, 0.0, 0.0, 0.0)
+    rx, ry, rz = _turned(back, px, py, pz)
+    return (w, -x, -y, -z, -rx, -ry, -rz)
+
+
+def _turned(turn: Pose, x: float, y: float, z: float) -> tuple[float, float, float]:
+    w, i, j, k = turn[:4]
+    cx, cy, cz = 2 * (j * z - k * y), 2 * (k * x - i * z), 2 * (i * y - j * x)
+    return (
+        x + w * cx + j * cz - k * cy,
+        y + w * cy + k * cx - i * cz,
+        z + w * cz + i * cy - j * cx,
+    )
