@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 TYPE_NAME = "visualization_msgs/msg/MarkerArray"
+SINGLE_TYPE_NAME = "visualization_msgs/msg/Marker"
 POSE_AND_SCALE_BYTES = 80
 # Colour, lifetime, and whether the frame is locked: a byte, and three that fill up.
 COLOR_TO_LOCKED_BYTES = 28
@@ -92,8 +93,8 @@ class MarkerLayout:
 class MarkerWalk:
     """One walk through a message, marker by marker."""
 
-    def __init__(self, raw: bytes) -> None:
-        self._reader = BytesReader(raw, TYPE_NAME)
+    def __init__(self, raw: bytes, type_name: str = TYPE_NAME) -> None:
+        self._reader = BytesReader(raw, type_name)
         self._no_texture = NO_TEXTURE[self._reader.order]
         self._no_mesh = NO_MESH[self._reader.order]
         self._texts: list[MarkerTexts] = []
@@ -110,6 +111,15 @@ class MarkerWalk:
         """
         for _ in range(self._reader.count(_MARKER_BYTES_LEAST)):
             self._marker()
+        return self._layout()
+
+    def run_single(self) -> MarkerLayout:
+        """Walk through a message that is a single marker.
+
+        Raises:
+            CdrError: The bytes are no such message.
+        """
+        self._marker()
         return self._layout()
 
     def _marker(self) -> None:

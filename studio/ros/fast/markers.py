@@ -8,7 +8,12 @@ import numpy as np
 
 from studio.errors import MessageValueError
 from studio.ros.fast.marker_columns import MarkerColumns
-from studio.ros.fast.marker_layout import TYPE_NAME, MarkerLayout, MarkerWalk
+from studio.ros.fast.marker_layout import (
+    SINGLE_TYPE_NAME,
+    TYPE_NAME,
+    MarkerLayout,
+    MarkerWalk,
+)
 from studio.ros.fast.marker_template import marker_template
 from studio.ros.fast.skeleton import LITTLE, KnownLayouts, numbers_of, view
 from studio.ros.fast.times import nanoseconds_at, put_nanoseconds
@@ -25,12 +30,13 @@ class MarkerCodec:
 
     def __init__(self) -> None:
         self._known: KnownLayouts[MarkerLayout] = KnownLayouts()
+        self._known_single: KnownLayouts[MarkerLayout] = KnownLayouts()
         self._templates: list[tuple[bytes, MarkerLayout]] = []
 
     @property
     def layouts_kept(self) -> int:
         """How many layouts of messages it remembers."""
-        return len(self._known)
+        return len(self._known) + len(self._known_single)
 
     def decode(self, data: bytes | bytearray | memoryview) -> MarkerColumns:
         """Read a message.
@@ -43,6 +49,19 @@ class MarkerCodec:
         if layout is None:
             layout = MarkerWalk(raw).run()
             self._known.keep(raw, layout)
+        return _columns(raw, layout)
+
+    def decode_single(self, data: bytes | bytearray | memoryview) -> MarkerColumns:
+        """Read a visualization_msgs/Marker: columns of one marker.
+
+        Raises:
+            CdrError: The bytes are no such message.
+        """
+        raw = bytes(data)
+        layout = self._known_single.find(raw)
+        if layout is None:
+            layout = MarkerWalk(raw, SINGLE_TYPE_NAME).run_single()
+            self._known_single.keep(raw, layout)
         return _columns(raw, layout)
 
     def encode(self, columns: MarkerColumns) -> bytearray:

@@ -122,6 +122,26 @@ def test_a_picture_and_a_mesh_that_are_sent_along_arrive_whole():
     assert_same(columns_of(CODEC.decode(MarkerCodec().encode(read))), read)
 
 
+@settings(max_examples=60, deadline=None)
+@given(values_of(MARKER), st.booleans())
+def test_a_single_marker_reads_as_the_codec_reads_it(value: Any, little: bool):  # noqa: ANN401
+    written = Codec(MARKER).encode(value, little_endian=little)
+    array = MARKERS(markers=[Codec(MARKER).decode(written)])
+    for codec in (MarkerCodec(), FAST, FAST):
+        assert_same(codec.decode_single(written), marker_columns(array))
+
+
+def test_a_single_marker_and_an_array_are_never_taken_for_each_other():
+    fast = MarkerCodec()
+    single = bytes(Codec(MARKER).encode(marker(1, text="x")))
+    assert fast.decode_single(single).ids.tolist() == [1]
+    # Its stamp of zero reads as an array of no markers.
+    assert fast.decode(single).ids.tolist() == []
+    assert fast.decode_single(single).ids.tolist() == [1]
+    with pytest.raises(CdrError, match=r"msgs/msg/Marker\b"):
+        fast.decode_single(single[:50])
+
+
 def assert_alike(raw: bytes) -> None:
     try:
         expected = marker_columns(CODEC.decode(raw))

@@ -1,0 +1,127 @@
+"""Lines, points and triangles of markers, all of a batch together."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+
+from studio.displays.drawing import Lines, Points, Triangles
+from studio.displays.markers.colours import alphas_of, parts_of, rgb_of
+from studio.displays.markers.items import item_colors, placed_items
+from studio.displays.markers.kinds import Kind
+from studio.displays.markers.solids import is_seen_in_half
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from studio.displays.drawing import Shape
+    from studio.displays.markers.items import PlacedItems
+    from studio.displays.markers.kinds import Whole
+    from studio.displays.markers.table import Rows
+
+_OPAQUE: Final = 0.9998
+"""RViz blends below it."""
+
+
+def points_of(markers: Rows) -> dict[str, Shape]:
+    """Squares that face the camera, as wide as scale.x."""
+    dots = _with_items(markers.of_types(Kind.POINTS))
+    if not len(dots.rows):
+        return {}
+    items = placed_items(dots)
+    rgba = item_colors(dots, items)
+    widths_m = np.abs(dots.scales[:, 0])[items.owners]
+    shapes: dict[str, Shape] = {}
+    for number, part in enumerate(parts_of(alphas_of(rgba), widths_m)):
+        positions = items.positions[part.chosen]
+        shapes[f"points-{number}"] = Points(
+            positions.astype(np.float32), rgb_of(rgba[part.chosen]), part.size_m, "squares",
+            part.opacity, is_seen_in_half(positions, part.size_m),
+        )  # fmt: skip
+    return shapes
+
+
+def lines_of(markers: Rows) -> dict[str, Shape]:
+    """Strips and lists of lines, as thick as scale.x."""
+    drawn = _with_items(markers.of_types(Kind.LINE_STRIP, Kind.LINE_LIST))
+    if not len(drawn.rows):
+        return {}
+    items = placed_items(drawn)
+    rgba = item_colors(drawn, items)
+    begins = _beginnings(drawn, items)
+    ends = np.stack((items.positions[begins], items.positions[begins + 1]), axis=1)
+    colors = np.stack((rgba[begins], rgba[begins + 1]), axis=1)
+    widths_m = np.abs(drawn.scales[:, 0])[items.owners[begins]]
+    shapes: dict[str, Shape] = {}
+    for number, part in enumerate(parts_of(alphas_of(colors.mean(axis=1)), widths_m)):
+        shapes[f"lines-{number}"] = Lines(
+            ends[part.chosen].astype(np.float32),
+            _in_pairs(rgb_of(colors[part.chosen].reshape(-1, 4))),
+            part.size_m,
+            part.opacity,
+        )
+    return shapes
+
+
+def triangles_of(markers: Rows) -> dict[str, Shape]:
+    """Surfaces, stretched by the scale; each vertex or each triangle may have a colour."""
+    drawn = _with_items(markers.of_types(Kind.TRIANGLES))
+    if not len(drawn.rows):
+        return {}
+    items = placed_items(drawn, scaled=True)
+    rgba = _surface_colors(drawn)
+    alphas = alphas_of(rgba.reshape(-1, 3, 4).mean(axis=1))
+    corners = items.positions.reshape(-1, 9)
+    shapes: dict[str, Shape] = {}
+    for number, part in enumerate(parts_of(alphas, np.ones(len(alphas)))):
+        vertices = corners[part.chosen].reshape(-1, 3)
+        shapes[f"triangles-{number}"] = Triangles(
+            vertices.astype(np.float32),
+            np.arange(len(vertices), dtype=np.uint32).reshape(-1, 3),
+            rgb_of(rgba.reshape(-1, 12)[part.chosen].reshape(-1, 4)),
+            part.opacity,
+        )
+    return shapes
+
+
+def _with_items(markers: Rows) -> Rows:
+    return markers.only(np.array([len(each.points) > 0 for each in markers.items], dtype=np.bool_))
+
+
+def _beginnings(drawn: Rows, items: PlacedItems) -> Whole:
+    """Which points begin a line: all of a strip but its last, every other one of a list."""
+    is_begin = np.ones(len(items.owners), dtype=np.bool_)
+    is_begin[items.starts[1:] - 1] = False
+    in_list = drawn.types[items.owners] == Kind.LINE_LIST
+    place = np.arange(len(items.owners)) - items.starts[items.owners]
+    return np.flatnonzero(is_begin & ~(in_list & (place % 2 == 1)))
+
+
+def _in_pairs(colors: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    return colors if colors.ndim == 1 else colors.reshape(-1, 2, 3)
+
+
+def _surface_colors(drawn: Rows) -> NDArray[np.float32]:
+    """The colour of each vertex (V, 4), with RViz's own rules on what is blended.
+
+    Colours of vertices are opaque unless one of the marker's is not, whatever its own alpha; those
+    of whole triangles are opaque if the marker is.
+    """
+    colors: list[NDArray[np.float32]] = []
+    for items, rgba in zip(drawn.items, drawn.rgba, strict=True):
+        count = len(items.points)
+        if len(items.rgba) == count:
+            colors.append(_blended(items.rgba, rgba[3], bool((items.rgba[:, 3] < _OPAQUE).any())))
+        elif len(items.rgba):
+            whole = _blended(items.rgba, rgba[3], bool(rgba[3] < _OPAQUE))
+            colors.append(np.repeat(whole, 3, axis=0))
+        else:
+            colors.append(np.broadcast_to(rgba, (count, 4)))
+    return np.concatenate(colors)
+
+
+def _blended(own: NDArray[np.float32], alpha: np.float32, blends: bool) -> NDArray[np.float32]:  # noqa: FBT001
+    mixed = own.copy()
+    mixed[:, 3] = own[:, 3] * alpha if blends else 1.0
+    return mixed

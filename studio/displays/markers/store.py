@@ -1,0 +1,333 @@
+"""MarkerStore: who is there, by namespace and id, and until when."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final, NamedTuple
+
+import numpy as np
+
+from studio.displays.markers.kinds import COLOURED_POINTS, Action, Kind
+from studio.displays.markers.naming import BatchKey, Naming, batch_keys
+from studio.displays.markers.problems import Looked, Problem, problems_of
+from studio.displays.markers.sequence import outcome_of
+from studio.displays.markers.table import FOR_EVER, NO_BATCH, NO_ITEMS, Items, MarkerTable
+from studio.displays.turning import drawable, unit_quaternions
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from numpy.typing import NDArray
+
+    from studio.displays.markers.kinds import Flags, Whole
+    from studio.displays.markers.naming import Named
+    from studio.displays.markers.sequence import Key
+    from studio.ros.fast.marker_columns import MarkerColumns, MarkerTexts
+
+MARKERS_MAX: Final = 50_000
+POINTS_MAX: Final = 2_000_000
+NAMESPACES_MAX: Final = 1000
+REFUSED_MAX: Final = 1000
+WORDS_MAX: Final = 2000
+# RViz takes what lasts no longer than this for a marker that stays.
+_LIFETIME_LEAST_NS: Final = 100_000
+_MESH_SCHEMES: Final = ("package://", "file://")
+
+
+# Members of an IntEnum are slow to come by in a loop.
+_ACTIONS: Final = np.array(list(Action), dtype=np.int32)
+_ADD, _CLEAR = int(Action.ADD), int(Problem.CLEAR)
+_EMPTY_TEXT = int(Problem.EMPTY_TEXT)
+_NO_MESH, _FOREIGN_MESH = int(Problem.NO_MESH), int(Problem.FOREIGN_MESH)
+
+
+class _LastAdd(NamedTuple):
+    """Of a message that added nothing but markers that were all taken in."""
+
+    named: Named
+    ids: NDArray[np.int32]
+    rows: Whole
+    deletions: int
+    """How often markers were deleted before it."""
+
+
+class MarkerStore:
+    """Takes messages in, and tells which batches of markers are to be drawn anew.
+
+    Attributes:
+        table: Of the markers.
+        batches: Those that hold a marker, by number; a number is never given out twice.
+        heard: Namespaces in the order in which they were heard of first; a bounded number.
+        refused: What is wrong with markers that were not taken in; a bounded number.
+        twice: A marker that the last message held more than once.
+    """
+
+    def __init__(self) -> None:
+        self.table = MarkerTable()
+        self.batches: dict[int, BatchKey] = {}
+        self.heard: dict[str, None] = {}
+        self.refused: dict[Key, Problem] = {}
+        self.twice: Key | None = None
+        self._rows: dict[Key, int] = {}
+        self._numbers: dict[BatchKey, int] = {}
+        self._counts: dict[int, int] = {}
+        self._dirty: set[int] = set()
+        self._next_number = 0
+        self._points = 0
+        self._next_end_ns = FOR_EVER
+        self._naming = Naming()
+        self._deletions = 0
+        self._last: _LastAdd | None = None
+
+    def __len__(self) -> int:
+        return len(self._rows)
+
+    def take(self, columns: MarkerColumns, received_ns: int) -> None:
+        """Take in the markers of a message, in their order.
+
+        Args:
+            columns: Of the message.
+            received_ns: When it came, since the epoch; lifetimes begin then.
+        """
+        named = self._naming.named(columns.texts)
+        taken = self._taken(columns, named)
+        again = self._rows_again(columns, named, taken)
+        if again is not None:
+            self.twice = None
+            self._put_all(columns, named, again, np.arange(len(again)), received_ns)
+            return
+        outcome = outcome_of(named.namespaces, columns.ids, columns.actions, taken)
+        self.twice = outcome.twice
+        if outcome.clears_all:
+            self._clear()
+        elif outcome.cleared:
+            gone = set(outcome.cleared)
+            self._delete([key for key in self._rows if key[0] in gone])
+        self._delete(outcome.deleted)
+        if len(outcome.added):
+            self._add(columns, named, outcome.added, received_ns)
+
+    def expire(self, now_ns: int) -> None:
+        """Let those go whose lifetime is over."""
+        if now_ns < self._next_end_ns:
+            return
+        ends_ns = self.table.expires_ns[: self.table.size]
+        over = set(np.flatnonzero(ends_ns <= now_ns).tolist())
+        self._delete([key for key, row in self._rows.items() if row in over])
+        self._next_end_ns = int(self.table.expires_ns.min())
+
+    def take_dirty(self) -> set[int]:
+        """Which batches are to be drawn anew since this was asked; those that are gone are not."""
+        dirty, self._dirty = self._dirty, set()
+        return dirty
+
+    def namespaces(self) -> set[str]:
+        """Those that hold a marker now."""
+        return {key.namespace for key in self.batches.values()}
+
+    def key_of(self, row: int) -> Key:
+        """Who a row of the table is."""
+        return self.batches[int(self.table.batch[row])].namespace, int(self.table.ids[row])
+
+    def _taken(self, columns: MarkerColumns, named: Named) -> Flags:
+        """Which markers are looked at: RViz passes over others, whatever they ask for."""
+        finite = np.ones(len(columns.texts), dtype=np.bool_)
+        rgba = columns.colors_rgba.astype(np.float64)
+        for numbers in (columns.positions, columns.rotations_wxyz, columns.scales, rgba):
+            finite &= drawable(numbers)
+        if len(columns.points):
+            bad_points = np.flatnonzero(~drawable(columns.points))
+            finite[np.searchsorted(columns.point_starts, bad_points, side="right") - 1] = False
+        known = np.isin(columns.actions, _ACTIONS)
+        self._refuse(columns, named, np.flatnonzero(~finite), Problem.NOT_FINITE)
+        self._refuse(columns, named, np.flatnonzero(finite & ~known), Problem.UNKNOWN_ACTION)
+        return finite & known
+
+    def _refuse(self, columns: MarkerColumns, named: Named, which: Whole, problem: Problem) -> None:
+        for at in which[:REFUSED_MAX].tolist():
+            if len(self.refused) < REFUSED_MAX:
+                self.refused[(named.namespaces[at], int(columns.ids[at]))] = problem
+
+    def _clear(self) -> None:
+        self.refused.clear()
+        self._delete(list(self._rows))
+
+    def _delete(self, keys: Iterable[Key]) -> None:
+        rows: list[int] = []
+        for key in keys:
+            self.refused.pop(key, None)
+            row = self._rows.pop(key, None)
+            if row is not None:
+                rows.append(row)
+        if rows:
+            self._deletions += 1
+            gone = np.array(rows, dtype=np.intp)
+            self._points -= int(self.table.points[gone].sum())
+            self._leave(gone)
+            self.table.free(rows)
+
+    def _add(self, columns: MarkerColumns, named: Named, added: Whole, received_ns: int) -> None:
+        places: list[int] = added.tolist()
+        ids: list[int] = columns.ids[added].tolist()
+        keys = [(named.namespaces[at], each) for at, each in zip(places, ids, strict=True)]
+        if self.refused:
+            for key in keys:
+                self.refused.pop(key, None)
+        rows, added = self._rows_for(keys, added)
+        if len(rows) == len(columns.ids):
+            self._last = _LastAdd(named, columns.ids, rows, self._deletions)
+        self._put_all(columns, named, rows, added, received_ns)
+
+    def _rows_again(self, columns: MarkerColumns, named: Named, taken: Flags) -> Whole | None:
+        """The rows of a message that says again of the very same markers what they are now."""
+        last = self._last
+        if (
+            last is None
+            or last.named is not named
+            or last.deletions != self._deletions
+            or self.refused
+            or not np.array_equal(last.ids, columns.ids)
+            or (columns.actions != _ADD).any()
+            or not taken.all()
+        ):
+            return None
+        return last.rows
+
+    def _put_all(
+        self, columns: MarkerColumns, named: Named, rows: Whole, added: Whole, received_ns: int
+    ) -> None:
+        self._put(columns, rows, added)
+        self._put_items(columns, rows, added)
+        self._put_words(columns, rows, added)
+        self._put_problems(columns, named, rows, added)
+        self._put_ends(columns.lifetimes_ns[added], rows, received_ns)
+        self._put_batches(columns, named, rows, added)
+
+    def _put_ends(self, lifetimes_ns: NDArray[np.int64], rows: Whole, received_ns: int) -> None:
+        ends = lifetimes_ns > _LIFETIME_LEAST_NS
+        self.table.expires_ns[rows] = np.where(ends, received_ns + lifetimes_ns, FOR_EVER)
+        if ends.any():
+            soonest_ns = received_ns + int(lifetimes_ns[ends].min())
+            self._next_end_ns = min(self._next_end_ns, soonest_ns)
+
+    def _rows_for(self, keys: list[Key], added: Whole) -> tuple[Whole, Whole]:
+        """Rows of the table for markers, new ones where none were, and who has got one."""
+        rows = [self._rows.get(key, NO_BATCH) for key in keys]
+        for at, row in enumerate(rows):
+            if row == NO_BATCH:
+                if len(self._rows) < MARKERS_MAX:
+                    rows[at] = self._rows[keys[at]] = self.table.take_row()
+                elif len(self.refused) < REFUSED_MAX:
+                    self.refused[keys[at]] = Problem.TOO_MANY
+        found = np.array(rows, dtype=np.intp)
+        has_one = found != NO_BATCH
+        return found[has_one], added[has_one]
+
+    def _put(self, columns: MarkerColumns, rows: Whole, added: Whole) -> None:
+        table = self.table
+        table.ids[rows] = columns.ids[added]
+        table.types[rows] = columns.types[added]
+        table.positions[rows] = columns.positions[added]
+        table.rotations_wxyz[rows] = unit_quaternions(columns.rotations_wxyz[added])[0]
+        table.scales[rows] = columns.scales[added]
+        table.rgba[rows] = columns.colors_rgba[added]
+
+    def _put_items(self, columns: MarkerColumns, rows: Whole, added: Whole) -> None:
+        """Copy points: views would keep whole messages in memory for the sake of one marker."""
+        table = self.table
+        begins, ends = columns.point_starts[added], columns.point_starts[added + 1]
+        touched = np.flatnonzero((begins != ends) | (table.points[rows] > 0))
+        self._points -= int(table.points[rows[touched]].sum())
+        for place in touched.tolist():
+            row = int(rows[place])
+            items = self._items(columns, int(added[place]), int(begins[place]), int(ends[place]))
+            table.items[row], table.points[row] = items, len(items.points)
+            self._points += len(items.points)
+
+    def _items(self, columns: MarkerColumns, at: int, begin: int, end: int) -> Items:
+        count = end - begin
+        if not count or self._points + count > POINTS_MAX:
+            return NO_ITEMS
+        first, last = int(columns.point_color_starts[at]), int(columns.point_color_starts[at + 1])
+        if last - first not in _color_counts(int(columns.types[at]), count):
+            return Items(columns.points[begin:end].copy(), NO_ITEMS.rgba)
+        rgba = np.nan_to_num(columns.point_colors_rgba[first:last])
+        return Items(columns.points[begin:end].copy(), rgba)
+
+    def _put_words(self, columns: MarkerColumns, rows: Whole, added: Whole) -> None:
+        """Keep the texts and the addresses of meshes, whose troubles are found here."""
+        types = columns.types[added]
+        self.table.problems[rows] = Problem.NONE
+        for kind in (Kind.TEXT, Kind.MESH):
+            places = np.flatnonzero(types == kind)
+            chosen: list[int] = added[places].tolist()
+            of_rows: list[int] = rows[places].tolist()
+            for row, at in zip(of_rows, chosen, strict=True):
+                self._put_word(row, columns.texts[at], is_mesh=kind is Kind.MESH)
+
+    def _put_word(self, row: int, said: MarkerTexts, *, is_mesh: bool) -> None:
+        table = self.table
+        word = table.words[row] = (said.mesh_resource if is_mesh else said.text)[:WORDS_MAX]
+        table.embedded[row] = said.mesh_use_embedded_materials
+        if is_mesh:
+            if not word.startswith(_MESH_SCHEMES):
+                table.problems[row] = _FOREIGN_MESH if word else _NO_MESH
+        elif not word.strip():
+            table.problems[row] = _EMPTY_TEXT
+
+    def _put_problems(
+        self, columns: MarkerColumns, named: Named, rows: Whole, added: Whole
+    ) -> None:
+        counts = np.diff(columns.point_starts)[added]
+        colors = np.diff(columns.point_color_starts)[added]
+        looked = Looked(
+            columns.types[added], columns.scales[added], columns.colors_rgba[added, 3],
+            counts, colors, named.nameless[added],
+        )  # fmt: skip
+        problems = np.maximum(problems_of(looked), self.table.problems[rows])
+        problems[(counts > 0) & (self.table.points[rows] == 0)] = Problem.TOO_LARGE
+        coloured: list[int] = np.flatnonzero(colors).tolist()
+        for place in coloured:
+            rgba = self.table.items[int(rows[place])].rgba
+            if len(rgba) and not rgba[:, 3].any():
+                problems[place] = max(int(problems[place]), _CLEAR)
+        self.table.problems[rows] = problems
+
+    def _put_batches(self, columns: MarkerColumns, named: Named, rows: Whole, added: Whole) -> None:
+        self._leave(rows)
+        keys, counts, which = batch_keys(columns, named, added)
+        numbers = np.empty(len(keys), dtype=np.int64)
+        for at, (key, count) in enumerate(zip(keys, counts.tolist(), strict=True)):
+            numbers[at] = number = self._number(key)
+            self._counts[number] = self._counts.get(number, 0) + count
+            self._dirty.add(number)
+        self.table.batch[rows] = numbers[which]
+
+    def _leave(self, rows: Whole) -> None:
+        """Markers are in their batches no more; a batch that holds none is forgotten."""
+        numbers, counts = np.unique(self.table.batch[rows], return_counts=True)
+        for number, count in zip(numbers.tolist(), counts.tolist(), strict=True):
+            if number == NO_BATCH:
+                continue
+            self._counts[number] -= count
+            if self._counts[number]:
+                self._dirty.add(number)
+            else:
+                del self._counts[number], self._numbers[self.batches.pop(number)]
+                self._dirty.discard(number)
+
+    def _number(self, key: BatchKey) -> int:
+        number = self._numbers.get(key)
+        if number is None:
+            number = self._numbers[key] = self._next_number
+            self._next_number += 1
+            self.batches[number] = key
+            if len(self.heard) < NAMESPACES_MAX:
+                self.heard.setdefault(key.namespace)
+        return number
+
+
+def _color_counts(kind: int, points: int) -> tuple[int, ...]:
+    """How many colours make the points of a marker coloured; of triangles one each is enough."""
+    if kind == Kind.TRIANGLES:
+        return points, points // 3
+    return (points,) if kind in COLOURED_POINTS else ()
