@@ -144,17 +144,26 @@ class Histories:
 
     def _places(self, first: Numbers, end: Numbers, stamp_ns: int) -> Numbers:
         """The first row of each whose stamp is not older, or its end: all searched at once."""
-        low, high = first.copy(), end
-        most = int((end - first).max(initial=0))
+        low, high = self._guess(first, end, stamp_ns)
+        most = int((high - low).max(initial=0))
         for _ in range(most.bit_length()):
             middle = (low + high) >> 1
             # One that was found has middle == high, which may be another frame's row.
-            older = (self._stamps_ns[np.minimum(middle, len(self._stamps_ns) - 1)] < stamp_ns) & (
-                low < high
-            )
+            older = self._stamps_ns.take(middle, mode="clip") < stamp_ns
+            older &= low < high
             low = np.where(older, middle + 1, low)
             high = np.where(older, high, middle)
         return low
+
+    def _guess(self, first: Numbers, end: Numbers, stamp_ns: int) -> tuple[Numbers, Numbers]:
+        """Between which rows those are for which `_places` looks: few, where stamps are even."""
+        last = end - 1
+        from_ns, to_ns = self._stamps_ns[first], self._stamps_ns[last]
+        share = (stamp_ns - from_ns) / np.maximum(to_ns - from_ns, 1)
+        guess = first + (share.clip(0.0, 1.0) * (last - first)).astype(np.int64)
+        low, high = np.maximum(guess - 1, first), np.minimum(guess + 2, last)
+        hits = (self._stamps_ns[low] < stamp_ns) & (self._stamps_ns[high] >= stamp_ns)
+        return np.where(hits, low + 1, first), np.where(hits, high, end)
 
     def _rows(self, frame: int) -> Numbers:
         return self._stamps_ns[int(self._first[frame]) : int(self._end[frame])]

@@ -6,6 +6,7 @@ import sys
 from typing import TYPE_CHECKING
 
 from tests.benchmarks import (
+    displays,
     drag,
     edit_to_pixels,
     edit_to_websocket,
@@ -14,6 +15,7 @@ from tests.benchmarks import (
     meshes_to_websocket,
     page,
     start,
+    tf,
     wire,
 )
 from tests.benchmarks.report import say, say_machine, say_verdicts
@@ -30,7 +32,9 @@ BENCHMARKS: dict[str, Callable[[], None]] = {
     "drag": drag.run,
     "fanout": fan_out.run,
     "meshes": meshes_to_websocket.run,
+    "tf": tf.run,
     "wire": wire.run,
+    "displays": displays.run,
 }
 
 
