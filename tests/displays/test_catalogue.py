@@ -1,13 +1,20 @@
 import re
+import struct
+from contextlib import suppress
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from studio.displays.catalogue import DISPLAYS, display_of_kind, displays_of_type, drawn_types
-from studio.displays.display import Display
-from studio.errors import DisplayError
-from tests.support.display_messages import TYPES
+from studio.displays.display import Display, Received
+from studio.errors import DisplayError, StudioError
+from studio.ros.cdr import Codec
+from tests.support.display_messages import NOW_NS, TYPES
+from tests.support.drawn import assert_drawable
+from tests.support.ros_values import values_of
 
-SENTENCE = re.compile(r"[A-Z].*[.]")
+SENTENCE = re.compile(r"[A-Z0-9].*[.]", re.DOTALL)
 
 
 def test_each_display_has_a_name_of_its_own():
@@ -59,3 +66,31 @@ def test_what_makes_a_property_count_is_another_that_can_take_those_values(displ
 def test_a_display_draws_nothing_before_its_first_message(display: type[Display]):
     if display.TOPICS:
         assert not display(TYPES).draw(0)
+
+
+ODD_NUMBERS = [float("nan"), float("inf"), float("-inf"), 1e308, -1e308, 5e-324, 0.0, -1.0]
+
+
+@pytest.mark.parametrize("display", DISPLAYS, ids=lambda one: one.KIND)
+@settings(max_examples=15, deadline=None)
+@given(data=st.data())
+def test_whatever_comes_is_drawn_with_finite_numbers_or_told(
+    display: type[Display], data: st.DataObject
+):
+    """Messages of any values, with numbers anywhere that cannot be drawn, and any properties."""
+    settings_of = {one.name: data.draw(st.sampled_from([*one.choices, one.default]))
+                   for one in display.PROPERTIES if one.choices}  # fmt: skip
+    switches = {one.name: data.draw(st.booleans())
+                for one in display.PROPERTIES if one.kind == "switch"}  # fmt: skip
+    made = display(TYPES, settings_of | switches)
+    for topic in display.TOPICS:
+        name = data.draw(st.sampled_from(topic.types))
+        codec = Codec(TYPES.message(name))
+        raw = bytearray(codec.encode(data.draw(values_of(TYPES.message(name)))))
+        for _ in range(data.draw(st.integers(0, 3))):
+            at = 4 + 8 * data.draw(st.integers(0, max(0, (len(raw) - 12) // 8)))
+            raw[at : at + 8] = struct.pack("<d", data.draw(st.sampled_from(ODD_NUMBERS)))
+        with suppress(StudioError):
+            made.take(Received(name, bytes(raw), NOW_NS), topic.name)
+        assert_drawable(made.draw(NOW_NS))
+        assert all(SENTENCE.fullmatch(one.sentence) for one in made.statuses())
