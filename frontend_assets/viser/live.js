@@ -111,15 +111,15 @@ export class Live {
     else if (material.isLineMaterial) {
       if (look.kind !== "CameraFrustumMessage") fadeLines(object, material, look.opacity);
     } else {
-      this.#fade(material, look.opacity);
+      this.#fade(material, look);
       if (look.sharp) sharpen(material);
       if (look.behind) putBehind(object, material);
-      if (look.words) putWords(object, material, look.words);
+      if (look.words === "screen") putOver(object, material);
     }
   }
 
-  /** @param {Material} material @param {number} opacity */
-  #fade(material, opacity) {
+  /** @param {Material} material @param {Look} look */
+  #fade(material, { opacity, behind, words }) {
     let made = this.#made.get(material);
     if (!made) {
       const { transparent, depthWrite } = material;
@@ -127,8 +127,9 @@ export class Live {
       this.#made.set(material, made);
     }
     material.opacity = made.opacity * opacity;
-    setTransparent(material, made.transparent || opacity < 1);
-    material.depthWrite = made.depthWrite && opacity >= 1;
+    // What is transparent is drawn after all that is not, whatever its order: not if it is behind.
+    setTransparent(material, !behind && (made.transparent || opacity < 1));
+    material.depthWrite = made.depthWrite && opacity >= 1 && !behind && !words;
   }
 
   /** @param {Object3D} node @param {Camera} camera @param {"screen" | "scene"} size */
@@ -219,26 +220,24 @@ function setTransparent(material, transparent) {
   material.needsUpdate = true;
 }
 
-/** @param {Material} material */
-function sharpen({ map }) {
+/** Once for each picture that came: a material that had none is made anew with it. @param {Material} material */
+function sharpen(material) {
+  const { map } = material;
   if (!map || map.magFilter === NEAREST) return;
   map.magFilter = NEAREST;
   map.needsUpdate = true;
+  material.needsUpdate = true;
 }
 
-/** First among what is opaque, but blended, and in nobody's way. @param {Object3D} object @param {Material} material */
+/** First of all, but blended. @param {Object3D} object @param {Material} material */
 function putBehind(object, material) {
   object.renderOrder = BEFORE_ALL;
-  setTransparent(material, false);
-  material.depthWrite = false;
   const blended = { blending: CUSTOM_BLENDING, blendSrcAlpha: ONE, blendDstAlpha: ONE_MINUS_ALPHA };
   Object.assign(material, blended);
 }
 
-/** @param {Object3D} object @param {Material} material @param {"screen" | "scene"} size */
-function putWords(object, material, size) {
-  material.depthWrite = false;
-  if (size === "scene") return;
+/** @param {Object3D} object @param {Material} material */
+function putOver(object, material) {
   material.depthTest = false;
   object.renderOrder = OVER_ALL;
 }

@@ -8,6 +8,7 @@ import dataclasses
 import inspect
 from pathlib import Path
 
+import numpy as np
 import pytest
 import viser
 import viser.infra
@@ -18,6 +19,7 @@ from viser.infra._async_message_buffer import AsyncMessageBuffer
 from studio.scene import SUBPROTOCOL
 from studio.scene.graph import _PROPS
 from studio.scene.host import make_server
+from studio.scene.props import PointCloudProps
 from studio.scene.wire import Encoder
 from tests.support.viser_frames import messages_of
 
@@ -79,6 +81,15 @@ def test_our_short_way_to_encode_a_pose_says_what_visers_long_way_does(
     assert ours == {key: list(v) if isinstance(v, tuple) else v for key, v in theirs.items()}
 
 
+def test_our_short_way_to_encode_a_new_node_says_what_visers_long_way_does():
+    points = np.ones((2, 3), np.float32)
+    colors = np.zeros(3, np.uint8)
+    props = PointCloudProps(points, colors, 0.1, "circle", "float32", 1.0, "flat", 0.5)
+    message = _messages.PointCloudMessage("/a", props)
+    [ours] = messages_of(Encoder().frame([message]))
+    assert ours == message.as_serializable_dict([])
+
+
 @pytest.mark.parametrize("kind", _PROPS, ids=lambda kind: kind.__name__)
 def test_every_kind_of_node_that_we_draw_is_one_of_visers(kind: type[_messages.Message]):
     assert kind.lifecycle_phase == "create"
@@ -94,6 +105,8 @@ def test_every_kind_of_node_that_we_draw_is_one_of_visers(kind: type[_messages.M
             ["viewerMutable.firstMessageBatch = true", "document.hasFocus()"],
         ),
         ("messageQueue.ts", ["queue.push(message)"]),
+        ("ThreeAssets.tsx", ["gl_FragColor = vec4(col, 1.0);"]),
+        ("patchLineMaterial.ts", ["VISER_LINE_FRINGE", "alpha = opacity *"]),
         ("Grid.tsx", ["return 1.0 - min(line, 1.0);", "fadeDistance"]),
         ("ViewerContext.ts", ["nodeRefFromName", "cameraControl", "requestRender", "messageQueue"]),
     ],

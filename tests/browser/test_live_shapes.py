@@ -1,0 +1,189 @@
+"""Every shape of a Drawing is seen where it is, in its colour, as see-through as it is to be."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+import pytest
+
+from studio.displays.drawing import Placed, Points
+from tests.support.live_page import LivePage
+from tests.support.live_shapes import (
+    BLUE,
+    MESH_URI,
+    drawing_of,
+    every_shape,
+    places,
+    solids,
+)
+from tests.support.scene_server import SceneServer
+from tests.support.watched_scene import triangle
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from playwright.sync_api import Browser
+
+    from studio.displays.drawing import Shape
+    from studio.scene import DocumentScene
+
+pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(300)]
+
+FROM_ABOVE: Final = ((2.5, -2.05, 8.0), (2.5, -2.0, 0.0))
+"""A hair from the south, or it would not be clear which side is up."""
+R, G, B, NOTHING, MAGENTA = "red", "green", "blue", "nothing", "magenta"
+_PLAIN: Final = {R: (1, 0, 0), G: (0, 1, 0), B: (0, 0, 1), MAGENTA: (1, 0, 1)}
+SEEN: Final[dict[str, list[tuple[float, float, str, float]]]] = {
+    "squares": [(0, 0, G, 1), (0.28, 0.28, G, 1), (0.34, 0, NOTHING, 0), (0, -0.34, NOTHING, 0)],
+    "faint": [(0, 0, R, 0.5), (0.28, -0.28, R, 0.5), (0.34, 0, NOTHING, 0)],
+    "spheres": [(0, 0, R, 1), (0.27, 0, R, 1), (0.27, 0.27, NOTHING, 0)],
+    "boxes": [(0, 0, G, 1), (0.28, 0.28, G, 1)],
+    "wide": [(0.3, 0.03, G, 1), (-0.3, -0.03, G, 1), (0.3, 0.08, NOTHING, 0)],
+    "faint-wide": [(0.3, 0.05, G, 0.5), (-0.3, -0.05, G, 0.5), (0, 0, G, 0.5)],
+    "two": [(-0.38, 0, R, 1), (0.38, 0, B, 1), (0, 0, MAGENTA, 1)],
+    "arrow": [(-0.3, 0, R, 1), (-0.3, 0.07, NOTHING, 0), (0.13, 0.06, R, 1), (0.44, 0, NOTHING, 0)],
+    "faint-arrow": [(-0.3, 0.01, R, 0.4)],
+    "short": [(0, 0, B, 1), (-0.07, 0.08, B, 1), (-0.16, 0, NOTHING, 0), (0.16, 0, NOTHING, 0)],
+    "axes": [(0.3, 0, R, 1), (0, 0.3, G, 1)],
+    "faint-axes": [(0.3, 0, R, 0.3), (0, 0.3, G, 0.3)],
+    "box": [(0, 0, R, 1), (0.28, -0.28, R, 1)],
+    "sphere": [(0, 0, G, 1), (0.27, 0.27, NOTHING, 0)],
+    "cylinder": [(0, 0, B, 0.5), (0.3, 0.3, NOTHING, 0)],
+    "cone": [(0, 0, R, 1)],
+    "triangles": [(0.2, -0.2, G, 1), (-0.28, 0.28, G, 1), (0.34, 0, NOTHING, 0)],
+    "coloured": [(0, -0.28, R, 1), (0, 0.28, B, 1), (0, 0, MAGENTA, 1)],
+    "mesh": [(0.1, 0.1, MAGENTA, 1), (0.4, 0.4, NOTHING, 0)],
+    "picture": [
+        (-0.3, -0.3, G, 1),
+        (-0.22, -0.3, G, 1),  # as green as in the middle: the pixels are not blended
+        (-0.18, -0.3, R, 1),
+        (-0.1, -0.1, B, 1),
+        (0.3, 0.3, B, 1),
+        (0.1, 0.3, R, 1),
+    ],
+    "behind": [(-0.3, -0.3, G, 1), (-0.18, -0.3, R, 1)],
+    "frustum": [(0.1, -0.2, R, 1), (0.1, 0.2, B, 1)],
+    "faint-frustum": [(0.3, -0.2, R, 0.4), (0.3, 0.1, B, 0.4)],
+}
+"""By shape: places from its origin in m, the colour there and how opaque it is."""
+
+
+def shapes() -> dict[str, Shape]:
+    return every_shape()
+
+
+@pytest.fixture(scope="module")
+def server() -> Iterator[SceneServer]:
+    with SceneServer() as running:
+        running.call(draw_all)
+        yield running
+
+
+def draw_all(scene: DocumentScene) -> None:
+    """Every shape, and below both pictures a box."""
+    drawing = drawing_of(shapes())
+    deep = replace(solids("box", BLUE), positions=np.array([[0, 0, -0.35]], np.float32))
+    shapes_behind = {**drawing["behind"].shapes, "deep": deep}
+    drawing["behind"] = Placed("map", 0, shapes_behind)
+    drawing["picture"] = Placed("map", 0, {**drawing["picture"].shapes, "deep": deep})
+    scene.set_display("grid", "visible", value=False)
+    scene.live.apply("all", drawing, places())
+    scene.provide_mesh(MESH_URI, triangle())
+    scene.flush()
+
+
+@pytest.fixture(scope="module")
+def view(browser: Browser, server: SceneServer) -> Iterator[LivePage]:
+    """One page and one picture for all that is only looked at."""
+    context = browser.new_context()
+    view = LivePage(context.new_page(), server).open()
+    view.until("__viserMutable.nodeRefFromName['/live/all/grid/grid.lines']")
+    for name in ("picture/picture.0-0", "behind/behind.0-0", "words/words.text"):
+        view.until(f"hasPicture('/live/all/{name}')")
+    for name in ("frustum/frustum.frustum", "faint-frustum/faint-frustum.frustum"):
+        view.until(f"hasPicture('/live/all/{name}')")
+    view.look(*FROM_ABOVE)
+    view.take()
+    yield view
+    context.close()
+
+
+def looks(view: LivePage, name: str, x: float, y: float) -> tuple[str, float]:
+    """The plain colour at a place of a shape and how opaque it is."""
+    at_x, at_y, _ = places()[name][1]
+    red, green, blue, alpha = view.rgba(at_x + x, at_y + y)
+    if alpha < 20:
+        return NOTHING, 0.0
+    most = max(red, green, blue)
+    lit = tuple(int(part > 0.5 * most) for part in (red, green, blue))
+    named = next((colour for colour, parts in _PLAIN.items() if parts == lit), str(lit))
+    return named, alpha / 255
+
+
+@pytest.mark.parametrize("name", SEEN)
+def test_a_shape_is_seen_where_it_is(view: LivePage, name: str):
+    for x, y, colour, opacity in SEEN[name]:
+        seen, alpha = looks(view, name, x, y)
+        assert (x, y, seen) == (x, y, colour)
+        assert alpha == pytest.approx(opacity, abs=0.06)
+
+
+def test_hair_lines_and_grids_are_thin_and_there(view: LivePage):
+    for name, x, y in (("hair", 0.2, 0.0), ("grid", 0.25, 0.2)):
+        at_x, at_y, _ = places()[name][1]
+        square = view.around(at_x + x, at_y + y, 3)
+        assert square[..., 3].max() > 100
+        assert (square[..., 3] > 100).any(axis=1).sum() <= 3
+
+
+def test_words_are_in_their_colour_and_of_their_size_and_a_plate_is_white(view: LivePage):
+    at_x, at_y, _ = places()["words"][1]
+    square = view.around(at_x, at_y, 45).astype(int)
+    orange = (square[..., 0] > 200) & (abs(square[..., 1] - 160) < 30) & (square[..., 2] < 60)
+    rows = np.flatnonzero(orange.any(axis=1))
+    pixel_m = 1 / abs(view.place(0, 0)[0] - view.place(1, 0)[0])
+    assert 0.21 < (rows[-1] - rows[0] + 1) * pixel_m < 0.3
+    at_x, at_y, _ = places()["screen-words"][1]
+    cyan = view.around(at_x, at_y, 20).astype(int)
+    assert ((cyan[..., 2] > 200) & (cyan[..., 0] < 90) & (cyan[..., 3] > 200)).any()
+    at_x, at_y, _ = places()["plate"][1]
+    plate = view.around(at_x, at_y + 0.1, 12)
+    assert (plate[..., :3] > 230).all(axis=2).any()
+    assert (plate[..., :3] < 60).all(axis=2).any()
+
+
+def test_a_picture_behind_everything_hides_nothing_and_another_one_does(view: LivePage):
+    assert looks(view, "behind", 0.05, -0.12)[0] == B  # red, if the box below were hidden
+    assert looks(view, "picture", 0.05, -0.12)[0] == R
+
+
+def test_words_face_the_eye_from_wherever_it_looks(view: LivePage):
+    view.look((3, -8, 0.5), (3, -3, 0))
+    view.take()
+    at_x, at_y, _ = places()["words"][1]
+    square = view.around(at_x, at_y, 40).astype(int)
+    orange = (square[..., 0] > 200) & (abs(square[..., 1] - 160) < 30) & (square[..., 2] < 60)
+    assert orange.sum() > 100
+
+
+def test_what_was_see_through_becomes_opaque_again_and_a_cloud_may_grow(view: LivePage):
+    faint = [name for name in shapes() if name.startswith("faint")]
+    opaque = {name: replace(shapes()[name], opacity=1.0) for name in faint}  # pyright: ignore[reportCallIssue]
+    grown = np.array([[0, 0, 0], [0, 0.5, 0], [0, -0.5, 0]], np.float32)
+    drawing = drawing_of({**opaque, "squares": Points(grown, BLUE, 0.2, precise=True)})
+    view.server.call(
+        lambda scene: (scene.live.apply("all", drawing, places()), scene.flush()),
+    )
+    view.until("!__viserMutable.nodeRefFromName['/live/all/grid/grid.lines']")
+    view.look(*FROM_ABOVE)
+    view.take()
+    for name in faint:
+        x, y, colour, _ = SEEN[name][0]
+        assert looks(view, name, x, y) == (colour, 1.0)
+    assert [looks(view, "squares", 0, y)[0] for y in (-0.5, 0, 0.25, 0.5)] == [B, B, NOTHING, B]
+    view.server.call(lambda scene: (scene.live.place("all", {"faint": None}), scene.flush()))
+    view.take()
+    assert looks(view, "faint", 0, 0)[0] == NOTHING
+    assert view.errors == []
