@@ -26,7 +26,8 @@ def _run(options: argparse.Namespace) -> None:
     from studio.ros.wire.router import run_router
     from studio.ros.wire.settings import wire_settings
 
-    run_router(options.listen, _say, wire_settings().overrides)
+    settings = wire_settings()
+    run_router(options.listen, _say, settings.overrides, settings.router_config_file)
 
 
 def _say(endpoint: str) -> None:

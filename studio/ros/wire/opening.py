@@ -80,7 +80,7 @@ def _router_of_our_own(settings: WireSettings, choice: RouterChoice) -> Embedded
     if place is None:
         return None
     try:
-        return start_router(place, settings.overrides)
+        return start_router(place, settings.overrides, settings.router_config_file)
     except RouterNotStartedError as error:
         if error.held:
             return None  # another process was quicker: it is joined

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Self
 
 import zenoh
 
-from studio.errors import RouterNotStartedError
+from studio.errors import RouterNotStartedError, WireSettingsError
 from studio.ros.wire.door import close, insert
 from studio.ros.wire.endpoints import Endpoint, parse_endpoint
 from studio.ros.wire.probing import Answer, probe
@@ -69,26 +69,37 @@ class EmbeddedRouter:
         self.close()
 
 
-def start_router(endpoint: Endpoint, overrides: Mapping[str, str] | None = None) -> EmbeddedRouter:
+def start_router(
+    endpoint: Endpoint,
+    overrides: Mapping[str, str] | None = None,
+    config_file: str | None = None,
+) -> EmbeddedRouter:
     """Listen at an endpoint.
 
     Args:
         endpoint: Where.
         overrides: Keys of Zenoh's configuration and JSON5, such as its TLS keys; those by which
             sessions find routers are passed over.
+        config_file: Of Zenoh, taken whole but for where it listens: that is `endpoint` alone.
 
     Raises:
         RouterNotStartedError: The endpoint is held by another program, or cannot be listened at.
+        WireSettingsError: The file cannot be read.
     """
+    config = _base(config_file)
     try:
-        return EmbeddedRouter(zenoh.open(_router_config(endpoint, overrides or {})), endpoint)
+        _complete(config, endpoint, overrides or {})
+        return EmbeddedRouter(zenoh.open(config), endpoint)
     except zenoh.ZError as error:
         reason = str(error).split(" at /")[0]
         raise RouterNotStartedError(endpoint.text, reason, held=_is_held(endpoint)) from None
 
 
 def run_router(
-    listen: str, ready: Callable[[str], None], overrides: Mapping[str, str] | None = None
+    listen: str,
+    ready: Callable[[str], None],
+    overrides: Mapping[str, str] | None = None,
+    config_file: str | None = None,
 ) -> None:
     """Run a router until Ctrl-C or SIGTERM; for the main thread of a process.
 
@@ -96,9 +107,10 @@ def run_router(
         listen: The endpoint.
         ready: Given the endpoint once others may connect.
         overrides: See `start_router`.
+        config_file: See `start_router`.
 
     Raises:
-        WireSettingsError: `listen` is no endpoint.
+        WireSettingsError: `listen` is no endpoint, or the file cannot be read.
         RouterNotStartedError: See `start_router`.
     """
     asked_to_end = threading.Event()
@@ -108,7 +120,7 @@ def run_router(
 
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, end)
-    with start_router(parse_endpoint(listen), overrides) as router:
+    with start_router(parse_endpoint(listen), overrides, config_file) as router:
         ready(router.endpoint.text)
         # A signal that comes while a wait begins does not end that wait: look again.
         while not asked_to_end.wait(_LOOK_AGAIN_S):
@@ -119,10 +131,17 @@ def _is_held(endpoint: Endpoint) -> bool:
     return probe(endpoint) in {Answer.ZENOH, Answer.TLS, Answer.OTHER}
 
 
-def _router_config(endpoint: Endpoint, overrides: Mapping[str, str]) -> zenoh.Config:
+def _base(config_file: str | None) -> zenoh.Config:
+    """Read the user's configuration of routers, or make that of rmw_zenohd."""
+    if config_file is not None:
+        try:
+            return zenoh.Config.from_file(config_file)
+        except (zenoh.ZError, OSError) as error:
+            reason = str(error).split(" at /")[0]
+            raise WireSettingsError(
+                f"ZENOH_ROUTER_CONFIG_URI names {config_file}, which is refused: {reason}."
+            ) from None
     config = zenoh.Config()
-    insert(config, "mode", '"router"')
-    insert(config, "listen/endpoints", json.dumps([endpoint.text]))
     # Zenoh would wait half a second for others that it finds by itself; nobody is to find it.
     insert(config, "scouting/delay", "0")
     insert(config, "scouting/multicast/enabled", "false")
@@ -131,7 +150,12 @@ def _router_config(endpoint: Endpoint, overrides: Mapping[str, str]) -> zenoh.Co
     insert(config, "transport/unicast/max_sessions", "10000")
     insert(config, "transport/link/tx/lease", str(LEASE_MS))
     insert(config, "routing/router/peers_failover_brokering", "false")
+    return config
+
+
+def _complete(config: zenoh.Config, endpoint: Endpoint, overrides: Mapping[str, str]) -> None:
+    insert(config, "mode", '"router"')
+    insert(config, "listen/endpoints", json.dumps([endpoint.text]))
     for key, json5 in overrides.items():
         if key.partition("/")[0] not in _OF_SESSIONS:
             insert(config, key, json5)
-    return config

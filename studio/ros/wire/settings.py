@@ -33,6 +33,7 @@ class WireSettings:
         profile: The distribution whose types and keys are spoken.
         config_file: Of Zenoh, taken whole; what stands here comes on top.
         overrides: Zenoh's keys, such as `transport/link/tls/root_ca_certificate`, and JSON5.
+        router_config_file: Of Zenoh, for a router of our own; where it listens is said elsewhere.
     """
 
     connect: tuple[str, ...] = (ROUTER_ENDPOINT,)
@@ -40,6 +41,7 @@ class WireSettings:
     profile: WireProfile = JAZZY
     config_file: str | None = None
     overrides: Mapping[str, str] = field(default_factory=dict[str, str])
+    router_config_file: str | None = None
 
 
 def wire_settings(
@@ -50,9 +52,9 @@ def wire_settings(
 ) -> WireSettings:
     """Settings as rmw_zenoh finds them; what is given comes before the environment.
 
-    ROS_DISTRO (where it is known, else Jazzy), ROS_DOMAIN_ID, ZENOH_SESSION_CONFIG_URI (a file) and
-    ZENOH_CONFIG_OVERRIDE (`key=json5;...`; pairs without `=` are passed over) are read; routers
-    named in the last are those to connect to.
+    ROS_DISTRO (where it is known, else Jazzy), ROS_DOMAIN_ID, ZENOH_SESSION_CONFIG_URI and
+    ZENOH_ROUTER_CONFIG_URI (files), and ZENOH_CONFIG_OVERRIDE (`key=json5;...`; pairs without `=`
+    are passed over) are read; routers named in the last are those to connect to.
 
     Raises:
         WireSettingsError: ROS_DOMAIN_ID is no number of a domain, or the endpoints are no list.
@@ -67,6 +69,7 @@ def wire_settings(
         profile=profile or PROFILES.get(environment.get("ROS_DISTRO", "").lower(), JAZZY),
         config_file=config_file,
         overrides=overrides,
+        router_config_file=environment.get("ZENOH_ROUTER_CONFIG_URI", "").strip() or None,
     )
 
 

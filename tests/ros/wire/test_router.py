@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio.errors import RouterNotStartedError
+from studio.errors import RouterNotStartedError, WireSettingsError
 from studio.ros.wire.door import declare_publisher, declare_subscription
 from studio.ros.wire.endpoints import parse_endpoint
 from studio.ros.wire.opening import open_wire
@@ -207,3 +207,22 @@ def test_a_choice_is_auto_off_or_a_place():
     assert router_choice("auto").starts
     assert not router_choice("off").starts
     assert router_choice("tcp/127.0.0.1:1").endpoint == parse_endpoint("tcp/127.0.0.1:1")
+
+
+def test_a_router_takes_its_configuration_from_a_file_and_listens_where_it_is_told(tmp_path: Path):
+    file = tmp_path / "router.json5"
+    file.write_text('{id: "1234abcd", mode: "peer", listen: {endpoints: ["tcp/192.0.2.1:9"]}}')
+    settings = WireSettings(connect=(free_endpoint(),), router_config_file=str(file))
+    with open_wire(settings) as wire:
+        assert wire.router is not None
+        assert wire.router.zid == "1234abcd"
+        assert wire.is_connected
+
+
+def test_a_file_of_configuration_that_is_none_is_one_sentence(tmp_path: Path):
+    file = tmp_path / "broken.json5"
+    for text in (None, "{mode: "):
+        if text is not None:
+            file.write_text(text)
+        with pytest.raises(WireSettingsError, match=r"ZENOH_ROUTER_CONFIG_URI names .*broken"):
+            start_router(parse_endpoint(free_endpoint()), config_file=str(file))

@@ -50,3 +50,13 @@ def test_a_domain_that_is_none_is_refused(written: str):
 )
 def test_the_distribution_is_that_of_the_shell_where_it_is_known(named: str, spoken: str):
     assert wire_settings(environment={"ROS_DISTRO": named}).profile.distro == spoken
+
+
+def test_files_of_configuration_are_those_of_the_environment():
+    environment = {
+        "ZENOH_SESSION_CONFIG_URI": "/sessions.json5",
+        "ZENOH_ROUTER_CONFIG_URI": " /router.json5 ",
+    }
+    found = wire_settings(environment=environment)
+    assert (found.config_file, found.router_config_file) == ("/sessions.json5", "/router.json5")
+    assert wire_settings(environment={}).router_config_file is None
