@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from studio.cli.acting import acting
 from studio.cli.learning import learn_type
-from studio.cli.looking import full_name
+from studio.cli.looking import full_name, say_other_types
 from studio.cli.wire import add_wire_options
 from studio.errors import UnknownTypeError
 from studio.ros.graph.actions import goal_service
@@ -52,6 +52,7 @@ def _run(options: argparse.Namespace) -> int:
         kind = _type_of(actor, name, type_name)
         goal = from_yaml(kind.Goal, options.goal, now_ns=time.time_ns())
         client = ActionClient(actor.node, kind, name)
+        say_other_types(name, type_name, actor.graph.actions())
         print("Waiting for an action server to become available...", flush=True)
         if not client.wait_for_server(options.timeout):
             print(f"Nobody serves {name} as {type_name}.", file=sys.stderr)

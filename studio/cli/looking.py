@@ -124,6 +124,13 @@ def print_types_of(found: list[tuple[str, list[str]]], name: str) -> int:
     return 0
 
 
+def say_other_types(name: str, wanted: str, found: Iterable[tuple[str, list[str]]]) -> None:
+    """Say on stderr that a name has other types than the one that is meant: they never meet."""
+    types = dict(found).get(name)
+    if types and wanted not in types:
+        print(f"WARNING: {name} has the type {', '.join(types)}, not {wanted}", file=sys.stderr)
+
+
 def say_unknown(what: str, name: str) -> int:
     """Say that nobody has a name; answers ros2's exit code."""
     print(f"Unknown {what} '{name}'", file=sys.stderr)

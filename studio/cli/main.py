@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import errno
 import os
 import sys
 from typing import TYPE_CHECKING
@@ -17,6 +18,7 @@ from studio.errors import StudioError
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+_OUTPUT_ERRORS = {errno.EPIPE, errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO}
 _EXAMPLES = """\
 examples:
   studio demo                              look at the sample rover, drag its properties
@@ -39,15 +41,27 @@ def main(argv: Sequence[str] | None = None) -> int:
     options = argparse.Namespace()
     try:
         options = _read(words)
-        return options.run(options) or 0
+        code = options.run(options) or 0
+        print(end="", flush=True)  # else what is wrong with the output is met after the end
     except StudioError as error:
         print(f"studio: {harmless(str(error))}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
         return getattr(options, "interrupted_code", 130)
-    except BrokenPipeError:  # the reader of our output has gone, as `head` does
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except OSError as error:
+        return _output_refused(error)
+    return code
+
+
+def _output_refused(error: OSError) -> int:
+    """End where nothing more can be printed; errors of any other kind are not expected."""
+    if error.errno not in _OUTPUT_ERRORS:
+        raise error
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    if error.errno == errno.EPIPE:  # the reader of our output has gone, as `head` does
         return 0
+    print(f"studio: The output cannot be written: {error.strerror}.", file=sys.stderr)
+    return 2
 
 
 def _read(words: list[str]) -> argparse.Namespace:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from studio.cli.acting import acting
 from studio.cli.learning import learn_type, say_foreign
-from studio.cli.looking import full_name
+from studio.cli.looking import full_name, say_other_types
 from studio.cli.wire import add_wire_options
 from studio.errors import UnknownTypeError
 from studio.ros.names import full_type_name
@@ -55,6 +55,7 @@ def _run(options: argparse.Namespace) -> int:
         kind = _type_of(actor, name, type_name)
         request = from_yaml(kind.Request, options.values, now_ns=time.time_ns())
         client = actor.node.create_client(kind, name)
+        say_other_types(name, type_name, actor.graph.services())
         if not wait_for_service(client, options.timeout):
             print(f"Nobody serves {name} as {type_name}.", file=sys.stderr)
             return 1

@@ -50,6 +50,14 @@ def test_a2_ctrl_c_cancels_the_goal(endpoint: str):
     assert float(theta.split()[0]) > -2.9
 
 
+def test_another_type_than_the_action_has_is_said(endpoint: str):
+    words = ("action", "send_goal", NAME, "radio_station_interfaces/action/ChooseSong", "--timeout",
+             "0.2", "--connect", endpoint)  # fmt: skip
+    ran = studio(*words)
+    assert ran.code == 1
+    assert ran.err.startswith(f"WARNING: {NAME} has the type {KIND}, not radio_station_interfaces")
+
+
 def test_actions_are_listed_and_told(endpoint: str):
     at = ("--connect", endpoint)
     assert studio("action", "list", *at).out == f"{NAME}\n"

@@ -65,6 +65,15 @@ def test_a_service_that_nobody_serves_is_waited_for(endpoint: str):
         assert call.stop(signal.SIGINT) == 2  # which waits for two seconds
 
 
+def test_another_type_than_the_service_has_is_said(endpoint: str):
+    words = ("service", "call", "/add_two_ints", "std_srvs/srv/Empty", "--timeout", "0.2")
+    ran = studio(*words, "--connect", endpoint)
+    assert ran.code == 1
+    assert ran.err.startswith(
+        f"WARNING: /add_two_ints has the type {KIND}, not std_srvs/srv/Empty\n"
+    )
+
+
 def test_sv3_a_service_that_never_answers_is_given_up(endpoint: str):
     at = ("--connect", endpoint)
     with node_at(endpoint, "slow") as node:

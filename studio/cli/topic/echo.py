@@ -12,13 +12,13 @@ from studio.cli.topic.joining import join_topic, subscribe
 from studio.cli.topic.qos_options import add_qos_options
 from studio.cli.wire import add_wire_options
 from studio.errors import SettingsError
-from studio.ros.types.classes import MessageValue
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from studio.cli.verbs import Verbs
     from studio.ros.node.info import MessageInfo
+    from studio.ros.types.classes import MessageValue
 
 _LENGTH = 128
 
@@ -80,7 +80,7 @@ def _run(options: argparse.Namespace) -> int:
 
         def show(message: MessageValue | bytes, info: MessageInfo) -> None:
             nonlocal count
-            if isinstance(message, MessageValue) and not is_taken(message):
+            if not isinstance(message, bytes) and not is_taken(message):
                 return
             if count == 0 or not options.once:
                 print(shown(printing.text(message, info)), flush=True)

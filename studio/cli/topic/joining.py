@@ -7,9 +7,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from studio.cli.learning import learn_type, say_foreign
-from studio.cli.looking import full_name
+from studio.cli.looking import full_name, say_other_types
 from studio.cli.topic.qos_options import given_profile, is_given, matching_profile
-from studio.cli.topic.unread import listen_unread
 from studio.errors import UnknownTypeError
 from studio.ros.names import full_type_name
 
@@ -50,6 +49,7 @@ def join_topic(
     type_name = full_type_name(given_type) if given_type is not None else _only(name, types)
     if type_name is None:
         return None
+    say_other_types(name, type_name, [(name, types)])
     publishers = actor.graph.publishers(name)
     qos = matching_profile([one.qos for one in publishers])
     if is_given(options):
@@ -115,4 +115,6 @@ def subscribe(
         return actor.node.create_subscription(
             joined.kind, joined.name, callback, joined.qos, raw=raw
         )
+    from studio.cli.topic.unread import listen_unread
+
     return listen_unread(actor.node, joined.kind, callback, joined.qos)

@@ -104,6 +104,13 @@ def test_a_field_that_is_not_there_is_one_sentence(endpoint: str, field: str):
     assert ran.err.startswith("studio: ")
 
 
+def test_another_type_than_the_topic_has_is_said(endpoint: str):
+    ran = studio("topic", "echo", "/latched", "std_msgs/msg/Int64", "--timeout", "0.1", "--connect",
+                 endpoint)  # fmt: skip
+    assert (ran.code, ran.out) == (1, "")
+    assert ran.err == "WARNING: /latched has the type std_msgs/msg/String, not std_msgs/msg/Int64\n"
+
+
 def test_nothing_within_the_time_ends_with_1(endpoint: str):
     ran = studio("topic", "echo", "/silent", "std_msgs/msg/String", "--timeout", "0.2",
                  "--connect", endpoint)  # fmt: skip
