@@ -34,7 +34,12 @@ class CloudFields:
         self._message = message
         self._order = ">" if message.is_bigendian else "<"
         self._columns, self._rows = int(message.width), int(message.height)
+        self.count: int = self._columns * self._rows
         self._row_bytes = _row_bytes(message)
+        if self._row_bytes == self._columns * int(message.point_step):
+            # Without bytes between the rows they are one, of which columns are taken faster.
+            self._columns, self._rows = self.count, 1
+            self._row_bytes = self.count * int(message.point_step)
         # As RViz: of two fields with one name the first counts.
         self._fields = {field.name: field for field in reversed(message.fields)}
         self.names: tuple[str, ...] = tuple(
@@ -45,11 +50,6 @@ class CloudFields:
     def size_bytes(self) -> int:
         """Of the data that is kept."""
         return int(self._message.data.nbytes)
-
-    @property
-    def count(self) -> int:
-        """Of points, with those that have no place."""
-        return self._columns * self._rows
 
     def positions(self) -> tuple[NDArray[np.float32], NDArray[np.intp] | None]:
         """Places of the points, m, shape (N, 3), also of those that are NaN; a new array.

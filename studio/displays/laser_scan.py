@@ -44,7 +44,7 @@ class LaserScanDisplay(CloudDisplay):
             returned = (scan.ranges >= scan.range_min) & (scan.ranges < scan.range_max)
         chosen = spread_among(returned, limits.points)
         rays = _rays(float(scan.angle_min), float(scan.angle_increment), len(scan.ranges))
-        positions = rays[chosen] * scan.ranges[chosen, None].astype(np.float32, copy=False)
+        positions = rays.take(chosen, axis=0) * scan.ranges[chosen, None]
         return Cloud(
             scan.header.frame_id, stamp_of(scan.header), positions, chosen,
             int(np.count_nonzero(returned)), _Beams(scan), _nothing(scan, len(chosen)),
