@@ -241,10 +241,10 @@ def test_nodes_that_double_at_every_level_are_refused_in_time(tmp_path: Path):
         for n in range(60)
     )
     scene = f'{levels}<node id="n60">{SHOWN}</node>'
-    start = time.perf_counter()
+    start = time.thread_time()
     with pytest.raises(MeshError, match="without end"):
         read(tmp_path / "a.dae", dae(scene=scene))
-    assert time.perf_counter() - start < 10
+    assert time.thread_time() - start < 10
 
 
 @pytest.mark.corpus

@@ -306,9 +306,9 @@ def test_sixty_links_take_a_fraction_of_a_frame(record_property: Callable[[str, 
     joints = [Joint(f"j{n}", REVOLUTE, f"l{n}", f"l{n + 1}") for n in range(60)]
     kinematics = Kinematics(chain(*joints))
     positions = kinematics.zero_positions()
-    start = time.perf_counter()
+    start = time.thread_time()
     for _ in range(200):
         kinematics.wxyz_xyz(positions)
-    took_ms = (time.perf_counter() - start) / 200 * 1e3
+    took_ms = (time.thread_time() - start) / 200 * 1e3
     record_property("wxyz_xyz_60_links_ms", took_ms)
     assert took_ms < 16

@@ -206,9 +206,9 @@ def test_every_site_of_a_large_robot_holds_its_text_and_is_built_soon(
         assert decode(files[site.place.file], site.span) == site.text, site.id
     builder = SiteBuilder()
     builder.build(records[0])
-    started = time.perf_counter()
+    started = time.thread_time()
     builder.build(records[0])
-    assert time.perf_counter() - started < 0.1  # 2 ms on an idle machine
+    assert time.thread_time() - started < 0.1  # 2 ms on an idle machine
 
 
 @pytest.mark.corpus

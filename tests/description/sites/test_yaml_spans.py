@@ -115,18 +115,18 @@ def test_bytes_that_are_not_utf_8_have_no_scalars():
 def test_a_bomb_of_aliases_costs_no_more_than_its_text():
     lines = ["a0: &a0 [x, x, x, x, x, x, x, x, x]"]
     lines += [f"a{n}: &a{n} [{', '.join([f'*a{n - 1}'] * 9)}]" for n in range(1, 60)]
-    started = time.monotonic()
+    started = time.thread_time()
     document = read_yaml_document("\n".join(lines).encode())
     assert len(document.scalars) == 9
     assert len(document.aliases) == 59 * 9
-    assert time.monotonic() - started < 2
+    assert time.thread_time() - started < 2
 
 
 @pytest.mark.parametrize("text", ["- " * 50_000 + "1", "[" * 5_000, "{a: " * 5_000])
 def test_a_bottomless_text_ends_soon(text: str):
-    started = time.monotonic()
+    started = time.thread_time()
     read_yaml_document(text.encode())
-    assert time.monotonic() - started < 5
+    assert time.thread_time() - started < 5
 
 
 @pytest.mark.corpus
