@@ -1,6 +1,15 @@
 // Written by `python -m studio.web.wire_types` from studio/engine/messages/: do not edit.
 // A command goes to the websocket /control as JSON text; each event comes from it as JSON text.
 
+/** Add a display; with a topic, it listens with what fits the topic's publishers. */
+export interface AddDisplay {
+  request?: number;
+  document?: string;
+  type: "add_display";
+  kind: string;
+  topic?: string;
+}
+
 /** Swing the joints through their limits, or stop. */
 export interface AnimateJoints {
   request?: number;
@@ -59,6 +68,17 @@ export interface Arguments {
   path: string;
   arguments: ArgumentView[];
   missing: string[];
+}
+
+/** Give a display another name, group or place; what is None stays. */
+export interface ArrangeDisplay {
+  request?: number;
+  document?: string;
+  type: "arrange_display";
+  display: string;
+  name?: string | null;
+  group?: string | null;
+  before?: string | null;
 }
 
 /** What changes about a part. */
@@ -232,6 +252,51 @@ export interface DiskMerged {
   kept: number;
 }
 
+/** A kind of display. */
+export interface DisplayKindView {
+  kind: string;
+  doc: string;
+  types: string[];
+  properties: PropertyView[];
+}
+
+/** Answer to `get_display_kinds`. */
+export interface DisplayKinds {
+  type: "display_kinds";
+  request: number;
+  kinds: DisplayKindView[];
+}
+
+/** How a display fares. */
+export interface DisplayState {
+  id: string;
+  rate_hz: number;
+  age_s: number | null;
+  lost: number;
+  remarks: Remark[];
+}
+
+/** How all displays fare; told when it changes, at most twice a second. */
+export interface DisplayStates {
+  type: "display_states";
+  states: DisplayState[];
+  fixed_frame_trouble: string;
+}
+
+/** A display as it is set. */
+export interface DisplayView {
+  id: string;
+  kind: string;
+  name: string;
+  group: string;
+  enabled: boolean;
+  topic: string;
+  reliable: boolean;
+  latched: boolean;
+  depth: number;
+  values: Record<string, boolean | number | string>;
+}
+
 /** The shared display settings: display, then setting, then value. */
 export interface Displays {
   type: "displays";
@@ -272,6 +337,14 @@ export interface Documents {
 export interface Done {
   type: "done";
   request: number;
+}
+
+/** Add one with the same settings, below it. */
+export interface DuplicateDisplay {
+  request?: number;
+  document?: string;
+  type: "duplicate_display";
+  display: string;
 }
 
 /** Write a new text at a site. All edits of one `gesture` are one undo step. */
@@ -415,6 +488,17 @@ export interface FoundText {
   in_run: boolean;
 }
 
+/** A frame of TF. */
+export interface FrameView {
+  name: string;
+  parent: string;
+  publisher: string;
+  static: boolean;
+  rate_hz: number;
+  age_s: number | null;
+  state: "fresh" | "stale" | "broken";
+}
+
 /**
  * Answer to `get_frames`, true of the robot now: ask again when something was built.
  *
@@ -448,6 +532,13 @@ export interface GetCollisions {
   document?: string;
   type: "get_collisions";
   file: string;
+}
+
+/** Which displays there are. */
+export interface GetDisplayKinds {
+  request?: number;
+  document?: string;
+  type: "get_display_kinds";
 }
 
 /** What a site shapes in the robot of the last good run. */
@@ -519,6 +610,22 @@ export interface GetText {
   document?: string;
   type: "get_text";
   file: string;
+}
+
+/** Which frames there are; and where one of them is in another, if both are named. */
+export interface GetTf {
+  request?: number;
+  document?: string;
+  type: "get_tf";
+  frame?: string;
+  seen_from?: string;
+}
+
+/** Which topics there are, and which display shows each. */
+export interface GetTopics {
+  request?: number;
+  document?: string;
+  type: "get_topics";
 }
 
 /** The expanded URDF of the last good run. */
@@ -676,6 +783,14 @@ export interface ListRecent {
   type: "list_recent";
 }
 
+/** All displays of a document, in their order, and the frame they are drawn in. */
+export interface LiveDisplays {
+  type: "live_displays";
+  displays: DisplayView[];
+  groups_off: string[];
+  fixed_frame: string;
+}
+
 /** What stands there, what it came to in the run, and where it is defined. */
 export interface LookUp {
   request?: number;
@@ -721,6 +836,12 @@ export interface MeaningAnswer {
   type: "meaning";
   request: number;
   meaning: Meaning | null;
+}
+
+/** One click that may help. */
+export interface Mend {
+  label: string;
+  command: Record<string, boolean | number | string>;
 }
 
 /**
@@ -990,6 +1111,20 @@ export interface Progress {
   total: number;
 }
 
+/** A property of a kind of display. */
+export interface PropertyView {
+  name: string;
+  kind: "switch" | "whole" | "number" | "colour" | "choice" | "text" | "frame";
+  default: boolean | number | string;
+  doc: string;
+  low: number | null;
+  high: number | null;
+  unit: string;
+  choices: string[];
+  when: string;
+  when_values: (boolean | number | string)[];
+}
+
 /** Publish `/joint_states` as joint_state_publisher does, or stop. */
 export interface PublishJoints {
   request?: number;
@@ -1072,6 +1207,22 @@ export interface Reload {
   request?: number;
   document?: string;
   type: "reload";
+}
+
+/** What is to be said of a display. */
+export interface Remark {
+  level: "ok" | "warn" | "error";
+  reason: string;
+  sentence: string;
+  mend: Mend | null;
+}
+
+/** Remove a display. */
+export interface RemoveDisplay {
+  request?: number;
+  document?: string;
+  type: "remove_display";
+  display: string;
 }
 
 /**
@@ -1268,6 +1419,36 @@ export interface SetDisplay {
   value: boolean | number | string;
 }
 
+/** Change a property of a display, by RViz's name. */
+export interface SetDisplayProperty {
+  request?: number;
+  document?: string;
+  type: "set_display_property";
+  display: string;
+  name: string;
+  value: boolean | number | string;
+}
+
+/** Listen to another topic, or in another way; None chooses by the topic's publishers. */
+export interface SetDisplayTopic {
+  request?: number;
+  document?: string;
+  type: "set_display_topic";
+  display: string;
+  topic: string;
+  reliable?: boolean | null;
+  latched?: boolean | null;
+  depth?: number | null;
+}
+
+/** Draw everything in this frame; empty: in that of the robot's root link. */
+export interface SetFixedFrame {
+  request?: number;
+  document?: string;
+  type: "set_fixed_frame";
+  frame: string;
+}
+
 /** Choose who moves the joints. */
 export interface SetJointSource {
   request?: number;
@@ -1330,6 +1511,16 @@ export interface Sites {
 /** What a word in a text stands for. */
 export type SubjectKind = "property" | "arg" | "parameter" | "block" | "macro" | "namespace" | "package" | "file" | "folder" | "yaml" | "function" | "constant" | "variable" | "environment" | "command" | "link" | "joint" | "expression" | "tag" | "element" | "attribute" | "value";
 
+/** Show or hide displays: one, or all of a group. */
+export interface SwitchDisplays {
+  request?: number;
+  document?: string;
+  type: "switch_displays";
+  display?: string;
+  group?: string;
+  enabled: boolean;
+}
+
 /** Answer to `get_text`: the text at a version, as `TextChange` describes texts. */
 export interface Text {
   type: "text";
@@ -1377,6 +1568,39 @@ export interface TextsFound {
   places: FoundText[];
   count: number;
   files: number;
+}
+
+/** Answer to `get_tf`. */
+export interface TfFrames {
+  type: "tf_frames";
+  request: number;
+  frames: FrameView[];
+  more: number;
+  refused: string[];
+  pose: TfPose | null;
+  trouble: string;
+}
+
+/** Where a frame is in another. */
+export interface TfPose {
+  wxyz: [number, number, number, number];
+  xyz: [number, number, number];
+  chain: string[];
+}
+
+/** A topic that others publish. */
+export interface TopicView {
+  name: string;
+  types: string[];
+  publishers: number;
+  kind: string;
+}
+
+/** Answer to `get_topics`. */
+export interface Topics {
+  type: "topics";
+  request: number;
+  topics: TopicView[];
 }
 
 /** Take back the last step. */
@@ -1580,6 +1804,17 @@ export type Command =
   | PublishJoints
   | FindWireRobots
   | OpenFromWire
+  | AddDisplay
+  | RemoveDisplay
+  | DuplicateDisplay
+  | ArrangeDisplay
+  | SwitchDisplays
+  | SetDisplayTopic
+  | SetDisplayProperty
+  | SetFixedFrame
+  | GetDisplayKinds
+  | GetTopics
+  | GetTf
   | GetText
   | GetOrigin
   | GetEffects
@@ -1630,6 +1865,11 @@ export type Event =
   | WireState
   | WireFeed
   | WireRobots
+  | DisplayKinds
+  | LiveDisplays
+  | DisplayStates
+  | Topics
+  | TfFrames
   | Text
   | TextsChanged
   | OutlineAnswer

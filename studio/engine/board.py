@@ -102,6 +102,7 @@ class Board:
         yield from self._document.variants.events()
         yield from self._document.poses.events()
         yield from self._document.feed.events()
+        yield from self._document.live.events()
         yield from self._document.drafts.events()
 
     def _state(self) -> m.DocumentState:

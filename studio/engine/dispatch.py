@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Final, TypeAlias, TypeVar
 
 from studio.engine import messages as m
 from studio.engine.listeners import tell
+from studio.engine.messages import live as v
 from studio.engine.messages import poses as p
 from studio.engine.messages import rewriting as r
 from studio.engine.messages import wire as w
@@ -94,7 +95,20 @@ _WIRE: Final = (
     _row(w.PublishRobot, lambda d, c, _: d.feed.publish_robot(running=c.running)),
     _row(w.PublishJoints, lambda d, c, _: d.feed.publish_joints(running=c.running)),
 )
-WORK: Final = dict((*_EDITS, *_FILES, *_VIEW, *_QUESTIONS, *_VARIANTS, *_POSES, *_WIRE))
+_LIVE: Final = (
+    _row(v.AddDisplay, lambda d, c, _: d.live.add(c)),
+    _row(v.RemoveDisplay, lambda d, c, _: d.live.remove(c)),
+    _row(v.DuplicateDisplay, lambda d, c, _: d.live.duplicate(c)),
+    _row(v.ArrangeDisplay, lambda d, c, _: d.live.arrange(c)),
+    _row(v.SwitchDisplays, lambda d, c, _: d.live.switch(c)),
+    _row(v.SetDisplayTopic, lambda d, c, _: d.live.set_topic(c)),
+    _row(v.SetDisplayProperty, lambda d, c, _: d.live.set_property(c)),
+    _row(v.SetFixedFrame, lambda d, c, _: d.live.fix(c)),
+    _row(v.GetDisplayKinds, lambda d, c, _: d.live.kinds(c)),
+    _row(v.GetTopics, lambda d, c, _: d.live.topics(c)),
+    _row(v.GetTf, lambda d, c, _: d.live.tf(c)),
+)
+WORK: Final = dict((*_EDITS, *_FILES, *_VIEW, *_QUESTIONS, *_VARIANTS, *_POSES, *_WIRE, *_LIVE))
 """What each command of a document does; those that are not here are the engine's own."""
 
 

@@ -20,6 +20,7 @@ from studio.engine.keeping.exports import ExportDesk
 from studio.engine.keeping.history import HistoryDesk
 from studio.engine.keeping.saving import SaveDesk
 from studio.engine.keeping.sharing import SharedFile, place_edits
+from studio.engine.live.live_desk import LiveDesk
 from studio.engine.meshes.mesh_desk import MeshDesk
 from studio.engine.messages import Built, Saved
 from studio.engine.model import Model
@@ -97,8 +98,8 @@ class Document:
         self._meshes = MeshDesk(self, services.meshes, self._watch_files)
         self.robot_checks = RobotChecks(self, services.meshes, self._meshes)
         self.variants = VariantDesk(self, services, self._meshes.want)
-        self._files: tuple[str, ...] = (self.path,)
-        self._watch = FileWatch(self._changed_on_disk)
+        self.live = LiveDesk(self, services, self._meshes.want)
+        self._files, self._watch = (self.path,), FileWatch(self._changed_on_disk)
         self._packages = PackagesUsed()
         self._packages_seen: dict[str, str] | None = None
         self._was_unsaved = False
@@ -150,6 +151,7 @@ class Document:
         """Begin the first run; the audience hears how it goes."""
         self.sources.track([self.path])
         self.drafts.restore()
+        self.live.restore()
         self._spawn("opening", self._open())
 
     async def _open(self) -> None:
@@ -166,7 +168,7 @@ class Document:
     async def close(self) -> None:
         """End everything that runs for this document."""
         self.motion.close()
-        await self.feed.close()
+        await asyncio.gather(self.feed.close(), self.live.close())
         background = tuple(self._background.values())
         for task in background:
             task.cancel()

@@ -52,7 +52,7 @@ async def studio(endpoint: str, folder: Path) -> AsyncGenerator[Studio]:
     file = folder / "arm.urdf.xacro"
     file.write_text(ARM)
     settings = Settings(data_folder=folder / "data", wire=WireChoice("off", (endpoint,)))
-    settings.data_folder.mkdir()
+    settings.data_folder.mkdir(exist_ok=True)
     made = Engine(settings)
     await made.start()
     try:

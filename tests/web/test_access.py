@@ -18,7 +18,7 @@ COMMANDS = sorted(kind.model_fields["type"].default for kind in get_args(get_arg
 VIEWER_COMMANDS = {
     *("watch", "get_urdf", "get_text", "get_origin", "get_effects"),
     *("get_outline", "look_up", "get_references"),
-    *("get_frames", "get_masses"),
+    *("get_frames", "get_masses", "get_display_kinds", "get_topics", "get_tf"),
     *("find_texts", "get_urdf_changes"),
 }
 CLIENT_MESSAGES = {

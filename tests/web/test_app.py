@@ -82,6 +82,8 @@ FIELDS: dict[str, object] = {
     "display": "grid",
     "template": "rover",
     "source": "sliders",
+    **dict.fromkeys(("kind", "topic", "frame"), "x"),
+    "enabled": True,
 }
 """A value for each field that a command needs."""
 

@@ -58,6 +58,11 @@ class Placing:
         self.troubles: Mapping[str, FrameError] = {}
         """By path, why a part of what is shown, or would be, has no place."""
 
+    @property
+    def drawing(self) -> Drawing:
+        """What is shown now, or would be if it had a place."""
+        return self._shown.drawing
+
     def offer(self, drawing: Drawing, now_ns: int) -> None:
         """Take what the display draws now; the same object again is no news."""
         if drawing is not self._newest:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
 from studio.engine.messages.live import Mend, Remark
@@ -66,7 +66,6 @@ class Facts:
     stamp_zero: bool = False
     statuses: tuple[Status, ...] = ()
     draws: bool = False
-    fixed_frame: str = field(default="")
 
 
 def remarks_on(facts: Facts) -> tuple[Remark, ...]:

@@ -86,6 +86,7 @@ from studio.engine.messages.launching import (
     SetArgument,
     SetArguments,
 )
+from studio.engine.messages.live import LiveCommand, LiveEvent
 from studio.engine.messages.mending import ApplyFix, MendAll
 from studio.engine.messages.opening import (
     ExampleEntry,
@@ -191,6 +192,7 @@ Command: TypeAlias = Annotated[
     | PoseCommand
     | RewritingCommand
     | WireCommand
+    | LiveCommand
     | GetText
     | GetOrigin
     | GetEffects
@@ -241,6 +243,7 @@ Event: TypeAlias = Annotated[
     | Poses
     | RewritingEvent
     | WireEvent
+    | LiveEvent
     | Text
     | TextsChanged
     | OutlineAnswer

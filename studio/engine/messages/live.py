@@ -97,9 +97,17 @@ class GetTopics(CommandMessage):
     type: Literal["get_topics"] = "get_topics"
 
 
+class GetTf(CommandMessage):
+    """Which frames there are; and where one of them is in another, if both are named."""
+
+    type: Literal["get_tf"] = "get_tf"
+    frame: RosName = ""
+    seen_from: RosName = ""
+
+
 LiveCommand: TypeAlias = (
     AddDisplay | RemoveDisplay | DuplicateDisplay | ArrangeDisplay | SwitchDisplays
-    | SetDisplayTopic | SetDisplayProperty | SetFixedFrame | GetDisplayKinds | GetTopics
+    | SetDisplayTopic | SetDisplayProperty | SetFixedFrame | GetDisplayKinds | GetTopics | GetTf
 )  # fmt: skip
 
 
@@ -231,15 +239,29 @@ class FrameView(Message):
     state: Literal["fresh", "stale", "broken"]
 
 
-class FramesNow(Message):
-    """All frames that are known; told at most once a second."""
+class TfPose(Message):
+    """Where a frame is in another."""
+
+    wxyz: tuple[float, float, float, float]
+    xyz: tuple[float, float, float]
+    """m."""
+    chain: tuple[str, ...]
+    """Frames on the way from the one that it is seen from, both ends with it."""
+
+
+class TfFrames(Message):
+    """Answer to `get_tf`."""
 
     type: Literal["tf_frames"] = "tf_frames"
+    request: int
     frames: tuple[FrameView, ...]
     more: int
     """Frames that are left out of the list."""
     refused: tuple[str, ...]
     """Transforms that were refused lately, in sentences."""
+    pose: TfPose | None
+    trouble: str
+    """Why there is no pose, in a sentence."""
 
 
-LiveEvent: TypeAlias = DisplayKinds | LiveDisplays | DisplayStates | Topics | FramesNow
+LiveEvent: TypeAlias = DisplayKinds | LiveDisplays | DisplayStates | Topics | TfFrames

@@ -55,6 +55,11 @@ class WireDesk:
         """Forget a page; it need not be there."""
         self._audience.remove(listener)
 
+    @property
+    def current(self) -> WireLink | None:
+        """The connection, if there is one."""
+        return self._link
+
     async def link(self) -> WireLink:
         """Give the connection; the first who asks has it opened.
 

@@ -26,8 +26,11 @@ if TYPE_CHECKING:
     from studio.engine.messages.wire import OpenFromWire
     from studio.robot.kinematics import Kinematics
     from studio.robot.values import Robot
+    from studio.ros.graph.graph import Graph
+    from studio.ros.node.info import MessageInfo
     from studio.ros.qos import QoSProfile
     from studio.ros.types.classes import MessageValue
+    from studio.ros.types.library import TypeLibrary
     from studio.settings import WireChoice
 
 _log = logging.getLogger(__name__)
@@ -82,6 +85,16 @@ class WireLink:
     def distro(self) -> str:
         """Whose wire is spoken."""
         return self._wire.profile.distro
+
+    @property
+    def types(self) -> TypeLibrary:
+        """All types that are known on this wire."""
+        return self._wire.types
+
+    @property
+    def graph(self) -> Graph:
+        """Who is there."""
+        return self._graph
 
     def node_names(self) -> list[str]:
         """Full names of the nodes of others."""
@@ -156,6 +169,27 @@ class WireLink:
         """Hear a topic, in the thread of the link; gives what ends that."""
         kind = self._wire.types.message(type_name)
         subscription = self._node.create_subscription(kind, topic, take, qos)
+
+        def end() -> None:
+            self._node.destroy_subscription(subscription)
+
+        return end
+
+    def hear(
+        self,
+        type_name: str,
+        topic: str,
+        take: Callable[[bytes, MessageInfo], None],
+        qos: QoSProfile,
+    ) -> Callable[[], None]:
+        """Hear a topic's messages as bytes, in the thread of the link; gives what ends that.
+
+        Raises:
+            RosNameError: No topic is named so.
+            UnknownTypeError: The type is not known here.
+        """
+        kind = self._wire.types.message(type_name)
+        subscription = self._node.create_subscription(kind, topic, take, qos, raw=True)
 
         def end() -> None:
             self._node.destroy_subscription(subscription)

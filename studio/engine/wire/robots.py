@@ -73,7 +73,9 @@ class WireRobotDesk:
         await self._let_go()  # of what was switched on with it meanwhile
 
     async def _let_go(self) -> None:
-        await asyncio.gather(*(one.feed.let_go() for one in self._opener.documents.values()))
+        documents = self._opener.documents.values()
+        parts = (part for one in documents for part in (one.feed, one.live))
+        await asyncio.gather(*(part.let_go() for part in parts))
 
     async def _open(self, command: OpenFromWire) -> str:
         link = await self._wire.link()

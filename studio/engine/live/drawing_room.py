@@ -1,0 +1,156 @@
+"""DrawingRoom: the displays of a document at work, and the scene that they draw in."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from studio.engine.live.frames_desk import FramesDesk
+from studio.engine.live.reasons import remarks_on
+from studio.engine.live.running import RunningDisplay
+from studio.engine.messages.live import DisplayState, DisplayStates, DisplayView, Remark
+from studio.errors import CommandError, SceneError
+from studio.ros.messages.shared import shared_types
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    from studio.engine.live.display_list import DisplayList, DisplaySpec
+    from studio.engine.live.placing import Pose
+    from studio.engine.model import Model
+    from studio.engine.wire.link import WireLink
+
+_STILL: Pose = ((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+
+
+class DrawingRoom:
+    """Steps every display that is shown and applies what it draws."""
+
+    def __init__(self, model: Model, want_meshes: Callable[[], None]) -> None:
+        self._scene, self._want_meshes = model.scene, want_meshes
+        self.frames = FramesDesk(model)
+        self._running: dict[str, RunningDisplay] = {}
+        self._faults: dict[str, str] = {}
+        self._robot_at: Pose = _STILL
+        self._robot_trouble = ""
+
+    def open(self, spec: DisplaySpec) -> None:
+        """Set a display to work.
+
+        Raises:
+            DisplayError: There is no such kind, or it does not take the values.
+        """
+        self._running[spec.id] = RunningDisplay(spec, shared_types())
+
+    def get(self, display: str) -> RunningDisplay:
+        """The one of an id.
+
+        Raises:
+            CommandError: There is none any more.
+        """
+        if found := self._running.get(display):
+            return found
+        raise CommandError("This display is not there any more: choose another.")
+
+    def close(self, display: str) -> RunningDisplay | None:
+        """Take one out of the scene; whoever asks ends its listening, in a thread."""
+        self._scene.live.drop(display)
+        self._faults.pop(display, None)
+        return self._running.pop(display, None)
+
+    def listen(self, link: WireLink, shown: Iterable[str]) -> None:
+        """Have TF and those that are shown heard, and no others; in a thread."""
+        if not self.frames.listens:
+            self.frames.listen(link, link.graph)
+        wanted = set(shown)
+        for display, running in tuple(self._running.items()):
+            if display in wanted:
+                running.listen(link, [link.graph.publishers(one) for one in running.topics])
+            else:
+                running.deafen()
+
+    def deafen(self) -> None:
+        """Have nothing heard; in a thread."""
+        self.frames.deafen()
+        for running in tuple(self._running.values()):
+            running.deafen()
+
+    def renew(self) -> None:
+        """The fixed frame is another: everything is placed anew."""
+        for running in self._running.values():
+            running.placing.renew()
+
+    def step(self, displays: DisplayList, now_ns: int) -> None:
+        """Draw what came since the last step."""
+        self.frames.step()
+        self._place_robot()
+        for spec in displays:
+            if displays.is_shown(spec):
+                self._draw(spec.id, self._running[spec.id], now_ns)
+
+    def view(self, spec: DisplaySpec) -> DisplayView:
+        """One display as it is set."""
+        running = self._running[spec.id]
+        wish, main = running.wish(), next(iter(running.display.TOPICS), None)
+        reliable, latched, depth = (
+            (wish.reliable, wish.latched, wish.depth)
+            if wish
+            else (main.reliable, main.latched, main.depth)
+            if main
+            else (True, False, 1)
+        )
+        return DisplayView(
+            id=spec.id,
+            kind=spec.kind,
+            name=spec.name,
+            group=spec.group,
+            enabled=spec.enabled,
+            topic=spec.topic,
+            reliable=reliable,
+            latched=latched,
+            depth=depth,
+            values=dict(running.display.values),
+        )
+
+    def states(self, displays: DisplayList, now_ns: int) -> DisplayStates:
+        """How all fare."""
+        return DisplayStates(
+            states=tuple(self._state(one, displays, now_ns) for one in displays),
+            fixed_frame_trouble=self._robot_trouble,
+        )
+
+    def _state(self, spec: DisplaySpec, displays: DisplayList, now_ns: int) -> DisplayState:
+        running = self._running[spec.id]
+        age_s = running.age_s(now_ns)
+        remarks = remarks_on(running.facts(now_ns, shown=displays.is_shown(spec)))
+        if fault := self._faults.get(spec.id):
+            remarks = (Remark(level="error", reason="too_much", sentence=fault), *remarks)
+        return DisplayState(
+            id=spec.id,
+            rate_hz=round(running.rate_hz(now_ns), 1),
+            age_s=None if age_s is None else round(age_s),
+            lost=running.lost,
+            remarks=remarks,
+        )
+
+    def _draw(self, display: str, running: RunningDisplay, now_ns: int) -> None:
+        drawn = running.drawn
+        shown = running.step(self.frames.lookup, now_ns)
+        if shown is None:
+            return
+        try:
+            if shown.drawing is drawn:
+                self._scene.live.place(display, shown.poses)
+            else:
+                self._scene.live.apply(display, shown.drawing, shown.poses)
+            running.drawn = shown.drawing
+            self._faults.pop(display, None)
+        except SceneError as error:
+            self._faults[display] = str(error)
+        if self._scene.live.missing_meshes():
+            self._want_meshes()
+
+    def _place_robot(self) -> None:
+        pose, self._robot_trouble = self.frames.robot_pose()
+        if pose is not None and pose != self._robot_at:
+            self._robot_at = pose
+            self._scene.place_robot(*pose)

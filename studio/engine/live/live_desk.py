@@ -1,0 +1,308 @@
+"""LiveDesk: the displays of a document: what is asked of them, and the tick that draws them."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import time
+from dataclasses import replace
+from typing import TYPE_CHECKING, Final
+
+from studio.engine.live.display_file import DisplayFile, KeptDisplays
+from studio.engine.live.display_list import DisplayList, Listening
+from studio.engine.messages import live as m
+from studio.errors import CommandError, StudioError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    from studio.displays.properties import Value
+    from studio.engine.document import Document
+    from studio.engine.live.display_list import DisplaySpec
+    from studio.engine.live.drawing_room import DrawingRoom
+    from studio.engine.services import Services
+    from studio.engine.wire.link import WireLink
+
+_TICK_S: Final = 1 / 30
+_LOOK_EVERY_S: Final = 0.5
+"""Between two looks at who publishes, and two words about how displays fare."""
+
+_log = logging.getLogger(__name__)
+
+
+class LiveDesk:
+    """Carries out what is asked, and ticks while there is anything to draw.
+
+    Every command raises a CommandError or DisplayError when it cannot be done; then all is as it
+    was.
+    """
+
+    def __init__(
+        self, document: Document, services: Services, want_meshes: Callable[[], None]
+    ) -> None:
+        self._document, self._wire = document, services.wire
+        self._file = DisplayFile(services.settings.data_folder, document.entry)
+        self._want_meshes = want_meshes
+        self._list = DisplayList()
+        self._made: DrawingRoom | None = None
+        self._link: WireLink | None = None
+        self._listening = asyncio.Lock()
+        self._ticking: asyncio.Task[None] | None = None
+        self._keeping: asyncio.Task[None] | None = None
+        self._looked_s = 0.0
+        self._told: m.DisplayStates | None = None
+        self._closed = False
+
+    @property
+    def _room(self) -> DrawingRoom:
+        """Made when it is first needed: what it imports takes time, and many need no displays."""
+        if self._made is None:
+            from studio.engine.live.drawing_room import DrawingRoom  # noqa: PLC0415 - see above
+
+            self._made = DrawingRoom(self._document.model, self._want_meshes)
+        return self._made
+
+    def restore(self) -> None:
+        """Take up the displays of the last time."""
+        kept = self._file.read()
+        if kept.fixed_frame:
+            self._room.frames.chosen = kept.fixed_frame
+        for spec in kept.displays:
+            self._restore_one(spec)
+        for group in {one.group for one in self._list} & set(kept.groups_off) - {""}:
+            self._list.switch_group(group, shown=False)
+        self._show_and_hide()
+        self._go_on()
+
+    def _restore_one(self, spec: DisplaySpec) -> None:
+        added = self._list.put(spec)
+        try:
+            self._room.open(added)
+        except StudioError as error:
+            self._list.remove(added.id)
+            _log.warning("The display %s was left out: %s", spec.name, error)
+
+    def events(self) -> Iterable[m.LiveEvent]:
+        """What a newcomer is told."""
+        yield self._displays()
+        if self._told is not None:
+            yield self._told
+
+    async def add(self, command: m.AddDisplay) -> None:
+        """Add a display; with a topic, the connection is made if there is none."""
+        spec = self._list.add(command.kind, command.topic)
+        try:
+            self._room.open(spec)
+        except StudioError:
+            self._list.remove(spec.id)
+            raise
+        self._changed()
+        if command.topic:
+            await self._connect()
+
+    def remove(self, command: m.RemoveDisplay) -> None:
+        """Take a display away."""
+        self._list.remove(command.display)
+        self._spawn_close(command.display)
+        self._changed()
+
+    def duplicate(self, command: m.DuplicateDisplay) -> None:
+        """Add one like another."""
+        self._room.open(self._list.duplicate(command.display))
+        self._changed()
+
+    def arrange(self, command: m.ArrangeDisplay) -> None:
+        """Name, group or move one."""
+        spec = self._list.get(command.display)
+        name = spec.name if command.name is None else command.name.strip()
+        if not name:
+            raise CommandError("A display needs a name of at least one letter.")
+        group = spec.group if command.group is None else command.group.strip()
+        if command.before is not None:
+            self._list.move(spec.id, command.before)
+        self._change(replace(spec, name=name, group=group))
+
+    def switch(self, command: m.SwitchDisplays) -> None:
+        """Show or hide one, or a group as a whole."""
+        if command.display:
+            self._change(replace(self._list.get(command.display), enabled=command.enabled))
+        else:
+            self._list.switch_group(command.group, shown=command.enabled)
+            self._changed()
+
+    async def set_topic(self, command: m.SetDisplayTopic) -> None:
+        """Listen to another topic, or otherwise."""
+        before = self._list.get(command.display)
+        listening = Listening(command.reliable, command.latched, command.depth)
+        spec = replace(before, topic=command.topic.strip(), listening=listening)
+        if spec.topic != before.topic:
+            await self._close_display(spec.id)
+            self._room.open(spec)
+        self._change(spec)
+        if spec.topic:
+            await self._connect()
+
+    def set_property(self, command: m.SetDisplayProperty) -> None:
+        """Change a property."""
+        spec = self._list.get(command.display)
+        value = self._room.get(spec.id).set(command.name, command.value)
+        values: dict[str, Value] = {**spec.values, command.name: value}
+        self._change(replace(spec, values=values))
+
+    async def fix(self, command: m.SetFixedFrame) -> None:
+        """Draw everything in another frame."""
+        frame, frames = command.frame.strip().removeprefix("/"), self._room.frames
+        frames.chosen = frame
+        self._room.renew()
+        self._changed()
+        if frame and frame not in frames.own.links:
+            await self._connect()
+
+    def kinds(self, command: m.GetDisplayKinds) -> m.DisplayKinds:
+        """Which displays there are."""
+        from studio.engine.live.catalogue_views import kind_views  # noqa: PLC0415 - imports all
+
+        return m.DisplayKinds(request=command.request, kinds=kind_views())
+
+    async def topics(self, command: m.GetTopics) -> m.Topics:
+        """Which topics there are; none without a connection."""
+        link = self._wire.current
+        found = await asyncio.to_thread(_topics_of, link) if link else ()
+        return m.Topics(request=command.request, topics=found)
+
+    def tf(self, command: m.GetTf) -> m.TfFrames:
+        """Which frames there are, and where one is in another."""
+        self._room.frames.step()
+        return self._room.frames.answer(command)
+
+    async def let_go(self) -> None:
+        """Let go of the connection; displays stay, and listen again when there is one."""
+        async with self._listening:
+            self._link = None
+            if self._made is not None:
+                await asyncio.to_thread(self._made.deafen)
+
+    async def close(self) -> None:
+        """Draw nothing more."""
+        self._closed = True
+        if self._ticking is not None:
+            self._ticking.cancel()
+            await asyncio.gather(self._ticking, return_exceptions=True)
+        await self.let_go()
+        if self._keeping is not None:
+            await self._keeping
+
+    async def _connect(self) -> None:
+        """Have a connection; why there is none is told by the displays."""
+        try:
+            await self._wire.link()
+        except StudioError as error:
+            _log.info("Displays without a connection: %s", error)
+        self._looked_s = 0.0
+        self._go_on()
+
+    def _change(self, spec: DisplaySpec) -> None:
+        self._list.change(spec)
+        self._room.get(spec.id).spec = spec
+        self._changed()
+
+    def _changed(self) -> None:
+        """The list is another: tell it, keep it, draw it."""
+        self._show_and_hide()
+        self._document.board.audience.tell(self._displays())
+        self._keep()
+        self._looked_s = 0.0
+        self._go_on()
+
+    def _show_and_hide(self) -> None:
+        for spec in self._list:
+            self._document.scene.live.show(spec.id, visible=self._list.is_shown(spec))
+
+    def _keep(self) -> None:
+        kept = KeptDisplays(tuple(self._list), self._list.groups_off, self._fixed_frame)
+        before = self._keeping
+
+        async def write() -> None:
+            if before is not None:
+                await before
+            await asyncio.to_thread(self._file.write, kept)
+
+        self._keeping = asyncio.create_task(write())
+
+    def _spawn_close(self, display: str) -> None:
+        task = asyncio.create_task(self._close_display(display))
+        task.add_done_callback(lambda _: None)
+
+    async def _close_display(self, display: str) -> None:
+        running = self._room.close(display)
+        if running is not None:
+            await asyncio.to_thread(running.deafen)
+
+    @property
+    def _fixed_frame(self) -> str:
+        return self._made.frames.chosen if self._made else ""
+
+    @property
+    def _is_on(self) -> bool:
+        return len(self._list) > 0 or self._fixed_frame != ""
+
+    def _go_on(self) -> None:
+        idle = self._ticking is None or self._ticking.done()
+        if idle and self._is_on and not self._closed:
+            self._ticking = asyncio.create_task(self._tick())
+
+    async def _tick(self) -> None:
+        loop = asyncio.get_running_loop()
+        while self._is_on:
+            began_s = loop.time()
+            try:
+                if began_s - self._looked_s >= _LOOK_EVERY_S:
+                    self._looked_s = began_s
+                    await self._listen()
+                    self._tell_states()
+                self._room.step(self._list, time.time_ns())
+            except Exception:  # noqa: BLE001 - one display that fails must not end the others
+                _log.exception("A tick of the live scene failed.")
+            await asyncio.sleep(max(0.0, began_s + _TICK_S - loop.time()))
+        self._room.step(self._list, time.time_ns())
+        self._tell_states()
+
+    async def _listen(self) -> None:
+        """Listen to what is shown, as fits who publishes now."""
+        link = self._wire.current
+        if link is not self._link:
+            await self.let_go()
+        async with self._listening:
+            if link is None:
+                return
+            self._link = link
+            shown = [one.id for one in self._list if self._list.is_shown(one)]
+            await asyncio.to_thread(self._room.listen, link, shown)
+
+    def _tell_states(self) -> None:
+        news = self._room.states(self._list, time.time_ns())
+        if news != self._told:
+            self._told = news
+            self._document.board.audience.tell(news)
+
+    def _displays(self) -> m.LiveDisplays:
+        return m.LiveDisplays(
+            displays=tuple(map(self._room.view, self._list)),
+            groups_off=self._list.groups_off,
+            fixed_frame=self._fixed_frame,
+        )
+
+
+def _topics_of(link: WireLink) -> tuple[m.TopicView, ...]:
+    from studio.displays.catalogue import displays_of_type  # noqa: PLC0415 - only when it is used
+
+    found: list[m.TopicView] = []
+    for name, types in link.graph.topics():
+        publishers = len(link.graph.publishers(name))
+        kinds = [kind.KIND for one in types for kind in displays_of_type(one)]
+        if publishers:
+            kind = kinds[0] if kinds else ""
+            found.append(
+                m.TopicView(name=name, types=tuple(types), publishers=publishers, kind=kind)
+            )
+    return tuple(found)
