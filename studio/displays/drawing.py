@@ -8,7 +8,7 @@ objects that did not change. Arrays belong to the shape: nobody writes into them
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -22,6 +22,9 @@ Xyz: TypeAlias = tuple[float, float, float]
 """m."""
 Wxyz: TypeAlias = tuple[float, float, float, float]
 """A quaternion of length 1."""
+
+FIXED_FRAME: Final = "<Fixed Frame>"
+"""RViz's name of whatever the fixed frame is; `Placed.frame` may be it, too."""
 
 NO_TURN: Wxyz = (1.0, 0.0, 0.0, 0.0)
 ORIGIN: Xyz = (0.0, 0.0, 0.0)
@@ -232,7 +235,7 @@ class Placed:
     """Shapes in one frame at one moment.
 
     Attributes:
-        frame: Its name on /tf.
+        frame: Its name on /tf, or FIXED_FRAME.
         stamp_ns: When the shapes were there, since the epoch; 0 is the newest that is known.
         shapes: By name; names are plain words without slashes.
         follows: Whether the shapes move with the frame from now on, as `frame_locked` markers do;
