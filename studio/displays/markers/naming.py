@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from studio.ros.fast.marker_columns import MarkerColumns, MarkerTexts
 
 _KEPT: Final = 4
-_FIXED_MAX: Final = 1 << 20
+_BYTES_KEPT_MAX: Final = 1 << 20
 
 
 class BatchKey(NamedTuple):
@@ -51,7 +51,7 @@ class Naming:
             if known.texts is texts:
                 return known
         made = _named(texts)
-        if sum(len(one.mesh_file_data) for one in texts) < _FIXED_MAX:
+        if sum(len(one.mesh_file_data) for one in texts) < _BYTES_KEPT_MAX:
             self._known = [made, *self._known[: _KEPT - 1]]
         return made
 

@@ -1,0 +1,161 @@
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from studio.displays.drawing import Solids
+from studio.displays.marker_array import MarkerArrayDisplay
+from studio.displays.markers import batches as batches_module
+from studio.displays.markers.kinds import Action, Kind
+from tests.support.markers import TYPES, array_of, marker, sentences, shapes_in
+
+if TYPE_CHECKING:
+    import pytest
+
+    from studio.displays.drawing import Drawing
+
+S = 10**9
+LINE = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0)]
+DELETE_ALL = int(Action.DELETE_ALL)
+
+
+class Shown:
+    """A display that draws after each message."""
+
+    def __init__(self) -> None:
+        self.display = MarkerArrayDisplay(TYPES)
+
+    def after(self, *markers: Any) -> Drawing:  # noqa: ANN401
+        self.display.take(array_of(*markers))
+        return self.display.draw(0)
+
+
+def test_a_message_that_changes_nothing_leaves_the_very_same_drawing():
+    shown = Shown()
+    many = [
+        *(marker(Kind.CUBE, each, at=(each, 0.0, 0.0)) for each in range(4)),
+        marker(Kind.LINE_STRIP, 4, points=LINE),
+        marker(Kind.TEXT, 5, text="here"),
+    ]
+    first = shown.after(*many)
+    assert shown.after(*many) is first
+    assert shown.display.draw(5) is first
+
+
+def test_deleting_all_and_saying_the_same_again_leaves_the_very_same_drawing():
+    shown = Shown()
+    clear = marker(0, action=DELETE_ALL, ns="")
+    many = [marker(kind, kind.value, points=LINE, text="a") for kind in list(Kind)[:10]]
+    first = shown.after(clear, *many)
+    assert len(shapes_in(first)) == 7
+    assert shown.after(clear, *many) is first
+
+
+def test_shapes_that_did_not_change_are_the_same_objects_in_a_new_drawing():
+    shown = Shown()
+    first = shown.after(
+        marker(Kind.CUBE, ns="a"), marker(Kind.CUBE, ns="b"), marker(Kind.SPHERE, 1, ns="b")
+    )
+    second = shown.after(marker(Kind.CUBE, ns="b", at=(9.0, 9.0, 9.0)))
+    [old], [new] = first.values(), second.values()
+    assert old.shapes.keys() == new.shapes.keys()
+    changed = [name for name in new.shapes if new.shapes[name] is not old.shapes[name]]
+    assert [name.split("-", 1)[1] for name in changed] == ["boxes"]
+
+
+def test_a_group_that_did_not_change_is_the_same_object_in_a_new_drawing():
+    shown = Shown()
+    first = shown.after(marker(Kind.CUBE, 0), marker(Kind.CUBE, 1, frame="odom"))
+    second = shown.after(marker(Kind.CUBE, 1, frame="odom", at=(0.0, 0.0, 0.0)))
+    same = [placed.frame for path, placed in second.items() if placed is first[path]]
+    assert same == ["map"]
+
+
+def test_a_new_stamp_keeps_the_path_and_the_shapes():
+    shown = Shown()
+    first = shown.after(marker(Kind.CUBE, stamp_ns=S))
+    second = shown.after(marker(Kind.CUBE, stamp_ns=2 * S))
+    assert list(first) == list(second)
+    [old], [new] = first.values(), second.values()
+    assert (old.stamp_ns, new.stamp_ns) == (S, 2 * S)
+    [before], [after] = old.shapes.values(), new.shapes.values()
+    assert after is before
+
+
+def test_each_frame_stamp_and_lock_is_a_group_of_its_own():
+    shown = Shown()
+    drawing = shown.after(
+        marker(Kind.CUBE, 0),
+        marker(Kind.CUBE, 1, frame="odom"),
+        marker(Kind.CUBE, 2, stamp_ns=S),
+        marker(Kind.CUBE, 3, stamp_ns=S, frame_locked=True),
+        marker(Kind.CUBE, 4, stamp_ns=2 * S, frame_locked=True),
+        marker(Kind.CUBE, 5, frame="/map", stamp_ns=S),
+    )
+    groups = {
+        (placed.frame, placed.stamp_ns, placed.follows): sum(
+            len(shape.positions) for shape in placed.shapes.values() if isinstance(shape, Solids)
+        )
+        for placed in drawing.values()
+    }
+    assert groups == {
+        ("map", 0, False): 1, ("odom", 0, False): 1, ("map", S, False): 2, ("map", 0, True): 2,
+    }  # fmt: skip
+
+
+def test_a_marker_that_goes_to_another_frame_leaves_the_one_it_was_in():
+    shown = Shown()
+    shown.after(marker(Kind.CUBE))
+    drawing = shown.after(marker(Kind.CUBE, frame="odom"))
+    assert [placed.frame for placed in drawing.values()] == ["odom"]
+    assert list(drawing) == ["g0"]
+
+
+def test_a_marker_of_another_type_takes_the_place_of_the_old():
+    shown = Shown()
+    shown.after(marker(Kind.CUBE), marker(Kind.LINE_STRIP, 1, points=LINE))
+    drawing = shown.after(marker(Kind.SPHERE), marker(Kind.LINE_STRIP, 1))
+    assert list(shapes_in(drawing)) == ["balls"]
+
+
+def test_two_thousand_markers_are_a_handful_of_shapes():
+    shown = Shown()
+    kinds = [Kind.ARROW, Kind.CUBE, Kind.SPHERE, Kind.CYLINDER, Kind.LINE_STRIP]
+    drawing = shown.after(
+        *(marker(kinds[each % 5], each, points=LINE[: 2 * (each % 5 == 4)]) for each in range(2000))
+    )
+    assert list(shapes_in(drawing)) == ["boxes", "balls", "cylinders", "shafts", "heads", "lines-0"]
+    boxes = shapes_in(drawing)["boxes"]
+    assert isinstance(boxes, Solids)
+    assert boxes.positions.shape == (400, 3)
+
+
+def test_names_are_plain_words_whatever_namespaces_are_called():
+    shown = Shown()
+    names = ["", "a/b", "../..", "<b>", "\x00", "\U0001f600", "a b"]
+    drawing = shown.after(*(marker(Kind.CUBE, ns=name, frame=name or "map") for name in names))
+    found = [name for placed in drawing.values() for name in placed.shapes]
+    assert len(set(found)) == len(names)
+    assert all(re.fullmatch(r"[a-z0-9-]+", name) for name in [*found, *drawing])
+
+
+def test_more_shapes_than_can_be_shown_are_left_out_and_told(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(batches_module, "SHAPES_MAX", 3)
+    shown = Shown()
+    drawing = shown.after(*(marker(Kind.CUBE, each, stamp_ns=each * S) for each in range(5)))
+    assert len(shapes_in(drawing)) == 1
+    assert len(drawing) == 3
+    assert sentences(shown.display) == ["2 texts, meshes or batches are too many to be shown."]
+    shown.after(marker(Kind.CUBE, 0, action=DELETE_ALL, ns=""))
+    assert not any("too many" in sentence for sentence in sentences(shown.display))
+
+
+def test_nobody_writes_into_what_was_drawn():
+    shown = Shown()
+    first = shapes_in(shown.after(marker(Kind.CUBE)))["boxes"]
+    assert isinstance(first, Solids)
+    before = np.array(first.positions)
+    shown.after(marker(Kind.CUBE, at=(7.0, 7.0, 7.0)))
+    assert np.array_equal(first.positions, before)
