@@ -12,6 +12,8 @@ from studio.displays.image import ImageDisplay
 from studio.displays.imu import ImuDisplay
 from studio.displays.laser_scan import LaserScanDisplay
 from studio.displays.map import MapDisplay
+from studio.displays.marker import MarkerDisplay
+from studio.displays.marker_array import MarkerArrayDisplay
 from studio.displays.odometry import OdometryDisplay
 from studio.displays.path import PathDisplay
 from studio.displays.point import PointStampedDisplay
@@ -39,6 +41,8 @@ DISPLAYS: Final[tuple[type[Display], ...]] = (
     ImuDisplay,
     LaserScanDisplay,
     MapDisplay,
+    MarkerArrayDisplay,
+    MarkerDisplay,
     OdometryDisplay,
     PathDisplay,
     PointCloud2Display,
