@@ -40,11 +40,11 @@ class CloudFields:
             # Without bytes between the rows they are one, of which columns are taken faster.
             self._columns, self._rows = self.count, 1
             self._row_bytes = self.count * int(message.point_step)
-        # As RViz: of two fields with one name the first counts.
-        self._fields = {field.name: field for field in reversed(message.fields)}
-        self.names: tuple[str, ...] = tuple(
-            dict.fromkeys(field.name for field in message.fields if field.name)
-        )
+        self._fields: dict[str, Any] = {}
+        self._faults: dict[str, str] = {}
+        for field in message.fields:
+            self._add(field)
+        self.names: tuple[str, ...] = tuple(self._fields)
 
     @property
     def size_bytes(self) -> int:
@@ -59,11 +59,12 @@ class CloudFields:
         Raises:
             DisplayMessageError: There is no x, y or z.
         """
-        missing = [name for name in "xyz" if name not in self._fields]
-        if missing:
-            raise self._error(f"it has no {missing[0]}, its fields are {self._said_names()}")
         if not self.count:
             return np.empty((0, 3), dtype=np.float32), None
+        for name in "xyz":
+            if name not in self._fields:
+                none = f"it has no {name}, its fields are {said_names(self.names)}"
+                raise self._error(self._faults.get(name, none))
         step = -(-self.count // RAW_POINTS_MAX)
         if step > 1:
             raw = np.arange(0, self.count, step)
@@ -91,9 +92,7 @@ class CloudFields:
         """
         name = next((one for one in _PACKED if one in self._fields), None)
         if name is not None and self._fields[name].datatype in (5, 6, 7):
-            self._dtype(name)
-            view = self._bytes_view(name)
-            return np.ascontiguousarray(self._taken(view, raw))
+            return np.ascontiguousarray(self._taken(self._bytes_view(name), raw))
         if not self._are_parts(2):
             return None
         parts = [self._taken(self._view(one, self._dtype(one)), raw) for one in _PARTS]
@@ -107,6 +106,27 @@ class CloudFields:
         whole = np.nan_to_num(np.clip(np.stack([p for p in parts if p is not None], axis=1), 0, 1))
         return np.rint(whole * 255).astype(np.uint8)
 
+    def _add(self, field: Any) -> None:  # noqa: ANN401 - a sensor_msgs/PointField
+        """Know a field by its name; of two with one name the first counts, as in RViz.
+
+        One that cannot be read is as if it were not there, until it is needed for a place.
+        """
+        name = str(field.name)
+        if name in self._fields or name in self._faults:
+            return
+        numbers = _NUMBERS.get(field.datatype)
+        if numbers is None:
+            fault = f"has the unknown datatype {field.datatype}"
+        elif field.offset + np.dtype(numbers).itemsize > self._message.point_step:
+            fault = (
+                f"ends after the {self._message.point_step} bytes of a point: point_step or the "
+                "offset is wrong"
+            )
+        else:
+            self._fields[name] = field
+            return
+        self._faults[name] = f'its field "{name[:60]}" {fault}'
+
     def _are_parts(self, datatype: int) -> bool:
         return all(one in self._fields and self._fields[one].datatype == datatype for one in _PARTS)
 
@@ -117,7 +137,6 @@ class CloudFields:
             (x.datatype, y.datatype, z.datatype) == (7, 7, 7)
             and y.offset == x.offset + 4
             and z.offset == x.offset + 8
-            and x.offset + 12 <= self._message.point_step
         )
 
     def _stacked(self, raw: NDArray[np.intp] | None) -> NDArray[np.float32]:
@@ -133,17 +152,7 @@ class CloudFields:
         return view[raw // self._columns, raw % self._columns]
 
     def _dtype(self, name: str) -> np.dtype[Any]:
-        field = self._fields[name]
-        numbers = _NUMBERS.get(field.datatype)
-        if numbers is None:
-            raise self._error(f'its field "{name[:60]}" has the unknown datatype {field.datatype}')
-        dtype = np.dtype(self._order + numbers)
-        if field.offset + dtype.itemsize > self._message.point_step:
-            raise self._error(
-                f'its field "{name[:60]}" ends after the {self._message.point_step} bytes of a '
-                "point: point_step or the offset is wrong"
-            )
-        return dtype
+        return np.dtype(self._order + _NUMBERS[self._fields[name].datatype])
 
     def _view(self, name: str, dtype: np.dtype[Any], count: int = 0) -> NDArray[Any]:
         """Numbers at the offset of a field, shape (rows, columns) or (rows, columns, count)."""
@@ -162,9 +171,6 @@ class CloudFields:
             int(self._fields[name].offset) + at,
             (self._row_bytes, int(self._message.point_step), step),
         )  # fmt: skip
-
-    def _said_names(self) -> str:
-        return said_names(self.names)
 
     def _error(self, reason: str) -> DisplayMessageError:
         return DisplayMessageError("PointCloud2", reason)

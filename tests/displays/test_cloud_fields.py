@@ -115,12 +115,14 @@ def test_fields_that_give_no_place_are_refused(fields: list[tuple[str, int, int]
         fields_of(FLOATS, POINT, fields=given_fields).positions()
 
 
-def test_a_packed_colour_beyond_the_point_is_refused():
+def test_a_field_beyond_the_point_is_as_if_it_were_not_there():
     layout = Layout((*FLOATS.fields, ("rgb", 12, 7)), 16)
     wrong = [*FLOATS.fields, ("rgb", 14, 7)]
     given_fields = [{"name": n, "offset": o, "datatype": d, "count": 1} for n, o, d in wrong]
-    with pytest.raises(DisplayMessageError, match='"rgb" ends after'):
-        fields_of(layout, [[(0, 0, 0, 0)]], fields=given_fields).colours(None)
+    fields = fields_of(layout, [[(0, 0, 0, 0)]], fields=given_fields)
+    assert fields.colours(None) is None
+    assert fields.numbers("rgb", None) is None
+    assert fields.names == ("x", "y", "z")
 
 
 def test_a_cloud_without_points_has_no_positions_whatever_its_steps_say():
