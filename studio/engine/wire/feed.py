@@ -141,6 +141,7 @@ class FeedDesk:
     async def _stop_following(self) -> None:
         self._source = "sliders"
         self._document.motion.lead("")
+        self._sending.measured(0)
         following, self._following = self._following, None
         if following is not None:
             await asyncio.to_thread(following.close)
@@ -192,6 +193,7 @@ class FeedDesk:
         following.fit(model.robot, model.kinematics)
         if positions := following.collect():
             self._document.motion.follow(positions)
+            self._sending.measured(following.stamp_ns)
 
     async def _take_description(self) -> None:
         """Write what came into the file, which is watched as every file of a document is."""

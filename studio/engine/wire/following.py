@@ -30,6 +30,9 @@ class Following:
         self._strangers: dict[str, None] = {}
         self._arrivals: deque[float] = deque(maxlen=_ARRIVALS_KEPT)
         self._last_s: float | None = None
+        self._newest_stamp_ns = 0
+        self.stamp_ns = 0
+        """When the source measured what was collected last, by its own clock; 0: it did not say."""
 
     def fit(self, movable: Iterable[str]) -> None:
         """The robot has other joints now."""
@@ -37,11 +40,11 @@ class Following:
             self._movable = frozenset(movable)
             self._strangers.clear()
 
-    def take(self, positions: Mapping[str, float]) -> None:
-        """A message came; rad or m by name of the joint."""
+    def take(self, positions: Mapping[str, float], stamp_ns: int = 0) -> None:
+        """A message came; rad or m by name of the joint, and its stamp."""
         now_s = self._clock()
         with self._lock:
-            self._last_s = now_s
+            self._last_s, self._newest_stamp_ns = now_s, stamp_ns
             self._arrivals.append(now_s)
             for name, position in positions.items():
                 if name in self._movable:
@@ -53,6 +56,7 @@ class Following:
         """What came since the last time."""
         with self._lock:
             taken, self._newest = self._newest, {}
+            self.stamp_ns = self._newest_stamp_ns
         return taken
 
     def strangers(self) -> tuple[str, ...]:

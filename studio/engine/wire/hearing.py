@@ -10,6 +10,7 @@ from studio.engine.wire.following import Following
 from studio.nodes.joint_reading import JointReading
 from studio.nodes.link_transforms import LinkTransform
 from studio.nodes.robot_state_publisher import LATCHED
+from studio.ros.duration import NANOSECONDS
 from studio.ros.qos import QoSProfile, ReliabilityPolicy
 
 if TYPE_CHECKING:
@@ -49,9 +50,16 @@ class JointsIn:
             self._kinematics = kinematics
             self._reading = JointReading(robot, kinematics)
 
+    @property
+    def stamp_ns(self) -> int:
+        """When what was collected last was measured, as a joint state tells it; 0: nobody did."""
+        return self._following.stamp_ns
+
     def _take(self, state: MessageValue) -> None:
         if len(state.name) == len(state.position):
-            self._following.take(dict(zip(state.name, state.position.tolist(), strict=True)))
+            stamp = state.header.stamp
+            positions = dict(zip(state.name, state.position.tolist(), strict=True))
+            self._following.take(positions, stamp.sec * NANOSECONDS + stamp.nanosec)
 
     def _take_tf(self, message: MessageValue) -> None:
         transforms = map(_link_transform, message.transforms)

@@ -43,6 +43,8 @@ class RobotSending:
         self._values: Floats | None = None
         """The positions that were told last."""
         self._values_s = -RESTING_PERIOD_S
+        self._stamp_ns = self._told_stamp_ns = 0
+        """Of the positions, as whoever measured them told it; 0: they are of now."""
         self._took_s = 0.0
         self._turn = asyncio.Lock()
         """Nothing is ended while it is in use."""
@@ -83,6 +85,13 @@ class RobotSending:
         """Tell the joints' positions from now on; errors as for `start_robot`."""
         self._joints_link = link
         await self._fit_joints()
+
+    def measured(self, stamp_ns: int) -> None:
+        """The joints stand where somebody measured them, at this time of theirs; 0: they do not.
+
+        TF then has that stamp, once: told again it would be refused as repeated.
+        """
+        self._stamp_ns = stamp_ns
 
     async def stop_robot(self) -> None:
         """Tell the description and TF no more."""
@@ -148,6 +157,9 @@ class RobotSending:
     def _are_positions_due(self, now_s: float) -> bool:
         if self._robot is None and self._joints is None:
             return False
+        is_old = self._stamp_ns != 0 and self._stamp_ns == self._told_stamp_ns
+        if is_old and self._values is not None:
+            return False
         moved = self._document.model.joints.values is not self._values
         period_s = MOVING_PERIOD_S if moved else RESTING_PERIOD_S
         return now_s - self._values_s >= max(period_s, _PAUSE_SHARE * self._took_s)
@@ -155,12 +167,13 @@ class RobotSending:
     async def _tell_positions(self, now_s: float) -> None:
         positions = self._document.model.joints
         self._values, self._values_s = positions.values, now_s
+        stamp_ns = self._told_stamp_ns = self._stamp_ns
         by_name = positions.by_name()
         robot, joints = self._robot, self._joints
 
         def tell() -> None:
             if robot is not None:
-                robot.place(by_name)
+                robot.place(by_name, stamp_ns or None)
             if joints is not None:
                 joints.tell(by_name)
 

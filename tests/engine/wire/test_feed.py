@@ -175,6 +175,36 @@ def test_what_is_told_and_what_is_followed_make_no_echo(
     asyncio.run(run())
 
 
+def test_tf_of_a_robot_that_is_followed_has_the_stamps_of_its_joint_states_each_once(
+    endpoint: str, tester: Node, tmp_path: Path
+):
+    async def run() -> None:
+        out, came = states_out(tester), heard(tester, TF, "/tf")
+        state = message(STATES)(name=["shoulder"], position=[0.5])
+
+        def seconds() -> list[int]:
+            stamps = [one.header.stamp for told in came for one in told.transforms]
+            return [stamp.sec for stamp in stamps if stamp.nanosec == 77]
+
+        def tell(second: int) -> bool:
+            state.header.stamp.sec, state.header.stamp.nanosec = second, 77
+            out.publish(state)
+            return second in seconds()
+
+        async with studio(endpoint, tmp_path) as one:
+            await one.do(PublishRobot(running=True))
+            await one.do(SetJointSource(source="joint_states"))
+            for second in (20, 30, 40):
+                await until(lambda told=second: tell(told))
+            assert seconds() == [20, 30, 40]
+            await one.do(SetJointSource(source="sliders"))
+            count = len(came)
+            await until(lambda: len(came) > count + 1)
+            assert came[-1].transforms[0].header.stamp.sec > 1_700_000_000
+
+    asyncio.run(run())
+
+
 def test_another_node_that_publishes_the_same_is_named(endpoint: str, tester: Node, tmp_path: Path):
     async def run() -> None:
         async with studio(endpoint, tmp_path) as one:

@@ -34,6 +34,19 @@ def test_joints_that_the_robot_does_not_have_are_named_but_not_kept():
     assert following.collect() == {"x": 3.0}
 
 
+def test_positions_have_the_stamp_of_the_last_message_that_was_collected():
+    following = Following(Clock(), ["a"])
+    following.take({"a": 1.0}, 7)
+    assert following.stamp_ns == 0
+    following.collect()
+    following.take({"a": 2.0}, 8)
+    assert following.stamp_ns == 7
+    following.collect()
+    following.take({"a": 2.0})
+    following.collect()
+    assert following.stamp_ns == 0
+
+
 def test_it_waits_then_lives_then_is_silent_and_lives_again():
     clock = Clock()
     following = Following(clock, ["a"])
