@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import studio
 from studio.cli.commands import COMMANDS
 from studio.cli.mappings import part_mappings
-from studio.cli.terminal import harmless
+from studio.cli.terminal import harmless, take_any_letters
 from studio.cli.values import shield_values
 from studio.errors import StudioError
 
@@ -39,6 +39,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run one command; answers its exit code: 0 where it has none, 2 after a sentence on stderr."""
     words = sys.argv[1:] if argv is None else list(argv)
     options = argparse.Namespace()
+    take_any_letters()
     try:
         options = _read(words)
         code = options.run(options) or 0

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import re
 import sys
 
@@ -11,6 +12,13 @@ _STEERING = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u200e\u200f\u202a-\u202e\u
 def shown(text: str) -> str:
     """Give a text as it may be printed: whole into a file or pipe, harmless on a terminal."""
     return harmless(text) if sys.stdout.isatty() else text
+
+
+def take_any_letters() -> None:
+    """Let input and output hold what their encodings do not: messages are in any language."""
+    for stream, errors in ((sys.stdout, "backslashreplace"), (sys.stdin, "replace")):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors=errors)
 
 
 def harmless(text: str) -> str:

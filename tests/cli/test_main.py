@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -8,6 +9,23 @@ import pytest
 
 FULL = Path("/dev/full")
 LISTING = [sys.executable, "-m", "studio", "interface", "list", "-a"]
+
+
+def test_letters_that_the_output_cannot_hold_are_written_as_escapes():
+    text = b"MSG: own_interfaces/Cell\n# \xc3\xbcber \xff\nfloat32 x\n"
+    words = [sys.executable, "-m", "studio", "interface", "show", "own_interfaces/msg/Cell",
+             "--interfaces", "-"]  # fmt: skip
+    plain = {**os.environ, "PYTHONIOENCODING": "ascii"}
+    ran = subprocess.run(words, input=text, capture_output=True, env=plain, check=True)
+    assert ran.stdout == b"# \\ufffd\\ufffdber \\ufffd\nfloat32 x\n"
+    ran = subprocess.run(
+        words,
+        input=text,
+        capture_output=True,
+        env={**plain, "PYTHONIOENCODING": "utf-8"},
+        check=True,
+    )
+    assert ran.stdout.decode() == "# über \ufffd\nfloat32 x\n"
 
 
 @pytest.mark.skipif(not FULL.exists(), reason="there is no /dev/full on this system")
