@@ -116,7 +116,7 @@ export class Measuring {
 
   /** @param {{ dots: Dot[], labels: Label[] }} all @param {Centre} centre */
   #addCentre({ dots, labels }, { at, label }) {
-    const root = this.#door.node("")?.matrixWorld;
+    const root = this.#door.node("/robot")?.matrixWorld;
     const place = root && this.#seen(root, at);
     if (!place) return;
     dots.push({ place, kind: "centre" });

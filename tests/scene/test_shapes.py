@@ -1,7 +1,7 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -32,8 +32,8 @@ def test_every_shape_is_a_node_that_viser_can_be_told_of(name: str):
     assert nodes
     for made in nodes.values():
         kind: Any = kinds_of_nodes()[made.kind]
-        told = kind(**made.props, **made.arrays, **made.flowing)
-        assert made.props.items() <= vars(told).items()
+        told = cast("dict[str, Any]", vars(kind(**made.props, **made.arrays, **made.flowing)))
+        assert made.props.items() <= told.items()
         assert all(array.flags.c_contiguous for array in made.flowing.values())
 
 
