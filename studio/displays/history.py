@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from studio.displays.properties import Property, Value
     from studio.ros.types.library import TypeLibrary
 
-KEPT_MAX = 10_000
-"""Messages that are kept at most: each has a place of its own in the scene."""
+KEPT_MAX = 5_000
+"""Messages kept at most: each has a place of its own in the scene, and up to four shapes."""
 
 Content = TypeVar("Content")
 

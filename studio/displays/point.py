@@ -8,7 +8,7 @@ import numpy as np
 
 from studio.displays.display import TopicRole
 from studio.displays.drawing import Solids
-from studio.displays.history import Entry, HistoryDisplay, frame_and_stamp
+from studio.displays.history import KEPT_MAX, Entry, HistoryDisplay, frame_and_stamp
 from studio.displays.pose_look import NOT_FINITE, colour_of, colour_properties, length
 from studio.displays.properties import Property, rgb_of
 from studio.displays.turning import drawable
@@ -30,7 +30,7 @@ class PointStampedDisplay(HistoryDisplay["Floats"]):
     PROPERTIES = (
         *colour_properties("#cc29cc", "ball"),
         length("Radius", 0.2, "How thick the ball is, from side to side."),
-        Property("History Length", "whole", 1, "How many messages are shown.", 1, 10_000),
+        Property("History Length", "whole", 1, "How many messages are shown.", 1, KEPT_MAX),
     )
     KEEPS = "History Length"
 

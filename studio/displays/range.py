@@ -9,7 +9,7 @@ import numpy as np
 
 from studio.displays.display import TopicRole
 from studio.displays.drawing import Solids
-from studio.displays.history import Entry, HistoryDisplay, frame_and_stamp
+from studio.displays.history import KEPT_MAX, Entry, HistoryDisplay, frame_and_stamp
 from studio.displays.pose_look import colour_of
 from studio.displays.properties import Property, rgb_of
 from studio.displays.turning import FAR
@@ -38,7 +38,7 @@ class RangeDisplay(HistoryDisplay[Cone]):
     PROPERTIES = (
         Property("Color", "colour", "#ffffff", "Colour of the cone."),
         Property("Alpha", "number", 0.5, "How opaque the cone is.", 0.0, 1.0),
-        Property("Buffer Length", "whole", 1, "How many messages are shown.", 1, 10_000),
+        Property("Buffer Length", "whole", 1, "How many messages are shown.", 1, KEPT_MAX),
     )
     KEEPS = "Buffer Length"
 

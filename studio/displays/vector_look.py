@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple
 import numpy as np
 
 from studio.displays.drawing import Arrows, Lines
+from studio.displays.history import KEPT_MAX
 from studio.displays.pose_look import colour_of, length
 from studio.displays.properties import Property, rgb_of
 from studio.displays.turning import drawable, shortest_turn, turned
@@ -52,7 +53,7 @@ def vector_properties(names: Names) -> tuple[Property, ...]:
         _scale(straight),
         _scale(turning),
         length("Arrow Width", 0.5, "How thick arrows are; what is shorter is not shown."),
-        Property("History Length", "whole", 1, "How many messages are shown.", 1, 10_000),
+        Property("History Length", "whole", 1, "How many messages are shown.", 1, KEPT_MAX),
     )
 
 
