@@ -12,6 +12,7 @@ from studio.displays.limits import Limits
 from studio.displays.map import MapDisplay
 from studio.displays.point_cloud2 import PointCloud2Display
 from studio.ros.types.library import TypeLibrary
+from tests.benchmarks import displays_markers
 from tests.benchmarks.report import Timings, judge, say
 from tests.support.display_messages import received
 
@@ -43,6 +44,7 @@ def run() -> None:
     judge("LaserScan(1080): decode and draw", scan, at_most=0.5)
     judge("PointCloud2(300k): decode and draw", intensity, at_most=15)
     judge("PointCloud2(300k), a third NaN: decode and draw", broken, at_most=15)
+    displays_markers.run()
 
 
 def _measure(

@@ -236,22 +236,21 @@ class MarkerStore:
         table = self.table
         begins, ends = columns.point_starts[added], columns.point_starts[added + 1]
         touched = np.flatnonzero((begins != ends) | (table.points[rows] > 0))
-        self._points -= int(table.points[rows[touched]].sum())
-        for place in touched.tolist():
-            row = int(rows[place])
-            items = self._items(columns, int(added[place]), int(begins[place]), int(ends[place]))
-            table.items[row], table.points[row] = items, len(items.points)
-            self._points += len(items.points)
-
-    def _items(self, columns: MarkerColumns, at: int, begin: int, end: int) -> Items:
-        count = end - begin
-        if not count or self._points + count > POINTS_MAX:
-            return NO_ITEMS
-        first, last = int(columns.point_color_starts[at]), int(columns.point_color_starts[at + 1])
-        if last - first not in _color_counts(int(columns.types[at]), count):
-            return Items(columns.points[begin:end].copy(), NO_ITEMS.rgba)
-        rgba = np.nan_to_num(columns.point_colors_rgba[first:last])
-        return Items(columns.points[begin:end].copy(), rgba)
+        rows, added = rows[touched], added[touched]
+        self._points -= int(table.points[rows].sum())
+        runs: list[list[int]] = np.stack(
+            (
+                rows, columns.types[added], begins[touched], ends[touched],
+                columns.point_color_starts[added], columns.point_color_starts[added + 1],
+            )
+        ).T.tolist()  # fmt: skip
+        counts: list[int] = []
+        for row, *run in runs:
+            items = _items_of(columns, *run, room=POINTS_MAX - self._points)
+            table.items[row] = items
+            counts.append(len(items.points))
+            self._points += counts[-1]
+        table.points[rows] = counts
 
     def _put_words(self, columns: MarkerColumns, rows: Whole, added: Whole) -> None:
         """Keep the texts and the addresses of meshes, whose troubles are found here."""
@@ -324,6 +323,19 @@ class MarkerStore:
             if len(self.heard) < NAMESPACES_MAX:
                 self.heard.setdefault(key.namespace)
         return number
+
+
+def _items_of(  # noqa: PLR0913 - numbers of one marker
+    columns: MarkerColumns, kind: int, begin: int, end: int, first: int, last: int, *, room: int
+) -> Items:
+    """The points of a marker from `begin` on and its colours from `first` on, if there is room."""
+    count = end - begin
+    if not 0 < count <= room:
+        return NO_ITEMS
+    points = columns.points[begin:end].copy()
+    if first == last or last - first not in _color_counts(kind, count):
+        return Items(points, NO_ITEMS.rgba)
+    return Items(points, np.nan_to_num(columns.point_colors_rgba[first:last]))
 
 
 def _color_counts(kind: int, points: int) -> tuple[int, ...]:
