@@ -81,17 +81,18 @@ class Drain:
             time.sleep(LOOK_S if self._flowing else IDLE_LOOK_S)
             now_s = time.monotonic()
             if now_s < look_at_all_s:
-                self._look_into(self._still_flowing(now_s))
+                self._look_into(tuple(self._flowing), now_s)
             else:
-                self._look_into(self._sources)
+                self._look_into(self._sources, now_s)
+                self._calm_down(now_s)
                 # Ten thousand rings are looked into less often, so that looking costs no core.
                 took_s = time.monotonic() - now_s
                 look_at_all_s = now_s + max(IDLE_LOOK_S, _REST * took_s)
 
-    def _look_into(self, sources: Iterable[Source]) -> None:
+    def _look_into(self, sources: Iterable[Source], now_s: float) -> None:
         for source in sources:
             if self._drained(source):
-                self.hurry(source)
+                self._flowing[source] = now_s + _FLOWS_S
 
     def _drained(self, source: Source) -> int:
         try:
@@ -102,8 +103,8 @@ class Drain:
                 logger.exception("what came in could not be taken, which is said once")
             return 0
 
-    def _still_flowing(self, now_s: float) -> list[Source]:
+    def _calm_down(self, now_s: float) -> None:
+        """Look less often where nothing came for a while."""
         with self._lock:
             for source in [one for one, end_s in self._flowing.items() if end_s < now_s]:
                 del self._flowing[source]
-            return list(self._flowing)

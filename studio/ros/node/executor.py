@@ -228,22 +228,19 @@ class Executor:
             if isinstance(work, Task):
                 return Piece(work.step)
             self._queued.discard(work)
-            piece = self._piece_of(work)
-            if piece is not None:
-                return piece
-        return None
-
-    def _piece_of(self, work: Work) -> Piece | None:
-        if not work.group.begin(work):
-            self._held.add(work)
-            return None
-        run = work.take()
-        if run is None:  # what was ready was overwritten, or taken back
+            if not work.group.begin(work):
+                self._held.add(work)
+                continue
+            run = work.take()
+            if run is not None:
+                if work.is_ready:
+                    self._queue(work)
+                return Piece(run, work)
+            # What was ready was overwritten, or taken back.
             following = work.group.end()
-            return None if following is None else Piece(following.announce)
-        if work.is_ready:
-            self._queue(work)
-        return Piece(run, work)
+            if following is not None:
+                return Piece(following.announce)
+        return None
 
     def _queue(self, work: Work) -> None:
         if work not in self._queued:

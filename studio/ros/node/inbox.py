@@ -32,23 +32,27 @@ class Inbox:
     The drain looks every 2 ms and threads take turns: what came a moment ago is no backlog,
     however fast its sender is, so that a reader that keeps up loses nothing. A depth of 1 means
     the newest and nothing else.
+
+    Attributes:
+        samples: Those that wait, the oldest first; whoever takes one out takes it from the left.
+        overwritten: How many fell out.
     """
 
     def __init__(self, depth: int) -> None:
         self._depth = depth
         self._most = max(depth, SAMPLES_MAX)
         self._blink_ns = BLINK_NS if depth > 1 else 0
-        self._samples: deque[RawSample] = deque()
+        self.samples: deque[RawSample] = deque()
         self._lock = threading.Lock()
         self.overwritten = 0
 
     def __len__(self) -> int:
-        return len(self._samples)
+        return len(self.samples)
 
     def post(self, samples: list[RawSample]) -> None:
         """Put in what came since the last look; what is too old falls out."""
         with self._lock:
-            waiting = self._samples
+            waiting = self.samples
             waiting.extend(samples)
             since_ns = waiting[-1].received_ns - self._blink_ns if waiting else 0
             while len(waiting) > self._depth and (
@@ -60,6 +64,6 @@ class Inbox:
     def take(self) -> RawSample | None:
         """Take the oldest out."""
         try:
-            return self._samples.popleft()
+            return self.samples.popleft()
         except IndexError:
             return None

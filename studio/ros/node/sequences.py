@@ -42,12 +42,15 @@ class Gaps:
             self._meet(gid, _Sender(sequence, source_time_ns))
             return 0
         missing = sequence - sender.last - 1
+        if not missing:
+            sender.last, sender.last_ns = sequence, source_time_ns
+            return 0
         if missing < 0 and source_time_ns <= sender.last_ns:
             self._came_late(sender, sequence)
             return 0
         if missing > 0:
             self._miss(sender, sequence)
-        elif missing < 0:
+        else:
             sender.missing.clear()
         sender.last, sender.last_ns = sequence, source_time_ns
         return max(0, missing)

@@ -117,7 +117,7 @@ class Subscription(Work):
     @property
     def is_ready(self) -> bool:
         """Whether a sample waits for the callback."""
-        return self.callback is not None and len(self._inbox) > 0
+        return bool(self._inbox.samples) and self.callback is not None
 
     def drain(self) -> int:
         """Empty the ring into the queue; of the drain's thread."""
@@ -125,7 +125,8 @@ class Subscription(Work):
         if incoming is None:
             return 0
         samples = incoming.take(RING)
-        came = [raw for sample in samples if (raw := self._received(sample)) is not None]
+        now_ns = time.time_ns()
+        came = [raw for sample in samples if (raw := self._received(sample, now_ns)) is not None]
         if came:
             self._inbox.post(came)
             self._tell()
@@ -170,7 +171,7 @@ class Subscription(Work):
         if self.callback is not None:
             self.announce()
 
-    def _received(self, sample: zenoh.Sample) -> RawSample | None:
+    def _received(self, sample: zenoh.Sample, now_ns: int) -> RawSample | None:
         attachment = sample.attachment
         try:
             unpacked = unpack(None if attachment is None else attachment.to_bytes())
@@ -181,14 +182,16 @@ class Subscription(Work):
         missing = self._gaps.count(unpacked)
         if missing and self.lost_event is not None:
             self.lost_event.count(missing)
-        return RawSample(sample.payload.to_bytes(), unpacked, time.time_ns())
+        return RawSample(sample.payload.to_bytes(), unpacked, now_ns)
 
     def _call_back(self, sample: RawSample) -> object:
         callback: Callable[..., object] | None = self.callback
         if callback is None:
             return None
-        message: Any = sample.payload if self.raw else self._decoded(sample)
-        if message is None:
+        try:
+            message: Any = sample.payload if self.raw else self._codec.decode(sample.payload)
+        except CdrError as error:
+            self._say_malformed(error)
             return None
         if self._wants_info:
             return callback(message, info_of(sample))
@@ -198,9 +201,12 @@ class Subscription(Work):
         try:
             return self._codec.decode(sample.payload)
         except CdrError as error:
-            self._losses.malformed += 1
-            self._say(str(error))
+            self._say_malformed(error)
             return None
+
+    def _say_malformed(self, error: CdrError) -> None:
+        self._losses.malformed += 1
+        self._say(str(error))
 
     def _say(self, reason: str) -> None:
         """Keep why a sample was lost, and log the first of a kind: a flood is no flood of lines."""

@@ -56,9 +56,11 @@ class Incoming(Generic[ItemT]):
         """Take what waits, the oldest first, and no more than so many."""
         taken: list[ItemT] = []
         receive = self._handler.try_recv
-        with contextlib.suppress(zenoh.ZError):  # no more will come
+        try:
             while len(taken) < most and (item := receive()) is not None:
                 taken.append(item)
+        except zenoh.ZError:  # no more will come
+            pass
         return taken
 
     def __iter__(self) -> Iterator[ItemT]:
