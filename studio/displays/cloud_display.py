@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections import deque
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, ClassVar, Final
 
 from studio.displays.cloud_look import LOOK, colours_of, needs_precision, points_of
 from studio.displays.display import Display, Status
@@ -15,11 +15,18 @@ from studio.displays.reading import reading
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    import numpy as np
+    from numpy.typing import NDArray
+
     from studio.displays.cloud import Cloud
     from studio.displays.display import Received
     from studio.displays.limits import Limits
     from studio.displays.properties import Property, Value
     from studio.ros.types.library import TypeLibrary
+
+
+_SIZE: Final = "Size (m)"
+_WITHOUT_COLOUR: Final = {"Style", _SIZE, "Alpha", "Decay Time"}
 
 
 @dataclass(slots=True, eq=False)
@@ -29,6 +36,7 @@ class _Kept:
     path: str
     received_ns: int
     cloud: Cloud
+    colours: NDArray[np.uint8] | None = None
     placed: Placed | None = None
     said: Status | None = None
 
@@ -42,6 +50,7 @@ class CloudDisplay(Display):
         super().__init__(types, values)
         self._kept: deque[_Kept] = deque()
         self._left_out = 0
+        self._precise = False
         self._drawing: Drawing | None = NOTHING
 
     @abstractmethod
@@ -68,14 +77,19 @@ class CloudDisplay(Display):
         """Look different from now on."""
         if name == "Decay Time" and not self._decay_ns():
             self._keep_newest()
+        if name in ("", _SIZE):
+            self._precise = False
         for one in self._kept:
             one.placed = None
+            if name not in _WITHOUT_COLOUR:
+                one.colours = None
         self._drawing = None
 
     def reset(self) -> None:
         """Forget all clouds."""
         self._kept.clear()
         self._left_out = 0
+        self._precise = False
         self._drawing = NOTHING
 
     def draw(self, now_ns: int) -> Drawing:
@@ -100,10 +114,11 @@ class CloudDisplay(Display):
         if not one.cloud.count:
             return None
         if one.placed is None:
-            size_m = float(self.values["Size (m)"])
-            colours, one.said = colours_of(one.cloud, self.values)
-            precise = needs_precision(one.cloud.positions, size_m)
-            shape = points_of(one.cloud, colours, self.values, precise=precise)
+            if one.colours is None:
+                one.colours, one.said = colours_of(one.cloud, self.values)
+            # Once asked for it stays: a cloud that reaches now here, now there would be sent anew.
+            self._precise |= needs_precision(one.cloud.positions, float(self.values[_SIZE]))
+            shape = points_of(one.cloud, one.colours, self.values, precise=self._precise)
             one.placed = Placed(one.cloud.frame, one.cloud.stamp_ns, {"points": shape})
         return one.placed
 

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 
 _INFO: Final = "camera_info"
 _COMPRESSED: Final = "sensor_msgs/msg/CompressedImage"
+_OF_SHADES: Final = ("Normalize Range", "Min Value", "Max Value", "Median window")
 _WINDOW_MAX: Final = 100
 # Of usual cameras, until the camera info comes.
 _GUESSED_FOV_Y_RAD: Final = math.radians(45.0)
@@ -82,10 +83,17 @@ class ImageDisplay(StillDisplay):
     def reset(self) -> None:
         """Forget picture and camera."""
         self._pixels: NDArray[Any] | None = None
+        self._shaded: NDArray[np.uint8] | None = None
         self._frame, self._stamp_ns = "", 0
         self._view: _View | None = None
         self._heard_info = False
         self._ranges: deque[tuple[float, float]] = deque(maxlen=_WINDOW_MAX)
+        self.redraw()
+
+    def changed(self, name: str) -> None:
+        """Look different from now on; the picture itself only when its shades change."""
+        if name in _OF_SHADES:
+            self._shaded = None
         self.redraw()
 
     def take(self, received: Received, role: str = "") -> None:
@@ -105,6 +113,7 @@ class ImageDisplay(StillDisplay):
         read = read_compressed if type_name == _COMPRESSED else read_image
         pixels, stamp_ns = read(message, self.limits.pixels), stamp_of(message.header)
         self._pixels, self._frame, self._stamp_ns = pixels, message.header.frame_id, stamp_ns
+        self._shaded = None
         if _is_numbers(pixels):
             self._ranges.append(_range_of(pixels))
         self.redraw()
@@ -129,12 +138,14 @@ class ImageDisplay(StillDisplay):
         if pixels is None or not pixels.size:
             return NOTHING
         aspect = pixels.shape[1] / pixels.shape[0]
+        if self._shaded is None:
+            self._shaded = self._shades(pixels)
         view = self._view or _View(_GUESSED_FOV_Y_RAD, aspect, skewed=False)
         shape = Frustum(
             fov_y_rad=view.fov_y_rad,
             aspect=view.aspect,
             far_m=float(self.values["Far clip"]),
-            image=self._shades(pixels),
+            image=self._shaded,
             rgb=rgb_of(self.values["Edge color"]),
             opacity=float(self.values["Alpha"]),
         )

@@ -69,7 +69,19 @@ def test_a_drawing_and_its_shapes_stay_the_same_objects_until_something_changes(
     third = points(display.draw(NOW_NS + SECOND))
     assert third["0"] is not points(first)["0"]
     assert third["0"].positions is points(first)["0"].positions
+    assert third["0"].colors is points(first)["0"].colors
     assert third["0"].opacity == 0.5
+
+
+def test_precision_that_was_needed_once_is_kept_until_points_are_larger():
+    display = display_with()
+    precise: list[bool] = []
+    for x in (7.0, 9.0, 7.0):
+        take(display, x, 0.0)
+        precise.append(points(display.draw(NOW_NS))["0"].precise)
+    display.set("Size (m)", 0.02)
+    precise.append(points(display.draw(NOW_NS))["0"].precise)
+    assert precise == [False, True, True, False]
 
 
 def test_without_a_decay_time_the_newest_of_all_stays():

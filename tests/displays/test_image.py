@@ -162,11 +162,13 @@ def test_depths_that_are_none_are_told():
 def test_properties_change_how_it_is_drawn():
     display = ImageDisplay(TYPES)
     display.take(info(), "camera_info")
-    display.take(image(RGB))
+    display.take(image(np.array([[1, 2]], dtype=np.uint8), "mono8"))
+    before = shown(display).image
     display.set("Far clip", 3.0)
     display.set("Edge color", "#0a141e")
     display.set("Alpha", 0.0)
     assert (shown(display).far_m, shown(display).rgb) == (3.0, (10, 20, 30))
+    assert shown(display).image is before
     (status,) = display.statuses()
     assert (status.reason, status.mend) == ("transparent", ("Alpha", 1.0))
 
