@@ -55,6 +55,7 @@ class LifecycleNode(Node, ManagedEntity):
         msg_type: type[MessageValue],
         topic: str,
         qos_profile: QoSProfile | int,
+        **options: Any,  # noqa: ANN401  # those of create_publisher
     ) -> LifecyclePublisher:
         """Make a publisher that sends only while the node is active.
 
@@ -64,7 +65,9 @@ class LifecycleNode(Node, ManagedEntity):
         """
         made = cast(
             "LifecyclePublisher",
-            self.create_publisher(msg_type, topic, qos_profile, publisher_class=LifecyclePublisher),
+            self.create_publisher(
+                msg_type, topic, qos_profile, publisher_class=LifecyclePublisher, **options
+            ),
         )
         self.add_managed_entity(made)
         return made

@@ -222,9 +222,9 @@ class Node(GraphQueries, NodeParameters):
         self.add_work(guard)
         return guard
 
-    def create_rate(self, frequency: float) -> Rate:
+    def create_rate(self, frequency: float, clock: Clock | None = None) -> Rate:
         """Make a rate of so many beats a second; it sleeps only while the node spins."""
-        rate = Rate(self, frequency)
+        rate = Rate(self, frequency, clock)
         self._rates.append(rate)
         return rate
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from studio.errors import DestroyedError, ExternalShutdownException
 
 if TYPE_CHECKING:
+    from studio.ros.node.clock import Clock
     from studio.ros.node.node import Node
     from studio.ros.node.timer import Timer
 
@@ -20,13 +21,13 @@ class Rate:
     A beat that came before `sleep` counts, so that a loop of `spin_once` and `sleep` keeps time.
     """
 
-    def __init__(self, node: Node, frequency_hz: float) -> None:
+    def __init__(self, node: Node, frequency_hz: float, clock: Clock | None = None) -> None:
         if frequency_hz <= 0:
             raise ValueError("a rate is above 0 Hz")
         self._node = node
         self._beat = threading.Event()
         self._period_s = 1.0 / frequency_hz
-        self._timer: Timer | None = node.create_timer(self._period_s, self._beat.set)
+        self._timer: Timer | None = node.create_timer(self._period_s, self._beat.set, clock=clock)
         node.context.on_end(self._beat.set)
 
     def sleep(self) -> None:

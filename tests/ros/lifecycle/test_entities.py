@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import pytest
 
+from studio.ros.event_handler import PublisherEventCallbacks
 from studio.ros.lifecycle import (
     LifecycleNode,
     LifecycleState,
@@ -31,7 +32,11 @@ def test_a_lifecycle_publisher_sends_only_while_its_node_is_active():
         node = LifecycleNode("talker", context=host.context)
         wait_until("heard", lambda: bool(node.graph.subscriptions("/chatter")))
         string = node.wire.types.message("std_msgs/msg/String")
-        publisher = node.create_lifecycle_publisher(string, "chatter", 10)
+        callbacks = PublisherEventCallbacks(matched=print)
+        publisher = node.create_lifecycle_publisher(
+            string, "chatter", 10, event_callbacks=callbacks
+        )
+        assert len(publisher.events) == 1
         node.trigger_configure()
         for number in range(4):
             publisher.publish(string(data=str(number)))

@@ -139,3 +139,13 @@ def test_a_rate_sleeps_while_another_thread_spins(endpoint: str):
             rate.sleep()
         with pytest.raises(ValueError, match="above 0"):
             node.create_rate(0)
+
+
+def test_a_rate_on_a_clock_of_its_own_beats_while_nobody_tells_the_time_of_ros(endpoint: str):
+    with context_at(endpoint) as context:
+        sim_time = rclpy.Parameter("use_sim_time", value=True)
+        node = rclpy.Node("simulated", context=context, parameter_overrides=[sim_time])
+        steady = rclpy.Clock(clock_type=rclpy.ClockType.STEADY_TIME)
+        rate = node.create_rate(200.0, steady)
+        with spinning(node):
+            rate.sleep()
