@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from studio.displays.tf import TfDisplay
 from studio.engine.live.frames_desk import FramesDesk
 from studio.engine.live.reasons import remarks_on
 from studio.engine.live.running import RunningDisplay
@@ -14,6 +15,7 @@ from studio.ros.messages.shared import shared_types
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
+    from studio.displays.display import Display
     from studio.engine.live.display_list import DisplayList, DisplaySpec
     from studio.engine.live.placing import Pose
     from studio.engine.model import Model
@@ -83,9 +85,10 @@ class DrawingRoom:
         """Draw what came since the last step."""
         self.frames.step()
         self._place_robot()
-        for spec in displays:
-            if displays.is_shown(spec):
-                self._draw(spec.id, self._running[spec.id], now_ns)
+        shown = [(one.id, self._running[one.id]) for one in displays if displays.is_shown(one)]
+        self._show_frames(running.display for _, running in shown)
+        for display, running in shown:
+            self._draw(display, running, now_ns)
 
     def view(self, spec: DisplaySpec) -> DisplayView:
         """One display as it is set."""
@@ -148,6 +151,14 @@ class DrawingRoom:
             self._faults[display] = str(error)
         if self._scene.live.missing_meshes():
             self._want_meshes()
+
+    def _show_frames(self, displays: Iterable[Display]) -> None:
+        """Hand all frames to those that draw them."""
+        drawing = [one for one in displays if isinstance(one, TfDisplay)]
+        if drawing:
+            frames = self.frames.buffer.all_in(self.frames.fixed)
+            for display in drawing:
+                display.show(frames)
 
     def _place_robot(self) -> None:
         pose, self._robot_trouble = self.frames.robot_pose()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
+from studio.displays.drawing import FIXED_FRAME
 from studio.engine.live.own_frames import OwnFrames
 from studio.engine.messages.live import FrameView, GetTf, TfFrames, TfPose
 from studio.errors import CdrError, FrameError
@@ -80,7 +81,9 @@ class FramesDesk:
         Raises:
             FrameError: There is none at that time.
         """
-        pose = self.buffer.fixed_from(self.fixed, frame, stamp_ns)
+        pose = self.buffer.fixed_from(
+            self.fixed, self.fixed if frame == FIXED_FRAME else frame, stamp_ns
+        )
         return pose.wxyz, pose.xyz
 
     def robot_pose(self) -> tuple[Pose | None, str]:

@@ -100,11 +100,13 @@ class LiveDesk:
         if command.topic:
             await self._connect()
 
-    def remove(self, command: m.RemoveDisplay) -> None:
+    async def remove(self, command: m.RemoveDisplay) -> None:
         """Take a display away."""
         self._list.remove(command.display)
-        self._spawn_close(command.display)
+        running = self._room.close(command.display)
         self._changed()
+        if running is not None:
+            await asyncio.to_thread(running.deafen)
 
     def duplicate(self, command: m.DuplicateDisplay) -> None:
         """Add one like another."""
@@ -135,10 +137,13 @@ class LiveDesk:
         before = self._list.get(command.display)
         listening = Listening(command.reliable, command.latched, command.depth)
         spec = replace(before, topic=command.topic.strip(), listening=listening)
+        old = None
         if spec.topic != before.topic:
-            await self._close_display(spec.id)
+            old = self._room.close(spec.id)
             self._room.open(spec)
         self._change(spec)
+        if old is not None:
+            await asyncio.to_thread(old.deafen)
         if spec.topic:
             await self._connect()
 
@@ -228,15 +233,6 @@ class LiveDesk:
             await asyncio.to_thread(self._file.write, kept)
 
         self._keeping = asyncio.create_task(write())
-
-    def _spawn_close(self, display: str) -> None:
-        task = asyncio.create_task(self._close_display(display))
-        task.add_done_callback(lambda _: None)
-
-    async def _close_display(self, display: str) -> None:
-        running = self._room.close(display)
-        if running is not None:
-            await asyncio.to_thread(running.deafen)
 
     @property
     def _fixed_frame(self) -> str:

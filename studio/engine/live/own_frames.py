@@ -12,7 +12,7 @@ from studio.tf.rotations import matrices_from_poses, poses_from_matrices
 
 if TYPE_CHECKING:
     from studio.engine.model import Model
-    from studio.robot.kinematics import Floats
+    from studio.robot.kinematics import Floats, Kinematics
     from studio.robot.values import Robot
     from studio.tf.buffer import TransformBuffer
 
@@ -29,10 +29,10 @@ class OwnFrames:
     def __init__(self, model: Model, buffer: TransformBuffer) -> None:
         self._model, self._buffer = model, buffer
         self._lock = threading.Lock()
-        self._robot: Robot | None = None
+        self._kinematics: Kinematics | None = None
+        self._values: Floats = np.empty(0)
         self._rooted: Robot | None = None
         self._root = ""
-        self._poses: Floats = np.empty((0, 7))
         self._children: frozenset[str] = frozenset()
         self._told_by_others: frozenset[str] = frozenset()
 
@@ -63,16 +63,17 @@ class OwnFrames:
         """Tell of all again: nobody is heard any more."""
         with self._lock:
             self._told_by_others, self._children = frozenset(), frozenset()
-            self._robot = None
+            self._kinematics = None
 
     def step(self) -> None:
         """Tell what changed since the last step."""
         robot, kinematics = self._model.robot, self._model.kinematics
-        poses = kinematics.wxyz_xyz(self._model.joints.values)
-        if robot is self._robot and np.array_equal(poses, self._poses):
+        values = self._model.joints.values
+        if kinematics is self._kinematics and np.array_equal(values, self._values):
             return
+        poses = kinematics.wxyz_xyz(values)
         with self._lock:
-            self._robot, self._poses = robot, poses
+            self._kinematics, self._values = kinematics, values.copy()
             columns = _transforms(robot, kinematics.link_names, poses, self._told_by_others)
             children = frozenset(columns.children)
             self._buffer.drop(self._children - children)

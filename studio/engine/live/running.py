@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+from contextlib import suppress
 from typing import TYPE_CHECKING, Final
 
 from studio.displays.catalogue import display_of_kind, displays_of_type
@@ -11,7 +12,7 @@ from studio.displays.drawing import NOTHING
 from studio.engine.live.ear import Ear, on_wire, topic_of, wish_for
 from studio.engine.live.placing import Placing
 from studio.engine.live.reasons import Facts, OnWire
-from studio.errors import StudioError
+from studio.errors import DisplayPropertyError, StudioError
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
@@ -34,12 +35,15 @@ class RunningDisplay:
     """Lives as long as its kind and topic are the same; on the loop, but for `listen` and `close`.
 
     Raises:
-        DisplayError: There is no such kind, or it does not take the values of the spec.
+        DisplayError: There is no such kind.
     """
 
     def __init__(self, spec: DisplaySpec, types: TypeLibrary) -> None:
         self.spec, self._types = spec, types
-        self.display: Display = display_of_kind(spec.kind)(types, spec.values)
+        self.display: Display = display_of_kind(spec.kind)(types)
+        for name, value in spec.values.items():
+            with suppress(DisplayPropertyError):  # kept by another studio: the others still hold
+                self.display.set(name, value)
         self.placing = Placing()
         self.drawn: Drawing = NOTHING
         """What stands in the scene."""
