@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import io
 import time
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from PIL import Image
 
+from studio.displays.image import ImageDisplay
 from studio.displays.laser_scan import LaserScanDisplay
 from studio.displays.limits import Limits
 from studio.displays.map import MapDisplay
@@ -17,6 +20,8 @@ from tests.benchmarks.report import Timings, judge, say
 from tests.support.display_messages import received
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from studio.displays.display import Display, Received
     from studio.displays.properties import Value
 
@@ -41,6 +46,8 @@ def run() -> None:
     _measure("PointCloud2, 1,000,000, all shown", PointCloud2Display, large, limits=_MILLION)
     _measure("PointCloud2, 1,000,000, 300,000 shown", PointCloud2Display, large)
     _measure("OccupancyGrid, 2,000 x 2,000, all new", MapDisplay, _map(2000), fresh=True)
+    _measure("Image, 1,920 x 1,080, rgb8", ImageDisplay, _image(1920, 1080))
+    _measure("CompressedImage, 1,920 x 1,080, jpeg", ImageDisplay, _jpeg(1920, 1080))
     judge("LaserScan(1080): decode and draw", scan, at_most=0.5)
     judge("PointCloud2(300k): decode and draw", intensity, at_most=15)
     judge("PointCloud2(300k), a third NaN: decode and draw", broken, at_most=15)
@@ -104,3 +111,22 @@ def _map(edge: int) -> Received:
     cells = np.random.default_rng(1).integers(-1, 101, edge * edge).astype(np.int8)
     info = {"width": edge, "height": edge, "resolution": 0.05}
     return received("nav_msgs/msg/OccupancyGrid", {"info": info, "data": cells})
+
+
+def _image(width: int, height: int) -> Received:
+    data = _pixels(width, height)
+    size = {"width": width, "height": height, "step": 3 * width, "encoding": "rgb8"}
+    return received("sensor_msgs/msg/Image", {**size, "data": data.ravel()})
+
+
+def _jpeg(width: int, height: int) -> Received:
+    packed = io.BytesIO()
+    Image.fromarray(_pixels(width, height)).save(packed, "JPEG")
+    fields = {"format": "jpeg", "data": packed.getvalue()}
+    return received("sensor_msgs/msg/CompressedImage", fields)
+
+
+def _pixels(width: int, height: int) -> NDArray[np.uint8]:
+    """A slope of grey: noise would take longer to unpack than any picture."""
+    row = np.linspace(0, 255, width).astype(np.uint8)
+    return np.repeat(np.tile(row, (height, 1))[..., None], 3, axis=2)
