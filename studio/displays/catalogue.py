@@ -5,7 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 
 from studio.displays.accel import AccelDisplay
+from studio.displays.axes import AxesDisplay
+from studio.displays.effort import EffortDisplay
 from studio.displays.fluid_pressure import FluidPressureDisplay
+from studio.displays.grid import GridDisplay
 from studio.displays.grid_cells import GridCellsDisplay
 from studio.displays.illuminance import IlluminanceDisplay
 from studio.displays.image import ImageDisplay
@@ -25,6 +28,7 @@ from studio.displays.pose_with_covariance import PoseWithCovarianceDisplay
 from studio.displays.range import RangeDisplay
 from studio.displays.relative_humidity import RelativeHumidityDisplay
 from studio.displays.temperature import TemperatureDisplay
+from studio.displays.tf import TfDisplay
 from studio.displays.twist import TwistDisplay
 from studio.displays.wrench import WrenchDisplay
 from studio.errors import DisplayError
@@ -34,8 +38,11 @@ if TYPE_CHECKING:
 
 DISPLAYS: Final[tuple[type[Display], ...]] = (
     AccelDisplay,
+    AxesDisplay,
+    EffortDisplay,
     FluidPressureDisplay,
     GridCellsDisplay,
+    GridDisplay,
     IlluminanceDisplay,
     ImageDisplay,
     ImuDisplay,
@@ -54,6 +61,7 @@ DISPLAYS: Final[tuple[type[Display], ...]] = (
     RangeDisplay,
     RelativeHumidityDisplay,
     TemperatureDisplay,
+    TfDisplay,
     TwistDisplay,
     WrenchDisplay,
 )
@@ -78,11 +86,16 @@ def display_of_kind(kind: str) -> type[Display]:
 
 def displays_of_type(type_name: str) -> tuple[type[Display], ...]:
     """Those whose main topic has messages of a type, the best first; none when nothing draws it."""
-    return tuple(one for one in DISPLAYS if one.TOPICS and type_name in one.TOPICS[0].types)
+    return tuple(one for one in DISPLAYS if type_name in _types_of(one))
 
 
 def drawn_types() -> tuple[str, ...]:
     """All types of messages that some display draws, in the order of the alphabet."""
-    return tuple(
-        sorted({name for one in DISPLAYS for topic in one.TOPICS[:1] for name in topic.types})
-    )
+    return tuple(sorted({name for one in DISPLAYS for name in _types_of(one)}))
+
+
+def _types_of(display: type[Display]) -> tuple[str, ...]:
+    """What one looks for: of transforms there is one buffer, which serves TF and all others."""
+    if issubclass(display, TfDisplay):
+        return display.OF_TYPES
+    return display.TOPICS[0].types if display.TOPICS else ()

@@ -53,7 +53,7 @@ class HistoryDisplay(StillDisplay, Generic[Content]):
         super().__init__(types, values)
         self._kept: deque[_Kept[Content]] = deque()
         self._free: list[str] = []
-        self._placed: dict[str, Placed] = {}
+        self._groups: dict[str, Mapping[str, Placed]] = {}
         self._told: tuple[Status, ...] = ()
 
     def take(self, received: Received, role: str = "") -> None:
@@ -85,6 +85,10 @@ class HistoryDisplay(StillDisplay, Generic[Content]):
     def shapes(self, content: Content) -> Mapping[str, Shape]:
         """What is seen of a content with the properties as they are."""
 
+    def groups(self, entry: Entry[Content]) -> Mapping[str, Placed]:
+        """What is seen of a message, by names below its path; most have one without a name."""
+        return {"": self.placed(entry, self.shapes(entry.content))}
+
     def placed(self, entry: Entry[Content], shapes: Mapping[str, Shape]) -> Placed:
         """Where the shapes of a message are."""
         return Placed(entry.frame, entry.stamp_ns, shapes)
@@ -105,7 +109,7 @@ class HistoryDisplay(StillDisplay, Generic[Content]):
 
     def changed(self, name: str) -> None:
         """Draw anew, with the new value."""
-        self._placed.clear()
+        self._groups.clear()
         self._drop_oldest()
         super().changed(name)
 
@@ -113,7 +117,7 @@ class HistoryDisplay(StillDisplay, Generic[Content]):
         """Forget all messages."""
         self._kept.clear()
         self._free.clear()
-        self._placed.clear()
+        self._groups.clear()
         self._told = ()
         super().reset()
 
@@ -168,15 +172,18 @@ class HistoryDisplay(StillDisplay, Generic[Content]):
     def _drop_oldest(self, room_for: int = 0) -> None:
         while len(self._kept) + room_for > self._kept_max:
             path = self._kept.popleft().path
-            self._placed.pop(path, None)
+            self._groups.pop(path, None)
             self._free.append(path)
 
     def _drawn(self) -> Drawing:
+        drawn: dict[str, Placed] = {}
         for path, entry in self._kept:
-            if path not in self._placed:
-                self._placed[path] = self.placed(entry, self.shapes(entry.content))
-        seen = ((path, self._placed[path]) for path, _ in self._kept)
-        return {path: placed for path, placed in seen if placed.shapes} or NOTHING
+            if path not in self._groups:
+                self._groups[path] = self.groups(entry)
+            for name, placed in self._groups[path].items():
+                if placed.shapes:
+                    drawn[f"{path}/{name}" if name else path] = placed
+        return drawn or NOTHING
 
 
 def frame_and_stamp(header: Any) -> tuple[str, int]:  # noqa: ANN401 - a message

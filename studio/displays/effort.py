@@ -1,0 +1,198 @@
+"""EffortDisplay: how hard the joints of a robot push, as arrows round their axes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final, NamedTuple
+
+import numpy as np
+
+from studio.displays.colour_maps import RAINBOW, mapped
+from studio.displays.display import Status, TopicRole
+from studio.displays.drawing import NO_TURN, Arrows, Lines, Placed
+from studio.displays.history import KEPT_MAX, Entry, HistoryDisplay, frame_and_stamp
+from studio.displays.pose_look import length
+from studio.displays.properties import Property
+from studio.displays.reading import reading
+from studio.displays.turning import FAR, drawable, shortest_turn, turned
+from studio.errors import DisplayMessageError, RobotError
+from studio.robot.urdf_text import robot_from_urdf
+from studio.robot.values import JointType
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from numpy.typing import NDArray
+
+    from studio.displays.display import Reason, Received
+    from studio.displays.drawing import Shape
+    from studio.displays.properties import Value
+    from studio.displays.turning import Floats
+    from studio.robot.values import Joint, Robot
+    from studio.ros.types.library import TypeLibrary
+
+_DESCRIPTION: Final = "description"
+_DESCRIPTION_LETTERS_MAX: Final = 4_000_000
+_NO_DESCRIPTION: Final = (
+    "No robot description has come, which tells the axes of the joints: it is expected on the "
+    "topic robot_description beside the joint states."
+)
+_OTHER_JOINTS: Final = "The robot description has none of the joints whose efforts are told."
+_ROUND: Final = (JointType.REVOLUTE, JointType.CONTINUOUS)
+_UP: Final = np.array([0.0, 0.0, 1.0])
+_LEAST: Final = 0.05
+# As in RViz, 30 of 32 points of a circle, which begins at the head of its arrow.
+_CIRCLE_RAD: Final = np.arange(30) * (2.0 * np.pi / 32)
+
+
+class Efforts(NamedTuple):
+    """What a message says: names of joints, and how hard each pushes, N m; shape (N,)."""
+
+    joints: tuple[str, ...]
+    efforts: Floats
+
+
+class Ring(NamedTuple):
+    """How one joint is drawn: about which axis in the frame of its child link, and how strongly."""
+
+    frame: str
+    axis: Floats
+    effort: float
+    share: float
+
+
+class EffortDisplay(HistoryDisplay[Efforts]):
+    """Draws the last efforts about the axes that a robot description tells."""
+
+    KIND = "Effort"
+    DOC = "How hard the joints of a robot push, as arrows round their axes."
+    TOPICS = (
+        TopicRole("", ("sensor_msgs/msg/JointState",), newest_only=False),
+        TopicRole(
+            _DESCRIPTION, ("std_msgs/msg/String",), beside="/robot_description", latched=True
+        ),
+    )
+    PROPERTIES = (
+        Property("Alpha", "number", 1.0, "How opaque the arrows are.", 0.0, 1.0),
+        length("Width", 0.02, "How thick the arrows are."),
+        Property("Scale", "number", 1.0, "How large the arrows are.", 0.0, 1000.0),
+        Property("History Length", "whole", 1, "How many messages are shown.", 1, KEPT_MAX),
+        Property("TF Prefix", "text", "", "What stands before the names of links on /tf."),
+    )
+    KEEPS = "History Length"
+
+    def __init__(self, types: TypeLibrary, values: Mapping[str, Value] | None = None) -> None:
+        super().__init__(types, values)
+        self._robot: Robot | None = None
+
+    def take(self, received: Received, role: str = "") -> None:
+        """Take in joint states, or the description of the robot.
+
+        Raises:
+            StudioError: It cannot be read.
+        """
+        if role == _DESCRIPTION:
+            self._robot = self._described(received)
+            self.changed("")
+        else:
+            super().take(received)
+
+    def read(self, received: Received) -> Entry[Efforts] | None:
+        """The efforts, if there is one for each joint."""
+        message = self.decode(received)
+        names, efforts = tuple(message.name), np.array(message.effort, dtype=np.float64)
+        if len(names) != len(efforts):
+            return self.refuse(*_why_none(len(names), len(efforts)))
+        if len(efforts) and not drawable(efforts[:, None]).any():
+            return self.refuse(
+                "not_finite", f"None of the {len(names):,} efforts is finite and below 1e12."
+            )
+        return Entry(*frame_and_stamp(message.header), Efforts(names, efforts))
+
+    def shapes(self, content: Efforts) -> dict[str, Shape]:
+        """Nothing in the frame of the message: each joint has a frame of its own."""
+        del content
+        return {}
+
+    def groups(self, entry: Entry[Efforts]) -> dict[str, Placed]:
+        """A ring for each joint that turns, in the frame of its child link."""
+        rings = self._rings(entry.content)
+        return {
+            str(number): Placed(ring.frame, entry.stamp_ns, self._ring(ring))
+            for number, ring in enumerate(rings)
+        }
+
+    def statuses(self) -> tuple[Status, ...]:
+        """Also that it is not known where the joints are."""
+        newest = self.newest
+        if newest is None:
+            return super().statuses()
+        if self._robot is None:
+            return (Status("warn", "empty", _NO_DESCRIPTION), *super().statuses())
+        if not any(name in self._robot.joints for name in newest.content.joints):
+            return (Status("warn", "empty", _OTHER_JOINTS), *super().statuses())
+        return super().statuses()
+
+    def _described(self, received: Received) -> Robot:
+        with reading(received.type_name):
+            text = str(self.decode(received).data)
+        if len(text) > _DESCRIPTION_LETTERS_MAX:
+            reason = f"a robot description of {len(text):,} letters is too long"
+            raise DisplayMessageError(received.type_name, reason)
+        try:
+            return robot_from_urdf(text)
+        except RobotError as error:
+            reason = f"it is no robot description: {str(error).rstrip('.')}"
+            raise DisplayMessageError(received.type_name, reason) from error
+
+    def _rings(self, content: Efforts) -> list[Ring]:
+        joints = {} if self._robot is None else self._robot.joints
+        told = zip(content.joints, content.efforts.tolist(), strict=True)
+        found = ((joints.get(name), effort) for name, effort in told if abs(effort) <= FAR)
+        made = [self._ring_of(joint, effort) for joint, effort in found if joint is not None]
+        return [ring for ring in made if ring is not None]
+
+    def _ring_of(self, joint: Joint, effort: float) -> Ring | None:
+        axis = np.array(joint.axis, dtype=np.float64)
+        size = float(np.linalg.norm(axis)) if drawable(axis[None]).all() else 0.0
+        if joint.type not in _ROUND or size == 0:
+            return None
+        most = joint.limit.effort if joint.limit is not None else 0.0
+        share = min(abs(effort) / most, 1.0) if 0 < most <= FAR else abs(effort)
+        prefix = str(self.values["TF Prefix"])
+        frame = f"{prefix}/{joint.child}" if prefix else joint.child
+        return Ring(frame, axis / size, effort, share + _LEAST)
+
+    def _ring(self, ring: Ring) -> dict[str, Shape]:
+        """A part of a circle about an axis, from the head of its arrow on."""
+        width_m, alpha = self.number("Width"), self.number("Alpha")
+        radius_m = _LEAST + ring.share * self.number("Scale") / 2
+        if radius_m > FAR:
+            return {}
+        way = -1.0 if ring.effort > 0 else 1.0
+        around = radius_m * np.stack(
+            (-way * np.sin(_CIRCLE_RAD), np.cos(_CIRCLE_RAD), np.zeros(_CIRCLE_RAD.size)), axis=1
+        )
+        head = np.array([[0.0, radius_m, 0.0], [way * 2.0 * width_m, radius_m, 0.0]])
+        points = _about(ring.axis, np.concatenate((around, head)))
+        colour = mapped(np.array([1.0 - ring.share]), RAINBOW)[0]
+        pieces = np.stack((points[:-3], points[1:-2]), axis=1)
+        shapes: dict[str, Shape] = {"ring": Lines(pieces, colour, width_m, alpha)}
+        if width_m:
+            ends = points[None, -2:]
+            shapes["head"] = Arrows(ends, colour, 0.0, 4.0 * width_m, 2.0 * width_m, alpha)
+        return shapes
+
+
+def _about(axis: Floats, around_z: Floats) -> NDArray[np.float32]:
+    """Points (N, 3) about z as they are about another axis, float32."""
+    turn = shortest_turn(_UP, axis) if axis @ _UP < 1.0 else np.array(NO_TURN)
+    return turned(np.tile(turn, (len(around_z), 1)), around_z).astype(np.float32)
+
+
+def _why_none(names: int, efforts: int) -> tuple[Reason, str]:
+    if not efforts:
+        return "empty", "The joint states carry no efforts: their publisher tells positions alone."
+    sentence = (
+        f"The joint states carry {names:,} names and {efforts:,} efforts: as many are needed."
+    )
+    return "bad_message", sentence
