@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, ClassVar, Final, Literal, NamedTuple, TypeAlias
 
 from studio.displays.drawing import NOTHING, Drawing
 from studio.displays.limits import Limits
@@ -22,6 +22,8 @@ Reason: TypeAlias = Literal[
     "no_mesh", "unknown_field", "no_camera_info", "unsupported", "thinned",
 ]  # fmt: skip
 """Why nothing, or not everything, is seen, as far as the display itself can know."""
+
+_TRANSPORTS: Final = {"compressed", "compressedDepth", "ffmpeg", "theora", "zstd"}
 
 
 class Received(NamedTuple):
@@ -57,6 +59,19 @@ class TopicRole:
     reliable: bool = True
     latched: bool = False
     depth: int = 5
+
+    def topic(self, main: str) -> str:
+        """The topic of this role beside a main one.
+
+        Pictures of a transport lie one name deeper, as `/camera/image/compressed`: what is beside
+        the picture is meant.
+        """
+        if not self.beside.startswith("/"):
+            return main + self.beside
+        above, _, last = main.rpartition("/")
+        if last in _TRANSPORTS:
+            above = above.rpartition("/")[0]
+        return above + self.beside
 
 
 class Status(NamedTuple):

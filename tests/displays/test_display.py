@@ -1,6 +1,6 @@
 import pytest
 
-from studio.displays.display import Received, StillDisplay
+from studio.displays.display import Received, StillDisplay, TopicRole
 from studio.displays.drawing import Placed, Text
 from studio.displays.properties import Property
 from studio.errors import CdrError, DisplayPropertyError, UnknownTypeError
@@ -43,3 +43,21 @@ def test_a_message_is_read_by_the_type_that_it_names():
         words.decode(Received("std_msgs/msg/String", b"\x00\x01\x00\x00\xff", 0))
     with pytest.raises(UnknownTypeError):
         words.decode(Received("no_msgs/msg/Such", cdr, 0))
+
+
+@pytest.mark.parametrize(
+    ("beside", "main", "topic"),
+    [
+        ("", "/map", "/map"),
+        ("_updates", "/map", "/map_updates"),
+        ("/camera_info", "/camera/image_raw", "/camera/camera_info"),
+        ("/camera_info", "/image", "/camera_info"),
+        ("/camera_info", "/a/image_raw/compressed", "/a/camera_info"),
+        ("/camera_info", "/a/image_raw/compressedDepth", "/a/camera_info"),
+        ("/robot_description", "/joint_states", "/robot_description"),
+    ],
+)
+def test_a_topic_beside_the_main_one_follows_its_name_or_lies_beside_it(
+    beside: str, main: str, topic: str
+):
+    assert TopicRole("other", (), beside=beside).topic(main) == topic
