@@ -1,0 +1,50 @@
+"""Axes: a cross of red, green and blue at a frame."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, ClassVar
+
+import numpy as np
+
+from studio.displays.display import Status, StillDisplay
+from studio.displays.drawing import FIXED_FRAME, NO_TURN, NOTHING, Axes, Placed
+from studio.displays.properties import Property
+
+if TYPE_CHECKING:
+    from studio.displays.drawing import Drawing
+
+_LEAST_M = 0.0001
+
+
+class AxesDisplay(StillDisplay):
+    """Marks where a frame is, and how it is turned."""
+
+    KIND = "Axes"
+    DOC = "Shows the axes of one frame: x is red, y is green, z is blue."
+    PROPERTIES: ClassVar[tuple[Property, ...]] = (
+        Property("Reference Frame", "frame", FIXED_FRAME, "The frame whose axes are shown."),
+        Property("Length", "number", 1.0, "Length of each axis.", low=_LEAST_M, high=1e6, unit="m"),
+        Property("Radius", "number", 0.1, "Radius of each axis.", low=_LEAST_M, high=1e6, unit="m"),
+        Property("Alpha", "number", 1.0, "How opaque it is: 0 is not seen.", low=0.0, high=1.0),
+    )
+
+    def statuses(self) -> tuple[Status, ...]:
+        """What cannot be seen at all."""
+        if self.values["Alpha"]:
+            return ()
+        words = "Alpha is 0, so nothing of the axes is seen."
+        return (Status("warn", "transparent", words, ("Alpha", 1.0)),)
+
+    def _drawn(self) -> Drawing:
+        if not self.values["Alpha"]:
+            return NOTHING
+        axes = Axes(
+            np.zeros((1, 3), np.float32),
+            np.array([NO_TURN], np.float32),
+            float(self.values["Length"]),
+            float(self.values["Radius"]),
+            float(self.values["Alpha"]),
+        )
+        return {
+            "axes": Placed(str(self.values["Reference Frame"]), 0, {"axes": axes}, follows=True)
+        }

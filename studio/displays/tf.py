@@ -1,0 +1,251 @@
+"""TF: all frames, their names, and arrows to their parents."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, ClassVar, Final, NamedTuple
+
+import numpy as np
+
+from studio.displays.display import Display, Status
+from studio.displays.drawing import NOTHING, Placed
+from studio.displays.frame_choice import BLACKLIST, FRAMES, PROPERTIES, WHITELIST, FrameChoice
+from studio.displays.frame_look import (
+    Shades,
+    arrows_to_parents,
+    faded_axes,
+    fresh_axes,
+    name_of,
+    shades_of,
+)
+from studio.displays.properties import Property
+from studio.errors import DisplayPropertyError
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from studio.displays.drawing import Drawing, Shape
+    from studio.displays.properties import Value
+    from studio.displays.turning import Flags, Floats
+    from studio.ros.types.library import TypeLibrary
+    from studio.tf.frames_now import FramesNow
+
+NAMES_MAX: Final = 1000
+"""Names are nodes of their own, and nobody could read more."""
+_SETTINGS_MAX: Final = 25_000
+_STILL: Final = 1e-6
+"""Of a place in m or of a part of a quaternion: who moved less stands still."""
+
+
+class _Seen(NamedTuple):
+    """What of the frames is drawn: rows of those that are shown."""
+
+    frames: FramesNow
+    shown: Flags
+    shades: Shades
+
+    def looks_like(self, other: _Seen) -> bool:
+        """Whether no eye would tell one from the other."""
+        ours, theirs = self.frames, other.frames
+        return (
+            ours.names is theirs.names
+            and ours.fixed == theirs.fixed
+            and np.array_equal(self.shown, other.shown)
+            and np.array_equal(self.shades.grey, other.shades.grey)
+            and np.array_equal(self.shades.opacity, other.shades.opacity)
+            and bool(np.abs(ours.wxyz_xyz - theirs.wxyz_xyz).max(initial=0.0) <= _STILL)
+        )
+
+
+class TfDisplay(Display):
+    """Draws frames that it is shown; it takes no messages, since one buffer serves all displays.
+
+    Crosses and arrows are few nodes in the fixed frame. Each name is a group of its own that
+    follows its frame, so that it is sent once.
+    """
+
+    KIND = "TF"
+    DOC = "Shows all frames with their names, and arrows to their parents."
+    OF_TYPES: ClassVar[tuple[str, ...]] = ("tf2_msgs/msg/TFMessage",)
+    """Messages by which one finds this display."""
+    PROPERTIES: ClassVar[tuple[Property, ...]] = (
+        Property("Show Names", "switch", default=True, doc="Writes the name of each frame."),
+        Property("Show Axes", "switch", default=True, doc="Shows the axes of each frame."),
+        Property(
+            "Show Arrows", "switch", default=True, doc="Shows an arrow from each to its parent."
+        ),
+        Property(
+            "Marker Scale", "number", 1.0, "Size of axes, arrows and names.", low=0.001, high=1000.0
+        ),
+        Property(
+            "Marker Alpha", "number", 1.0, "How opaque they are: 0 is not seen.", low=0.0, high=1.0
+        ),
+        Property(
+            "Frame Timeout",
+            "number",
+            15.0,
+            "After this time without news a frame has faded away.",
+            low=1.0,
+            high=1e6,
+            unit="s",
+        ),
+        *PROPERTIES,
+    )
+
+    def __init__(self, types: TypeLibrary, values: Mapping[str, Value] | None = None) -> None:
+        super().__init__(types, values)
+        self._choice = FrameChoice(self.values)
+        self._frames: FramesNow | None = None
+        self._seen: _Seen | None = None
+        self._drawing: Drawing = NOTHING
+        self._names: dict[str, Placed] = {}
+
+    def show(self, frames: FramesNow) -> None:
+        """Draw these from now on."""
+        self._frames = frames
+
+    def properties(self) -> tuple[Property, ...]:
+        """Those of all frames, and a check for each frame that is there."""
+        names = () if self._frames is None else sorted(self._frames.names)
+        return (*self.PROPERTIES, *(self._property(f"{FRAMES}/{name}") for name in names))
+
+    def set(self, name: str, value: object) -> None:
+        """Change a property.
+
+        Raises:
+            DisplayPropertyError: There is none of that name, or the value is of another kind.
+        """
+        if name not in self.values and len(self.values) >= _SETTINGS_MAX:
+            raise DisplayPropertyError(name, "is one frame too many to be set", None)
+        super().set(name, value)
+
+    def changed(self, name: str) -> None:
+        """Draw anew; switching all is switching each, as in RViz."""
+        if name == FRAMES:
+            for each in [one for one in self.values if one.startswith(f"{FRAMES}/")]:
+                del self.values[each]
+        self._choice.changed()
+        self._names.clear()
+        self._seen = None
+
+    def reset(self) -> None:
+        """Forget what was shown."""
+        self._frames = None
+        super().reset()
+
+    def draw(self, now_ns: int) -> Drawing:
+        """What is to be seen of the frames shown last."""
+        del now_ns
+        if self._frames is None or not self.values["Marker Alpha"]:
+            self._seen = None
+            return NOTHING
+        seen = self._look(self._frames)
+        if self._seen is None or not seen.looks_like(self._seen):
+            self._seen, self._drawing = seen, self._drawn(seen)
+        return self._drawing
+
+    def statuses(self) -> tuple[Status, ...]:
+        """Why nothing is seen of the frames, and what is left out."""
+        if not self.values["Marker Alpha"]:
+            words = "Marker Alpha is 0, so nothing of the frames is seen."
+            return (Status("warn", "transparent", words, ("Marker Alpha", 1.0)),)
+        if self._frames is None or not self._frames.names:
+            return (Status("warn", "empty", "No transform has come yet."),)
+        found = (self._nothing_chosen(), self._not_connected(), self._too_many())
+        return tuple(one for one in found if one is not None)
+
+    def _nothing_chosen(self) -> Status | None:
+        if self._frames is None or self._choice.of(self._frames.names).any():
+            return None
+        for name in (WHITELIST, BLACKLIST):
+            if self.values[name]:
+                words = f"{name} lets no frame through."
+                return Status("warn", "empty", words, (name, ""))
+        return Status("warn", "empty", "All frames are switched off.", (FRAMES, True))
+
+    def _not_connected(self) -> Status | None:
+        if self._frames is None:
+            return None
+        lost = _rows(self._choice.of(self._frames.names) & ~self._frames.connected)
+        if not lost:
+            return None
+        names = [self._frames.names[row] for row in lost[:3]]
+        more = f" and {len(lost) - len(names)} more" if len(lost) > len(names) else ""
+        words = f"Nothing connects {', '.join(names)}{more} with {self._frames.fixed}."
+        return Status("error", None, words)
+
+    def _too_many(self) -> Status | None:
+        count = 0 if self._seen is None else int(self._seen.shown.sum())
+        if not self.values["Show Names"] or count <= NAMES_MAX:
+            return None
+        words = f"Of {count} frames the names of {NAMES_MAX} are written: filter the others."
+        return Status("warn", "unsupported", words)
+
+    def _look(self, frames: FramesNow) -> _Seen:
+        shades = shades_of(frames.ages_s, float(self.values["Frame Timeout"]))
+        drawable = np.abs(frames.wxyz_xyz).max(axis=1, initial=0.0) < 1e30
+        shown = self._choice.of(frames.names) & frames.connected & drawable
+        return _Seen(frames, shown & (shades.opacity > 0.0), shades)
+
+    def _drawn(self, seen: _Seen) -> Drawing:
+        shapes: dict[str, Shape] = {}
+        if self.values["Show Axes"]:
+            shapes |= self._axes(seen)
+        if self.values["Show Arrows"]:
+            shapes |= self._arrows(seen)
+        drawing: dict[str, Placed] = {}
+        if shapes:
+            drawing["frames"] = Placed(seen.frames.fixed, 0, shapes, follows=True)
+        if self.values["Show Names"]:
+            self._names = self._written(seen)
+            drawing |= self._names
+        return drawing
+
+    def _axes(self, seen: _Seen) -> dict[str, Shape]:
+        poses, fresh = seen.frames.wxyz_xyz, seen.shown & seen.shades.fresh
+        faded = seen.shown & ~seen.shades.fresh
+        axes: dict[str, Shape] = {}
+        if fresh.any():
+            axes["axes"] = fresh_axes(poses[fresh], *self._size)
+        if faded.any():
+            axes["old_axes"] = faded_axes(poses[faded], seen.shades.of(faded), *self._size)
+        return axes
+
+    def _arrows(self, seen: _Seen) -> dict[str, Shape]:
+        parents = seen.frames.parents
+        hung = seen.shown & (parents >= 0)
+        hung[hung] = seen.frames.connected[parents[hung]]
+        places: Floats = seen.frames.wxyz_xyz[:, 4:]
+        shades = seen.shades.of(hung)
+        return {**arrows_to_parents(places[hung], places[parents[hung]], shades, *self._size)}
+
+    def _written(self, seen: _Seen) -> dict[str, Placed]:
+        """The names by their paths; one that looks as before is the same object."""
+        scale, alpha = self._size
+        written: dict[str, Placed] = {}
+        for row in _rows(seen.shown)[:NAMES_MAX]:
+            name = seen.frames.names[row]
+            opacity = alpha * float(seen.shades.opacity[row])
+            text = name_of(name, float(seen.shades.grey[row]), opacity, scale)
+            path = f"names/{name}"
+            before = self._names.get(path)
+            is_same = before is not None and before.shapes["name"] == text
+            written[path] = (
+                before if before and is_same else Placed(name, 0, {"name": text}, follows=True)
+            )
+        return written
+
+    @property
+    def _size(self) -> tuple[float, float]:
+        """Scale and opacity."""
+        return float(self.values["Marker Scale"]), float(self.values["Marker Alpha"])
+
+    def _property(self, name: str) -> Property:
+        if not name.startswith(f"{FRAMES}/"):
+            return super()._property(name)
+        # While an instance is made, the switch of all may not have come yet.
+        default = self.values.get(FRAMES, True)
+        return Property(name, "switch", default=default, doc="Shows this frame.")
+
+
+def _rows(flags: Flags) -> list[int]:
+    return [int(row) for row in np.flatnonzero(flags)]
