@@ -50,7 +50,11 @@ class MapDisplay(StillDisplay):
     TOPICS: ClassVar[tuple[TopicRole, ...]] = (
         TopicRole("", ("nav_msgs/msg/OccupancyGrid",), latched=True),
         TopicRole(
-            _UPDATES, ("map_msgs/msg/OccupancyGridUpdate",), beside="_updates", newest_only=False
+            _UPDATES,
+            ("map_msgs/msg/OccupancyGridUpdate",),
+            beside="_updates",
+            newest_only=False,
+            depth=100,
         ),
     )
     PROPERTIES: ClassVar[tuple[Property, ...]] = (
@@ -148,7 +152,8 @@ class MapDisplay(StillDisplay):
                 f"its {columns:,} x {rows:,} cells at {x:,}, {y:,} reach beyond the map of "
                 f"{width:,} x {height:,}",
             )
-        if not part.size:
+        # The two topics come as they like: what the map knows already would undo it.
+        if not part.size or 0 < stamp_of(message.header) < grid.stamp_ns:
             return
         grid.cells = _own(grid.cells)
         grid.cells[y : y + rows, x : x + columns] = part

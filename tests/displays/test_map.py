@@ -98,6 +98,14 @@ def test_an_update_before_any_map_is_passed_over():
     assert display.statuses() == ()
 
 
+@pytest.mark.parametrize(("sec", "taken"), [(0, True), (11, False), (12, True), (13, True)])
+def test_an_update_from_before_the_map_is_passed_over(sec: int, taken: bool):
+    display = shown(CELLS)
+    header = {"stamp": {"sec": sec, "nanosec": 500 if sec else 0}}
+    display.take(update([[100]], 0, 0, header=header), "updates")
+    assert_array_equal(picture(display).pixels[0, 0], BLACK if taken else WHITE)
+
+
 @pytest.mark.parametrize(("x", "y"), [(-1, 0), (0, -1), (2, 0), (0, 2), (2**31 - 1, 0)])
 def test_an_update_that_reaches_beyond_the_map_is_refused(x: int, y: int):
     display = shown(CELLS)
