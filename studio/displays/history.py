@@ -53,6 +53,8 @@ class HistoryDisplay(StillDisplay, Generic[Content]):
         super().__init__(types, values)
         self._kept: deque[_Kept[Content]] = deque()
         self._free: list[str] = []
+        self._points = 0
+        self._too_many_points = False
         self._groups: dict[str, Mapping[str, Placed]] = {}
         self._told: tuple[Status, ...] = ()
 
@@ -89,6 +91,11 @@ class HistoryDisplay(StillDisplay, Generic[Content]):
         """What is seen of a message, by names below its path; most have one without a name."""
         return {"": self.placed(entry, self.shapes(entry.content))}
 
+    def points_in(self, content: Content) -> int:
+        """How many points a message holds, of which a display shows no more than its limits say."""
+        del content
+        return 1
+
     def placed(self, entry: Entry[Content], shapes: Mapping[str, Shape]) -> Placed:
         """Where the shapes of a message are."""
         return Placed(entry.frame, entry.stamp_ns, shapes)
@@ -117,13 +124,24 @@ class HistoryDisplay(StillDisplay, Generic[Content]):
         """Forget all messages."""
         self._kept.clear()
         self._free.clear()
+        self._points, self._too_many_points = 0, False
         self._groups.clear()
         self._told = ()
         super().reset()
 
     def statuses(self) -> tuple[Status, ...]:
         """What is to be said of the newest message, and what is transparent."""
-        return (*self._told, *self.transparent())
+        return (*self._told, *self._crowded(), *self.transparent())
+
+    def _crowded(self) -> tuple[Status, ...]:
+        """That fewer messages are kept than are wished."""
+        if not self._too_many_points:
+            return ()
+        sentence = (
+            f"Showing the newest {len(self._kept):,} messages: with those before them there would "
+            f"be more than {self.limits.points:,} points."
+        )
+        return (Status("ok", "thinned", sentence),)
 
     def transparent(self) -> tuple[Status, ...]:
         """One status for each opacity that is 0 and counts."""
@@ -163,6 +181,8 @@ class HistoryDisplay(StillDisplay, Generic[Content]):
         return self._kept[-1].entry if self._kept else None
 
     def _keep(self, entry: Entry[Content]) -> None:
+        self._points += self.points_in(entry.content)
+        self._too_many_points = False
         self._drop_oldest(room_for=1)
         # The path of what was dropped is taken again: there its shapes are updated, not made anew.
         path = self._free.pop() if self._free else str(len(self._kept))
@@ -171,9 +191,16 @@ class HistoryDisplay(StillDisplay, Generic[Content]):
 
     def _drop_oldest(self, room_for: int = 0) -> None:
         while len(self._kept) + room_for > self._kept_max:
-            path = self._kept.popleft().path
-            self._groups.pop(path, None)
-            self._free.append(path)
+            self._drop()
+        while self._kept and self._points > self.limits.points:
+            self._too_many_points = True
+            self._drop()
+
+    def _drop(self) -> None:
+        path, entry = self._kept.popleft()
+        self._points -= self.points_in(entry.content)
+        self._groups.pop(path, None)
+        self._free.append(path)
 
     def _drawn(self) -> Drawing:
         drawn: dict[str, Placed] = {}

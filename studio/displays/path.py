@@ -79,6 +79,10 @@ class PathDisplay(HistoryDisplay[Way]):
         way = Way(poses_of_chosen(chosen, "poses", self), np.diff(chosen[:, 7]) == 0)
         return Entry(read.frame, read.stamp_ns, way)
 
+    def points_in(self, content: Way) -> int:
+        """Its poses."""
+        return len(content.poses)
+
     def shapes(self, content: Way) -> dict[str, Shape]:
         """The line, and its poses."""
         offset_m = np.array([self.number(f"Offset/{axis}") for axis in "XYZ"])

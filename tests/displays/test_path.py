@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 
 from studio.displays.drawing import Lines
+from studio.displays.limits import Limits
 from studio.displays.path import POSES_MAX, PathDisplay
 from tests.support.display_messages import NOW_NS, STAMP_NS, TYPES, pose, received
 from tests.support.drawn import only, plain, said, shapes_of
@@ -83,6 +84,20 @@ def test_as_many_paths_are_seen_as_the_buffer_is_long():
     take(display, CORNER[:2])
     take(display, CORNER[:2])
     assert len(display.draw(0)) == 2
+
+
+def test_paths_together_hold_no_more_poses_than_the_limit_and_the_newest_stays():
+    display = PathDisplay(TYPES, {"Buffer Length": 10})
+    display.limit(Limits(points=7))
+    for _ in range(3):
+        take(display, CORNER)
+    assert len(display.draw(0)) == 2
+    assert "Showing the newest 2 messages" in display.statuses()[0].sentence
+    take(display, CORNER * 2)
+    assert len(display.draw(0)) == 1
+    take(display, CORNER[:1])
+    assert len(display.draw(0)) == 1
+    assert said(display) == [("warn", "empty")]
 
 
 def test_a_line_is_cut_where_a_pose_cannot_be_drawn():
