@@ -29,11 +29,14 @@ class MarkersDisplay(Display):
     """Markers of all topics of the display in one store, with a check for each namespace.
 
     A namespace has a property from when it is first heard of. One that was switched off before,
-    as a saved display has it, stays off when it comes.
+    as a saved display has it, stays off when it comes. Switching all off and on again leaves each
+    as it was, so that what is saved means the same in whatever order it was set.
     """
 
     PROPERTIES: ClassVar[tuple[Property, ...]] = (
-        Property(NAMESPACES, "switch", default=True, doc="Shows all namespaces, or none."),
+        Property(
+            NAMESPACES, "switch", default=True, doc="Shows the namespaces that are on, or none."
+        ),
     )
 
     def __init__(self, types: TypeLibrary, values: Mapping[str, Value] | None = None) -> None:
@@ -56,13 +59,6 @@ class MarkersDisplay(Display):
         if name not in self.values and len(self.values) >= _SETTINGS_MAX:
             raise DisplayPropertyError(name, "is one namespace too many to be set", None)
         super().set(name, value)
-
-    def changed(self, name: str) -> None:
-        """Switching all is switching each, as in RViz; a single one can be switched afterwards."""
-        if name == NAMESPACES:
-            switched = self.values[NAMESPACES]
-            for each in [one for one in self.values if one.startswith(f"{NAMESPACES}/")]:
-                self.values[each] = switched
 
     def take(self, received: Received, role: str = "") -> None:
         """Take in a message.
@@ -95,26 +91,27 @@ class MarkersDisplay(Display):
         if not len(self._store) and self._has_heard:
             words = "There are no markers: all were deleted, or their lifetime is over."
             found.append(Status("warn", "empty", words))
-        elif len(self._store) and all(one in hidden for one in self._store.namespaces()):
+        elif len(self._store) and self._store.namespaces() <= hidden:
             words = "Markers are there, and all of their namespaces are switched off."
-            found.append(Status("warn", "empty", words, (NAMESPACES, True)))
+            found.append(Status("warn", "empty", words, (self._first_off(), True)))
         if self._batches.left_out:
             words = f"{self._batches.left_out} texts, meshes or batches are too many to be shown."
             found.append(Status("warn", "unsupported", words))
         return tuple(found)
 
     def _hidden(self) -> set[str]:
-        rest = self.values[NAMESPACES]
-        if all(self.values.values()):
-            return set()
-        return {
-            one
-            for one in self._store.namespaces()
-            if not self.values.get(f"{NAMESPACES}/{one}", rest)
-        }
+        if not self.values[NAMESPACES]:
+            return self._store.namespaces()
+        begin = len(_name_of(""))
+        return {name[begin:] for name, shown in self.values.items() if not shown}
+
+    def _first_off(self) -> str:
+        if not self.values[NAMESPACES]:
+            return NAMESPACES
+        return _name_of(min(self._store.namespaces()))
 
     def _property(self, name: str) -> Property:
-        if name.startswith(f"{NAMESPACES}/"):
+        if name.startswith(_name_of("")):
             return _switch(name)
         return super()._property(name)
 

@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import pytest
 
 from studio.displays.display import Received
@@ -8,6 +10,9 @@ from studio.displays.markers import markers_display
 from studio.displays.markers.kinds import Action, Kind
 from studio.errors import CdrError, DisplayPropertyError
 from tests.support.markers import TYPES, array_of, marker, sentences, shapes_in
+
+if TYPE_CHECKING:
+    from studio.displays.properties import Value
 
 S = 10**9
 
@@ -50,15 +55,25 @@ def test_a_namespace_is_hidden_and_shown_with_what_it_was():
     assert shapes_in(again).keys() == shapes_in(first).keys()
 
 
-def test_switching_all_switches_each_and_one_can_be_shown_alone():
+def test_switching_all_off_and_on_leaves_each_as_it_was():
     display = with_lanes()
-    display.set("Namespaces/lane", value=True)
+    display.set("Namespaces/lane", value=False)
     display.set("Namespaces", value=False)
     assert shown(display) == []
-    display.set("Namespaces/wall", value=True)
-    assert shown(display) == ["balls"]
     display.set("Namespaces", value=True)
-    assert shown(display) == ["balls", "boxes"]
+    assert shown(display) == ["balls"]
+
+
+@pytest.mark.parametrize("first", ["Namespaces", "Namespaces/lane"])
+def test_what_is_saved_means_the_same_in_any_order(first: str):
+    values: dict[str, Value] = {
+        "Namespaces": True,
+        "Namespaces/lane": False,
+        "Namespaces/wall": True,
+    }
+    display = MarkerArrayDisplay(TYPES, {first: values[first]} | values)
+    display.take(array_of(marker(Kind.CUBE, ns="lane"), marker(Kind.SPHERE, ns="wall")))
+    assert shown(display) == ["balls"]
 
 
 def test_a_namespace_that_was_saved_as_hidden_is_hidden_when_it_comes():
@@ -134,13 +149,23 @@ def test_it_says_that_all_markers_are_gone():
     ]
 
 
-def test_it_says_that_all_namespaces_are_off_and_how_to_see_them():
+@pytest.mark.parametrize("off", [["Namespaces"], ["Namespaces/lane", "Namespaces/wall"]])
+def test_it_says_that_all_namespaces_are_off_and_how_to_see_them(off: list[str]):
     display = with_lanes()
-    for name in ("Namespaces/lane", "Namespaces/wall"):
+    for name in off:
         assert display.statuses() == ()
         display.set(name, value=False)
     [status] = display.statuses()
     assert status.sentence == "Markers are there, and all of their namespaces are switched off."
-    assert status.mend == ("Namespaces", True)
-    display.set("Namespaces", value=True)
-    assert shown(display) == ["balls", "boxes"]
+    assert status.mend == (off[0], True)
+    display.set(off[0], value=True)
+    assert display.statuses() == ()
+    assert "boxes" in shown(display)
+
+
+def test_of_namespaces_that_are_off_one_is_offered_that_holds_markers():
+    display = with_lanes()
+    display.take(array_of(marker(0, ns="lane", action=int(Action.DELETE_ALL))))
+    display.set("Namespaces/wall", value=False)
+    [status] = display.statuses()
+    assert status.mend == ("Namespaces/wall", True)
