@@ -7,7 +7,7 @@ import time
 from typing import TYPE_CHECKING, Any
 
 from studio.cli.acting import acting
-from studio.cli.learning import learn_type
+from studio.cli.learning import learn_type, say_foreign
 from studio.cli.looking import full_name, say_other_types
 from studio.cli.wire import add_wire_options
 from studio.errors import UnknownTypeError
@@ -53,6 +53,7 @@ def _run(options: argparse.Namespace) -> int:
         goal = from_yaml(kind.Goal, options.goal, now_ns=time.time_ns())
         client = ActionClient(actor.node, kind, name)
         say_other_types(name, type_name, actor.graph.actions())
+        say_foreign(actor, actor.graph.servers(goal_service(name)))
         print("Waiting for an action server to become available...", flush=True)
         if not client.wait_for_server(options.timeout):
             print(f"Nobody serves {name} as {type_name}.", file=sys.stderr)

@@ -85,8 +85,9 @@ def _list(options: argparse.Namespace) -> int:
     from studio.ros.remote.parameters import ParameterClient
 
     with acting(options) as actor:
-        nodes = nodes_with(actor, "list_parameters", _LIST_TYPE, hidden=options.hidden)
-        if options.node_name is not None:
+        if options.node_name is None:
+            nodes = nodes_with(actor, "list_parameters", _LIST_TYPE, hidden=options.hidden)
+        else:
             node = node_asked_for(actor, options)
             if node is None:
                 return 1

@@ -58,6 +58,13 @@ def test_another_type_than_the_action_has_is_said(endpoint: str):
     assert ran.err.startswith(f"WARNING: {NAME} has the type {KIND}, not radio_station_interfaces")
 
 
+def test_q1_an_action_of_another_distribution_is_said_to_be_one(endpoint: str):
+    ran = studio("action", "send_goal", NAME, KIND, "--timeout", "0.2", "--distro", "humble",
+                 "--connect", endpoint)  # fmt: skip
+    assert ran.code != 0
+    assert ran.err.startswith(f"WARNING: Others have {KIND}_SendGoal as of jazzy")
+
+
 def test_actions_are_listed_and_told(endpoint: str):
     at = ("--connect", endpoint)
     assert studio("action", "list", *at).out == f"{NAME}\n"

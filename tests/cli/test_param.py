@@ -33,6 +33,16 @@ def test_p1_parameters_are_listed_of_all_nodes_and_of_one(endpoint: str):
     assert one.startswith("  background_b (type: integer)\n")
 
 
+def test_q1_a_node_of_another_distribution_is_said_to_be_one(endpoint: str):
+    at = ("--connect", endpoint, "--distro", "humble")
+    for words in (("get", "/turtlesim", "background_r"), ("list",)):
+        ran = studio("param", *words, *at)
+        assert ran.code in {0, 2}
+        assert ran.err.startswith("WARNING: Others have rcl_interfaces/srv/")
+        assert ran.err.count("WARNING: ") == 1
+        assert "choose --distro jazzy" in ran.err
+
+
 def test_p1_a_colour_is_set_and_read_back(endpoint: str):
     at = ("--connect", endpoint)
     ran = studio("param", "set", "/turtlesim", "background_r", "150", *at)

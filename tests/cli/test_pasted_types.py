@@ -3,6 +3,8 @@ from __future__ import annotations
 import io
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from studio.cli.pasted_types import CHARACTERS_MAX, pasted_texts
 from studio.errors import SettingsError
@@ -61,3 +63,13 @@ def test_t11_a_pasted_type_is_usable_at_once_and_its_hash_is_shown(
     assert shown == (
         "# Of a robot.\nfloat32 voltage\nown_interfaces/Cell[] cells\n\tfloat32 voltage\n"
     )
+
+
+@given(st.text() | st.from_regex(r"(MSG: \S+\n|=+\n|float32 x\n|---\n)*"))
+def test_any_text_is_types_by_name_or_one_sentence(text: str):
+    said = ""
+    try:
+        assert pasted_texts(io.StringIO(text))
+    except SettingsError as error:
+        said = str(error)
+    assert said == "" or said.startswith("--interfaces -: ")

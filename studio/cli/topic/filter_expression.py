@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import warnings
 from typing import TYPE_CHECKING
 
 from studio.errors import MessageValueError, SettingsError
@@ -57,7 +58,9 @@ def _compiled(text: str) -> CodeType:
         tree = ast.parse(text.strip(), _WHERE, "eval")
         for node in ast.walk(tree):
             _check(node)
-        return compile(tree, _WHERE, "eval")
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # such as of `1 is 1`
+            return compile(tree, _WHERE, "eval")
     except SyntaxError as error:
         raise SettingsError(f'{_WHERE} "{text}" is no expression of Python: {error.msg}.') from None
     except (ValueError, RecursionError, MemoryError):

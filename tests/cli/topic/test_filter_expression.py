@@ -1,6 +1,8 @@
 from __future__ import annotations
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from studio.cli.topic.filter_expression import filter_of
 from studio.errors import MessageValueError, SettingsError
@@ -58,3 +60,15 @@ def test_what_is_more_than_a_comparison_is_refused(expression: str):
 def test_what_has_no_answer_is_one_sentence(expression: str):
     with pytest.raises(MessageValueError, match=r"^--filter: .*\.$"):
         filter_of(expression)(STATE)
+
+
+@given(
+    st.text() | st.from_regex(r"(m|\.data|\.x|\[0\]|\(|\)|[ +<]|1|'a'|not |len)*", fullmatch=True)
+)
+def test_any_text_chooses_messages_or_is_one_sentence(text: str):
+    said = ""
+    try:
+        assert filter_of(text)(STATE) in {True, False}
+    except (SettingsError, MessageValueError) as error:
+        said = str(error)
+    assert said == "" or said.startswith("--filter")
