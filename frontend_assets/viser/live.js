@@ -36,6 +36,10 @@ const OUR_POINT = "vec4(col, studioOpacity)";
 export class Live {
   /** By node. @type {Map<string, Look>} */
   #looks = new Map();
+  /** Nodes of points. @type {Set<string>} */
+  #clouds = new Set();
+  /** By what makes two of them different programs. @type {Map<string, Material>} */
+  #kept = new Map();
   #texts = 0;
   /** As viser made it. @type {WeakMap<Material, { opacity: number, transparent: boolean, depthWrite: boolean }>} */
   #made = new WeakMap();
@@ -61,11 +65,13 @@ export class Live {
   #forget(name) {
     if (this.#looks.get(name)?.words) this.#texts -= 1;
     this.#looks.delete(name);
+    this.#clouds.delete(name);
   }
 
   /** @param {Message} message @param {string} name @param {Record<string, unknown>} props */
   #begin(message, name, props) {
     this.#forget(name);
+    if (message.type === "PointCloudMessage") this.#clouds.add(name);
     const look = lookOf(message.type, props);
     if (look.words && this.#texts >= TEXTS_MAX) return;
     if (look.words) this.#write(message, props);
@@ -103,6 +109,22 @@ export class Live {
           this.#finish(object, material, look);
       });
     }
+    for (const name of this.#clouds)
+      this.#door.node(name)?.traverse((object) => this.#keepProgram(object));
+  }
+
+  /**
+   * viser makes the material of a cloud anew with each message. The one before was the last that used
+   * its program, which would be thrown away and compiled again, ten times a second: one stays.
+   * @param {Object3D} object
+   */
+  #keepProgram({ isPoints, material }) {
+    if (!isPoints || !material || Array.isArray(material)) return;
+    const { vertexColors, transparent, fragmentShader } = material;
+    const variant = `${vertexColors} ${transparent} ${fragmentShader.length}`;
+    if (this.#kept.has(variant)) return;
+    this.#kept.set(variant, material);
+    material.dispose = () => undefined;
   }
 
   /** @param {Object3D} object @param {Material} material @param {Look} look */

@@ -73,6 +73,7 @@ export interface Material {
   isLineMaterial?: boolean;
   /** Of a line: its width is in metres. */
   worldUnits?: boolean;
+  vertexColors?: boolean;
   defines?: Record<string, unknown>;
   map?: Texture | null;
   transparent: boolean;

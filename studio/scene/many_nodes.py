@@ -36,8 +36,7 @@ def many_of(shape: Solids, stream: str) -> dict[str, Node]:
     if len(shape.positions) == 0:
         return {}
     mesh = unit_mesh(shape.kind)
-    each = shape.opacities if isinstance(shape.opacities, np.ndarray) else None
-    whole = 1.0 if isinstance(shape.opacities, np.ndarray) else float(shape.opacities)
+    whole, each = _opacities(shape)
     props: dict[str, Any] = {
         "lod": "off",
         "wireframe": False,
@@ -69,3 +68,11 @@ def many_of(shape: Solids, stream: str) -> dict[str, Node]:
         flowing=flowing,
     )
     return {"many": made}
+
+
+def _opacities(shape: Solids) -> tuple[float, NDArray[np.float32] | None]:
+    """One for all, and one for each where they differ: those cost the page a mesh made anew."""
+    if not isinstance(shape.opacities, np.ndarray):
+        return float(shape.opacities), None
+    first = float(shape.opacities[0])
+    return (first, None) if (shape.opacities == first).all() else (1.0, shape.opacities)

@@ -13,6 +13,7 @@ from tests.support.live_page import LivePage
 from tests.support.live_shapes import (
     BLUE,
     MESH_URI,
+    UPRIGHT,
     drawing_of,
     every_shape,
     places,
@@ -166,6 +167,43 @@ def test_words_face_the_eye_from_wherever_it_looks(view: LivePage):
     square = view.around(at_x, at_y, 40).astype(int)
     orange = (square[..., 0] > 200) & (abs(square[..., 1] - 160) < 30) & (square[..., 2] < 60)
     assert orange.sum() > 100
+
+
+_COUNT_PROGRAMS: Final = """() => {
+  window.programs = 0;
+  const gl = __viserMutable.canvas.getContext("webgl2");
+  const link = gl.linkProgram.bind(gl);
+  gl.linkProgram = (program) => { window.programs += 1; link(program); };
+}"""
+_COUNT_OF: Final = """(name) => {
+  let count = 0;
+  __viserMutable.nodeRefFromName[name]?.traverse((object) => {
+    if (object.isPoints) count = object.geometry.attributes.position.count;
+  });
+  return count;
+}"""
+
+
+def test_a_cloud_that_streams_makes_the_page_compile_nothing(view: LivePage):
+    node = "/live/cloud/a/c.points"
+    view.page.evaluate(_COUNT_PROGRAMS)
+    for count in (100, 101, 102, 103):
+        colors = np.zeros((count, 3), np.uint8)
+        cloud = Points(np.zeros((count, 3), np.float32), colors, opacity=0.5)
+        drawing = {"a": Placed("map", 0, {"c": cloud})}
+        view.server.call(lambda scene, drawing=drawing: show_cloud(scene, drawing))
+        view.until(f"({_COUNT_OF})('{node}') === {count}")
+        view.take()
+        if count == 100:
+            view.page.evaluate("window.programs = 0")
+    assert view.page.evaluate("programs") == 0
+    view.server.call(lambda scene: (scene.live.drop("cloud"), scene.flush()))
+    view.until(f"!__viserMutable.nodeRefFromName['{node}']")
+
+
+def show_cloud(scene: DocumentScene, drawing: dict[str, Placed]) -> None:
+    scene.live.apply("cloud", drawing, {"a": UPRIGHT})
+    scene.flush()
 
 
 def test_what_was_see_through_becomes_opaque_again_and_a_cloud_may_grow(view: LivePage):

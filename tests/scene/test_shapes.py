@@ -116,6 +116,18 @@ def test_shapes_that_differ_in_small_values_have_the_same_arrays():
     assert not same_arrays(Text("a"), one)
 
 
+def test_opacities_that_are_all_alike_are_one():
+    one = solids("box", RED)
+    for values, whole in (([0.5, 0.5], 0.5), ([1.0, 1.0], None)):
+        shape = dataclasses.replace(one, opacities=np.array(values, np.float32))
+        drawn = nodes_of(shape, "1", shelves())["many"]
+        assert (drawn.props["opacity"], drawn.props["batched_opacities"]) == (whole, None)
+    shape = dataclasses.replace(one, opacities=np.array([0.2, 0.5], np.float32))
+    drawn = nodes_of(shape, "1", shelves())["many"]
+    assert drawn.props["opacity"] is None
+    assert "batched_opacities" in drawn.flowing
+
+
 def test_a_grid_has_a_line_more_than_cells_each_way_around_its_middle():
     for plane, missing in (("xy", 2), ("xz", 1), ("yz", 0)):
         shape = GridLines(plane, 10, 0.5, position=(1, 2, 3))  # pyright: ignore[reportArgumentType]
