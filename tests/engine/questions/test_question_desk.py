@@ -23,6 +23,9 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 
+REST = "studio.engine.questions.question_desk.REST_S"
+LONG_REST_S = 2.0
+"""On a busy machine the steps of a drag come so late that it would count as at rest."""
 stops_processes = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGSTOP")
 
 
@@ -66,7 +69,11 @@ def test_a_flood_of_one_viewer_costs_two_answers(tmp_path: Path):
     asyncio.run(run())
 
 
-def test_nothing_that_takes_long_is_answered_within_a_drag(tmp_path: Path):
+def test_nothing_that_takes_long_is_answered_within_a_drag(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr(REST, LONG_REST_S)
+
     async def run() -> None:
         worker = NotedWorker()
         async with loop_story(tmp_path, worker) as story:
@@ -85,7 +92,7 @@ def test_nothing_that_takes_long_is_answered_within_a_drag(tmp_path: Path):
 def test_a_drag_whose_runs_take_longer_than_a_rest_is_no_rest(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ):
-    monkeypatch.setattr("studio.engine.questions.question_desk.REST_S", 0.0)
+    monkeypatch.setattr(REST, 0.0)
 
     async def run() -> None:
         worker = NotedWorker()
@@ -102,7 +109,11 @@ def test_a_drag_whose_runs_take_longer_than_a_rest_is_no_rest(
 
 
 @stops_processes
-def test_a_drag_that_begins_behind_a_run_holds_what_was_asked_before(tmp_path: Path):
+def test_a_drag_that_begins_behind_a_run_holds_what_was_asked_before(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr(REST, LONG_REST_S)
+
     async def run() -> None:
         worker = NotedWorker()
         async with loop_story(tmp_path, worker) as story:
@@ -151,7 +162,10 @@ def test_whoever_waits_for_an_answer_is_let_go_when_the_loop_is_closed(tmp_path:
     asyncio.run(run())
 
 
-def test_a_viewers_question_waits_until_the_presenters_drag_rests(tmp_path: Path):
+def test_a_viewers_question_waits_until_the_presenters_drag_rests(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr(REST, LONG_REST_S)
     file = write(tmp_path / "robot", {"a.urdf.xacro": SOURCE})
 
     async def run() -> None:
