@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from studio.displays.drawing import Shape
     from studio.displays.pose_look import Poses
     from studio.displays.properties import Value
-    from studio.displays.turning import Floats
+    from studio.displays.turning import Flags, Floats
 
 _ON, _POSITION, _ORIENTATION = (
     ("Covariance", (True,)), ("Covariance/Position", (True,)), ("Covariance/Orientation", (True,)),
@@ -71,17 +71,32 @@ _SPREAD_MAX_RAD = math.radians(89.0)
 _ROUNDED = 1e-9
 _NO_TURN = np.array([1.0, 0.0, 0.0, 0.0])
 _RED_GREEN_BLUE = np.array([[255, 0, 0], [0, 255, 0], [0, 0, 255]], dtype=np.uint8)
-# How the tip of each axis moves when the pose turns a little about x, y and z: the cross product.
+# The two directions across each axis, in columns; with the axis behind them they make a turn.
+_ACROSS = np.array(
+    [[[0, 0], [1, 0], [0, 1]], [[0, 1], [0, 0], [1, 0]], [[1, 0], [0, 1], [0, 0]]],
+    dtype=np.float64,
+)
+# How far the tip of each axis moves along them when the pose turns a little about x, y and z.
 _TIPS_FROM_TURN = np.array(
-    [
-        [[0, 0, 0], [0, 0, 1], [0, -1, 0]],
-        [[0, 0, -1], [0, 0, 0], [1, 0, 0]],
-        [[0, 1, 0], [-1, 0, 0], [0, 0, 0]],
-    ],
+    [[[0, 0, 1], [0, -1, 0]], [[1, 0, 0], [0, 0, -1]], [[0, 1, 0], [-1, 0, 0]]],
     dtype=np.float64,
 )
 # A cone stands on its tip along z; this lays it along x, flat in the plane of x and y.
 _LYING = np.array([math.sqrt(0.5), 0.0, math.sqrt(0.5), 0.0])
+
+
+class _Own(NamedTuple):
+    """Covariances along their own axes.
+
+    Attributes:
+        deviations: Shape (M, K), standard ones.
+        wxyz: Shape (M, 4): how the axes are turned.
+        sound: Shape (M,), whether no variance is below zero.
+    """
+
+    deviations: Floats
+    wxyz: Floats
+    sound: Flags
 
 
 class Spread(NamedTuple):
@@ -89,16 +104,15 @@ class Spread(NamedTuple):
 
     Attributes:
         pose: Whose it is, in the frame of its message.
-        covariance: Shape (6, 6), float64: of x, y, z in m and turns about x, y, z in rad.
+        is_flat: Whether it lies in a plane: z, roll and pitch are never said to be unsure.
+        position: One row: deviations along x and y if flat, else along three axes, m.
+        orientation: One row of yaw if flat; else three of where the tips of the axes are, rad.
     """
 
     pose: Poses
-    covariance: Floats
-
-    @property
-    def is_flat(self) -> bool:
-        """Whether the pose lies in a plane: z, roll and pitch are never said to be unsure."""
-        return bool((self.covariance.diagonal()[2:5] <= 0).all())
+    is_flat: bool
+    position: _Own
+    orientation: _Own
 
 
 def spread_of(pose: Poses, covariance: NDArray[np.float64]) -> Spread | None:
@@ -107,13 +121,20 @@ def spread_of(pose: Poses, covariance: NDArray[np.float64]) -> Spread | None:
     # Variances are squared: their roots may reach as far as positions.
     if not (np.abs(matrix) <= 1e24).all():
         return None
-    return Spread(pose, matrix)
+    is_flat = bool((matrix.diagonal()[2:5] <= 0).all())
+    if is_flat:
+        yaw = np.array([[matrix[5, 5]]])
+        deviations = np.sqrt(np.maximum(yaw, 0.0))
+        orientation = _Own(deviations, _NO_TURN[None], yaw[:, 0] >= 0)
+        return Spread(pose, is_flat, _own(matrix[None, :2, :2], _ACROSS[2:]), orientation)
+    of_tips = _TIPS_FROM_TURN @ matrix[3:, 3:] @ _TIPS_FROM_TURN.transpose(0, 2, 1)
+    whole = np.eye(3)[None]
+    return Spread(pose, is_flat, _own(matrix[None, :3, :3], whole), _own(of_tips, _ACROSS))
 
 
 def is_covariance(spread: Spread) -> bool:
     """Whether no variance that would be drawn is below zero."""
-    parts = (slice(0, 2), slice(5, 6)) if spread.is_flat else (slice(0, 3), slice(3, 6))
-    return all(_deviations(spread.covariance[part, part])[2] for part in parts)
+    return bool(spread.position.sound.all() and spread.orientation.sound.all())
 
 
 def covariance_shapes(spread: Spread, values: Mapping[str, Value]) -> dict[str, Shape]:
@@ -129,20 +150,19 @@ def covariance_shapes(spread: Spread, values: Mapping[str, Value]) -> dict[str, 
 
 
 def _position(spread: Spread, values: Mapping[str, Value]) -> Solids | None:
-    size = 2 if spread.is_flat else 3
-    deviations, axes, sound = _deviations(spread.covariance[:size, :size])
+    own = spread.position
     scale = float(values["Covariance/Position/Scale"])
-    if not sound or scale == 0 or not deviations.any():
+    if not own.sound[0] or scale == 0 or not own.deviations.any():
         return None
-    diameters, turn = np.full(3, _THIN_M), np.eye(3)
     # One standard deviation to each side; what is sure is still as thick as a sheet.
-    diameters[:size] = np.maximum(2.0 * scale * deviations, _THIN_M)
-    turn[:size, :size] = axes
+    diameters = np.full((1, 3), _THIN_M)
+    size = own.deviations.shape[1]
+    diameters[:, :size] = np.maximum(2.0 * scale * own.deviations, _THIN_M)
     return Solids(
         "sphere",
         spread.pose.xyz.astype(np.float32),
-        wxyz_from_matrices(turn[None]).astype(np.float32),
-        diameters[None].astype(np.float32),
+        own.wxyz.astype(np.float32),
+        diameters.astype(np.float32),
         colour_of(rgb_of(values["Covariance/Position/Color"])),
         float(values["Covariance/Position/Alpha"]),
     )
@@ -150,17 +170,18 @@ def _position(spread: Spread, values: Mapping[str, Value]) -> Solids | None:
 
 def _orientation(spread: Spread, values: Mapping[str, Value]) -> Solids | None:
     offset_m = float(values["Covariance/Orientation/Offset"])
-    if offset_m == 0:
+    own = spread.orientation
+    seen = own.sound & own.deviations.any(axis=1)
+    if offset_m == 0 or not seen.any():
         return None
-    return (_wedge if spread.is_flat else _discs)(spread, values, offset_m)
+    if spread.is_flat:
+        return _wedge(spread, values, offset_m)
+    return _discs(spread, values, offset_m, seen)
 
 
-def _wedge(spread: Spread, values: Mapping[str, Value], offset_m: float) -> Solids | None:
+def _wedge(spread: Spread, values: Mapping[str, Value], offset_m: float) -> Solids:
     """How far the yaw of a pose in a plane may be off, as a flat cone along its x."""
-    deviations, _, sound = _deviations(spread.covariance[5:, 5:])
-    if not sound or not deviations[0]:
-        return None
-    across_m = _across(deviations, values)[0] * offset_m
+    across_m = float(_across(spread.orientation.deviations, values)[0, 0]) * offset_m
     return Solids(
         "cone",
         spread.pose.xyz.astype(np.float32),
@@ -171,45 +192,39 @@ def _wedge(spread: Spread, values: Mapping[str, Value], offset_m: float) -> Soli
     )
 
 
-def _discs(spread: Spread, values: Mapping[str, Value], offset_m: float) -> Solids | None:
+def _discs(spread: Spread, values: Mapping[str, Value], offset_m: float, seen: Flags) -> Solids:
     """Where the tips of the axes may be: a disc across each."""
-    base = _base_turn(spread, values)
-    turns, scales, seen = [_NO_TURN] * 3, np.full((3, 3), _THIN_M), np.zeros(3, dtype=np.bool_)
-    for axis, tip_from_turn in enumerate(_TIPS_FROM_TURN):
-        across = [(axis + 1) % 3, (axis + 2) % 3]
-        of_tip = tip_from_turn @ spread.covariance[3:, 3:] @ tip_from_turn.T
-        deviations, axes, sound = _deviations(of_tip[np.ix_(across, across)])
-        seen[axis] = sound and bool(deviations.any())
-        turn = np.zeros((3, 3))
-        turn[across, :2] = axes
-        turn[axis, 2] = 1.0
-        turns[axis] = product(base, wxyz_from_matrices(turn))
-        scales[axis, :2] = np.maximum(_across(deviations, values) * offset_m, _THIN_M)
-    if not seen.any():
-        return None
-    places = spread.pose.xyz + turned(np.tile(base, (3, 1)), offset_m * np.eye(3))
+    base, own = _base_turn(spread, values), spread.orientation
+    tips = spread.pose.xyz + offset_m * turned(base[None].repeat(3, axis=0), np.eye(3))
+    scales = np.full((3, 3), _THIN_M)
+    scales[:, :2] = np.maximum(_across(own.deviations, values) * offset_m, _THIN_M)
     return Solids(
         "cylinder",
-        places[seen].astype(np.float32),
-        np.array(turns)[seen].astype(np.float32),
+        tips[seen].astype(np.float32),
+        product(base, own.wxyz)[seen].astype(np.float32),
         scales[seen].astype(np.float32),
         _colours(values)[seen],
         float(values["Covariance/Orientation/Alpha"]),
     )
 
 
-def _deviations(variances: Floats) -> tuple[Floats, Floats, bool]:
-    """The standard deviations of a covariance (K, K) along its own axes, which make a turn.
+def _own(variances: Floats, planes: Floats) -> _Own:
+    """Covariances (M, K, K) along their own axes.
 
-    Returns:
-        Deviations (K,), axes in columns (K, K), and whether it is a covariance.
+    Args:
+        variances: In directions which are the columns of `planes`.
+        planes: Shape (M, 3, K); for K of 2 a third direction, across both, completes the turn.
     """
     # As in RViz, only the lower half is read: the upper one should be the same.
     squares, axes = np.linalg.eigh(variances, UPLO="L")
-    if np.linalg.det(axes) < 0:
-        axes[:, 0] = -axes[:, 0]
-    sound = bool(squares.min() >= -_ROUNDED * np.abs(squares).max())
-    return np.sqrt(np.maximum(squares, 0.0)), axes, sound
+    axes[np.linalg.det(axes) < 0, :, 0] *= -1.0
+    turns = np.empty((len(variances), 3, 3))
+    size = variances.shape[1]
+    turns[:, :, :size] = planes @ axes
+    if size == 2:
+        turns[:, :, 2] = np.cross(turns[:, :, 0], turns[:, :, 1])
+    sound = squares.min(axis=1) >= -_ROUNDED * np.abs(squares).max(axis=1)
+    return _Own(np.sqrt(np.maximum(squares, 0.0)), wxyz_from_matrices(turns), sound)
 
 
 def _across(deviations_rad: Floats, values: Mapping[str, Value]) -> Floats:

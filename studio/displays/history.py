@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from studio.displays.properties import Property, Value
     from studio.ros.types.library import TypeLibrary
 
-KEPT_MAX = 5_000
+KEPT_MAX = 2_000
 """Messages kept at most: each has a place of its own in the scene, and up to four shapes."""
 
 Content = TypeVar("Content")

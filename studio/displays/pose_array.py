@@ -34,14 +34,8 @@ _SIZES = Sizes(0.23, 0.01, 0.07, 0.03, 0.3, 0.01)
 _ARROWS = ("Shape", (_FLAT, _SOLID))
 POSES_MAX: Final = 50_000
 
-# Of a flat arrow of length 1: its tail and tip, and the ends of the two strokes of its head.
-_STROKES = np.array(
-    [
-        [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]],
-        [[1.0, 0.0, 0.0], [0.75, 0.2, 0.0]],
-        [[1.0, 0.0, 0.0], [0.75, -0.2, 0.0]],
-    ]
-)
+# Of a flat arrow of length 1, along x and y: its tail and tip, and the two strokes of its head.
+_STROKES = ((0.0, 0.0), (1.0, 0.0), (1.0, 0.0), (0.75, 0.2), (1.0, 0.0), (0.75, -0.2))
 
 
 class PoseArrayDisplay(HistoryDisplay[Poses]):
@@ -74,8 +68,9 @@ class PoseArrayDisplay(HistoryDisplay[Poses]):
         return {"arrows": self._flat(content)}
 
     def _flat(self, poses: Poses) -> Lines:
-        corners = (self.number("Arrow Length") * _STROKES).reshape(-1, 3)
-        places = [poses.xyz + turned(poses.wxyz, corner) for corner in corners]
+        along, aside = self.number("Arrow Length") * np.eye(3)[:2]
+        ahead, left = turned(poses.wxyz, along), turned(poses.wxyz, aside)
+        places = [poses.xyz + x * ahead + y * left for x, y in _STROKES]
         ends = np.stack(places, axis=1).reshape(-1, 2, 3).astype(np.float32)
         colour = colour_of(rgb_of(self.values["Color"]))
         return Lines(ends, colour, 0.0, self.number("Alpha"))

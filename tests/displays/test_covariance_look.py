@@ -10,7 +10,6 @@ from hypothesis import strategies as st
 
 from studio.displays.covariance_look import (
     PROPERTIES,
-    Spread,
     covariance_shapes,
     is_covariance,
     spread_of,
@@ -86,7 +85,8 @@ def test_discs_lie_across_the_tips_of_the_axes_of_the_pose():
 def test_a_disc_is_as_wide_as_its_tip_moves(of: int, tip_along: int, deviation_rad: float):
     """Yaw moves the tip of x along y, pitch along z, and so on: the cross product."""
     flat = Poses(np.zeros((1, 3)), np.array([[1.0, 0.0, 0.0, 0.0]]))
-    spread = Spread(flat, np.diag([0, 0, 0, 0.01, 0.04, 0.09]))
+    spread = spread_of(flat, np.diag([0, 0, 0, 0.01, 0.04, 0.09]).reshape(-1))
+    assert spread is not None
     solid = covariance_shapes(spread, VALUES)["orientation"]
     assert isinstance(solid, Solids)
     widths = [solid.scales[of, which] * abs(axis(solid, which, of)[tip_along]) for which in (0, 1)]

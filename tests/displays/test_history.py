@@ -77,7 +77,7 @@ def test_a_shorter_history_drops_the_oldest_at_once_and_a_longer_one_brings_none
 
 def test_a_history_has_an_end_whatever_is_asked():
     display = points(1, keep=10**9)
-    assert display.values["History Length"] == 5_000
+    assert display.values["History Length"] == 2_000
 
 
 def test_another_property_draws_all_anew():
