@@ -126,7 +126,9 @@ def test_an_answer_of_malformed_bytes_is_told_as_such(router: str, node: Node):
 
         wait_until("it is asked", asked)
         assert query is not None
-        query.reply(query.key_expr, b"\0\1\0\0x", attachment=bytes(33))
+        assert query.attachment is not None
+        answered = query.attachment.to_bytes()
+        query.reply(query.key_expr, b"\0\1\0\0x", attachment=answered)
         query.drop()
         assert isinstance(failure_of(future), CdrError)
 
