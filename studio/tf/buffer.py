@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from studio.tf.admission import Notice
-    from studio.tf.columns import TransformColumns
+    from studio.tf.columns import Numbers, TransformColumns
     from studio.tf.frames_now import FramesNow
 
 HISTORY_NS: Final = 10_000_000_000
@@ -222,20 +222,22 @@ class TransformBuffer:
         Raises:
             ExtrapolationError: One is not known at that time.
         """
-        numbers = np.array(frames, np.int64)
         if stamp_ns == 0:
-            stamp_ns = self._newest_common_ns(numbers)
-        poses, known = self._histories.at(numbers, stamp_ns)
-        if not known.all():
-            at = numbers[~known][:1]
-            raise ExtrapolationError(
-                self._forest.names[int(at[0])],
-                stamp_ns,
-                int(self._histories.oldest_ns(at)[0]),
-                int(self._histories.newest_ns(at)[0]),
-            )
-        return [tuple(pose) for pose in poses.tolist()], stamp_ns
+            stamp_ns = self._newest_common_ns(np.array(frames, np.int64))
+        poses: list[Pose] = []
+        for frame in frames:
+            pose = self._histories.pose_at(frame, stamp_ns)
+            if pose is None:
+                raise self._not_known(frame, stamp_ns)
+            poses.append(pose)
+        return poses, stamp_ns
 
-    def _newest_common_ns(self, frames: np.ndarray[tuple[int], np.dtype[np.int64]]) -> int:
+    def _newest_common_ns(self, frames: Numbers) -> int:
         moving = frames[~self._histories.is_static(frames)]
         return int(self._histories.newest_ns(moving).min()) if moving.size else 0
+
+    def _not_known(self, frame: int, stamp_ns: int) -> ExtrapolationError:
+        at = np.array([frame])
+        oldest_ns, newest_ns = self._histories.oldest_ns(at), self._histories.newest_ns(at)
+        name = self._forest.names[frame]
+        return ExtrapolationError(name, stamp_ns, int(oldest_ns[0]), int(newest_ns[0]))

@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from studio.tf.growing import grown
-from studio.tf.rotations import between
+from studio.tf.rotations import between, between_two
 
 if TYPE_CHECKING:
     from studio.tf.columns import Flags, Floats, Numbers
+    from studio.tf.rotations import Pose
 
 _BLOCK: Final = 8
 _ROWS_MAX: Final = 2**21
@@ -141,6 +142,26 @@ class Histories:
             shares = (stamp_ns - from_ns) / (stamps_ns[within] - from_ns)
             poses[within] = between(self._poses[upper - 1], poses[within], shares)
         return poses, known
+
+    def pose_at(self, frame: int, stamp_ns: int) -> Pose | None:
+        """The pose of one frame that has rows at one time, or None when it is not known then."""
+        first, end = int(self._first[frame]), int(self._end[frame])
+        if self._static[frame]:
+            return self._pose(end - 1)
+        after = first + int(self._stamps_ns[first:end].searchsorted(stamp_ns))
+        if after == end:
+            return None
+        if (after_ns := int(self._stamps_ns[after])) == stamp_ns:
+            return self._pose(after)
+        if after == first:
+            return None
+        before_ns = int(self._stamps_ns[after - 1])
+        share = (stamp_ns - before_ns) / (after_ns - before_ns)
+        return between_two(self._pose(after - 1), self._pose(after), share)
+
+    def _pose(self, row: int) -> Pose:
+        w, x, y, z, px, py, pz = self._poses[row].tolist()
+        return w, x, y, z, px, py, pz
 
     def _places(self, first: Numbers, end: Numbers, stamp_ns: int) -> Numbers:
         """The first row of each whose stamp is not older, or its end: all searched at once."""

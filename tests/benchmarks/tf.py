@@ -23,7 +23,7 @@ DEPTH = 38
 RATE_HZ = 100
 SECONDS = 10
 _STEP_NS = 1_000_000_000 // RATE_HZ
-_RUNS = 15
+_RUNS = 41
 
 
 def run() -> None:

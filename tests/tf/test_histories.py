@@ -46,6 +46,8 @@ def assert_same(kept: Histories, frame: int, rows: dict[int, float]) -> None:
     assert kept.newest(frames)[0, 4] == rows[stamps_ns[-1]]
     for asked_ns in (*stamps_ns, *(at + 1 for at in stamps_ns), stamps_ns[0] - 1):
         poses, known = kept.at(frames, asked_ns)
+        one = kept.pose_at(frame, asked_ns)
+        assert one == (pytest.approx(poses[0], abs=1e-12) if known[0] else None)
         assert known[0] == (stamps_ns[0] <= asked_ns <= stamps_ns[-1])
         if known[0]:
             after = bisect.bisect_left(stamps_ns, asked_ns)

@@ -11,6 +11,7 @@ from studio.tf.rotations import (
     IDENTITY,
     Pose,
     between,
+    between_two,
     compose,
     inverse,
     inverse_of,
@@ -70,6 +71,8 @@ def test_turns_between_lie_on_the_shorter_arc(first: Vector, second: Vector, sha
         row((*first, 0.0, 0.0, 0.0)), row((*second, 2.0, 0.0, 0.0)), np.array([share])
     )
     expected = slerp(first, second, share)
+    alone = between_two(pose_of(first, (0.0, 0.0, 0.0)), pose_of(second, (2.0, 0.0, 0.0)), share)
+    assert alone == pytest.approx(mixed, abs=1e-12)
     sign = math.copysign(1.0, float(np.dot(mixed[:4], expected)))
     assert mixed[:4] * sign == pytest.approx(np.array(expected), abs=1e-12)
     assert mixed[4] == pytest.approx(2.0 * share, abs=1e-15)
@@ -81,6 +84,9 @@ def test_small_turns_lose_nothing(angle_rad: float):
     first, second = row((*about_z(0.0), 0.0, 0.0, 0.0)), row((*about_z(angle_rad), 0.0, 0.0, 0.0))
     (mixed,) = between(first, second, np.array([0.5]))
     assert mixed[3] == pytest.approx(half[3], rel=1e-12, abs=0)
+    zero: Pose = (1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    alone = between_two(zero, pose_of(about_z(angle_rad), (0.0, 0.0, 0.0)), 0.5)
+    assert alone[3] == pytest.approx(half[3], rel=1e-12, abs=0)
 
 
 def test_nothing_is_where_it_is():
