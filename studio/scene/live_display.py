@@ -57,6 +57,7 @@ class LiveDisplay:
     def __init__(self, graph: Graph, display_id: str, shelves: Shelves, *, visible: bool) -> None:
         self._graph, self._id, self._shelves = graph, display_id, shelves
         self._groups: dict[str, _Group] = {}
+        self._meshes: dict[tuple[str, str], str] = {}  # path and name of a shape to its URI
         self._paths: tuple[str, ...] = ()
         self._writer = PoseWriter(graph, lambda path: live_node(display_id, path))
         self.show(visible=visible)
@@ -100,20 +101,15 @@ class LiveDisplay:
 
     def mesh_uris(self) -> set[str]:
         """Of the meshes that it draws or waits for."""
-        return {
-            drawn.shape.uri
-            for group in self._groups.values()
-            for drawn in group.shapes.values()
-            if isinstance(drawn.shape, MeshFile)
-        }
+        return set(self._meshes.values())
 
     def draw_mesh(self, uri: str) -> None:
         """Draw a mesh anew that came or that failed."""
-        for path, group in self._groups.items():
-            for name, drawn in group.shapes.items():
-                if isinstance(drawn.shape, MeshFile) and drawn.shape.uri == uri:
-                    nodes = nodes_of(drawn.shape, drawn.stream, self._shelves)
-                    self._put(path, name, replace(drawn, nodes=nodes))
+        for (path, name), wanted in self._meshes.items():
+            if wanted == uri:
+                drawn = self._groups[path].shapes[name]
+                nodes = nodes_of(drawn.shape, drawn.stream, self._shelves)
+                self._put(path, name, replace(drawn, nodes=nodes))
 
     def _changed(self, drawing: Drawing) -> dict[str, dict[str, _Drawn]]:
         """What is to be put, by path and name: nothing is touched yet."""
@@ -140,6 +136,10 @@ class LiveDisplay:
         for part, made in drawn.nodes.items():
             self._graph.put(self._node(path, name, part), made)
         shapes[name] = drawn
+        if isinstance(drawn.shape, MeshFile):
+            self._meshes[path, name] = drawn.shape.uri
+        else:
+            self._meshes.pop((path, name), None)
         return len(gone)
 
     def _put_group(self, path: str) -> None:
@@ -158,6 +158,7 @@ class LiveDisplay:
 
     def _drop_shape(self, path: str, name: str) -> int:
         drawn = self._groups[path].shapes.pop(name)
+        self._meshes.pop((path, name), None)
         for part in drawn.nodes:
             self._graph.drop(self._node(path, name, part))
         return len(drawn.nodes)
