@@ -55,14 +55,14 @@ def test_t1_only_messages_of_which_a_filter_holds_are_shown(endpoint: str):
     at = ("--connect", endpoint)
     ran = studio("topic", "echo", "/joints", "--once", "--filter", "'b' in m.name", *at)
     assert "- -2.5\n" in ran.out
-    words = ("topic", "echo", "/joints", "--timeout", "1")
-    assert studio(*words, "--filter", "m.position[1] > 0", *at).out == ""
+    words = ("topic", "echo", "/joints", "--timeout")
+    assert studio(*words, "0.5", "--filter", "m.position[1] > 0", *at).out == ""
     for options, said in (
         (("--filter", "m.no_such"), "has no field no_such"),
         (("--filter", "import os"), "is no expression"),
         (("--filter", "m.name", "--raw"), "give one"),
     ):
-        ran = studio(*words, *options, *at)
+        ran = studio(*words, "60", *options, *at)
         assert ran.code == 2
         assert said in ran.err
 
