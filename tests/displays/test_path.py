@@ -1,7 +1,7 @@
 from __future__ import annotations
 
 import math
-from time import perf_counter
+from time import thread_time
 from typing import Any
 
 import pytest
@@ -137,10 +137,10 @@ def test_a_million_poses_are_thinned_in_a_moment_and_keep_both_ends():
     raw = three[:at] + (1_000_000).to_bytes(4, "little") + three[at + 4 : -step]
     raw += three[-2 * step : -step] * 999_997 + three[-step:]
     display = PathDisplay(TYPES)
-    before = perf_counter()
+    before = thread_time()
     display.take(received(TYPE, {})._replace(cdr=raw, received_ns=NOW_NS))
     line = only(display).shapes["line"]
-    assert perf_counter() - before < 10
+    assert thread_time() - before < 10
     assert isinstance(line, Lines)
     assert len(line.ends) == POSES_MAX - 1
     assert plain(line)["ends"][-1][1] == [1.0, 2.0, 0.5]

@@ -1,7 +1,7 @@
 from __future__ import annotations
 
 import math
-from time import perf_counter
+from time import thread_time
 from typing import Any
 
 import numpy as np
@@ -125,10 +125,10 @@ def test_a_million_poses_are_thinned_in_a_moment():
     head = bytes(one)[:at] + (1_000_000).to_bytes(4, "little")
     raw = head + bytes(-(len(head) - 4) % 8) + numbers.tobytes()
     display = PoseArrayDisplay(TYPES)
-    before = perf_counter()
+    before = thread_time()
     display.take(Received(TYPE, raw, NOW_NS))
     arrows = only(display).shapes["arrows"]
-    assert perf_counter() - before < 10
+    assert thread_time() - before < 10
     assert isinstance(arrows, Lines)
     assert len(arrows.ends) == 3 * POSES_MAX
     assert arrows.ends[0, 0, 0] == 0.0
