@@ -49,4 +49,4 @@ def test_n1_a_node_whose_process_is_killed_vanishes(router: str, graph: Graph):
         assert graph.wait_for(lambda: bool(graph.publishers("/chatter")), PATIENCE_S)
         talker.stop(signal.SIGKILL)
         assert graph.wait_for(lambda: not graph.publishers("/chatter"), PATIENCE_S)
-        assert graph.node("/topic_helloworld_pub") is None
+        assert graph.wait_for(lambda: graph.node("/topic_helloworld_pub") is None, PATIENCE_S)
