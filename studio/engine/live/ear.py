@@ -80,19 +80,12 @@ def wish_for(
         latched = any(_is_latched(one.qos) for one in fitting)
         reliable = all(one.qos.reliability is not ReliabilityPolicy.BEST_EFFORT for one in fitting)
     return Wish(
-        topic_of(role, topic),
+        role.topic(topic),
         fitting[0].type_name if fitting else role.types[0],
         reliable if chosen.reliable is None else chosen.reliable,
         latched if chosen.latched is None else chosen.latched,
         min(chosen.depth or role.depth, _DEPTH_MAX),
     )
-
-
-def topic_of(role: TopicRole, topic: str) -> str:
-    """The topic of a role beside the main one's."""
-    if not role.beside.startswith("/"):
-        return topic + role.beside
-    return topic.rpartition("/")[0] + role.beside
 
 
 def on_wire(

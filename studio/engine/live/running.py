@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Final
 from studio.displays.catalogue import display_of_kind, displays_of_type
 from studio.displays.display import Display, Received, Status, TopicRole
 from studio.displays.drawing import NOTHING
-from studio.engine.live.ear import Ear, on_wire, topic_of, wish_for
+from studio.engine.live.ear import Ear, on_wire, wish_for
 from studio.engine.live.placing import Placing
 from studio.engine.live.reasons import Facts, OnWire
 from studio.errors import DisplayPropertyError, StudioError
@@ -57,7 +57,7 @@ class RunningDisplay:
         """Of all its roles."""
         if not self.spec.topic:
             return ()
-        return tuple(topic_of(role, self.spec.topic) for role in self.display.TOPICS)
+        return tuple(role.topic(self.spec.topic) for role in self.display.TOPICS)
 
     def set(self, name: str, value: Value) -> Value:
         """Change a property, and give the value that it took.
