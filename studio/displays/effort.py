@@ -9,12 +9,12 @@ import numpy as np
 from studio.displays.colour_maps import RAINBOW, mapped
 from studio.displays.display import Status, TopicRole
 from studio.displays.drawing import NO_TURN, Arrows, Lines, Placed
-from studio.displays.history import KEPT_MAX, Entry, HistoryDisplay, frame_and_stamp
-from studio.displays.pose_look import length
+from studio.displays.history import Entry, HistoryDisplay, frame_and_stamp
+from studio.displays.pose_look import length, switch
 from studio.displays.properties import Property
 from studio.displays.reading import reading
 from studio.displays.turning import FAR, drawable, shortest_turn, turned
-from studio.errors import DisplayMessageError, RobotError
+from studio.errors import DisplayMessageError, DisplayPropertyError, RobotError
 from studio.robot.urdf_text import robot_from_urdf
 from studio.robot.values import JointType
 
@@ -37,6 +37,10 @@ _NO_DESCRIPTION: Final = (
     "topic robot_description beside the joint states."
 )
 _OTHER_JOINTS: Final = "The robot description has none of the joints whose efforts are told."
+RINGS_MAX: Final = 1000
+"""Of one message: more would make the view slow."""
+_JOINTS: Final = "Joints"
+_SETTINGS_MAX: Final = 10_000
 _ROUND: Final = (JointType.REVOLUTE, JointType.CONTINUOUS)
 _UP: Final = np.array([0.0, 0.0, 1.0])
 _LEAST: Final = 0.05
@@ -75,7 +79,7 @@ class EffortDisplay(HistoryDisplay[Efforts]):
         Property("Alpha", "number", 1.0, "How opaque the arrows are.", 0.0, 1.0),
         length("Width", 0.02, "How thick the arrows are."),
         Property("Scale", "number", 1.0, "How large the arrows are.", 0.0, 1000.0),
-        Property("History Length", "whole", 1, "How many messages are shown.", 1, KEPT_MAX),
+        Property("History Length", "whole", 1, "How many messages are shown.", 1, 100),
         Property("TF Prefix", "text", "", "What stands before the names of links on /tf."),
     )
     KEEPS = "History Length"
@@ -83,6 +87,22 @@ class EffortDisplay(HistoryDisplay[Efforts]):
     def __init__(self, types: TypeLibrary, values: Mapping[str, Value] | None = None) -> None:
         super().__init__(types, values)
         self._robot: Robot | None = None
+
+    def properties(self) -> tuple[Property, ...]:
+        """Also a switch for each joint that can have a ring."""
+        joints = () if self._robot is None else self._robot.joints.values()
+        turning = (one.name for one in joints if one.type in _ROUND)
+        return (*self.PROPERTIES, *(_switch_of(name) for name in turning))
+
+    def set(self, name: str, value: object) -> None:
+        """Change a property.
+
+        Raises:
+            DisplayPropertyError: There is none of that name, or the value is of another kind.
+        """
+        if name not in self.values and len(self.values) >= _SETTINGS_MAX:
+            raise DisplayPropertyError(name, "is one joint too many to be set", None)
+        super().set(name, value)
 
     def take(self, received: Received, role: str = "") -> None:
         """Take in joint states, or the description of the robot.
@@ -146,10 +166,14 @@ class EffortDisplay(HistoryDisplay[Efforts]):
 
     def _rings(self, content: Efforts) -> list[Ring]:
         joints = {} if self._robot is None else self._robot.joints
-        told = zip(content.joints, content.efforts.tolist(), strict=True)
-        found = ((joints.get(name), effort) for name, effort in told if abs(effort) <= FAR)
-        made = [self._ring_of(joint, effort) for joint, effort in found if joint is not None]
-        return [ring for ring in made if ring is not None]
+        told = dict(zip(content.joints, content.efforts.tolist(), strict=True))
+        found = ((joints.get(name), effort) for name, effort in told.items() if abs(effort) <= FAR)
+        made = [
+            self._ring_of(joint, effort)
+            for joint, effort in found
+            if joint is not None and self.values.get(f"{_JOINTS}/{joint.name}", True)
+        ]
+        return [ring for ring in made if ring is not None][:RINGS_MAX]
 
     def _ring_of(self, joint: Joint, effort: float) -> Ring | None:
         axis = np.array(joint.axis, dtype=np.float64)
@@ -181,6 +205,15 @@ class EffortDisplay(HistoryDisplay[Efforts]):
             ends = points[None, -2:]
             shapes["head"] = Arrows(ends, colour, 0.0, 4.0 * width_m, 2.0 * width_m, alpha)
         return shapes
+
+    def _property(self, name: str) -> Property:
+        if name.startswith(f"{_JOINTS}/"):
+            return _switch_of(name.removeprefix(f"{_JOINTS}/"))
+        return super()._property(name)
+
+
+def _switch_of(joint: str) -> Property:
+    return switch(f"{_JOINTS}/{joint}", "Whether the effort of this joint is shown.", on=True)
 
 
 def _about(axis: Floats, around_z: Floats) -> NDArray[np.float32]:

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from studio.displays.drawing import Arrows, Lines
-from studio.displays.effort import EffortDisplay
-from studio.errors import DisplayMessageError
+from studio.displays.effort import RINGS_MAX, EffortDisplay
+from studio.errors import DisplayMessageError, DisplayPropertyError
 from studio.ros.cdr import Codec
 from tests.support.display_messages import STAMP_NS, TYPES, received
 from tests.support.drawn import assert_drawable, said
@@ -151,6 +151,42 @@ def test_efforts_that_cannot_be_drawn_are_left_out_or_told(number: float):
 def test_a_joint_without_an_axis_has_no_ring():
     display = display_of({"elbow": 1.0, "spin": 1.0}, robot=ROBOT.replace("0 2 0", "0 0 0"))
     assert [one.frame for one in display.draw(0).values()] == ["wheel"]
+
+
+def test_each_joint_can_be_switched_off_and_is_named_when_it_is_known():
+    display = display_of({"elbow": 1.0, "spin": 1.0}, robot=None)
+    display.set("Joints/elbow", False)
+    assert [one.name for one in display.properties() if "/" in one.name] == []
+    describe(display, ROBOT)
+    assert [one.name for one in display.properties()[-2:]] == ["Joints/elbow", "Joints/spin"]
+    assert [one.frame for one in display.draw(0).values()] == ["wheel"]
+    display.set("Joints/elbow", True)
+    assert len(display.draw(0)) == 2
+
+
+def test_settings_of_joints_have_an_end():
+    display = display_of({})
+    for number in range(10_000 - len(display.values)):
+        display.set(f"Joints/{number}", False)
+    with pytest.raises(DisplayPropertyError, match="too many"):
+        display.set("Joints/elbow", False)
+    display.set("Joints/7", True)
+
+
+def test_a_joint_that_is_named_often_has_one_ring_and_a_message_has_an_end():
+    display = display_of({})
+    take(display, ["elbow"] * 50_000, [1.0] * 50_000)
+    assert len(display.draw(0)) == 1
+    joints = "".join(
+        f'<link name="l{n}"/><joint name="j{n}" type="continuous"><parent link="base"/>'
+        f'<child link="l{n}"/><axis xyz="0 0 1"/></joint>'
+        for n in range(RINGS_MAX + 1)
+    )
+    display = display_of(
+        {f"j{n}": 1.0 for n in range(RINGS_MAX + 1)},
+        robot=f'<robot name="hedgehog"><link name="base"/>{joints}</robot>',
+    )
+    assert len(display.draw(0)) == RINGS_MAX
 
 
 def test_as_many_messages_are_seen_as_the_history_is_long():
