@@ -8,16 +8,18 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 import pytest
 
-from studio.displays.drawing import Placed, Points
+from studio.displays.drawing import Arrows, Axes, Lines, Placed, Points, Solids
 from tests.support.live_page import LivePage
 from tests.support.live_shapes import (
     BLUE,
     MESH_URI,
     UPRIGHT,
+    at,
     drawing_of,
     every_shape,
     places,
     solids,
+    upright,
 )
 from tests.support.scene_server import SceneServer
 from tests.support.watched_scene import triangle
@@ -206,6 +208,43 @@ def show_cloud(scene: DocumentScene, drawing: dict[str, Placed]) -> None:
     scene.flush()
 
 
+def test_shapes_that_grow_and_shrink_are_all_there(view: LivePage):
+    spots = np.array([[0, 0, 0], [0.6, 0, 0], [0, 0.6, 0]], np.float32)
+    ahead = np.array([0.3, 0, 0], np.float32)
+
+    def of(count: int) -> dict[str, Shape]:
+        some, scales = spots[:count], np.full((count, 3), 0.2, np.float32)
+        colors = np.tile(np.array([[255, 0, 0]], np.uint8), (count, 1))
+        ends = np.stack([some, some + ahead], axis=1)
+        return {
+            "solids": Solids("sphere", some, upright(count), scales, colors),
+            "axes": Axes(some, upright(count), 0.3, 0.05),
+            "arrows": Arrows(ends, colors, 0.08, 0.16, 0.1),
+            "lines": Lines(ends, np.stack([colors, colors], axis=1), 0.1),
+        }
+
+    spread = {"solids": at(0, 0), "axes": at(2, 0), "arrows": at(0, -2), "lines": at(2, -2)}
+    view.server.call(lambda scene: (scene.live.drop("all"), scene.flush()))
+    view.look(*FROM_ABOVE)
+    for count in (1, 3, 2):
+        drawing = drawing_of(of(count))
+        view.server.call(
+            lambda scene, drawing=drawing: (
+                scene.live.apply("grown", drawing, spread),
+                scene.flush(),
+            )
+        )
+        told = "__viserSceneTree.getState()['/live/grown/solids/solids.many']?.message.props"
+        view.until(f"{told}?.batched_positions.length === {3 * count}")
+        view.until("__viserMutable.nodeRefFromName['/live/grown/lines/lines.lines']")
+        view.take()
+        for name, (_, (x, y, _)) in spread.items():
+            shown = [view.rgba(x + dx + 0.08, y + dy)[3] > 200 for dx, dy, _ in spots.tolist()]
+            assert (name, shown) == (name, [number < count for number in range(3)])
+    view.server.call(lambda scene: (scene.live.drop("grown"), draw_all(scene)))
+    view.until("__viserMutable.nodeRefFromName['/live/all/grid/grid.lines']")
+
+
 def test_what_was_see_through_becomes_opaque_again_and_a_cloud_may_grow(view: LivePage):
     faint = [name for name in shapes() if name.startswith("faint")]
     opaque = {name: replace(shapes()[name], opacity=1.0) for name in faint}  # pyright: ignore[reportCallIssue]
@@ -222,6 +261,7 @@ def test_what_was_see_through_becomes_opaque_again_and_a_cloud_may_grow(view: Li
         assert looks(view, name, x, y) == (colour, 1.0)
     assert [looks(view, "squares", 0, y)[0] for y in (-0.5, 0, 0.25, 0.5)] == [B, B, NOTHING, B]
     view.server.call(lambda scene: (scene.live.place("all", {"faint": None}), scene.flush()))
+    view.until("!__viserMutable.nodeRefFromName['/live/all/faint'].visible")
     view.take()
     assert looks(view, "faint", 0, 0)[0] == NOTHING
     assert view.errors == []
