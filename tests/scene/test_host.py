@@ -258,7 +258,12 @@ def test_nobody_can_open_a_public_tunnel():
     in_scene(scenario)
 
 
-def test_cameras_are_passed_on_at_most_five_times_a_second_and_the_newest_is_not_lost():
+def test_cameras_are_passed_on_at_most_once_a_while_and_the_newest_is_not_lost(
+    monkeypatch: pytest.MonkeyPatch,
+):
+    # Longer than a busy machine takes to read a hundred of them.
+    monkeypatch.setattr("studio.scene.camera_gate.CAMERA_PERIOD_S", 1.0)
+
     async def scenario(scene: DocumentScene) -> None:
         heard: list[float] = []
         server = scene.viser._websock_server

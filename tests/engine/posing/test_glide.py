@@ -25,7 +25,7 @@ def test_it_goes_one_way_and_ends_exactly_in_the_pose():
     async def run() -> None:
         joints = Joints()
         glide = Glide(joints.move)
-        glide.start({"a": 1.0, "b": 5.0}, {"a": -0.3}, 0.15)
+        glide.start({"a": 1.0, "b": 5.0}, {"a": -0.3}, 1.0)
         assert glide.running
         await until(lambda: not glide.running)
         way = [move["a"] for move in joints.moves]
