@@ -16,6 +16,7 @@ from studio.scene.graph import Graph
 from studio.scene.host import forget_removed, make_server
 from studio.scene.live_scene import LiveScene
 from studio.scene.naming import GRID
+from studio.scene.pose import rotated
 from studio.scene.pose_writer import PoseWriter
 from studio.scene.robot_drawing import RobotDrawing
 from studio.scene.standalone import standalone_page
@@ -54,6 +55,7 @@ class DocumentScene:
         """What the document's displays draw."""
         self._settings = deepcopy(DISPLAY_DEFAULTS)
         self._height_m = 0.0
+        self._root: tuple[Quaternion, Vector3] = (node.NO_TURN, node.ORIGIN)
         self._shown_anew = self._must_settle = False
         self._casts_shadow: bool | None = None
         self._last_poses: tuple[Sequence[str], NDArray[np.floating]] = ((), np.empty((0, 7)))
@@ -101,7 +103,14 @@ class DocumentScene:
         self._shown_anew = False
 
     def place_robot(self, wxyz: Quaternion, position_m: Vector3) -> None:
-        """Put the root link of the robot there in the fixed frame, and all that is drawn of it."""
+        """Put the root link of the robot there in the fixed frame, and all that is drawn of it.
+
+        The ground stays where it was laid when the fixed frame became another than the root's, or
+        it would follow a robot that climbs or flies.
+        """
+        still = (node.NO_TURN, node.ORIGIN)
+        self._must_settle |= (self._root == still) is not ((wxyz, position_m) == still)
+        self._root = (wxyz, position_m)
         with self._graph.atomic():
             self._robot.place(wxyz, position_m)
             self.ghost.place(wxyz, position_m)
@@ -161,9 +170,11 @@ class DocumentScene:
     def standalone_page(self, title: str, *, dark: bool) -> Callable[[], bytes]:
         """Take the view as it is now; what is returned makes a page of it, in any thread."""
         low, high = self._robot.ground.bounds_m(*self._last_poses)
-        centre = ((low + high) / 2).tolist()
+        centre: list[float] = ((low + high) / 2).tolist()
         size_m = float(np.linalg.norm(high - low))
-        at = (centre[0], centre[1], centre[2])
+        wxyz, (x, y, z) = self._root
+        dx, dy, dz = rotated(wxyz, (centre[0], centre[1], centre[2]))
+        at = (x + dx, y + dy, z + dz)
         return standalone_page(self.viser, title, at, size_m, dark=dark)
 
     def close(self) -> None:
@@ -172,7 +183,7 @@ class DocumentScene:
 
     def _settle(self) -> None:
         """Lay the grid under the robot as it stands."""
-        height_m = self._robot.ground.height_m(*self._last_poses)
+        height_m = self._robot.ground.height_m(*self._last_poses) + self._root[1][2]
         if abs(height_m - self._height_m) > _STEP_M:
             self._height_m = height_m
             self._put_grid()

@@ -10,6 +10,7 @@ import pytest
 from studio.displays.drawing import MeshFile, Placed, Points, Shape, Text
 from studio.errors import SceneError
 from studio.scene.live_scene import GROUPS_MAX
+from studio.scene.naming import GRID
 from tests.support.live_shapes import (
     MESH_URI,
     RED,
@@ -21,7 +22,7 @@ from tests.support.live_shapes import (
 )
 from tests.support.robots import rover
 from tests.support.viser_frames import Peer, Sent, eventually, sit_down, told_of, types_of
-from tests.support.watched_scene import sent_by, triangle, watched
+from tests.support.watched_scene import poses_of, sent_by, triangle, watched
 
 if TYPE_CHECKING:
     from studio.scene import DocumentScene
@@ -265,13 +266,33 @@ def test_the_robot_and_its_ghost_stand_where_the_root_is_in_the_fixed_frame():
         scene.ghost.shift((1, 0, 0))
         sent_by(scene, peer)
         half = (0.0, 0.0, 0.0, 1.0)  # about z
-        scene.place_robot(half, (5, 6, 7))
+        scene.place_robot(half, (5, 6, 0))
         sent = sent_by(scene, peer)
         places = {m["name"]: list(m["position"]) for m in of_type(sent, "SetPositionMessage")}
-        assert places == {"/robot": [5, 6, 7], "/ghost": [4, 6, 7]}
+        assert places == {"/robot": [5, 6, 0], "/ghost": [4, 6, 0]}
         turns = {m["name"]: list(m["wxyz"]) for m in of_type(sent, "SetOrientationMessage")}
         assert turns == {"/robot": list(half), "/ghost": list(half)}
         scene.set_display("robot", "opacity", 0.5)
         assert types_of(sent_by(scene, peer)) == ["SceneNodeUpdateMessage"]
+
+    watched(scenario)
+
+
+def test_the_ground_is_laid_under_a_robot_that_is_placed_and_does_not_climb_with_it():
+    async def scenario(scene: DocumentScene, peer: Peer) -> None:
+        def heights() -> list[float]:
+            sent = of_type(sent_by(scene, peer), "SetPositionMessage")
+            return [round(m["position"][2], 6) for m in sent if m["name"] == GRID]
+
+        scene.show(rover(wheel_radius_m=0.5), None)
+        scene.set_poses(*poses_of(rover()))
+        (before,) = heights()
+        assert before < 0
+        scene.place_robot(UPRIGHT[0], (3, 0, 0.5))
+        assert heights() == [round(before + 0.5, 6)]
+        scene.place_robot(UPRIGHT[0], (3, 0, 20))
+        assert heights() == []
+        scene.place_robot(*UPRIGHT)
+        assert heights() == [before]
 
     watched(scenario)
