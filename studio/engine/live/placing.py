@@ -6,7 +6,7 @@ from collections import deque
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Final, NamedTuple, TypeAlias
 
-from studio.displays.drawing import NOTHING
+from studio.displays.drawing import NO_TURN, NOTHING
 from studio.errors import ExtrapolationError, FrameError
 
 if TYPE_CHECKING:
@@ -98,7 +98,8 @@ class Placing:
                 tried.poses[path] = known
                 continue
             try:
-                tried.poses[path] = lookup(placed.frame, placed.stamp_ns)
+                wxyz, xyz = lookup(placed.frame, placed.stamp_ns)
+                tried.poses[path] = (wxyz if placed.turns else NO_TURN), xyz
             except FrameError as error:
                 tried.poses[path], tried.troubles[path] = None, error
         return tried

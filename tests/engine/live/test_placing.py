@@ -134,3 +134,12 @@ def test_all_is_looked_up_again_when_the_fixed_frame_is_another():
     shown = placing.step(frames.lookup, MOMENT)
     assert shown is not None
     assert shown.poses == {"": (NO_TURN, (12.0, 0.0, 0.0))}
+
+
+def test_what_does_not_turn_with_its_frame_is_only_moved():
+    placing, turned = Placing(), (0.0, 1.0, 0.0, 0.0)
+    both = {"turns": Placed("imu", 1, {}), "stays": Placed("imu", 1, {}, turns=False)}
+    placing.offer(both, MOMENT)
+    shown = placing.step(lambda _frame, _stamp_ns: (turned, (1.0, 2.0, 3.0)), MOMENT)
+    assert shown is not None
+    assert shown.poses == {"turns": (turned, (1.0, 2.0, 3.0)), "stays": (NO_TURN, (1.0, 2.0, 3.0))}
