@@ -16,8 +16,7 @@ if TYPE_CHECKING:
 
 # At a scale of 1, m.
 _AXIS_LENGTH_M: Final = 0.2
-_AXIS_RADIUS_M: Final = 0.02
-_NAME_HEIGHT_M: Final = 0.1
+_AXIS_RADIUS_M: Final = 0.01
 _SHAFT_M: Final = 0.01
 _HEAD_M: Final = 0.04
 _HEAD_LENGTH_M: Final = 0.1
@@ -137,11 +136,11 @@ def _parts_of_arrows(lengths_m: Floats, head_m: float) -> tuple[Floats, Floats]:
     return heads_m, lengths_m - heads_m
 
 
-def name_of(name: str, grey: float, opacity: float, scale: float) -> Text:
-    """The name of a frame, at its origin."""
+def name_of(name: str, grey: float, opacity: float, height_m: float) -> Text:
+    """The name of a frame, at its origin; of height 0 it has one size on the screen."""
     red, green, blue = (_WHITE + grey * (_GREY - _WHITE)).astype(int).tolist()
     rgb: Rgb = (red, green, blue)
-    return Text(name, height_m=_NAME_HEIGHT_M * scale, rgb=rgb, opacity=opacity)
+    return Text(name, height_m=height_m, rgb=rgb, opacity=opacity)
 
 
 def _greyed(colors: Floats, grey: Floats) -> NDArray[np.uint8]:

@@ -80,6 +80,16 @@ class TfDisplay(Display):
             "Marker Alpha", "number", 1.0, "How opaque they are: 0 is not seen.", low=0.0, high=1.0
         ),
         Property(
+            "Name Height",
+            "number",
+            0.0,
+            "Height of the names in the scene, times the scale; 0 can be read from anywhere.",
+            low=0.0,
+            high=1000.0,
+            unit="m",
+            when=("Show Names", (True,)),
+        ),
+        Property(
             "Frame Timeout",
             "number",
             15.0,
@@ -221,11 +231,12 @@ class TfDisplay(Display):
     def _written(self, seen: _Seen) -> dict[str, Placed]:
         """The names by their paths; one that looks as before is the same object."""
         scale, alpha = self._size
+        height_m = float(self.values["Name Height"]) * scale
         written: dict[str, Placed] = {}
         for row in _rows(seen.shown)[:NAMES_MAX]:
             name = seen.frames.names[row]
             opacity = alpha * float(seen.shades.opacity[row])
-            text = name_of(name, float(seen.shades.grey[row]), opacity, scale)
+            text = name_of(name, float(seen.shades.grey[row]), opacity, height_m)
             path = f"names/{name}"
             before = self._names.get(path)
             is_same = before is not None and before.shapes["name"] == text

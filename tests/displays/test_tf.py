@@ -69,7 +69,7 @@ def test_frames_are_crosses_where_they_are_in_the_fixed_frame():
     axes = axes_of(drawing)
     places = sorted(axes.positions.round(6).tolist())
     assert places == [[0.0, 0.0, 0.0], [1.0, 1.0, 0.0], [2.0, 1.0, 0.0]]
-    assert (axes.length_m, axes.radius_m, axes.opacity) == (0.2, 0.02, 1.0)
+    assert (axes.length_m, axes.radius_m, axes.opacity) == (0.2, 0.01, 1.0)
 
 
 def test_names_follow_their_frames():
@@ -77,7 +77,7 @@ def test_names_follow_their_frames():
     assert names_in(drawing) == {"odom", "base", "wheel"}
     name = drawing["names/wheel"]
     assert (name.frame, name.stamp_ns, name.follows) == ("wheel", 0, True)
-    assert name.shapes["name"] == Text("wheel", height_m=0.1)
+    assert name.shapes["name"] == Text("wheel")
 
 
 def test_arrows_lead_from_child_to_parent():
@@ -137,11 +137,11 @@ def test_with_all_switched_off_nothing_is_drawn():
 
 
 def test_scale_and_opacity_hold_for_all():
-    drawing = shown(Robot(), Marker_Scale=2.0, Marker_Alpha=0.5).draw(0)
+    drawing = shown(Robot(), Marker_Scale=2.0, Marker_Alpha=0.5, Name_Height=0.25).draw(0)
     axes = axes_of(drawing)
-    assert (axes.length_m, axes.radius_m, axes.opacity) == (0.4, 0.04, 0.5)
+    assert (axes.length_m, axes.radius_m, axes.opacity) == (0.4, 0.02, 0.5)
     assert solids_of(drawing, "heads").opacities == 0.5
-    assert drawing["names/odom"].shapes["name"] == Text("odom", height_m=0.2, opacity=0.5)
+    assert drawing["names/odom"].shapes["name"] == Text("odom", height_m=0.5, opacity=0.5)
 
 
 def test_frames_that_stand_still_are_the_same_drawing_and_names_the_same_objects():
@@ -175,7 +175,7 @@ def test_a_frame_without_news_turns_grey_then_fades_then_is_gone():
     old = solids_of(greyed, "old_axes")
     assert old.opacities == 1.0
     assert sorted(old.colors[:3].tolist()) == [[89, 89, 217], [89, 217, 89], [217, 89, 89]]
-    assert greyed["names/wheel"].shapes["name"] == Text("wheel", height_m=0.1, rgb=(217, 217, 217))
+    assert greyed["names/wheel"].shapes["name"] == Text("wheel", rgb=(217, 217, 217))
     faded = solids_of(after(12.5), "old_axes")
     assert isinstance(faded.opacities, np.ndarray)
     assert faded.opacities.tolist() == [0.5] * 6
