@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import argparse
 import textwrap
+from pathlib import Path
 from typing import TYPE_CHECKING
 
+from studio.cli.interface_types import environment_with
 from studio.cli.wire import STARTING, add_wire_options, opened_wire
 from studio.errors import SettingsError
 
@@ -38,6 +40,15 @@ def add(parser: argparse.ArgumentParser) -> None:
         metavar="...",
         help="given to each node: -p NAME:=VALUE, -r FROM:=TO",
     )
+    parser.add_argument(
+        "--interfaces",
+        action="append",
+        default=[],
+        type=Path,
+        metavar="PATH",
+        help="types of one's own that the nodes know: a package's folder, a folder of packages, "
+        "or a file; may be given again",
+    )
     parser.set_defaults(run=run)
     add_wire_options(parser, router=STARTING, own_types=False)
 
@@ -57,12 +68,13 @@ def run(options: argparse.Namespace) -> int:
 
 def _start(demos: Sequence[Demo], options: argparse.Namespace) -> int:
     """Hold the router, if it is ours, for as long as one of them runs."""
-    from studio.nodes.demos.starting import DemoProcesses
+    from studio.nodes.demos.starting import DemoProcesses, environment_for
 
     arguments = ["--ros-args", *options.ros_args] if options.ros_args else []
+    own_types = environment_with(options.interfaces)
     with (
         opened_wire(options, own_types=False) as wire,
-        DemoProcesses.at(wire.settings) as processes,
+        DemoProcesses(environment_for(wire.settings, own_types)) as processes,
     ):
         for demo in demos:
             processes.start(demo.module, arguments)

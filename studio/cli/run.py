@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from studio.cli.executables import demo_executables, executables_of_all
+from studio.cli.interface_types import environment_with
 from studio.cli.opened import opened_packages
 from studio.cli.values import domain_number
 from studio.cli.wire import STARTING, ended_by_signals
@@ -35,7 +36,7 @@ def add(parser: argparse.ArgumentParser) -> None:
         metavar="ARGUMENT",
         nargs=argparse.REMAINDER,
         help="the node's own; --ros-args -r from:=to -p name:=value as in ROS; "
-        "--connect, --domain and --router as everywhere",
+        "--connect, --domain, --router and --interfaces as everywhere",
     )
     parser.set_defaults(run=_run, package_path=[], data_dir=None)
 
@@ -56,7 +57,7 @@ def _run(options: argparse.Namespace) -> int:
     settings = wire_settings(tuple(wire.connect), wire.domain)
     # Held for as long as the node runs: with it goes the router, where one was started here.
     with ended_by_signals(), open_wire(settings, wire.router) as held:
-        os.environ.update(environment_for(held.settings))
+        os.environ.update(environment_for(held.settings, environment_with(wire.interfaces)))
         importlib.import_module(module).main(arguments)
     return 0
 
@@ -68,6 +69,7 @@ def _part_arguments(words: Sequence[str]) -> tuple[argparse.Namespace, list[str]
     parser.add_argument("--connect", action="append", default=[])
     parser.add_argument("--domain", type=domain_number)
     parser.add_argument("--router", default=STARTING)
+    parser.add_argument("--interfaces", action="append", default=[], type=Path)
     wire, rest = parser.parse_known_args(words[:end])
     return wire, [*rest, *words[end:]]
 

@@ -1,7 +1,13 @@
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from studio.nodes.demos.table import DEMOS
-from tests.support.command_line import studio
+from tests.support.command_line import started, studio
+from tests.support.wire import free_endpoint
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 
 def test_without_names_the_demos_are_listed_with_what_they_show():
@@ -18,6 +24,14 @@ def test_what_to_try_is_said_without_starting_anything():
     assert ran.code == 0
     assert "studio run radio_station song_requester Clocks" in ran.out
     assert "the counter grows by 2" in ran.out
+
+
+def test_types_that_are_not_there_are_said_before_anything_is_started(tmp_path: Path):
+    for words in (("demos", "talker"), ("run", "demo_nodes_py", "talker")):
+        with started(free_endpoint(), *words, "--interfaces", str(tmp_path / "none")) as process:
+            assert process.wait() == 2
+        assert "holds no msg, srv or action folder" in process.printed
+        assert "Publishing" not in process.printed
 
 
 def test_an_unknown_name_is_one_sentence_and_starts_none_of_the_others():

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.command_line import studio
 from tests.support.demos import heard, node_at, running, running_demo
 from tests.support.wire import running_router, wait_until
 
@@ -31,3 +32,36 @@ def test_the_node_of_the_readme_repeats_what_the_talker_says_and_ends_by_ctrl_c(
         shout.wait_for("[shout]: I heard Hello World")
         shout.stop()
         assert "Traceback" not in shout.printed
+
+
+COUNTING = """
+import studio.ros.client as rclpy
+from studio.ros.messages.own_interfaces.msg import Cell
+
+try:
+    with rclpy.init():
+        node = rclpy.Node("counting")
+        publisher = node.create_publisher(Cell, "cells", 10)
+        node.create_timer(0.1, lambda: publisher.publish(Cell(voltage=1.5)))
+        rclpy.spin(node)
+except (KeyboardInterrupt, rclpy.ExternalShutdownException):
+    pass
+"""
+
+
+def test_t11_a_node_of_ones_own_has_types_of_its_own_without_a_build(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    package = tmp_path / "own_interfaces" / "msg"
+    package.mkdir(parents=True)
+    (package / "Cell.msg").write_text("float32 voltage\n")
+    script = tmp_path / "counting.py"
+    script.write_text(COUNTING)
+    monkeypatch.setenv("STUDIO_DATA_DIR", str(tmp_path / "data"))
+    monkeypatch.setenv("STUDIO_INTERFACES", str(package.parent))
+    with running_router() as router, running([sys.executable, str(script)], router):
+        monkeypatch.delenv("STUDIO_INTERFACES")
+        at = ("--connect", router)
+        wait_until("the topic", lambda: "/cells" in studio("topic", "list", *at).out.split())
+        ran = studio("topic", "echo", "/cells", "--once", *at)
+    assert ran.out == "voltage: 1.5\n---\n", ran.err

@@ -6,6 +6,7 @@ import os
 from functools import cache
 from typing import TYPE_CHECKING
 
+from studio.ros.messages.own_types import take_own_types
 from studio.ros.names import full_type_name
 from studio.ros.profiles import JAZZY, PROFILES
 from studio.ros.types.library import ActionType, ServiceType, TypeLibrary
@@ -16,8 +17,14 @@ if TYPE_CHECKING:
 
 @cache
 def types_of(distro: str) -> TypeLibrary:
-    """Give the library of a distribution, one for the whole process."""
-    return TypeLibrary(distro)
+    """Give the library of a distribution, one for the whole process, with the user's own types.
+
+    Raises:
+        WireSettingsError: The environment names types that are not there, or not sound.
+    """
+    library = TypeLibrary(distro)
+    take_own_types(library)
+    return library
 
 
 def shared_types() -> TypeLibrary:

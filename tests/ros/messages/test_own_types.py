@@ -1,0 +1,62 @@
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+import pytest
+
+from studio.errors import UnknownTypeError, UnreadableFileError, WireSettingsError
+from studio.ros.messages.own_types import VARIABLE, take_own_types, texts_at
+from studio.ros.types.library import TypeLibrary
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+CELL = "own_interfaces/msg/Cell"
+
+
+@pytest.fixture
+def package(tmp_path: Path) -> Path:
+    """A package whose folder is called otherwise."""
+    folder = tmp_path / "src" / "checkout"
+    (folder / "msg").mkdir(parents=True)
+    (folder / "package.xml").write_text("<package><name>own_interfaces</name></package>")
+    (folder / "msg" / "Cell.msg").write_text("float32 voltage\n")
+    return folder
+
+
+def test_a_package_a_folder_of_packages_and_a_file_are_read_alike(package: Path):
+    told = {CELL: "float32 voltage\n"}
+    for path in (package, package.parent, package / "msg" / "Cell.msg"):
+        assert texts_at(path) == told
+
+
+def test_what_holds_no_types_is_one_sentence(tmp_path: Path, package: Path):
+    for path in (tmp_path / "none", tmp_path, package / "package.xml"):
+        with pytest.raises(UnreadableFileError):
+            texts_at(path)
+
+
+def test_the_paths_of_the_environment_are_taken_up(package: Path, tmp_path: Path):
+    other = tmp_path / "more_interfaces" / "msg"
+    other.mkdir(parents=True)
+    (other / "Pack.msg").write_text("own_interfaces/Cell[] cells\n")
+    library = TypeLibrary("jazzy")
+    take_own_types(library, {VARIABLE: f"{package}{os.pathsep}{os.pathsep}{other.parent}"})
+    pack = library.message("more_interfaces/msg/Pack")
+    cell = library.message(CELL)(voltage=1.5)
+    assert pack(cells=[cell]).cells[0].voltage == 1.5
+
+
+def test_without_the_variable_nothing_is_added():
+    library = TypeLibrary("jazzy")
+    take_own_types(library, {})
+    with pytest.raises(UnknownTypeError):
+        library.message(CELL)
+
+
+def test_a_path_that_cannot_be_is_said_with_the_variable(tmp_path: Path, package: Path):
+    (package / "msg" / "Bad.msg").write_text("float31 x\n")
+    for path in (tmp_path / "none", package):
+        with pytest.raises(WireSettingsError, match=f"^{VARIABLE}: "):
+            take_own_types(TypeLibrary("jazzy"), {VARIABLE: str(path)})
