@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import heapq
 from dataclasses import fields
+from itertools import islice
 from typing import TYPE_CHECKING, Final, cast
 
 import numpy as np
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from studio.displays.drawing import Drawing, Shape
+    from studio.displays.markers.kinds import Flags
     from studio.displays.markers.naming import BatchKey
     from studio.displays.markers.store import MarkerStore
     from studio.displays.markers.table import Rows
@@ -29,6 +31,7 @@ if TYPE_CHECKING:
     Array = NDArray[np.float32] | NDArray[np.uint8]
 
 SHAPES_MAX: Final = 8192
+BATCHES_MAX: Final = 2048
 _Place = tuple[str, int, bool]
 """Frame, stamp and whether it is followed: what a group of shapes has in common."""
 
@@ -47,7 +50,7 @@ class MarkerBatches:
         self._hidden: frozenset[str] = frozenset()
         self._paths = _Paths()
 
-    def draw(self, store: MarkerStore, hidden: Collection[str]) -> Drawing:
+    def draw(self, store: MarkerStore, hidden: frozenset[str]) -> Drawing:
         """Draw what is new.
 
         Args:
@@ -56,28 +59,37 @@ class MarkerBatches:
         """
         dirty = store.take_dirty()
         gone = self._shapes.keys() - store.batches.keys()
-        now_hidden = frozenset(hidden)
-        if not dirty and not gone and now_hidden == self._hidden:
+        if not dirty and not gone and hidden == self._hidden:
             return self._drawing
         for number in gone:
             del self._shapes[number]
-        self._hidden = now_hidden
+        if hidden != self._hidden:
+            dirty.update(number for number, key in store.batches.items() if key.namespace is None)
+        self._hidden = hidden
         self._build(store, dirty)
-        self._drawing = self._assembled()
+        self._drawing = self._assembled(max(0, len(store.batches) - BATCHES_MAX))
         return self._drawing
 
     def _build(self, store: MarkerStore, dirty: set[int]) -> None:
-        rows, numbers = store.table.drawn_rows(dirty)
+        first = islice(store.batches, BATCHES_MAX)
+        wanted = [number for number in first if number in dirty or number not in self._shapes]
+        rows, numbers = store.table.drawn_rows(wanted)
         markers = store.table.rows(rows)
-        for number in sorted(dirty):
+        for number in wanted:
             begin, end = np.searchsorted(numbers, (number, number + 1)).tolist()
-            key = store.batches[number]
-            shapes = shapes_of(markers.part(begin, end))
-            self._shapes[number] = key, _named(shapes, key.namespace)
+            part, key = markers.part(begin, end), store.batches[number]
+            if key.namespace is None and self._hidden:
+                part = part.only(self._seen(store, part))
+            self._shapes[number] = key, _named(shapes_of(part), key.namespace)
 
-    def _assembled(self) -> Drawing:
+    def _seen(self, store: MarkerStore, part: Rows) -> Flags:
+        rows: list[int] = part.rows.tolist()
+        shown = [store.table.keys[row][0] not in self._hidden for row in rows]
+        return np.array(shown, dtype=np.bool_)
+
+    def _assembled(self, left_out: int) -> Drawing:
         groups: dict[_Place, list[dict[str, Shape]]] = {}
-        count, self.left_out = 0, 0
+        count, self.left_out = 0, left_out
         for key, shapes in self._shapes.values():
             if key.namespace in self._hidden or not shapes:
                 continue
@@ -141,9 +153,11 @@ def shapes_of(markers: Rows) -> dict[str, Shape]:
     return shapes
 
 
-def _named(shapes: Mapping[str, Shape], namespace: str) -> dict[str, Shape]:
+def _named(shapes: Mapping[str, Shape], namespace: str | None) -> dict[str, Shape]:
     """Names that no other namespace has, and that are plain words whatever its own is."""
-    mark = hashlib.blake2b(namespace.encode(), digest_size=6).hexdigest()
+    mark = "rest"
+    if namespace is not None:
+        mark = hashlib.blake2b(namespace.encode(), digest_size=6).hexdigest()
     return {f"{mark}-{name}": shape for name, shape in shapes.items()}
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, ClassVar, Final
 
 from studio.displays.display import Display, Received, Status
+from studio.displays.drawing import NOTHING
 from studio.displays.markers.batches import MarkerBatches
 from studio.displays.markers.statuses import statuses_of
 from studio.displays.markers.store import MarkerStore
@@ -82,6 +83,8 @@ class MarkersDisplay(Display):
     def draw(self, now_ns: int) -> Drawing:
         """What is there now, ns since the epoch."""
         self._store.expire(now_ns)
+        if not self.values[NAMESPACES]:
+            return NOTHING
         return self._batches.draw(self._store, self._hidden())
 
     def statuses(self) -> tuple[Status, ...]:
@@ -99,11 +102,13 @@ class MarkersDisplay(Display):
             found.append(Status("warn", "unsupported", words))
         return tuple(found)
 
-    def _hidden(self) -> set[str]:
+    def _hidden(self) -> frozenset[str]:
         if not self.values[NAMESPACES]:
-            return self._store.namespaces()
+            return frozenset(self._store.namespaces())
+        if all(self.values.values()):
+            return frozenset()
         begin = len(_name_of(""))
-        return {name[begin:] for name, shown in self.values.items() if not shown}
+        return frozenset(name[begin:] for name, shown in self.values.items() if not shown)
 
     def _first_off(self) -> str:
         if not self.values[NAMESPACES]:

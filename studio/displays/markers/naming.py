@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 import numpy as np
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
 
     from studio.displays.markers.kinds import Flags, Whole
@@ -14,6 +16,9 @@ if TYPE_CHECKING:
 
 _KEPT: Final = 4
 _BYTES_KEPT_MAX: Final = 1 << 20
+STAMPS_MAX: Final = 256
+"""Of one message: of more, those that are close to each other are taken for one."""
+_CLOSE_NS: Final = 10_000_000
 
 
 class BatchKey(NamedTuple):
@@ -24,7 +29,8 @@ class BatchKey(NamedTuple):
     stamp_ns: int
     """0 for those that follow their frame: it is the newest transform that counts."""
     follows: bool
-    namespace: str
+    namespace: str | None
+    """None: any of those that are not drawn apart."""
 
 
 class Named(NamedTuple):
@@ -68,30 +74,46 @@ def _named(texts: tuple[MarkerTexts, ...]) -> Named:
 
 
 def batch_keys(
-    columns: MarkerColumns, named: Named, chosen: Whole
-) -> tuple[list[BatchKey], Whole, Whole]:
+    columns: MarkerColumns, named: Named, chosen: Whole, is_apart: Callable[[str], bool]
+) -> tuple[list[BatchKey], Whole]:
     """Sort markers into batches.
 
     Args:
         columns: Of a message.
         named: Of the same message.
-        chosen: Shape (M,): which of its markers.
+        chosen: Shape (M,): which of its markers, at least one.
+        is_apart: Whether a namespace is drawn apart from others.
 
     Returns:
-        The keys, the number of markers of each, and of each marker (M,) which key it has.
+        Keys, some of them perhaps the same, and which of them each marker (M,) has.
     """
     locked = columns.frame_locked[chosen]
-    stamps_ns = np.where(locked, 0, columns.stamps_ns[chosen])
+    stamps_ns = few_stamps(np.where(locked, 0, columns.stamps_ns[chosen]))
     codes = 2 * named.pairs[chosen] + locked
-    if len(stamps_ns) and stamps_ns.min() != stamps_ns.max():
+    if stamps_ns.min() != stamps_ns.max():
         distinct, moments = np.unique(stamps_ns, return_inverse=True)
         codes = codes * len(distinct) + moments
-    _, first, inverse, counts = np.unique(
-        codes, return_index=True, return_inverse=True, return_counts=True
-    )
+    _, first, inverse = np.unique(codes, return_index=True, return_inverse=True)
     keys: list[BatchKey] = []
     for at in first.tolist():
         text = columns.texts[int(chosen[at])]
         frame = text.frame.removeprefix("/")
-        keys.append(BatchKey(frame, int(stamps_ns[at]), bool(locked[at]), text.namespace))
-    return keys, counts, inverse
+        namespace = text.namespace if is_apart(text.namespace) else None
+        keys.append(BatchKey(frame, int(stamps_ns[at]), bool(locked[at]), namespace))
+    return keys, inverse
+
+
+def few_stamps(stamps_ns: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Stamps (N,) of one message; if there are too many, groups of them have that of the first.
+
+    Who stamps each marker as it makes it needs no transform for each: what lies 10 ms apart is
+    taken for one, or more if they reach over a longer time.
+    """
+    distinct = np.unique(stamps_ns)
+    if len(distinct) <= STAMPS_MAX:
+        return stamps_ns
+    least, span_ns = int(distinct[0]), int(distinct[-1]) - int(distinct[0])
+    width_ns = max(_CLOSE_NS, span_ns // STAMPS_MAX + 1)
+    groups = (distinct - least) // width_ns
+    _, first, inverse = np.unique(groups, return_index=True, return_inverse=True)
+    return distinct[first][inverse][np.searchsorted(distinct, stamps_ns)]

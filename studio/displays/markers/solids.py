@@ -20,6 +20,12 @@ if TYPE_CHECKING:
 
 SolidKind = Literal["box", "sphere", "cylinder", "cone"]
 
+_KINDS: Final[tuple[tuple[str, SolidKind, Kind, Kind | None], ...]] = (
+    ("boxes", "box", Kind.CUBE, Kind.CUBE_LIST),
+    ("balls", "sphere", Kind.SPHERE, Kind.SPHERE_LIST),
+    ("cylinders", "cylinder", Kind.CYLINDER, None),
+)
+"""Names of shapes, what they are, and which single markers and lists become them."""
 MANY: Final = 2000
 """From so many equal boxes or balls on a list is drawn as a cloud of them."""
 _HALF_PRECISION: Final = 2.0**-10
@@ -42,16 +48,19 @@ class Bodies(NamedTuple):
 def solids_of(markers: Rows) -> dict[str, Shape]:
     """Boxes, balls and cylinders by name."""
     shapes: dict[str, Shape] = {}
-    for name, kind, single, many in (
-        ("boxes", "box", Kind.CUBE, Kind.CUBE_LIST),
-        ("balls", "sphere", Kind.SPHERE, Kind.SPHERE_LIST),
-    ):
-        lists = markers.of_types(many)
-        as_cloud = _are_clouds(lists)
-        bodies = [_singles(markers.of_types(single)), _listed(lists.only(~as_cloud))]
-        _add_solids(shapes, name, "box" if kind == "box" else "sphere", joined(bodies))
-        _add_clouds(shapes, name, lists.only(as_cloud))
-    _add_solids(shapes, "cylinders", "cylinder", _singles(markers.of_types(Kind.CYLINDER)))
+    kinds = set(markers.types.tolist())
+    for name, kind, single, many in _KINDS:
+        bodies: list[Bodies] = []
+        if single in kinds:
+            bodies.append(_singles(markers.of_types(single)))
+        if many is not None and many in kinds:
+            lists = markers.of_types(many)
+            as_cloud = _are_clouds(lists)
+            bodies.append(_listed(lists.only(~as_cloud)))
+            _add_clouds(shapes, name, lists.only(as_cloud))
+        made = solids(kind, joined(bodies)) if bodies else None
+        if made is not None:
+            shapes[name] = made
     return shapes
 
 
@@ -75,6 +84,8 @@ def solids(kind: SolidKind, bodies: Bodies) -> Solids | None:
 
 def joined(many: list[Bodies]) -> Bodies:
     """Bodies one after another."""
+    if len(many) == 1:
+        return many[0]
     return Bodies(
         np.concatenate([each.positions for each in many]),
         np.concatenate([each.wxyz for each in many]),
@@ -87,12 +98,6 @@ def is_seen_in_half(positions: Floats, size_m: float) -> bool:
     """Whether half precision of positions (N, 3) would be seen in things of a size."""
     farthest_m = float(np.abs(positions).max(initial=0.0))
     return farthest_m * _HALF_PRECISION > size_m * _SEEN_SHARE
-
-
-def _add_solids(shapes: dict[str, Shape], name: str, kind: SolidKind, bodies: Bodies) -> None:
-    made = solids(kind, bodies)
-    if made is not None:
-        shapes[name] = made
 
 
 def _singles(markers: Rows) -> Bodies:

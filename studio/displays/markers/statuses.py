@@ -29,11 +29,11 @@ def statuses_of(store: MarkerStore, hidden: Collection[str]) -> list[Status]:
     problems = store.table.problems[: store.table.size]
     rows = np.flatnonzero(problems)
     if hidden:
-        shown = [store.key_of(row)[0] not in hidden for row in rows.tolist()]
+        shown = [store.table.keys[row][0] not in hidden for row in rows.tolist()]
         rows = rows[np.array(shown, dtype=np.bool_)]
     kinds, firsts, counts = np.unique(problems[rows], return_index=True, return_counts=True)
     for kind, first, count in zip(kinds.tolist(), firsts.tolist(), counts.tolist(), strict=True):
-        told[Problem(kind)] = store.key_of(int(rows[first])), count
+        told[Problem(kind)] = store.table.keys[int(rows[first])], count
     found = [_status(problem, *told[problem]) for problem in sorted(told, reverse=True)]
     return [_twice(store.twice), *found] if store.twice is not None else found
 

@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 MARKERS_MAX: Final = 50_000
 POINTS_MAX: Final = 2_000_000
 NAMESPACES_MAX: Final = 1000
+APART_MAX: Final = 32
+"""Namespaces that are drawn each by itself; all others are drawn as one."""
 REFUSED_MAX: Final = 1000
 WORDS_MAX: Final = 2000
 # RViz takes what lasts no longer than this for a marker that stays.
@@ -35,6 +37,7 @@ _MESH_SCHEMES: Final = ("package://", "file://")
 
 # Members of an IntEnum are slow to come by in a loop.
 _ACTIONS: Final = np.array(list(Action), dtype=np.int32)
+_WORDED: Final = np.array([Kind.TEXT, Kind.MESH], dtype=np.int32)
 _ADD, _CLEAR = int(Action.ADD), int(Problem.CLEAR)
 _EMPTY_TEXT = int(Problem.EMPTY_TEXT)
 _NO_MESH, _FOREIGN_MESH = int(Problem.NO_MESH), int(Problem.FOREIGN_MESH)
@@ -75,6 +78,7 @@ class MarkerStore:
         self._points = 0
         self._next_end_ns = FOR_EVER
         self._naming = Naming()
+        self._apart: set[str] = set()
         self._deletions = 0
         self._last: _LastAdd | None = None
 
@@ -122,11 +126,7 @@ class MarkerStore:
 
     def namespaces(self) -> set[str]:
         """Those that hold a marker now."""
-        return {key.namespace for key in self.batches.values()}
-
-    def key_of(self, row: int) -> Key:
-        """Who a row of the table is."""
-        return self.batches[int(self.table.batch[row])].namespace, int(self.table.ids[row])
+        return {namespace for namespace, _ in self._rows}
 
     def _taken(self, columns: MarkerColumns, named: Named) -> Flags:
         """Which markers are looked at: RViz passes over others, whatever they ask for."""
@@ -195,12 +195,14 @@ class MarkerStore:
     def _put_all(
         self, columns: MarkerColumns, named: Named, rows: Whole, added: Whole, received_ns: int
     ) -> None:
-        self._put(columns, rows, added)
+        if not len(rows):
+            return
+        changed = self._put(columns, rows, added)
         self._put_items(columns, rows, added)
         self._put_words(columns, rows, added)
         self._put_problems(columns, named, rows, added)
         self._put_ends(columns.lifetimes_ns[added], rows, received_ns)
-        self._put_batches(columns, named, rows, added)
+        self._put_batches(batch_keys(columns, named, added, self._is_apart), rows, changed)
 
     def _put_ends(self, lifetimes_ns: NDArray[np.int64], rows: Whole, received_ns: int) -> None:
         ends = lifetimes_ns > _LIFETIME_LEAST_NS
@@ -215,21 +217,30 @@ class MarkerStore:
         for at, row in enumerate(rows):
             if row == NO_BATCH:
                 if len(self._rows) < MARKERS_MAX:
-                    rows[at] = self._rows[keys[at]] = self.table.take_row()
+                    rows[at] = self._rows[keys[at]] = self.table.take_row(keys[at])
                 elif len(self.refused) < REFUSED_MAX:
                     self.refused[keys[at]] = Problem.TOO_MANY
         found = np.array(rows, dtype=np.intp)
         has_one = found != NO_BATCH
         return found[has_one], added[has_one]
 
-    def _put(self, columns: MarkerColumns, rows: Whole, added: Whole) -> None:
-        table = self.table
-        table.ids[rows] = columns.ids[added]
-        table.types[rows] = columns.types[added]
-        table.positions[rows] = columns.positions[added]
-        table.rotations_wxyz[rows] = unit_quaternions(columns.rotations_wxyz[added])[0]
-        table.scales[rows] = columns.scales[added]
-        table.rgba[rows] = columns.colors_rgba[added]
+    def _put(self, columns: MarkerColumns, rows: Whole, added: Whole) -> Flags:
+        """Keep numbers of fixed count, and tell which markers may look different now."""
+        table, types = self.table, columns.types[added]
+        turns = unit_quaternions(columns.rotations_wxyz[added])[0]
+        changed = (table.types[rows] != types) | np.isin(types, _WORDED) | (table.points[rows] > 0)
+        changed |= columns.point_starts[added] != columns.point_starts[added + 1]
+        for kept, new in (
+            (table.positions, columns.positions[added]),
+            (table.rotations_wxyz, turns),
+            (table.scales, columns.scales[added]),
+        ):
+            changed |= (kept[rows] != new).any(axis=1)
+            kept[rows] = new
+        rgba = columns.colors_rgba[added]
+        changed |= (table.rgba[rows] != rgba).any(axis=1)
+        table.rgba[rows], table.types[rows] = rgba, types
+        return changed
 
     def _put_items(self, columns: MarkerColumns, rows: Whole, added: Whole) -> None:
         """Copy points: views would keep whole messages in memory for the sake of one marker."""
@@ -291,15 +302,19 @@ class MarkerStore:
                 problems[place] = max(int(problems[place]), _CLEAR)
         self.table.problems[rows] = problems
 
-    def _put_batches(self, columns: MarkerColumns, named: Named, rows: Whole, added: Whole) -> None:
-        self._leave(rows)
-        keys, counts, which = batch_keys(columns, named, added)
-        numbers = np.empty(len(keys), dtype=np.int64)
-        for at, (key, count) in enumerate(zip(keys, counts.tolist(), strict=True)):
-            numbers[at] = number = self._number(key)
+    def _put_batches(
+        self, sorted_in: tuple[list[BatchKey], Whole], rows: Whole, changed: Flags
+    ) -> None:
+        """Put markers into their batches; those that hold what changed are to be drawn anew."""
+        keys, which = sorted_in
+        numbers = np.array([self._number(key) for key in keys], dtype=np.int64)[which]
+        moved = self.table.batch[rows] != numbers
+        entered, counts = np.unique(numbers[moved], return_counts=True)
+        for number, count in zip(entered.tolist(), counts.tolist(), strict=True):
             self._counts[number] = self._counts.get(number, 0) + count
-            self._dirty.add(number)
-        self.table.batch[rows] = numbers[which]
+        self._leave(rows[moved])
+        self._dirty.update(np.unique(numbers[moved | changed]).tolist())
+        self.table.batch[rows] = numbers
 
     def _leave(self, rows: Whole) -> None:
         """Markers are in their batches no more; a batch that holds none is forgotten."""
@@ -320,9 +335,15 @@ class MarkerStore:
             number = self._numbers[key] = self._next_number
             self._next_number += 1
             self.batches[number] = key
-            if len(self.heard) < NAMESPACES_MAX:
-                self.heard.setdefault(key.namespace)
         return number
+
+    def _is_apart(self, namespace: str) -> bool:
+        """Whether a namespace is drawn by itself: those that were heard of first are."""
+        if len(self.heard) < NAMESPACES_MAX:
+            self.heard.setdefault(namespace)
+        if len(self._apart) < APART_MAX:
+            self._apart.add(namespace)
+        return namespace in self._apart
 
 
 def _items_of(  # noqa: PLR0913 - numbers of one marker

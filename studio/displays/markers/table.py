@@ -16,10 +16,12 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from studio.displays.markers.kinds import Floats, Whole
+    from studio.displays.markers.sequence import Key
 
 FOR_EVER: Final = np.iinfo(np.int64).max
 NO_BATCH: Final = -1
 _ROWS_AT_FIRST: Final = 64
+_NOBODY: Final = ("", 0)
 N = TypeVar("N", bound=np.generic)
 
 
@@ -63,6 +65,8 @@ class Rows:
 
     def only(self, chosen: NDArray[np.bool_]) -> Rows:
         """Those for which `chosen` (M,) holds."""
+        if chosen.all():
+            return self
         places = np.flatnonzero(chosen)
         kept: list[int] = places.tolist()
         return Rows(
@@ -84,7 +88,10 @@ class Rows:
 
     def of_types(self, *types: int) -> Rows:
         """Those of some types."""
-        return self.only(np.isin(self.types, types))
+        chosen = self.types == types[0]
+        for other in types[1:]:
+            chosen |= self.types == other
+        return self.only(chosen)
 
 
 class MarkerTable:
@@ -92,7 +99,7 @@ class MarkerTable:
 
     Attributes:
         batch: To which batch each belongs; NO_BATCH for a free row.
-        ids: As they were sent.
+        keys: Namespace and id of each.
         expires_ns: Since the epoch, by the clock of this machine.
         problems: As `Problem`.
         points: How many points each holds.
@@ -102,7 +109,6 @@ class MarkerTable:
     def __init__(self) -> None:
         self.size = 0
         self.batch = np.full(_ROWS_AT_FIRST, NO_BATCH, dtype=np.int64)
-        self.ids = np.zeros(_ROWS_AT_FIRST, dtype=np.int32)
         self.types = np.zeros(_ROWS_AT_FIRST, dtype=np.int32)
         self.expires_ns = np.full(_ROWS_AT_FIRST, FOR_EVER, dtype=np.int64)
         self.problems = np.zeros(_ROWS_AT_FIRST, dtype=np.uint8)
@@ -114,16 +120,19 @@ class MarkerTable:
         self.embedded = np.zeros(_ROWS_AT_FIRST, dtype=np.bool_)
         self.items: list[Items] = [NO_ITEMS] * _ROWS_AT_FIRST
         self.words: list[str] = [""] * _ROWS_AT_FIRST
+        self.keys: list[Key] = [_NOBODY] * _ROWS_AT_FIRST
         self._free: list[int] = []
 
-    def take_row(self) -> int:
+    def take_row(self, key: Key) -> int:
         """Give out the first free row: who comes again in the same order gets the same rows."""
         if self._free:
-            return heapq.heappop(self._free)
-        if self.size == len(self.batch):
-            self._grow()
-        self.size += 1
-        return self.size - 1
+            row = heapq.heappop(self._free)
+        else:
+            if self.size == len(self.batch):
+                self._grow()
+            row, self.size = self.size, self.size + 1
+        self.keys[row] = key
+        return row
 
     def free(self, rows: Iterable[int]) -> None:
         """Take rows back."""
@@ -131,7 +140,7 @@ class MarkerTable:
             self.batch[row] = NO_BATCH
             self.expires_ns[row] = FOR_EVER
             self.problems[row], self.points[row] = Problem.NONE, 0
-            self.items[row], self.words[row] = NO_ITEMS, ""
+            self.items[row], self.words[row], self.keys[row] = NO_ITEMS, "", _NOBODY
             heapq.heappush(self._free, row)
 
     def drawn_rows(self, batches: Iterable[int]) -> tuple[Whole, NDArray[np.int64]]:
@@ -156,7 +165,6 @@ class MarkerTable:
         more = len(self.batch)
         self.batch = np.concatenate((self.batch, np.full(more, NO_BATCH, dtype=np.int64)))
         self.expires_ns = np.concatenate((self.expires_ns, np.full(more, FOR_EVER)))
-        self.ids = _doubled(self.ids)
         self.types = _doubled(self.types)
         self.problems = _doubled(self.problems)
         self.points = _doubled(self.points)
@@ -167,6 +175,7 @@ class MarkerTable:
         self.embedded = _doubled(self.embedded)
         self.items += [NO_ITEMS] * more
         self.words += [""] * more
+        self.keys += [_NOBODY] * more
 
 
 def _doubled(column: NDArray[N]) -> NDArray[N]:

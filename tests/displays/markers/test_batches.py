@@ -8,13 +8,16 @@ import numpy as np
 from studio.displays.drawing import Solids
 from studio.displays.marker_array import MarkerArrayDisplay
 from studio.displays.markers import batches as batches_module
+from studio.displays.markers.batches import shapes_of
 from studio.displays.markers.kinds import Action, Kind
+from studio.displays.markers.store import APART_MAX
 from tests.support.markers import TYPES, array_of, marker, sentences, shapes_in
 
 if TYPE_CHECKING:
     import pytest
 
-    from studio.displays.drawing import Drawing
+    from studio.displays.drawing import Drawing, Shape
+    from studio.displays.markers.table import Rows
 
 S = 10**9
 LINE = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0)]
@@ -159,3 +162,61 @@ def test_nobody_writes_into_what_was_drawn():
     before = np.array(first.positions)
     shown.after(marker(Kind.CUBE, at=(7.0, 7.0, 7.0)))
     assert np.array_equal(first.positions, before)
+
+
+def test_of_ever_so_many_namespaces_the_first_are_drawn_apart_and_the_rest_as_one():
+    display = MarkerArrayDisplay(TYPES)
+    many = [marker(Kind.CUBE, ns=f"n{each}", at=(each, 0.0, 0.0)) for each in range(500)]
+    display.take(array_of(*many))
+    [placed] = display.draw(0).values()
+    assert len(placed.shapes) == APART_MAX + 1
+    rest = placed.shapes["rest-boxes"]
+    assert isinstance(rest, Solids)
+    assert rest.positions[:, 0].tolist() == list(range(APART_MAX, 500))
+
+
+def test_a_namespace_of_the_rest_is_hidden_and_shown_by_itself():
+    display = MarkerArrayDisplay(TYPES)
+    many = [marker(Kind.CUBE, ns=f"n{each}", at=(each, 0.0, 0.0)) for each in range(40)]
+    display.take(array_of(*many))
+    display.set("Namespaces/n39", value=False)
+    [placed] = display.draw(0).values()
+    rest = placed.shapes["rest-boxes"]
+    assert isinstance(rest, Solids)
+    assert rest.positions[:, 0].tolist() == list(range(APART_MAX, 39))
+    display.set("Namespaces/n39", value=True)
+    [placed] = display.draw(0).values()
+    rest = placed.shapes["rest-boxes"]
+    assert isinstance(rest, Solids)
+    assert rest.positions[:, 0].tolist() == list(range(APART_MAX, 40))
+
+
+def test_more_batches_than_can_be_drawn_are_told_and_drawn_when_others_go(
+    monkeypatch: pytest.MonkeyPatch,
+):
+    monkeypatch.setattr(batches_module, "BATCHES_MAX", 2)
+    shown = Shown()
+    three = [marker(Kind.CUBE, each, frame=f"f{each}") for each in range(3)]
+    drawing = shown.after(*three)
+    assert [placed.frame for placed in drawing.values()] == ["f0", "f1"]
+    assert sentences(shown.display) == ["1 texts, meshes or batches are too many to be shown."]
+    drawing = shown.after(marker(0, 0, action=int(Action.DELETE)))
+    assert sorted(placed.frame for placed in drawing.values()) == ["f1", "f2"]
+    assert sentences(shown.display) == []
+
+
+def test_a_batch_of_which_nothing_changed_is_not_even_looked_at(monkeypatch: pytest.MonkeyPatch):
+    shown = Shown()
+    two = [marker(Kind.CUBE, 0), marker(Kind.CUBE, 1, frame="odom")]
+    shown.after(*two)
+    looked: list[int] = []
+
+    def counted(markers: Rows) -> dict[str, Shape]:
+        looked.extend(markers.rows.tolist())
+        return shapes_of(markers)
+
+    monkeypatch.setattr(batches_module, "shapes_of", counted)
+    shown.after(*two)
+    assert looked == []
+    shown.after(two[0], marker(Kind.CUBE, 1, frame="odom", rgba=(0.0, 0.0, 0.0, 1.0)))
+    assert looked == [1]

@@ -27,7 +27,7 @@ def there(store: MarkerStore) -> dict[tuple[str, int], tuple[float, int, int]]:
     table = store.table
     rows = np.flatnonzero(table.batch[: table.size] >= 0).tolist()
     return {
-        store.key_of(row): (
+        table.keys[row]: (
             float(table.positions[row, 0]),
             int(table.types[row]),
             len(table.items[row].points),
