@@ -148,7 +148,14 @@ def _fitted(kind: FieldType, value: object) -> object:
         return float(value) if kind.base in FLOATS else value
     if kind.base in FLOATS and isinstance(value, str):
         return _float_word(value)
-    return value
+    return _byte(value) if kind.base == "byte" else value
+
+
+def _byte(value: object) -> object:
+    """Read what `ros2 topic echo` writes for a byte, one letter, or what YAML calls binary."""
+    if isinstance(value, str) and len(value) == 1:
+        return ord(value)
+    return value[0] if isinstance(value, bytes) and len(value) == 1 else value
 
 
 def _float_word(word: str) -> object:

@@ -35,6 +35,17 @@ def test_a_message_is_printed_as_ros2_topic_echo_does():
     assert to_csv(value) == "0,0,,a,1.0,2.5"
 
 
+@pytest.mark.parametrize("text", ['"\\x02"', "!!binary Ag==", "2"])
+def test_a_byte_is_read_as_ros2_topic_echo_writes_it_too(text: str):
+    assert from_yaml(made("diagnostic_msgs/msg/DiagnosticStatus"), f"level: {text}").level == 2
+
+
+@pytest.mark.parametrize("text", ["ab", "''", "\u2603", "!!binary AAE=", "256", "-1", "1.5"])
+def test_what_is_no_byte_is_refused(text: str):
+    with pytest.raises(MessageValueError, match="level"):
+        from_yaml(made("diagnostic_msgs/msg/DiagnosticStatus"), f"level: {text}")
+
+
 @pytest.mark.parametrize("text", ["a\x85 b", "\u2028", " \r\n", "\ufeff", "yes", "1e3", "- a", ""])
 def test_odd_texts_read_back(text: str):
     string = made("std_msgs/msg/String")
