@@ -58,7 +58,7 @@ def shapes_of(one: Studio, display: str) -> int:
 
 def remarks_of(one: Studio, display: str) -> list[str]:
     told = [event for event in one.ear.events if event["type"] == "display_states"]
-    states = told[-1]["states"] if told else []
+    states: list[dict[str, Any]] = told[-1]["states"] if told else []
     return [
         said["sentence"] for each in states if each["id"] == display for said in each["remarks"]
     ]

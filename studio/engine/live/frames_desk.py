@@ -102,6 +102,7 @@ class FramesDesk:
         pose, trouble = self._pose(asked.seen_from, asked.frame)
         return TfFrames(
             request=asked.request,
+            fixed=self.fixed,
             frames=tuple(map(_view, rows[:_FRAMES_SHOWN])),
             more=max(0, len(rows) - _FRAMES_SHOWN),
             refused=tuple(one.sentence for one in tuple(self._notices.values())),

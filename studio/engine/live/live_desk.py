@@ -20,12 +20,15 @@ if TYPE_CHECKING:
     from studio.engine.document import Document
     from studio.engine.live.display_list import DisplaySpec
     from studio.engine.live.drawing_room import DrawingRoom
+    from studio.engine.live.placing import Shown
     from studio.engine.services import Services
     from studio.engine.wire.link import WireLink
 
 _TICK_S: Final = 1 / 30
 _LOOK_EVERY_S: Final = 0.5
 """Between two looks at who publishes, and two words about how displays fare."""
+_ASKED_FOR_S: Final = 5.0
+"""TF is heard so long after somebody asked for frames: a panel that shows them asks every second."""
 
 _log = logging.getLogger(__name__)
 
@@ -50,6 +53,7 @@ class LiveDesk:
         self._ticking: asyncio.Task[None] | None = None
         self._keeping: asyncio.Task[None] | None = None
         self._looked_s = 0.0
+        self._asked_until_s = 0.0
         self._told: m.DisplayStates | None = None
         self._closed = False
 
@@ -163,6 +167,10 @@ class LiveDesk:
         if frame and frame not in frames.own.links:
             await self._connect()
 
+    def shown(self, display: str) -> Shown:
+        """What is shown of a display, and where its parts are in the fixed frame."""
+        return self._room.get(display).placing.shown
+
     def kinds(self, command: m.GetDisplayKinds) -> m.DisplayKinds:
         """Which displays there are."""
         from studio.engine.live.catalogue_views import kind_views  # noqa: PLC0415 - imports all
@@ -176,7 +184,9 @@ class LiveDesk:
         return m.Topics(request=command.request, topics=found)
 
     def tf(self, command: m.GetTf) -> m.TfFrames:
-        """Which frames there are, and where one is in another."""
+        """Which frames there are, and where one is in another; TF is heard from now on."""
+        self._asked_until_s = time.monotonic() + _ASKED_FOR_S
+        self._go_on()
         self._room.frames.step()
         return self._room.frames.answer(command)
 
@@ -240,7 +250,8 @@ class LiveDesk:
 
     @property
     def _is_on(self) -> bool:
-        return len(self._list) > 0 or self._fixed_frame != ""
+        asked = time.monotonic() < self._asked_until_s
+        return asked or len(self._list) > 0 or self._fixed_frame != ""
 
     def _go_on(self) -> None:
         idle = self._ticking is None or self._ticking.done()

@@ -59,9 +59,9 @@ class Placing:
         """By path, why a part of what is shown, or would be, has no place."""
 
     @property
-    def drawing(self) -> Drawing:
-        """What is shown now, or would be if it had a place."""
-        return self._shown.drawing
+    def shown(self) -> Shown:
+        """What is shown now, and where; or would be if it had a place."""
+        return self._shown
 
     def offer(self, drawing: Drawing, now_ns: int) -> None:
         """Take what the display draws now; the same object again is no news."""

@@ -135,7 +135,7 @@ class RunningDisplay:
         ear, age_s = self._ears.get(""), self.age_s(now_ns)
         roles = self.display.TOPICS
         fitting = next((one for name in self._wire.types for one in displays_of_type(name)), None)
-        drawing = self.placing.drawing
+        drawing = self.placing.shown.drawing
         return Facts(
             self.spec,
             shown=shown,
