@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import hashlib
 import heapq
-from dataclasses import fields
+from dataclasses import fields, replace
 from itertools import islice
 from typing import TYPE_CHECKING, Final, cast
 
 import numpy as np
 
-from studio.displays.drawing import NOTHING, MeshFile, Placed, Text
+from studio.displays.drawing import NOTHING, MeshFile, Placed, Points, Text
 from studio.displays.markers.arrows import arrows_of
 from studio.displays.markers.kinds import Kind
 from studio.displays.markers.lists import lines_of, points_of, triangles_of
@@ -179,11 +179,17 @@ def _placed(place: _Place, parts: list[dict[str, Shape]], before: Placed | None)
 
 
 def _kept(shape: Shape, before: Shape | None) -> Shape:
+    """The shape of before if it looks the same, else one with those arrays of before that do."""
     if before is None or shape is before or type(shape) is not type(before):
         return shape
     if isinstance(shape, Text | MeshFile):
         return before if shape == before else shape
-    return before if all(_same(shape, before, one.name) for one in fields(shape)) else shape
+    if isinstance(shape, Points) and isinstance(before, Points) and before.precise:
+        # Once asked for it stays: points that reach now here, now there would be sent anew.
+        shape = replace(shape, precise=True)
+    names = [one.name for one in fields(shape)]
+    same = {name: getattr(before, name) for name in names if _same(shape, before, name)}
+    return before if len(same) == len(names) else replace(shape, **same)
 
 
 def _same(one: Shape, other: Shape, name: str) -> bool:

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from studio.displays.drawing import Solids
+from studio.displays.drawing import Points, Solids
 from studio.displays.marker_array import MarkerArrayDisplay
 from studio.displays.markers import batches as batches_module
 from studio.displays.markers.batches import shapes_of
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 S = 10**9
 LINE = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0)]
+HALF_RED = (0.9, 0.0, 0.2, 0.5)
 DELETE_ALL = int(Action.DELETE_ALL)
 
 
@@ -66,6 +67,28 @@ def test_shapes_that_did_not_change_are_the_same_objects_in_a_new_drawing():
     assert old.shapes.keys() == new.shapes.keys()
     changed = [name for name in new.shapes if new.shapes[name] is not old.shapes[name]]
     assert [name.split("-", 1)[1] for name in changed] == ["boxes"]
+
+
+def test_arrays_that_did_not_change_are_the_same_objects_in_a_new_shape():
+    shown = Shown()
+    two = [marker(Kind.CUBE, each, at=(each, 0.0, 0.0)) for each in range(2)]
+    first = shapes_in(shown.after(*two))["boxes"]
+    paler = [marker(Kind.CUBE, each, at=(each, 0.0, 0.0), rgba=HALF_RED) for each in range(2)]
+    second = shapes_in(shown.after(*paler))["boxes"]
+    assert isinstance(first, Solids)
+    assert isinstance(second, Solids)
+    assert second.positions is first.positions
+    assert second.colors is not first.colors
+    assert second.opacities == 128 / 255
+
+
+def test_points_that_were_far_once_stay_precise():
+    shown = Shown()
+    for x, precise in ((1.0, False), (500.0, True), (1.0, True)):
+        dots = marker(Kind.POINTS, points=[(x, 0.0, 0.0)], scale=(0.1, 0.1, 0.0))
+        drawn = shapes_in(shown.after(dots))["points-0"]
+        assert isinstance(drawn, Points)
+        assert drawn.precise == precise
 
 
 def test_a_group_that_did_not_change_is_the_same_object_in_a_new_drawing():
