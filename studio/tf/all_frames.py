@@ -8,7 +8,7 @@ import numpy as np
 
 from studio.tf.forest import NONE
 from studio.tf.frames_now import FramesNow
-from studio.tf.rotations import inverse_of, matrices_from_poses, poses_from_matrices
+from studio.tf.rotations import IDENTITY, inverse_of, matrices_from_poses, poses_from_matrices
 from studio.tf.structure import Structure
 
 if TYPE_CHECKING:
@@ -27,6 +27,7 @@ class AllFrames:
         self._forest, self._histories, self._arrivals = forest, histories, arrivals
         self._version = -1
         self._names: tuple[str, ...] = ()
+        self._rows: dict[str, int] = {}
         self._numbers: Numbers = np.zeros(0, np.int64)
         """Of the forest, row by row."""
         self._hung: Numbers = self._numbers
@@ -40,29 +41,27 @@ class AllFrames:
     def seen_from(self, fixed: str, stamp_ns: int, now_ns: int) -> FramesNow:
         """See `TransformBuffer.all_in`."""
         self._follow_forest()
-        count = len(self._names)
+        row = self._rows.get(fixed)
+        if row is None:
+            poses, connected, ages_s = self._nowhere()
+        else:
+            poses, connected = self._poses(row, stamp_ns)
+            ages_s = self._ages_s(row, now_ns)
         parents = self._structure.parents
-        number = self._forest.number(fixed)
-        if number is None:
-            nowhere = np.zeros((count, 7))
-            nowhere[:, 0] = 1.0
-            ages_s = np.zeros(count)
-            return FramesNow(
-                fixed, self._names, parents, nowhere, np.zeros(count, np.bool_), ages_s
-            )
-        row = int(np.searchsorted(self._numbers, number))
+        return FramesNow(fixed, self._names, self._rows, parents, poses, connected, ages_s)
+
+    def _nowhere(self) -> tuple[Floats, Flags, Floats]:
+        """Poses, connections and ages when nothing tells of the fixed frame."""
+        count = len(self._names)
+        return np.tile(IDENTITY, (count, 1)), np.zeros(count, np.bool_), np.zeros(count)
+
+    def _poses(self, row: int, stamp_ns: int) -> tuple[Floats, Flags]:
+        """All poses in the frame of a row, and which are connected with it."""
         poses, known = self._edges(stamp_ns)
         structure = self._structure if known.all() else self._without(~known)
         root_from = structure.root_from_rows(self._matrices(poses, structure))
         fixed_from = inverse_of(root_from[row]) @ root_from
-        return FramesNow(
-            fixed,
-            self._names,
-            parents,
-            poses_from_matrices(fixed_from),
-            structure.roots == structure.roots[row],
-            self._ages_s(row, now_ns),
-        )
+        return poses_from_matrices(fixed_from), structure.roots == structure.roots[row]
 
     def tree_sizes(self) -> dict[str, int]:
         """How many frames each tree has, by its root, from the most."""
@@ -78,6 +77,7 @@ class AllFrames:
         numbers = self._forest.numbers()
         self._numbers = np.array(numbers, np.int64)
         self._names = tuple(self._forest.names[number] for number in numbers)
+        self._rows = {name: row for row, name in enumerate(self._names)}
         parents = np.array(self._forest.parents, np.int64)[self._numbers]
         rows = np.searchsorted(self._numbers, parents)
         self._structure = Structure(np.where(parents == NONE, NONE, rows))

@@ -162,9 +162,9 @@ class TransformBuffer:
             return report_of(self._forest, self._histories, self._arrivals, fixed, now_ns)
 
     def jump_back(self, stamp_ns: int) -> None:
-        """Time begins anew here, as /clock tells: what is newer is forgotten, static or not at all.
+        """Time begins anew here, as /clock tells: what is newer is forgotten.
 
-        A frame of which nothing is left loses its edge.
+        What is static stays; of the others a frame of which nothing is left loses its edge.
         """
         with self._lock:
             self.changes += 1

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 import numpy as np
@@ -25,7 +26,8 @@ if TYPE_CHECKING:
     from studio.tf.histories import Histories
 
 _NOTICES_MAX: Final = 20
-_LAYOUTS_MAX: Final = 256
+_LAYOUTS_MAX: Final = 64
+_LAYOUT_LETTERS_MAX: Final = 200_000
 _SILENT_NS: Final = 1_000_000_000
 """After this long without a word, a publisher's place is free for another one."""
 _REST_NS: Final = 1_000_000_000
@@ -61,13 +63,12 @@ class Intake:
     ) -> tuple[Notice, ...]:
         """Take columns up; answers what was left out, and what is worth knowing."""
         good, poses = sound(columns), poses_of(columns)
-        frames = self._known_frames(columns)
-        if frames is not None and not static:
-            fast = self._newer(frames, columns.stamps_ns, good)
+        frames = self._frames(columns)
+        fast = good & (frames != NONE) & (not static)
+        fast[fast] = self._is_newer(frames[fast], columns.stamps_ns[fast])
+        if fast.any():
             self._append(frames[fast], columns.stamps_ns[fast], poses[fast], publisher, now_ns)
-            rest = np.flatnonzero(~fast).tolist()
-        else:
-            rest = range(len(columns.parents))
+        rest: list[int] = np.flatnonzero(~fast).tolist()
         notices: list[Notice] = []
         for at in rest:
             row = _Row(
@@ -82,8 +83,6 @@ class Intake:
             said = self._put_row(row) if good[at] else _unsound(row, columns, at)
             if said is not None:
                 notices.append(said)
-        if frames is None and len(notices) < len(columns.parents):
-            self._remember(columns)
         return _shortened(notices)
 
     def drop(self, frame: int) -> None:
@@ -102,33 +101,33 @@ class Intake:
             if not self._histories.has_rows(frame):
                 self.drop(frame)
 
-    def _known_frames(self, columns: TransformColumns) -> Numbers | None:
-        """The children's numbers, if all edges stood as they are when this layout came last."""
-        version, frames = self._layouts.get((columns.parents, columns.children), (None, None))
-        return frames if version == self._forest.version else None
-
-    def _remember(self, columns: TransformColumns) -> None:
-        """Keep the numbers of a message all of whose edges stand, each once."""
+    def _frames(self, columns: TransformColumns) -> Numbers:
+        """The children's numbers; NONE where no such edge stands, or a message names it twice."""
         key = columns.parents, columns.children
-        frames = [self._edge(*names) for names in zip(*key, strict=True)]
+        found = self._layouts.get(key)
+        if found is not None and found[0] == self._forest.version:
+            return found[1]
+        edges = [self._edge(*names) for names in zip(*key, strict=True)]
+        counts = Counter(edges)
+        frames = np.array([one if counts[one] == 1 else NONE for one in edges], np.int64)
         self._layouts.pop(key, None)
-        if None in frames or len(set(frames)) < len(frames):
-            return
-        if len(self._layouts) >= _LAYOUTS_MAX:
-            del self._layouts[next(iter(self._layouts))]
-        self._layouts[key] = self._forest.version, np.array(frames, np.int64)
+        if sum(map(len, (*key[0], *key[1]))) <= _LAYOUT_LETTERS_MAX:
+            if len(self._layouts) >= _LAYOUTS_MAX:
+                del self._layouts[next(iter(self._layouts))]
+            self._layouts[key] = self._forest.version, frames
+        return frames
 
-    def _edge(self, parent: str, child: str) -> int | None:
-        """The child's number, if it hangs on that parent."""
+    def _edge(self, parent: str, child: str) -> int:
+        """The child's number, if it hangs on that parent; else NONE."""
         number, upper = self._forest.number(plain(child)), self._forest.number(plain(parent))
         if number is None or upper is None or self._forest.parents[number] != upper:
-            return None
+            return NONE
         return number
 
-    def _newer(self, frames: Numbers, stamps_ns: Numbers, good: Flags) -> Flags:
-        """Which rows are sound, of moving frames, and not older than what is known of them."""
+    def _is_newer(self, frames: Numbers, stamps_ns: Numbers) -> Flags:
+        """Which stamps are not older than what is known of moving frames."""
         is_newer = stamps_ns >= self._histories.newest_ns(frames)
-        return good & is_newer & ~self._histories.is_static(frames)
+        return is_newer & ~self._histories.is_static(frames)
 
     def _append(
         self, frames: Numbers, stamps_ns: Numbers, poses: Floats, publisher: str, now_ns: int
@@ -210,7 +209,7 @@ class Intake:
     def _jump(self, row: _Row, frame: int, newest_ns: int) -> Notice:
         """The clock of a publisher went back: what it told of later times does not hold."""
         self.jump_back(self._arrivals.told_by(self._arrivals.teller(frame)), row.stamp_ns)
-        if self._edge(row.parent, row.child) is None:
+        if self._edge(row.parent, row.child) == NONE:
             self._hang(row)
         else:
             self._store(row, frame)

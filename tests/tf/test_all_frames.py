@@ -17,6 +17,16 @@ def test_the_names_are_the_same_object_until_an_edge_comes_or_goes():
     assert set(buffer.all_in("c").names) == {"b", "c", "d"}
 
 
+def test_a_frame_is_found_by_its_name():
+    buffer = TransformBuffer()
+    buffer.put(columns(Told("a", "b", S, (1.0, 2.0, 3.0)), Told("x", "y", S)))
+    frames = buffer.all_in("a")
+    assert frames.pose_of("b") == (1, 0, 0, 0, 1, 2, 3)
+    assert frames.pose_of("a") == (1, 0, 0, 0, 0, 0, 0)
+    assert frames.pose_of("y") is frames.pose_of("nowhere") is None
+    assert buffer.all_in("nowhere").pose_of("nowhere") == (1, 0, 0, 0, 0, 0, 0)
+
+
 def test_each_frame_names_its_parent_by_its_row():
     buffer = TransformBuffer()
     edges = {"b": "a", "c": "a", "d": "c", "y": "x"}
