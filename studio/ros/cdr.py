@@ -21,6 +21,8 @@ from studio.ros.types.classes import (
     attributes_of,
     class_of_field,
     definition_of,
+    maker_of,
+    slot_name,
 )
 from studio.ros.types.definitions import DUMMY_FIELD, Field, Message, Shape
 
@@ -99,7 +101,7 @@ class _Part:
     """The code of one type, under the names that rosbags' generated code uses."""
 
     def __init__(self, kind: type[MessageValue], parts: _Parts) -> None:
-        self.cls = kind
+        self.cls = maker_of(kind)
         self.fields = _fields(definition_of(kind), attributes_of(kind))
         self._parts = cast("Any", parts)
         self.getsize_cdr, self.size_cdr = generate_getsize_cdr(self.fields, self._parts)
@@ -161,7 +163,12 @@ def _has_bounds(kind: type[MessageValue]) -> bool:
 
 def _fields(message: Message, attributes: tuple[str, ...]) -> Any:  # noqa: ANN401
     pairs = zip(attributes, message.fields, strict=True)
-    return [(name, _described(message, field)) for name, field in pairs] or [_DUMMY]
+    return [(_place(name, field), _described(message, field)) for name, field in pairs] or [_DUMMY]
+
+
+def _place(attribute: str, field: Field) -> str:
+    """Name where a value lies: behind its attribute, where that would look at it again."""
+    return attribute if field.type.shape is Shape.SINGLE else slot_name(attribute)
 
 
 def _described(message: Message, field: Field) -> tuple[Nodetype, object]:

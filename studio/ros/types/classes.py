@@ -44,11 +44,10 @@ class MessageValue(metaclass=MessageKind):
         raise TypeError("a message is made by the class of its type")
 
     if TYPE_CHECKING:
-        # Fields are made at run time: without these, checkers of types know no attribute.
+        # Fields are made at run time: without these, checkers of types know no attribute. A real
+        # `__getattr__` would make every field that is read take three times as long.
         def __setattr__(self, name: str, value: Any) -> None: ...  # noqa: ANN401
-
-    def __getattr__(self, name: str) -> Any:  # noqa: ANN401
-        raise AttributeError(f"{self._definition.name} has no field {name}")
+        def __getattr__(self, name: str) -> Any: ...  # noqa: ANN401
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, MessageValue) or other._definition != self._definition:
@@ -83,6 +82,29 @@ def attribute_name(field: str) -> str:
 def slot_name(attribute: str) -> str:
     """Name where the value of an array field lies, behind its attribute; no field is so named."""
     return f"_{attribute}_"
+
+
+def maker_of(kind: type[MessageValue]) -> Callable[..., MessageValue]:
+    """Write what makes a value of what was decoded, whose fields are of their types already.
+
+    Only how many there are in a bounded sequence is looked at again.
+    """
+    message = definition_of(kind)
+    known: dict[str, object] = {"_kind": kind, "_new": object.__new__}
+    lines = [" _self = _new(_kind)"]
+    names = attributes_of(kind)
+    for number, (name, field) in enumerate(zip(names, message.fields, strict=True)):
+        slot = name if field.type.shape is Shape.SINGLE else slot_name(name)
+        if field.type.shape is Shape.BOUNDED:
+            known[f"_keep_{number}"] = keeper(f"{message.name} {field.name}", field.type)
+            lines.append(f" _self.{slot} = _keep_{number}({name})")
+        else:
+            lines.append(f" _self.{slot} = {name}")
+    # A message without fields carries one byte.
+    arguments = ", ".join(names) or DUMMY_FIELD
+    made: dict[str, Any] = {}
+    exec("\n".join([f"def make({arguments}):", *lines, " return _self"]), known, made)
+    return made["make"]
 
 
 def make_class(

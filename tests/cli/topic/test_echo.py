@@ -58,7 +58,7 @@ def test_t1_only_messages_of_which_a_filter_holds_are_shown(endpoint: str):
     words = ("topic", "echo", "/joints", "--timeout")
     assert studio(*words, "0.5", "--filter", "m.position[1] > 0", *at).out == ""
     for options, said in (
-        (("--filter", "m.no_such"), "has no field no_such"),
+        (("--filter", "m.no_such"), "no attribute 'no_such'"),
         (("--filter", "import os"), "is no expression"),
         (("--filter", "m.name", "--raw"), "give one"),
     ):

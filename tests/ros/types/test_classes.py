@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from studio.errors import MessageValueError
-from studio.ros.types.classes import MessageValue, attributes_of, definition_of
+from studio.ros.types.classes import MessageValue, attributes_of, definition_of, maker_of
 from studio.ros.types.library import TypeLibrary
 
 LIBRARY = TypeLibrary("jazzy")
@@ -14,6 +14,7 @@ LIBRARY.add_texts(
     {
         "class_pkg/msg/All": 'int8 a 5\nstring b "x"\nfloat64[3] c [1, 2, 3]\nuint8 ON=1\n'
         "std_msgs/Header d\nstring[2] e\nint8[] f [7]\nint8 class\nstd_msgs/Header[2] g",
+        "class_pkg/msg/Few": "float64[<=2] numbers\nstring[] names\nint32 count\n",
     }
 )
 
@@ -50,7 +51,7 @@ def test_fields_are_given_by_keyword_and_no_others_exist():
         made("geometry_msgs/msg/Point")(w=1.0)
     with pytest.raises(AttributeError):
         made("geometry_msgs/msg/Point")().w = 1.0
-    with pytest.raises(AttributeError, match="no field w"):
+    with pytest.raises(AttributeError, match="no attribute 'w'"):
         _ = made("geometry_msgs/msg/Point")().w
 
 
@@ -100,3 +101,15 @@ def test_no_name_of_a_field_meets_those_of_the_class_or_its_code():
     value = odd(**{name: [number] for number, name in enumerate(names)})
     assert [getattr(value, name).tolist() for name in names] == [[n] for n in range(len(names))]
     assert attributes_of(odd) == tuple(names)
+
+
+def test_what_was_decoded_is_made_as_it_is_but_a_bounded_sequence_is_counted():
+    few, empty = made("class_pkg/msg/Few"), made("std_msgs/msg/Empty")
+    make, numbers, names = maker_of(few), np.array([1.0, 2.0]), ["a"]
+    value = make(numbers, names, 3)
+    assert type(value) is few
+    assert value.numbers is numbers
+    assert value == few(numbers=numbers, names=names, count=3)
+    with pytest.raises(MessageValueError, match="at most 2 values"):
+        make(np.zeros(3), names, 3)
+    assert maker_of(empty)(0) == empty()
