@@ -1574,6 +1574,7 @@ export interface TextsFound {
 export interface TfFrames {
   type: "tf_frames";
   request: number;
+  fixed: string;
   frames: FrameView[];
   more: number;
   refused: string[];

@@ -28,7 +28,7 @@ _TICK_S: Final = 1 / 30
 _LOOK_EVERY_S: Final = 0.5
 """Between two looks at who publishes, and two words about how displays fare."""
 _ASKED_FOR_S: Final = 5.0
-"""TF is heard so long after somebody asked for frames: a panel that shows them asks every second."""
+"""TF is heard so long after somebody asked for frames: a panel of them asks every second."""
 
 _log = logging.getLogger(__name__)
 
@@ -273,6 +273,9 @@ class LiveDesk:
             await asyncio.sleep(max(0.0, began_s + _TICK_S - loop.time()))
         self._room.step(self._list, time.time_ns())
         self._tell_states()
+        await self.let_go()
+        self._ticking = None
+        self._go_on()  # somebody may have asked meanwhile
 
     async def _listen(self) -> None:
         """Listen to what is shown, as fits who publishes now."""

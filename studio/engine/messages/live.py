@@ -254,6 +254,8 @@ class TfFrames(Message):
 
     type: Literal["tf_frames"] = "tf_frames"
     request: int
+    fixed: str
+    """The frame that everything is drawn in; one that nothing connects with it is broken."""
     frames: tuple[FrameView, ...]
     more: int
     """Frames that are left out of the list."""
