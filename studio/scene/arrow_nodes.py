@@ -21,8 +21,10 @@ _SHORTEST_M = 1e-6
 
 def arrows_of(shape: Arrows, stream: str) -> dict[str, Node]:
     """Whole arrows, and for short ones a head that is smaller in all its sizes."""
-    along: NDArray[np.float32] = shape.ends[:, 1] - shape.ends[:, 0]
+    with np.errstate(invalid="ignore"):
+        along: NDArray[np.float32] = shape.ends[:, 1] - shape.ends[:, 0]
     lengths_m: NDArray[np.float32] = np.linalg.norm(along, axis=1)
+    lengths_m[~np.isfinite(lengths_m)] = 0  # from nowhere or to nowhere: not drawn
     whole = lengths_m >= max(shape.head_length_m, _SHORTEST_M)
     short = (lengths_m > _SHORTEST_M) & ~whole
     nodes: dict[str, Node] = {}

@@ -174,6 +174,10 @@ def _lines(
     opacity: float,
     stream: str,
 ) -> dict[str, Node]:
+    # One end that is nowhere, and the page does not know how far the lines reach.
+    known = np.isfinite(ends).all(axis=(1, 2))
+    if not known.all():
+        ends, colors = ends[known], colors if colors.ndim == 1 else colors[known]
     if len(ends) == 0:
         return {}
     props: dict[str, Any] = {

@@ -28,6 +28,8 @@ def surface_of(shape: Triangles, stream: str) -> dict[str, Node]:
     vertices = np.ascontiguousarray(shape.vertices, np.float32)
     faces = np.ascontiguousarray(shape.faces, np.uint32)
     faces = faces[(faces < len(vertices)).all(axis=1)]
+    somewhere: NDArray[np.bool_] = np.logical_and.reduce(np.isfinite(vertices), axis=1)
+    faces = faces[somewhere[faces].all(axis=1)]
     if len(faces) == 0:
         return {}
     if shape.colors.ndim == 1:

@@ -43,4 +43,4 @@ def test_the_base_of_a_short_head_lies_at_the_tail(tip: tuple[float, float, floa
 def test_an_arrow_without_length_is_not_drawn():
     assert arrows_of(arrows((0, 0, 0)), "1") == {}
     assert arrows_of(arrows((0, 0, 0), head_m=0.0), "1") == {}
-    assert arrows_of(arrows((float("nan"), 0, 0)), "1") == {}
+    assert arrows_of(arrows((float("nan"), 0, 0), (float("inf"), 0, 0)), "1") == {}

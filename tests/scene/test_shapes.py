@@ -116,6 +116,14 @@ def test_shapes_that_differ_in_small_values_have_the_same_arrays():
     assert not same_arrays(Text("a"), one)
 
 
+def test_lines_with_an_end_that_is_nowhere_are_left_out():
+    ends = np.array([[(0, 0, 0), (1, 0, 0)], [(0, 0, 0), (np.nan, np.inf, 0)]], np.float32)
+    colors = np.zeros((2, 2, 3), np.uint8)
+    drawn = nodes_of(Lines(ends, colors), "1", shelves())["lines"].flowing
+    assert (drawn["points"].shape, drawn["colors"].shape) == ((1, 2, 3), (1, 2, 3))
+    assert nodes_of(Lines(ends[1:], RED), "1", shelves()) == {}
+
+
 def test_opacities_that_are_all_alike_are_one():
     one = solids("box", RED)
     for values, whole in (([0.5, 0.5], 0.5), ([1.0, 1.0], None)):

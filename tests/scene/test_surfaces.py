@@ -31,4 +31,6 @@ def test_a_triangle_without_all_its_corners_is_skipped():
     (drawn,) = surface_of(Triangles(CORNERS, faces, COLORS[0]), "1").values()
     assert drawn.flowing["faces"].tolist() == [[0, 1, 2]]
     assert surface_of(Triangles(CORNERS, faces[1:], COLORS[0]), "1") == {}
+    lost = np.where(CORNERS == 1, np.nan, CORNERS).astype(np.float32)
+    assert surface_of(Triangles(lost, faces[:1], COLORS), "1") == {}
     assert surface_of(Triangles(CORNERS[:0], faces[:0], COLORS[:0]), "1") == {}
