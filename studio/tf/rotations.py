@@ -64,21 +64,10 @@ def _slerp(before: Floats, after: Floats, shares: Floats) -> Floats:
 
 def matrices_from_poses(poses: Floats) -> Floats:
     """Homogeneous matrices, shape (N, 4, 4), of poses (N, 7)."""
-    w, x, y, z = poses[:, :4].T
-    matrices = np.zeros((len(poses), 4, 4))
-    xx, yy, zz = x * x, y * y, z * z
-    xy, xz, yz, wx, wy, wz = x * y, x * z, y * z, w * x, w * y, w * z
-    matrices[:, 0, 0] = 1 - 2 * (yy + zz)
-    matrices[:, 0, 1] = 2 * (xy - wz)
-    matrices[:, 0, 2] = 2 * (xz + wy)
-    matrices[:, 1, 0] = 2 * (xy + wz)
-    matrices[:, 1, 1] = 1 - 2 * (xx + zz)
-    matrices[:, 1, 2] = 2 * (yz - wx)
-    matrices[:, 2, 0] = 2 * (xz - wy)
-    matrices[:, 2, 1] = 2 * (yz + wx)
-    matrices[:, 2, 2] = 1 - 2 * (xx + yy)
+    quaternions = poses[:, :4]
+    products = (quaternions[:, :, None] * quaternions[:, None, :]).reshape(-1, 16)
+    matrices = (products @ _ENTRY_OF_PRODUCTS).reshape(-1, 4, 4)
     matrices[:, :3, 3] = poses[:, 4:]
-    matrices[:, 3, 3] = 1.0
     return matrices
 
 
@@ -90,29 +79,51 @@ def poses_from_matrices(matrices: Floats) -> Floats:
     return poses
 
 
-_PART_OF_PRODUCTS = np.zeros((16, 9))
-_PART_OF_NOTHING = np.zeros(16)
-for _row, _signs in enumerate(((1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1))):
-    _PART_OF_NOTHING[5 * _row] = 1.0
-    _PART_OF_PRODUCTS[5 * _row, [0, 4, 8]] = _signs
-for _one, _other, _plus, _minus in ((0, 1, 7, 5), (0, 2, 2, 6), (0, 3, 3, 1)):
-    for _place in (4 * _one + _other, 4 * _other + _one):
-        _PART_OF_PRODUCTS[_place, [_plus, _minus]] = 1.0, -1.0
-for _one, _other, _first, _second in ((1, 2, 1, 3), (1, 3, 2, 6), (2, 3, 5, 7)):
-    for _place in (4 * _one + _other, 4 * _other + _one):
-        _PART_OF_PRODUCTS[_place, [_first, _second]] = 1.0
+def _entries_of_products() -> Floats:
+    """Of a turn, what the product of each two parts of its quaternion adds to each entry.
+
+    Shape (16, 16): products ww, wx, wy ... zz, and entries of a matrix (4, 4) row by row. The last
+    entry is the squared length, which is 1.
+    """
+    entries = np.zeros((4, 4, 4, 4))
+    for axis in range(3):
+        one, other, third = 1 + axis, 1 + (axis + 1) % 3, 1 + (axis + 2) % 3
+        entries[[0, one, other, third], [0, one, other, third], axis, axis] = 1, 1, -1, -1
+        entries[one, other, [one - 1, other - 1], [other - 1, one - 1]] = 2
+        entries[0, third, [one - 1, other - 1], [other - 1, one - 1]] = -2, 2
+        entries[one, one, 3, 3] = 1
+    entries[0, 0, 3, 3] = 1
+    return entries.reshape(16, 16)
+
+
+def _products_of_entries() -> tuple[Floats, Floats]:
+    """Of a rotation matrix, what each entry adds to 4 times the product of each two parts.
+
+    Shape (9, 16): entries row by row, and products ww, wx, wy ... zz; and (16,): what is added.
+    """
+    products = np.zeros((3, 3, 4, 4))
+    for axis in range(3):
+        one, other, third = 1 + axis, 1 + (axis + 1) % 3, 1 + (axis + 2) % 3
+        products[axis, axis, [0, one, other, third], [0, one, other, third]] = 1, 1, -1, -1
+        for first, second in ((one, other), (other, one)):
+            products[[one - 1, other - 1], [other - 1, one - 1], first, second] = 1
+        for first, second in ((0, third), (third, 0)):
+            products[[one - 1, other - 1], [other - 1, one - 1], first, second] = -1, 1
+    return products.reshape(9, 16), np.eye(4).reshape(16)
+
+
+_ENTRY_OF_PRODUCTS = _entries_of_products()
+_PRODUCT_OF_ENTRIES, _PRODUCT_OF_NOTHING = _products_of_entries()
 
 
 def _quaternions(matrices: Floats) -> Floats:
-    """Unit quaternions (N, 4): of the products of all four parts, the row of the largest part.
-
-    Each product of two parts, times 4, is a sum of entries of the rotation.
-    """
+    """Unit quaternions (N, 4): of the products of all parts, the row of the largest part."""
     entries = matrices[:, :3, :3].reshape(-1, 9)
-    products = (entries @ _PART_OF_PRODUCTS.T + _PART_OF_NOTHING).reshape(-1, 4, 4)
-    largest = np.einsum("nii->ni", products).argmax(axis=1)
-    rows = products[np.arange(len(products)), largest]
-    return rows / np.sqrt(np.einsum("ij,ij->i", rows, rows))[:, None]
+    products = (entries @ _PRODUCT_OF_ENTRIES + _PRODUCT_OF_NOTHING).reshape(-1, 4, 4)
+    every, largest = np.arange(len(products)), np.einsum("nii->ni", products).argmax(axis=1)
+    rows = products[every, largest]
+    # That row is 4 times the part times all parts.
+    return rows * (0.5 / np.sqrt(rows[every, largest]))[:, None]
 
 
 def inverse_of(a_from_b: Floats) -> Floats:
