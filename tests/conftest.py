@@ -61,5 +61,6 @@ def browser() -> Iterator[Browser]:
 def page(browser: Browser) -> Iterator[Page]:
     """A fresh page of 1600 x 950 in a context of its own."""
     context = browser.new_context(viewport={"width": 1600, "height": 950})
+    context.set_default_timeout(90_000)  # Playwright's own is too little where all cores are busy
     yield context.new_page()
     context.close()

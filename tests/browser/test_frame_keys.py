@@ -101,7 +101,8 @@ def test_a_panel_moves_by_keys_and_the_layout_comes_back_by_its_name(tab: Studio
     tab.page.get_by_role("menuitem", name="At the left edge").focus()
     tab.page.keyboard.press("Enter")
     wait_until("a place of its own", lambda: groups(tab)[0] == ["Variants"])
-    assert tab.page.evaluate("document.activeElement.textContent").strip() == "Variants"
+    focused = "document.activeElement.textContent.trim()"
+    wait_until("its focus kept", lambda: tab.page.evaluate(focused) == "Variants")
     search(tab, ">layouts")
     tab.page.keyboard.press("Enter")
     tab.page.get_by_label("Name of the present layout").fill("Variants <b>aside</b>")
@@ -167,7 +168,8 @@ def test_tab_begins_with_a_way_past_the_bar(tab: StudioPage):
     link = tab.page.get_by_role("link", name="Skip to the panels")
     assert link.evaluate("it => it === document.activeElement")
     tab.page.keyboard.press("Enter")
-    assert tab.page.evaluate("document.activeElement.getAttribute('role')") == "tab"
+    focused = "document.activeElement.getAttribute('role')"
+    wait_until("the focus on a panel", lambda: tab.page.evaluate(focused) == "tab")
 
 
 def test_tab_goes_from_the_3d_view_to_its_own_buttons_and_back(tab: StudioPage):

@@ -120,9 +120,9 @@ def test_where_the_processor_draws_it_is_said_once_and_drawn_lightly(
     with opened(browser, studio, (1280, 720), device_scale_factor=2) as tab:
         note = tab.page.get_by_text("the 3D view is drawn lightly here")
         note.wait_for()
-        told = tab.page.evaluate(_GRAPHICS)
-        assert (told["light"], told["software"]) == (True, True)
-        assert tab.page.evaluate(_SHADOWS) == 0
+        wait_until("it to be drawn lightly", lambda: draws(tab, light=True))
+        assert tab.page.evaluate(_GRAPHICS)["software"]
+        wait_until("no shadows", lambda: tab.page.evaluate(_SHADOWS) == 0)
         assert tab.page.evaluate(f"() => {_VIEW}.devicePixelRatio") == 1
         tab.page.get_by_role("button", name="Details").click()
         assert "Drawn by: " in tab.page.get_by_role("dialog", name="Graphics").inner_text()
@@ -131,7 +131,7 @@ def test_where_the_processor_draws_it_is_said_once_and_drawn_lightly(
         note.wait_for(state="detached")
         tab.page.reload()
         wait_until("the robot", tab.has_drawn_robot)
-        assert tab.page.evaluate(_GRAPHICS)["light"]
+        wait_until("it to be drawn lightly", lambda: draws(tab, light=True))
         assert note.count() == 0
 
 
@@ -139,10 +139,10 @@ def test_a_view_that_proves_slow_is_drawn_lightly_until_one_undoes_it(
     browser: Browser, studio: RunningStudio
 ):
     with opened(browser, studio, (900, 700), _UNNAMED_CARD) as tab:
-        assert tab.page.evaluate(_GRAPHICS)["light"] is False
+        assert draws(tab, light=False)
         tab.page.evaluate(_SPIN)
         tab.page.get_by_text("the 3D view is drawn lightly here").wait_for(timeout=90_000)
-        assert tab.page.evaluate(_GRAPHICS)["light"]
+        wait_until("it to be drawn lightly", lambda: draws(tab, light=True))
         wait_until("the shadows to go", lambda: tab.page.evaluate(_SHADOWS) == 0)
         tab.page.get_by_role("region", name="3D view").get_by_role(
             "button", name="Draw fully"

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
 pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(300)]
 
+_FOCUSED_CLASS = "() => document.activeElement.className"
+_FOCUSED_TITLE = "() => document.activeElement.title"
 _FOCUSED = "() => document.activeElement?.closest('.dv-tab, button')?.textContent?.trim()"
 _HAS_PICTURE = "one => one.complete && one.naturalWidth > 0"
 
@@ -63,7 +65,7 @@ def test_help_is_opened_read_searched_and_left_by_keys_alone(tab: StudioPage):
     page.get_by_role("tab", name="Properties").focus()
     page.keyboard.press("F1")
     help_sheet = sheet(tab, "Properties")
-    assert page.evaluate("() => document.activeElement.className") == "help-text"
+    wait_until("the focus on its text", lambda: page.evaluate(_FOCUSED_CLASS) == "help-text")
     left = help_sheet.bounding_box()
     assert left is not None
     assert left["x"] < 100, "the panel at the right edge is not covered by its help"
@@ -78,7 +80,7 @@ def test_help_is_opened_read_searched_and_left_by_keys_alone(tab: StudioPage):
     sheet(tab, "Masses")
     page.keyboard.press("Escape")
     wait_until("the help to be gone", lambda: page.locator("dialog.help").count() == 0)
-    assert page.evaluate(_FOCUSED) == "Properties"
+    wait_until("the focus where it was", lambda: page.evaluate(_FOCUSED) == "Properties")
 
 
 def test_the_button_of_a_panel_and_its_menu_open_its_help(tab: StudioPage):
@@ -86,7 +88,7 @@ def test_the_button_of_a_panel_and_its_menu_open_its_help(tab: StudioPage):
     page.get_by_role("tab", name="Joints").click()
     page.get_by_role("button", name="Help: Joints").click()
     sheet(tab, "Joints").get_by_role("button", name="Close the help").click()
-    assert page.evaluate("() => document.activeElement.title") == "Help: Joints"
+    wait_until("the focus back", lambda: page.evaluate(_FOCUSED_TITLE) == "Help: Joints")
     page.get_by_role("tab", name="Displays").click(button="right")
     page.get_by_role("menuitem", name="Help: Displays").click()
     sheet(tab, "Displays")
@@ -100,7 +102,7 @@ def test_the_palette_and_the_menu_lead_to_the_help(tab: StudioPage):
     page.keyboard.press("Enter")
     sheet(tab, "Units and angles").get_by_role("button", name="All pages").click()
     pages = sheet(tab, "Help").get_by_role("navigation")
-    assert pages.get_by_role("button").count() >= 24
+    wait_until("all pages", lambda: pages.get_by_role("button").count() >= 24)
     page.keyboard.press("Escape")
     page.get_by_role("button", name="Settings").click()
     page.get_by_role("menuitem", name="Help", exact=True).click()
@@ -119,8 +121,8 @@ def test_help_on_a_window_lies_over_it_and_leaves_it_open(tab: StudioPage):
     sheet(tab, "Keyboard")
     page.keyboard.press("Escape")
     wait_until("the help to be gone", lambda: page.locator("dialog.help").count() == 0)
-    assert keys.is_visible()
-    assert page.evaluate("() => document.activeElement.title") == "Help: Keyboard"
+    wait_until("the keys", keys.is_visible)
+    wait_until("the focus back", lambda: page.evaluate(_FOCUSED_TITLE) == "Help: Keyboard")
     page.keyboard.press("Escape")
     wait_until("the window to be gone", lambda: page.locator("dialog").count() == 0)
 

@@ -59,5 +59,5 @@ def test_a_misspelt_end_tag_is_found_and_mended_by_one_click(browser: Browser, t
         gone = tab.page.get_by_text("</vizual> is to close")
         wait_until("the finding to be gone", lambda: gone.count() == 0)
         tab.seek("radius")
-        assert tab.box("radius").input_value() == "0.5"
+        wait_until("the value", lambda: tab.box("radius").input_value() == "0.5")
         assert tab.errors == []

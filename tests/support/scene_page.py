@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from studio.robot.kinematics import Kinematics
+from tests.support.studio_page import ACTION_PATIENCE_MS
 
 if TYPE_CHECKING:
     from playwright.sync_api import Frame, Page
@@ -47,6 +48,7 @@ class ScenePage:
         self.kinematics = Kinematics(robot)
         self.requests: list[str] = []
         self.errors: list[str] = []
+        page.set_default_timeout(ACTION_PATIENCE_MS)
         page.on("request", lambda request: self.requests.append(request.url))
         page.on("pageerror", lambda error: self.errors.append(str(error)))
         page.set_viewport_size({"width": WIDTH, "height": HEIGHT})
@@ -140,7 +142,7 @@ class ScenePage:
 
     def until(self, condition: str) -> None:
         """Wait until a JavaScript expression holds."""
-        self.frame.wait_for_function(condition, timeout=90_000)
+        self.frame.wait_for_function(condition, timeout=ACTION_PATIENCE_MS)
 
     def place_of(self, node: str) -> tuple[float, float]:
         """Where on screen the middle of a geometry is."""

@@ -26,6 +26,8 @@ if TYPE_CHECKING:
     from tests.support.server import RunningStudio
 
 PATIENCE_S = 60.0
+ACTION_PATIENCE_MS = 90_000
+"""For a click or a word: Playwright's own is half a minute, too little where all cores are busy."""
 _PICTURE_PATIENCE_S = 120.0
 _POLL_S = 0.1
 _HAS_FOCUS = "one => one === document.activeElement"
@@ -69,6 +71,7 @@ class StudioPage:
     def __init__(self, page: Page) -> None:
         self.page = page
         self.errors: list[str] = []
+        page.set_default_timeout(ACTION_PATIENCE_MS)
         page.on("console", self._heard)
         page.on("pageerror", lambda error: self.errors.append(str(error)))
 
