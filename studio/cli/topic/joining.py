@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from studio.cli.learning import learn_type, say_foreign
 from studio.cli.looking import full_name, say_other_types
+from studio.cli.other_forms import told_form
 from studio.cli.topic.qos_options import given_profile, is_given, matching_profile
 from studio.errors import UnknownTypeError
 from studio.ros.names import full_type_name
@@ -25,11 +26,17 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Joined:
-    """What a verb listens to; of a type that is not known only the bytes, in another's form."""
+    """What a verb listens to.
+
+    Attributes:
+        kind: The class of its messages; None where only the bytes are known.
+        form: Who has the type in a form of its own, in which it is listened to.
+    """
 
     name: str
-    kind: type[MessageValue] | GraphEndpoint
+    kind: type[MessageValue] | None
     qos: QoSProfile
+    form: GraphEndpoint | None = None
 
 
 def join_topic(
@@ -54,33 +61,45 @@ def join_topic(
     qos = matching_profile([one.qos for one in publishers])
     if is_given(options):
         qos = given_profile(options, qos)
-    kind = _kind_of(actor, name, type_name, raw=raw)
-    say_foreign(actor, [one for one in publishers if one.type_name == type_name])
-    return Joined(name, kind, qos)
+    kind, form = _form_of(actor, name, type_name, raw=raw)
+    return Joined(name, kind, qos, form)
 
 
-def _kind_of(
+def _form_of(
     actor: Actor, name: str, type_name: str, *, raw: bool
-) -> type[MessageValue] | GraphEndpoint:
-    """Give the class of a type, or one who has the type where it is not known and need not be.
+) -> tuple[type[MessageValue] | None, GraphEndpoint | None]:
+    """Give the class of a type, and who has it in the form that is meant if that is not ours.
 
     Raises:
         UnknownTypeError: It is not known, and its bytes are not enough.
     """
-    ends = [*actor.graph.publishers(name), *actor.graph.subscriptions(name)]
-    same = [one for one in ends if one.type_name == type_name]
+    publishers = [one for one in actor.graph.publishers(name) if one.type_name == type_name]
+    others = [one for one in actor.graph.subscriptions(name) if one.type_name == type_name]
     try:
-        return _class_of(actor, type_name, same)
+        kind = _class_of(actor, type_name, [*publishers, *others])
     except UnknownTypeError as error:
-        if not same:
-            raise
-        if not raw:
-            reason = error.reason or "no known package defines it: open its package"
-            raise UnknownTypeError(
-                error.name, f"{reason}, give --interfaces, or see its bytes with --raw"
-            ) from None
-        print(f"WARNING: {error} Its bytes come as they are.", file=sys.stderr)
-        return same[0]
+        return None, _unread(error, [*publishers, *others], raw=raw)
+    told = told_form(actor, publishers)
+    if told is None:
+        say_foreign(actor, publishers)
+    return told or (kind, None)
+
+
+def _unread(error: UnknownTypeError, ends: list[GraphEndpoint], *, raw: bool) -> GraphEndpoint:
+    """Give one who has a type that nobody knows, and say so.
+
+    Raises:
+        UnknownTypeError: Nobody has it, or its bytes are not enough.
+    """
+    if not ends:
+        raise error
+    if not raw:
+        reason = error.reason or "no known package defines it: open its package"
+        raise UnknownTypeError(
+            error.name, f"{reason}, give --interfaces, or see its bytes with --raw"
+        ) from None
+    print(f"WARNING: {error} Its bytes come as they are.", file=sys.stderr)
+    return ends[0]
 
 
 def _class_of(actor: Actor, type_name: str, ends: list[GraphEndpoint]) -> type[MessageValue]:
@@ -111,10 +130,10 @@ def subscribe(
     actor: Actor, joined: Joined, callback: Callable[..., object], *, raw: bool = False
 ) -> Subscription:
     """Listen to a topic."""
-    if isinstance(joined.kind, type):
-        return actor.node.create_subscription(
-            joined.kind, joined.name, callback, joined.qos, raw=raw
-        )
-    from studio.cli.topic.unread import listen_unread
+    if joined.form is not None:
+        from studio.cli.topic.listening import listen_as
 
-    return listen_unread(actor.node, joined.kind, callback, joined.qos)
+        return listen_as(actor.node, joined.form, joined.kind, callback, joined.qos, raw=raw)
+    if joined.kind is None:
+        raise UnknownTypeError(joined.name)
+    return actor.node.create_subscription(joined.kind, joined.name, callback, joined.qos, raw=raw)

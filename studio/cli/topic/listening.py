@@ -1,4 +1,4 @@
-"""Topics whose type nobody knows: their bytes come as they are, to be counted and shown."""
+"""Topics in a form of their publishers' own: messages if they told it, else the bytes alone."""
 
 from __future__ import annotations
 
@@ -19,10 +19,16 @@ if TYPE_CHECKING:
     from studio.ros.types.classes import MessageValue
 
 
-def listen_unread(
-    node: Node, other: GraphEndpoint, callback: Callable[..., object], qos: QoSProfile
+def listen_as(
+    node: Node,
+    other: GraphEndpoint,
+    kind: type[MessageValue] | None,
+    callback: Callable[..., object],
+    qos: QoSProfile,
+    *,
+    raw: bool,
 ) -> Subscription:
-    """Take the bytes of a topic in the form that another's token tells, whatever that is."""
+    """Listen to a topic in the form that another's token tells; without a class, to its bytes."""
     token = EndpointToken(
         node.token,
         node.wire.next_id(),
@@ -33,8 +39,9 @@ def listen_unread(
         qos,
     )
     endpoint = Endpoint(node.wire, token, lambda: node.graph)
-    kind = make_class(Message(other.type_name), _no_part)
-    subscription = Subscription(endpoint, kind, callback, node.default_callback_group, raw=True)
+    raw = raw or kind is None
+    kind = kind or make_class(Message(other.type_name), _no_part)
+    subscription = Subscription(endpoint, kind, callback, node.default_callback_group, raw=raw)
     node.add_work(subscription)
     return subscription
 
