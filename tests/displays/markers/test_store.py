@@ -8,6 +8,7 @@ from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, rule
 
+from studio.displays.markers import filling
 from studio.displays.markers import store as store_module
 from studio.displays.markers.kinds import Action, Kind
 from studio.displays.markers.problems import Problem
@@ -134,7 +135,7 @@ def test_more_markers_than_there_is_room_for_are_left_out_and_told(
 def test_more_points_than_there_is_room_for_are_left_out_until_others_go(
     monkeypatch: pytest.MonkeyPatch,
 ):
-    monkeypatch.setattr(store_module, "POINTS_MAX", 5)
+    monkeypatch.setattr(filling, "POINTS_MAX", 5)
     store = MarkerStore()
     line = [(0.0, 0.0, 0.0)] * 3
     lines = [marker(Kind.LINE_STRIP, number, points=line) for number in range(2)]
@@ -146,7 +147,7 @@ def test_more_points_than_there_is_room_for_are_left_out_until_others_go(
 
 
 def test_a_line_that_is_sent_again_and_again_needs_no_more_room(monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr(store_module, "POINTS_MAX", 5)
+    monkeypatch.setattr(filling, "POINTS_MAX", 5)
     store = MarkerStore()
     line = columns_of(marker(Kind.LINE_STRIP, points=[(0.0, 0.0, 0.0)] * 3))
     for _ in range(10):
