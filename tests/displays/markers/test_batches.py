@@ -4,8 +4,11 @@ import re
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from hypothesis import settings
+from hypothesis import strategies as st
+from hypothesis.stateful import RuleBasedStateMachine, rule
 
-from studio.displays.drawing import Points, Solids
+from studio.displays.drawing import Lines, Points, Solids
 from studio.displays.marker_array import MarkerArrayDisplay
 from studio.displays.markers import batches as batches_module
 from studio.displays.markers.batches import shapes_of
@@ -23,6 +26,7 @@ S = 10**9
 LINE = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0)]
 HALF_RED = (0.9, 0.0, 0.2, 0.5)
 DELETE_ALL = int(Action.DELETE_ALL)
+NAMESPACES = ("lane", "wall", "")
 
 
 class Shown:
@@ -243,3 +247,86 @@ def test_a_batch_of_which_nothing_changed_is_not_even_looked_at(monkeypatch: pyt
     assert looked == []
     shown.after(two[0], marker(Kind.CUBE, 1, frame="odom", rgba=(0.0, 0.0, 0.0, 1.0)))
     assert looked == [1]
+
+
+@st.composite
+def any_marker(draw: st.DrawFn) -> Any:  # noqa: ANN401
+    return marker(
+        draw(st.sampled_from([Kind.CUBE, Kind.SPHERE, Kind.LINE_STRIP, Kind.POINTS, Kind.TEXT])),
+        draw(st.integers(0, 3)),
+        at=(draw(st.sampled_from([0.0, 1.0])), 0.0, 0.0),
+        points=LINE[: draw(st.integers(0, 2))],
+        rgba=(1.0, 0.0, 0.0, draw(st.sampled_from([1.0, 1.0, 0.5, 0.0]))),
+        frame=draw(st.sampled_from(["map", "odom", ""])),
+        stamp_ns=draw(st.sampled_from([0, S])),
+        ns=draw(st.sampled_from(NAMESPACES)),
+        action=draw(st.sampled_from([0, 0, 0, 0, int(Action.DELETE), DELETE_ALL])),
+        frame_locked=draw(st.booleans()),
+        text=draw(st.sampled_from(["", "a", "b"])),
+    )
+
+
+class Story(RuleBasedStateMachine):
+    """Whatever happened before, the drawing is that of one who hears of those there are at once."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.display = MarkerArrayDisplay(TYPES)
+        self.there: dict[tuple[str, int], Any] = {}
+        self.last: list[Any] = []
+
+    @rule(markers=st.lists(any_marker(), max_size=6))
+    def a_message_comes(self, markers: list[Any]) -> None:
+        self.last = markers
+        self._take(markers)
+
+    @rule()
+    def it_comes_again(self) -> None:
+        self._take(self.last)
+
+    @rule(namespace=st.sampled_from(NAMESPACES), shown=st.booleans())
+    def a_namespace_is_switched(self, namespace: str, shown: bool) -> None:
+        self.display.set(f"Namespaces/{namespace}", shown)
+
+    @rule()
+    def it_is_drawn(self) -> None:
+        fresh = MarkerArrayDisplay(TYPES, self.display.values)
+        fresh.take(array_of(*self.there.values()))
+        drawn = self.display.draw(0)
+        assert listed(drawn) == listed(fresh.draw(0))
+        assert self.display.draw(0) is drawn
+
+    def _take(self, markers: list[Any]) -> None:
+        self.display.take(array_of(*markers))
+        for one in markers:
+            if one.action == DELETE_ALL:
+                self.there = {k: v for k, v in self.there.items() if one.ns not in ("", k[0])}
+            elif one.action == Action.DELETE:
+                self.there.pop((one.ns, one.id), None)
+            else:
+                self.there[one.ns, one.id] = one
+
+
+def listed(drawing: Drawing) -> list[str]:
+    """All things that are drawn, one by one, in the order of the alphabet."""
+    found: list[str] = []
+    for placed in drawing.values():
+        where = f"{placed.frame} {placed.stamp_ns} {placed.follows}"
+        for name, shape in placed.shapes.items():
+            match shape:
+                case Solids():
+                    colors = np.broadcast_to(shape.colors, (len(shape.positions), 3)).tolist()
+                    alphas = np.broadcast_to(shape.opacities, len(shape.positions)).tolist()
+                    each = zip(shape.positions.tolist(), colors, alphas, strict=True)
+                case Points():
+                    each = [(place, shape.opacity) for place in shape.positions.tolist()]
+                case Lines():
+                    each = [(ends, shape.opacity) for ends in shape.ends.tolist()]
+                case _:
+                    name, each = name.split("-")[0], [shape]  # noqa: PLW2901 - its row is anyone's
+            found += [f"{where} {name} {one}" for one in each]
+    return sorted(found)
+
+
+Story.TestCase.settings = settings(max_examples=50, stateful_step_count=15, deadline=None)
+TestStory = Story.TestCase
