@@ -77,11 +77,12 @@ def test_the_robot_goes_out_joints_come_in_and_a_router_that_was_away_is_found_a
             switch(tab, "Publish the robot").click()
             wait_until("the description", lambda: bool(descriptions))
             wait_until("the peer is counted", lambda: "connected, 1 node" in status(tab))
-            assert switch(tab, "Publish the robot").get_attribute("aria-checked") == "true"
+            on = switch(tab, "Publish the robot")
+            wait_until("the switch is on", lambda: on.get_attribute("aria-checked") == "true")
             teller(peer, 0.75)
             source(tab).select_option("joint_states")
             wait_until("the joint follows", lambda: position(tab) == 0.75)
-            assert tab.row(JOINT).get_by_role("slider").is_disabled()
+            wait_until("it is not ours", lambda: tab.row(JOINT).get_by_role("slider").is_disabled())
         router.close()
         wait_until("the page says so", lambda: "router gone" in status(tab))
         assert tab.page.get_by_role("alert").filter(has_text="The router went away").count() == 1

@@ -102,7 +102,7 @@ def test_what_is_selected_in_one_of_four_is_seen_in_the_other_three(tab: StudioP
     upper = selection("upper", "shoulder", '<link name="upper"')
     wait_until("the upper arm everywhere", lambda: seen(tab) == upper)
     wait_until("its line in view", lambda: line.evaluate(_LINE_IN_VIEW))
-    assert page.evaluate(_AXES) == []
+    wait_until("no axis in 3D", lambda: page.evaluate(_AXES) == [])
 
     page.keyboard.press("Escape")
     nothing: dict[str, list[str]] = {"tree": [], "joints": [], "source": []}

@@ -80,7 +80,7 @@ def test_a_typed_number_moves_the_pixels_and_its_slider_and_is_undone_as_one_ste
 
     tab.page.locator(".cm-content").press("Control+z")
     wait_until("the undo", lambda: tab.box("wheel_radius").input_value() == "0.105")
-    assert 'value="0.105"' in line_of(tab)
+    wait_until("the text", lambda: 'value="0.105"' in line_of(tab))
     tab.show_again(before)
     assert not tab.page.get_by_role("button", name="Undo", exact=True).is_enabled()
 

@@ -72,7 +72,7 @@ def test_a_property_is_renamed_over_files_and_undone_as_one_step(tab: StudioPage
     wait_until("the places", lambda: "10 places in 3 files" in card.inner_text())
     tab.page.keyboard.press("Enter")
     wait_until("the text", lambda: 'name="tyre_width"' in text_of(tab))
-    assert tab.page.get_by_text("3 files").count() == 0
+    wait_until("the card to be gone", lambda: tab.page.get_by_text("3 files").count() == 0)
     tab.seek("tyre_width")
     tab.show_again(before)
     undo_button(tab).click()
