@@ -51,6 +51,19 @@ export function quaternionOf(pose) {
   return /** @type {[number, number, number, number]} */ (found.map((one) => one / length));
 }
 
+/**
+ * @param {readonly [number, number, number, number]} wxyz a quaternion of length 1
+ * @param {readonly [number, number, number]} xyz m
+ * @returns {Pose}
+ */
+export function poseOfQuaternion([w, x, y, z], [tx, ty, tz]) {
+  return [
+    ...[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y), tx],
+    ...[2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x), ty],
+    ...[2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y), tz],
+  ];
+}
+
 /** @param {Pose} pose @returns {number[][]} four rows */
 export function matrixOf(pose) {
   return [pose.slice(0, 4), pose.slice(4, 8), pose.slice(8, 12), [0, 0, 0, 1]];

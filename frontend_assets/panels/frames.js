@@ -1,28 +1,48 @@
-/** The pose of a frame in another one, in every form in which people write it; live while joints move. */
+/** The frames of TF, and the pose of one in another in every form in which people write it, live. */
 
+/** @import { ComponentChildren } from "vendor/preact.js" */
 /** @import { Step } from "../lib/frame-pose.js" */
+/** @import { FrameStep } from "../lib/frame-tree.js" */
 
-import { html, useEffect, useRef } from "vendor/preact.js";
+import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { Refusal } from "../app/refusal.js";
+import { mayEdit } from "../app/state/connection.js";
 import { robot } from "../app/state/document.js";
 import {
   BY_FRAMES,
   comparing,
+  frameNames,
+  isToldByOthers,
+  jointWay,
   reference,
   referenceFromTarget,
   setReference,
   setTarget,
+  source,
   swapFrames,
   target,
+  tfWay,
 } from "../app/state/frame-pair.js";
 import { askFrames, followFrames, framesRefused } from "../app/state/frames.js";
+import { ros } from "../app/state/ros.js";
 import { part, selectPart } from "../app/state/selection.js";
-import { wayBetween } from "../lib/frame-pose.js";
+import {
+  answered,
+  askTf,
+  fixedFrame,
+  followTf,
+  pairAnswer,
+  tfFrames,
+  tfRefused,
+} from "../app/state/tf.js";
+import { dialog } from "../app/state/view.js";
+import { troubleOf } from "../lib/frame-tree.js";
 import { t } from "../lib/i18n.js";
 import { LinkPicker } from "../lib/link-picker.js";
 import { useSeen } from "../lib/seen.js";
-import { EmptyState, Icon, IconButton } from "../lib/ui.js";
+import { EmptyState, Icon, IconButton, SearchBox } from "../lib/ui.js";
 import { PoseForms } from "./frames-forms.js";
+import { FramesTree } from "./frames-tree.js";
 
 export function FramesPanel() {
   const panel = useRef(/** @type {HTMLElement | null} */ (null));
@@ -30,16 +50,76 @@ export function FramesPanel() {
   useSeen(panel, (seen) => {
     comparing.value = seen;
   });
-  const names = robot.value?.links.map(({ name }) => name) ?? [];
+  const looking = comparing.value;
+  useEffect(() => (looking ? followTf() : undefined), [looking]);
+  const isEmpty = frameNames.value.length === 0;
   return html`<section ref=${panel} class="panel-body frames" aria-label=${t("panel.frames")}>
-    ${names.length === 0 ? html`<${EmptyState} icon="frames" title=${t("urdf.none")} />` : html`<${Content} names=${names} />`}
+    ${isEmpty ? html`<${EmptyState} icon="frames" title=${t("tf.none")}><${ConnectButton} /><//>` : html`<${Content} />`}
   </section>`;
 }
 
-/** @param {{names: readonly string[]}} props */
-function Content({ names }) {
-  const way = wayOf();
-  return html`<div class="panel-bar frames-head">
+function Content() {
+  return html`<div class="frames-parts"><${Tree} /><${Pair} /></div>`;
+}
+
+function Tree() {
+  const filter = useSignal("");
+  return html`<div class="tf-part">
+    <div class="panel-bar"><${SearchBox} label=${t("tf.filter")} value=${filter.value} onInput=${(
+      /** @type {string} */ text,
+    ) => {
+      filter.value = text;
+    }} /></div>
+    ${answered.value ? html`<${Summary} /><${FramesTree} filter=${filter.value} /><${Notes} />` : html`<${Waiting} />`}
+  </div>`;
+}
+
+function Waiting() {
+  return tfRefused.value
+    ? html`<${Refusal} sentence=${tfRefused.value} again=${askTf} />`
+    : html`<p class="note padded">${t("loading")}</p>`;
+}
+
+/** How many frames there are, and how many of them are in trouble. */
+function Summary() {
+  const count = tfFrames.value.length + (answered.value?.told.more ?? 0);
+  const { stale, broken } = troubleOf(tfFrames.value);
+  return html`<p class="tf-summary" role="status">
+    <span>${t("tf.count", { count })}</span>
+    ${stale > 0 && html`<span class="tf-state stale"><${Icon} name="alert" size=${12} /><span>${t("tf.count.stale", { count: stale })}</span></span>`}
+    ${broken > 0 && html`<span class="tf-state broken"><${Icon} name="alert" size=${12} /><span>${t("tf.count.broken", { count: broken, fixed: fixedFrame.value })}</span></span>`}
+  </p>`;
+}
+
+/** What is to be said below the tree: what was left out or refused, and how to see more. */
+function Notes() {
+  const { more = 0, refused = [] } = answered.value?.told ?? {};
+  const isOff = ros.value.state !== "connected";
+  return html`<div class="tf-notes">
+    ${more > 0 && html`<p class="note">${t("tf.more", { count: more })}</p>`}
+    ${isOff && html`<p class="note tf-off"><span>${t("tf.off")}</span><${ConnectButton} /></p>`}
+    ${!isOff && !isToldByOthers.value && html`<p class="note"><${Icon} name="info" size=${13} />${t("tf.quiet")}</p>`}
+    ${
+      refused.length > 0 &&
+      html`<details class="tf-refused"><summary>${t("tf.refused", { count: refused.length })}</summary>
+      <ul>${refused.map((sentence) => html`<li key=${sentence}>${sentence}</li>`)}</ul></details>`
+    }
+  </div>`;
+}
+
+function ConnectButton() {
+  if (ros.value.state === "connected" || !mayEdit.value) return null;
+  const show = () => {
+    dialog.value = { kind: "ros" };
+  };
+  return html`<button type="button" class="button" onClick=${show}><${Icon} name="link" size=${14} />${t("ros.connect")}</button>`;
+}
+
+function Pair() {
+  const names = frameNames.value;
+  const isApart = source.value === "joints" && jointWay.value === null;
+  return html`<div class="frames-pair">
+    <div class="panel-bar frames-head">
       <span class="muted">${t("frames.of")}</span>
       <${LinkPicker} label=${t("frames.target")} value=${target.value} links=${names} placeholder=${t("frames.choose")} onPick=${setTarget} />
       <span class="muted">${t("frames.in")}</span>
@@ -48,40 +128,69 @@ function Content({ names }) {
     </div>
     <div class="scroll">
       ${target.value === null && html`<${EmptyState} icon="frames" title=${t("frames.none")} />`}
-      ${target.value !== null && !way && html`<p class="note padded"><${Icon} name="info" size=${13} />${t("frames.apart")}</p>`}
+      ${target.value !== null && isApart && html`<p class="note padded"><${Icon} name="info" size=${13} />${t("frames.apart")}</p>`}
       ${target.value !== null && html`<${Values} />`}
-      ${way && html`<${Way} way=${way} />`}
-    </div>`;
-}
-
-/** @returns {Step[] | null} the joints between the two frames */
-function wayOf() {
-  const [from, to] = [reference.value, target.value];
-  return from === null || to === null ? null : wayBetween(robot.value?.joints ?? [], from, to);
+      ${target.value !== null && html`<${Way} />`}
+    </div>
+  </div>`;
 }
 
 /** Drawn anew with every joint frame, and nothing else of the panel. */
 function Values() {
   const pose = referenceFromTarget.value;
   if (pose) return html`<${PoseForms} pose=${pose} />`;
-  return framesRefused.value
-    ? html`<${Refusal} sentence=${framesRefused.value} again=${askFrames} />`
+  if (source.value === "tf" && pairAnswer.value?.trouble)
+    return html`<p class="note padded frames-trouble" role="status"><${Icon} name="alert" size=${14} /><span>${pairAnswer.value.trouble}</span></p>`;
+  const [refused, again] =
+    source.value === "tf" ? [tfRefused.value, askTf] : [framesRefused.value, askFrames];
+  return refused
+    ? html`<${Refusal} sentence=${refused} again=${again} />`
     : html`<p class="note padded">${t("loading")}</p>`;
 }
 
-/** @param {{way: readonly Step[]}} props the links and joints from the one frame to the other */
-function Way({ way }) {
+/** The frames from the one to the other, and the joints where those of the robot lead there. */
+function Way() {
   const first = reference.value ?? "";
-  return html`<ol class="frames-way" aria-label=${t("frames.way")}>
-    <li><${PartButton} part=${`link:${first}`} name=${first} icon="box" /></li>
-    ${way.map(
-      ({ joint, up }) => html`<li key=${joint.name}>
-        <span class="frames-arrow" title=${t(up ? "frames.up" : "frames.down")} aria-label=${t(up ? "frames.up" : "frames.down")}>${up ? "↑" : "↓"}</span>
-        <${PartButton} part=${`joint:${joint.name}`} name=${joint.name} icon="joints" still=${joint.type === "fixed"} />
-        <${PartButton} part=${`link:${up ? joint.parent : joint.child}`} name=${up ? joint.parent : joint.child} icon="box" />
-      </li>`,
-    )}
-  </ol>`;
+  const joints = jointWay.value;
+  if (joints)
+    return html`<${Steps} label=${t("frames.way")} first=${first}>${joints.map(
+      (step) => html`<${JointStep} key=${step.joint.name} step=${step} />`,
+    )}<//>`;
+  const frames = tfWay.value;
+  if (!frames) return null;
+  return html`<${Steps} label=${t("tf.way")} first=${first}>${frames.map(
+    (step) => html`<${TfStep} key=${step.at} step=${step} />`,
+  )}<//><p class="note padded">${t("tf.every_second")}</p>`;
+}
+
+/** @param {{label: string, first: string, children?: ComponentChildren}} props */
+function Steps({ label, first, children }) {
+  return html`<ol class="frames-way" aria-label=${label}><li><${FrameButton} name=${first} /></li>${children}</ol>`;
+}
+
+/** @param {{step: Step}} props */
+function JointStep({ step: { joint, up } }) {
+  return html`<li><${Arrow} up=${up} />
+    <${PartButton} part=${`joint:${joint.name}`} name=${joint.name} icon="joints" still=${joint.type === "fixed"} />
+    <${FrameButton} name=${up ? joint.parent : joint.child} /></li>`;
+}
+
+/** @param {{step: FrameStep}} props */
+function TfStep({ step: { at, up } }) {
+  return html`<li><${Arrow} up=${up} /><${FrameButton} name=${at} /></li>`;
+}
+
+/** @param {{up: boolean}} props */
+function Arrow({ up }) {
+  const words = t(up ? "frames.up" : "frames.down");
+  return html`<span class="frames-arrow" title=${words} aria-label=${words}>${up ? "↑" : "↓"}</span>`;
+}
+
+/** @param {{name: string}} props a link of the robot is selected with it */
+function FrameButton({ name }) {
+  if (robot.value?.links.some((link) => link.name === name))
+    return html`<${PartButton} part=${`link:${name}`} name=${name} icon="box" />`;
+  return html`<span class="segment" title=${name}><${Icon} name="frames" size=${12} /><span>${name}</span></span>`;
 }
 
 /** @param {{part: string, name: string, icon: string, still?: boolean}} props */

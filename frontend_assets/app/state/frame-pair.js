@@ -1,18 +1,22 @@
 /**
- * Of which frame the pose is told, and in which: of the link that was selected last, in the root unless
- * another one was chosen. Clicks on the way between the two leave both as they are.
+ * Of which frame the pose is told, and in which: of the link that was selected last or another frame
+ * that was chosen, in the root unless another one was chosen. Clicks on the way between the two leave
+ * both as they are.
  */
 
 /** @import { Signal } from "vendor/preact.js" */
 /** @import { Pose } from "../../lib/kinematics.js" */
 
 import { batch, computed, effect, signal } from "vendor/preact.js";
+import { poseOfQuaternion, wayBetween } from "../../lib/frame-pose.js";
+import { framesBetween, isOwn, isOwnWay } from "../../lib/frame-tree.js";
 import { compose, inverse } from "../../lib/kinematics.js";
 import { remembered } from "../../lib/remembered.js";
 import { commandById } from "../commands.js";
 import { robot } from "./document.js";
 import { posesOf } from "./frames.js";
 import { selection, selectLink } from "./selection.js";
+import { fixedFrame, pair, pairAnswer, tfFrames, tfNames } from "./tf.js";
 
 /** Selections made by this panel are those on the way. */
 export const BY_FRAMES = "frames";
@@ -27,24 +31,87 @@ effect(() => {
   if (link !== null && by !== BY_FRAMES) followed.value = link;
 });
 
-/** @param {string | null} name @returns {string | null} while the robot has it */
-const there = (name) => robot.value?.links.find((link) => link.name === name)?.name ?? null;
+const linkNames = computed(() => new Set(robot.value?.links.map(({ name }) => name)));
+
+/** @param {string | null} name @returns {string | null} while the robot or TF has it */
+const there = (name) =>
+  name !== null && (linkNames.value.has(name) || tfNames.value.has(name)) ? name : null;
 
 /** The frame whose pose is told; null: none was selected yet. */
 export const target = computed(() => there(followed.value));
 
 /** The frame in which it is told. */
-export const reference = computed(() => there(chosen.value) ?? robot.value?.root ?? null);
+export const reference = computed(
+  () => there(chosen.value) ?? robot.value?.root ?? there(fixedFrame.value),
+);
+
+effect(() => {
+  const [seen_from, frame] = [reference.value ?? "", target.value ?? ""];
+  pair.value = { frame, seen_from };
+});
+
+/** All that can be chosen: what TF has, and the robot's links before TF was asked. */
+export const frameNames = computed(() => [...new Set([...tfNames.value, ...linkNames.value])]);
+
+/** Frames of TF on the way from the reference to the target; null: none leads there, or nothing is known of it. */
+const frameWay = computed(() => {
+  const [from, to] = [reference.value, target.value];
+  return from === null || to === null ? null : framesBetween(tfFrames.value, from, to);
+});
+
+/** Somebody on the wire tells of frames. */
+export const isToldByOthers = computed(() =>
+  tfFrames.value.some((frame) => frame.parent !== "" && !isOwn(frame)),
+);
+
+/**
+ * The robot's own joints lead from the one to the other, and nobody on the wire says otherwise: then
+ * the pose follows every joint frame without a word to the studio.
+ */
+const isOwnPair = computed(() => {
+  const [from, to] = [reference.value, target.value];
+  if (from === null || to === null) return false;
+  if (!linkNames.value.has(from) || !linkNames.value.has(to)) return false;
+  return frameWay.value ? isOwnWay(tfFrames.value, from, frameWay.value) : !isToldByOthers.value;
+});
+
+/** Joints between the two; null: they are not what leads from one to the other. */
+export const jointWay = computed(() => {
+  const [from, to] = [reference.value, target.value];
+  if (from === null || to === null || !isOwnPair.value) return null;
+  return wayBetween(robot.value?.joints ?? [], from, to);
+});
+
+/** Frames between the two as TF has them; null: joints lead there, or nothing does. */
+export const tfWay = computed(() => (isOwnPair.value ? null : frameWay.value));
+
+/** Where the pose comes from, once there is one. */
+export const source = computed(() => (isOwnPair.value ? "joints" : "tf"));
 
 /** Pose of the target in the reference; null until it is known. @type {Signal<Pose | null>} */
-export const referenceFromTarget = computed(() => {
-  const [from, to] = [reference.value, target.value];
-  if (from === null || to === null) return null;
+export const referenceFromTarget = computed(() => (isOwnPair.value ? ownPose() : tfPose()));
+
+/** @returns {Pose | null} */
+function ownPose() {
+  const [from, to] = [reference.value ?? "", target.value ?? ""];
   const poses = posesOf([from, to]);
   const rootFromReference = poses?.get(from);
   const rootFromTarget = poses?.get(to);
   if (!rootFromReference || !rootFromTarget) return null;
   return compose(inverse(rootFromReference), rootFromTarget);
+}
+
+/** @returns {Pose | null} */
+function tfPose() {
+  const told = pairAnswer.value?.pose;
+  return told ? poseOfQuaternion(told.wxyz, told.xyz) : null;
+}
+
+/** Frames from the reference to the target, both ends with it. @type {Signal<ReadonlySet<string>>} */
+export const chain = computed(() => {
+  const way = frameWay.value;
+  if (way === null || reference.value === null) return new Set();
+  return new Set([reference.value, ...way.map(({ at }) => at)]);
 });
 
 /** Lengths are told in mm. */
@@ -55,18 +122,25 @@ export const comparing = signal(false);
 
 /** Links whose frames are seen in 3D for it. @type {Signal<readonly string[]>} */
 export const comparedFrames = computed(() => {
-  const links = comparing.value ? [reference.value, target.value] : [];
-  return links.filter((link) => link !== null);
+  const frames = comparing.value ? [reference.value, target.value] : [];
+  return frames.filter((frame) => frame !== null).filter((frame) => linkNames.value.has(frame));
 });
 
-/** @param {string} link */
-export function setTarget(link) {
-  selectLink(link, "");
+/** Links on the way that are lit in 3D for it. @type {Signal<readonly string[]>} */
+export const litChain = computed(() => {
+  if (!comparing.value || target.value === null) return [];
+  return [...chain.value].filter((frame) => linkNames.value.has(frame));
+});
+
+/** @param {string} frame a link is selected, too */
+export function setTarget(frame) {
+  if (linkNames.value.has(frame)) selectLink(frame, "");
+  followed.value = frame;
 }
 
-/** @param {string} link */
-export function setReference(link) {
-  chosen.value = link;
+/** @param {string} frame */
+export function setReference(frame) {
+  chosen.value = frame;
 }
 
 /** Tell the pose of the reference in the target instead. */
