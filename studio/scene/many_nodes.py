@@ -1,4 +1,4 @@
-"""Many solids of one kind as one node: one mesh, drawn once for each place."""
+"""Many solids of one kind as one node or few: one mesh, drawn once for each place."""
 
 from __future__ import annotations
 
@@ -14,6 +14,10 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from studio.displays.drawing import Solids
+
+
+_LEVELS: Final = 32
+"""Of opacity."""
 
 
 def _linear_levels() -> NDArray[np.uint8]:
@@ -32,47 +36,58 @@ def linear(colors: NDArray[np.uint8]) -> NDArray[np.uint8]:
 
 
 def many_of(shape: Solids, stream: str) -> dict[str, Node]:
-    """One node for all; none when there are none."""
+    """A node for each opacity that is there, in steps of 1/32; what cannot be seen is not drawn.
+
+    viser's page could take an opacity for each, but would then make its mesh anew with each
+    message, and never give back what the one before took of the graphics processor.
+    """
     if len(shape.positions) == 0:
         return {}
+    with np.errstate(invalid="ignore"):
+        levels = np.clip(np.rint(np.multiply(shape.opacities, _LEVELS)), 0, _LEVELS)
+    nodes: dict[str, Node] = {}
+    for level in np.unique(levels[levels > 0]).tolist():
+        which = None if levels.ndim == 0 or (levels == level).all() else levels == level
+        name = "many" if level == _LEVELS else f"many-{level:.0f}"
+        nodes[name] = _many(shape, which, level / _LEVELS, stream)
+    return nodes
+
+
+def _many(shape: Solids, which: NDArray[np.bool_] | None, opacity: float, stream: str) -> Node:
     mesh = unit_mesh(shape.kind)
-    whole, each = _opacities(shape)
     props: dict[str, Any] = {
         "lod": "off",
         "wireframe": False,
-        "opacity": whole if whole < 1 else None,
+        "opacity": opacity if opacity < 1 else None,
         "flat_shading": False,
         "side": "front",
         "material": "standard",
         "cast_shadow": False,
         "receive_shadow": False,
+        "batched_opacities": None,
         "scale": 1.0,
     }
+    one_color = shape.colors.ndim == 1
     flowing: dict[str, NDArray[Any]] = {
-        "batched_wxyzs": np.ascontiguousarray(shape.wxyz, np.float32),
-        "batched_positions": np.ascontiguousarray(shape.positions, np.float32),
-        "batched_scales": np.ascontiguousarray(shape.scales, np.float32),
-        "batched_colors": linear(np.ascontiguousarray(shape.colors, np.uint8)),
+        "batched_wxyzs": _rows(shape.wxyz, which),
+        "batched_positions": _rows(shape.positions, which),
+        "batched_scales": _rows(shape.scales, which),
+        "batched_colors": linear(shape.colors if one_color else _colors(shape.colors, which)),
     }
-    if each is None:
-        props["batched_opacities"] = None
-    else:
-        flowing["batched_opacities"] = np.ascontiguousarray(each, np.float32)
     arrays: dict[str, NDArray[Any]] = {"vertices": mesh.vertices, "faces": mesh.faces}
-    made = Node(
+    return Node(
         _messages.BatchedMeshesMessage,
         props,
-        content=f"{shape.kind}/{each is None}",
+        content=shape.kind,
         arrays=arrays,
         stream=stream,
         flowing=flowing,
     )
-    return {"many": made}
 
 
-def _opacities(shape: Solids) -> tuple[float, NDArray[np.float32] | None]:
-    """One for all, and one for each where they differ: those cost the page a mesh made anew."""
-    if not isinstance(shape.opacities, np.ndarray):
-        return float(shape.opacities), None
-    first = float(shape.opacities[0])
-    return (first, None) if (shape.opacities == first).all() else (1.0, shape.opacities)
+def _rows(values: NDArray[np.float32], which: NDArray[np.bool_] | None) -> NDArray[np.float32]:
+    return np.ascontiguousarray(values if which is None else values[which], np.float32)
+
+
+def _colors(values: NDArray[np.uint8], which: NDArray[np.bool_] | None) -> NDArray[np.uint8]:
+    return np.ascontiguousarray(values if which is None else values[which])

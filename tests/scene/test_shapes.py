@@ -10,7 +10,7 @@ from studio.displays.drawing import GridLines, Lines, MeshFile, Points, Shape, T
 from studio.errors import SceneError
 from studio.scene.graph import kinds_of_nodes
 from studio.scene.shapes import BOXES_MAX, Shelves, nodes_of, same_arrays
-from tests.support.live_shapes import MESH_URI, RED, every_shape, solids
+from tests.support.live_shapes import MESH_URI, RED, every_shape, solids, upright
 from tests.support.watched_scene import triangle
 
 
@@ -124,16 +124,24 @@ def test_lines_with_an_end_that_is_nowhere_are_left_out():
     assert nodes_of(Lines(ends[1:], RED), "1", shelves()) == {}
 
 
-def test_opacities_that_are_all_alike_are_one():
-    one = solids("box", RED)
-    for values, whole in (([0.5, 0.5], 0.5), ([1.0, 1.0], None)):
-        shape = dataclasses.replace(one, opacities=np.array(values, np.float32))
-        drawn = nodes_of(shape, "1", shelves())["many"]
-        assert (drawn.props["opacity"], drawn.props["batched_opacities"]) == (whole, None)
-    shape = dataclasses.replace(one, opacities=np.array([0.2, 0.5], np.float32))
-    drawn = nodes_of(shape, "1", shelves())["many"]
-    assert drawn.props["opacity"] is None
-    assert "batched_opacities" in drawn.flowing
+def test_solids_of_different_opacities_are_a_node_for_each_opacity():
+    count = 5
+    several = dataclasses.replace(
+        solids("box", RED),
+        positions=np.arange(3 * count, dtype=np.float32).reshape(count, 3),
+        wxyz=upright(count),
+        scales=np.ones((count, 3), np.float32),
+        colors=np.tile(RED, (count, 1)),
+        opacities=np.array([1, 0.5, 0, 0.501, float("nan")], np.float32),
+    )
+    drawn = nodes_of(several, "1", shelves())
+    seen = {made.props["opacity"]: len(made.flowing["batched_colors"]) for made in drawn.values()}
+    assert seen == {None: 1, 0.5: 2}
+    assert drawn["many-16"].flowing["batched_positions"][:, 0].tolist() == [3, 9]
+    alike = dataclasses.replace(several, opacities=0.25)
+    (made,) = nodes_of(alike, "1", shelves()).values()
+    assert (made.props["opacity"], len(made.flowing["batched_scales"])) == (0.25, count)
+    assert nodes_of(dataclasses.replace(several, opacities=0.0), "1", shelves()) == {}
 
 
 def test_a_grid_has_a_line_more_than_cells_each_way_around_its_middle():
