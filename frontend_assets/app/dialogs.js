@@ -15,6 +15,7 @@ import { dialog } from "./state/view.js";
 
 /** @import { Shown } from "./state/view.js" */
 
+const AddDisplayDialog = later(async () => (await import("./add-display.js")).AddDisplayDialog);
 const KeysDialog = later(async () => (await import("./keys-dialog.js")).KeysDialog);
 const LayoutsDialog = later(async () => (await import("./layouts-dialog.js")).LayoutsDialog);
 const OpenDialog = later(async () => (await import("./open-dialog.js")).OpenDialog);
@@ -52,6 +53,8 @@ function ShownDialog() {
       return html`<${GraphicsDialog} onClose=${close} />`;
     case "ros":
       return html`<${RosDialog} onClose=${close} />`;
+    case "add_display":
+      return html`<${AddDisplayDialog} onClose=${close} />`;
     case "layouts":
       return html`<${LayoutsDialog} onClose=${close} />`;
     case "keys":

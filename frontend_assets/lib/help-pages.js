@@ -35,4 +35,5 @@ export const OF_DIALOG = {
   layouts: "layouts",
   graphics: "graphics",
   ros: "ros",
+  add_display: "displays",
 };

@@ -51,8 +51,8 @@ export function IconButton({ icon, label, hint, onClick, disabled, pressed, clas
   </button>`;
 }
 
-/** @param {{label: string, value: string, onInput: (value: string) => void}} props */
-export function SearchBox({ label, value, onInput }) {
+/** @param {{label: string, value: string, first?: boolean, onInput: (value: string) => void}} props `first`: it has the focus when its window opens */
+export function SearchBox({ label, value, first, onInput }) {
   /** @param {KeyboardEvent} event */
   const clearOnEscape = (event) => {
     if (event.key !== "Escape" || value === "") return;
@@ -62,7 +62,7 @@ export function SearchBox({ label, value, onInput }) {
   };
   return html`<label class="search">
     <${Icon} name="search" />
-    <input type="search" placeholder=${label} aria-label=${label} value=${value} spellcheck=${false}
+    <input type="search" placeholder=${label} aria-label=${label} value=${value} spellcheck=${false} data-first=${first || null}
       onInput=${(/** @type {any} */ event) => onInput(event.currentTarget.value)} onKeyDown=${clearOnEscape} />
   </label>`;
 }

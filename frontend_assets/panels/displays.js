@@ -1,39 +1,21 @@
 /** What is shown: the grid, the robot's layers (shared by all), and its links (each person's own view). */
 
 /** @import { LinkRow } from "../lib/tree.js" */
+/** @import { Row } from "./display-tree.js" */
 
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { setDisplay } from "../app/actions.js";
-import { mayEdit } from "../app/state/connection.js";
 import { displays, links, robot } from "../app/state/document.js";
-import { selection, selectLink } from "../app/state/selection.js";
-import { hiddenLinks, hovered, selected, showLink } from "../app/state/view.js";
-import { focusLink } from "../app/viewport.js";
+import { selection } from "../app/state/selection.js";
+import { hiddenLinks, selected, showLink } from "../app/state/view.js";
 import { t } from "../lib/i18n.js";
-import { LongList } from "../lib/long-list.js";
-import { formatNumber, parseNumber } from "../lib/numbers.js";
-import { siblingPlaces } from "../lib/pieces.js";
+import { formatNumber } from "../lib/numbers.js";
 import { whenPlaced } from "../lib/seen.js";
-import { TextBox } from "../lib/slider.js";
 import { ancestorsOf, linkRows } from "../lib/tree.js";
-import { EmptyState, Icon, LongName, SearchBox } from "../lib/ui.js";
+import { EmptyState, SearchBox } from "../lib/ui.js";
+import { rowId, Tree } from "./display-tree.js";
 import { LinkDetails } from "./link-details.js";
-
-/**
- * @typedef {object} Row one line of the tree
- * @property {string} id
- * @property {number} level from 1
- * @property {string} label
- * @property {string} icon
- * @property {boolean} [expandable]
- * @property {boolean} [expanded]
- * @property {string} [meta] said small at the right
- * @property {boolean} [warn] what `meta` says is a fault
- * @property {{on: boolean, label: string, set: (on: boolean) => void, shared: boolean}} [eye]
- * @property {{value: number, label: string, set: (value: number) => void}} [slider]
- * @property {{value: number, unit: string, label: string, set: (value: number) => void}} [number]
- * @property {string} [link]
- */
+import { AddDisplayButton, liveRows, setLiveOpen } from "./live-rows.js";
 
 /** Settings from 0 to 1. */
 const SHARES = new Set(["opacity"]);
@@ -47,6 +29,7 @@ export function DisplaysPanel() {
   useRevealSelection(closed, panel);
   /** @param {string} id @param {boolean} open */
   const setOpen = (id, open) => {
+    if (setLiveOpen(id, open)) return;
     const now = new Set(closed.value);
     if (open) now.delete(id);
     else now.add(id);
@@ -59,6 +42,7 @@ export function DisplaysPanel() {
       ) => {
         filter.value = text;
       }} />
+      <${AddDisplayButton} />
     </div>
     ${rows.length === 0 && filter.value === "" && html`<${EmptyState} icon="robot" title=${t("urdf.none")} />`}
     ${rows.length > 0 && html`<${Tree} rows=${rows} active=${active} setOpen=${setOpen} />`}
@@ -86,12 +70,9 @@ function useRevealSelection(closed, panel) {
   }, [link]);
 }
 
-/** @param {string} id */
-const rowId = (id) => `row-${id}`;
-
 /** @param {string} filter @param {ReadonlySet<string>} closed @returns {Row[]} */
 function treeRows(filter, closed) {
-  return [...gridRows(filter, closed), ...robotRows(filter, closed)];
+  return [...gridRows(filter, closed), ...robotRows(filter, closed), ...liveRows(filter, closed)];
 }
 
 /** @param {string} filter @param {ReadonlySet<string>} closed @returns {Row[]} */
@@ -224,170 +205,4 @@ function linkRow({ node, level, expandable, expanded }) {
       shared: false,
     },
   };
-}
-
-/**
- * @param {{rows: Row[], active: {value: string}, setOpen: (id: string, open: boolean) => void}} props
- */
-function Tree({ rows, active, setOpen }) {
-  const element = useRef(/** @type {HTMLElement | null} */ (null));
-  const places = siblingPlaces(rows.map(({ level }) => level));
-  const current = rows.some(({ id }) => id === active.value) ? active.value : (rows[0]?.id ?? "");
-  /** @param {Row | undefined} row */
-  const go = (row) => {
-    if (!row) return;
-    active.value = row.id;
-    requestAnimationFrame(() => document.getElementById(rowId(row.id))?.focus());
-  };
-  /** @param {KeyboardEvent} event */
-  const onKeyDown = (event) => {
-    if (event.target instanceof HTMLInputElement || event.ctrlKey || event.metaKey) return;
-    if (treeKey(event, rows, current, go, setOpen)) event.preventDefault();
-  };
-  return html`<div class="tree" role="tree" aria-label=${t("panel.displays")} ref=${element} onKeyDown=${onKeyDown}
-    onPointerLeave=${() => {
-      hovered.value = null;
-    }}>
-    <${LongList} items=${rows} keyOf=${(/** @type {Row} */ row) => row.id} row="var(--row)"
-      isKept=${(/** @type {Row} */ row) => row.id === current || isChosen(row)}
-      draw=${(
-        /** @type {Row} */ row,
-        /** @type {number} */ at,
-      ) => html`<${TreeRow} key=${row.id} row=${row} place=${places[at]} current=${row.id === current} setOpen=${setOpen}
-        onPick=${() => {
-          active.value = row.id;
-        }} />`} />
-  </div>`;
-}
-
-/**
- * @param {KeyboardEvent} event
- * @param {Row[]} rows
- * @param {string} current
- * @param {(row: Row | undefined) => void} go
- * @param {(id: string, open: boolean) => void} setOpen
- * @returns {boolean} the key was one of the tree's
- */
-function treeKey(event, rows, current, go, setOpen) {
-  const at = rows.findIndex(({ id }) => id === current);
-  const row = rows[at];
-  if (!row) return false;
-  /** @type {Record<string, () => void>} */
-  const moves = {
-    ArrowDown: () => go(rows[at + 1]),
-    ArrowUp: () => go(rows[at - 1]),
-    Home: () => go(rows[0]),
-    End: () => go(rows.at(-1)),
-    ArrowRight: () => (row.expandable && !row.expanded ? setOpen(row.id, true) : go(rows[at + 1])),
-    ArrowLeft: () =>
-      row.expanded && row.expandable ? setOpen(row.id, false) : go(parentRow(rows, at)),
-    Enter: () => pick(row),
-    " ": () => row.eye && (!row.eye.shared || mayEdit.value) && row.eye.set(!row.eye.on),
-  };
-  const move = moves[event.key];
-  move?.();
-  return move !== undefined;
-}
-
-/** @param {Row[]} rows @param {number} at @returns {Row | undefined} */
-function parentRow(rows, at) {
-  const level = rows[at]?.level ?? 1;
-  return rows.slice(0, at).findLast((row) => row.level < level);
-}
-
-/** @param {Row} row */
-function pick(row) {
-  if (row.link) selectLink(selected.value === row.link ? null : row.link, "displays");
-}
-
-/**
- * @param {{row: Row, place: {at: number, of: number} | undefined, current: boolean,
- *   setOpen: (id: string, open: boolean) => void, onPick: () => void}} props
- */
-function TreeRow({ row, place, current, setOpen, onPick }) {
-  const onClick = () => {
-    onPick();
-    if (row.link) pick(row);
-    else if (row.expandable) setOpen(row.id, !row.expanded);
-  };
-  return html`<div id=${rowId(row.id)} role="treeitem" class=${rowClass(row)} style=${`--level:${row.level}`}
-    tabindex=${current ? 0 : -1} aria-level=${row.level} aria-posinset=${place?.at} aria-setsize=${place?.of} aria-label=${rowLabel(row)}
-    aria-expanded=${row.expandable ? row.expanded : null} aria-selected=${isChosen(row)} onClick=${onClick}
-    onDblClick=${() => row.link && focusLink(row.link)}
-    onPointerEnter=${() => {
-      hovered.value = row.link ?? null;
-    }}>
-    <${Twisty} row=${row} setOpen=${setOpen} />
-    ${row.icon && html`<${Icon} name=${row.icon} size=${15} />`}
-    <span class="tree-label" title=${row.label}>${row.link ? html`<${LongName} text=${row.label} />` : row.label}</span>
-    ${row.meta && html`<span class=${`tree-meta ${row.warn ? "warn" : ""}`} title=${row.meta}>${row.meta}</span>`}
-    ${row.slider && html`<${ShareSlider} ...${row.slider} />`}
-    ${row.number && html`<${NumberBox} ...${row.number} />`}
-    ${row.eye && html`<${Eye} eye=${row.eye} />`}
-  </div>`;
-}
-
-/** @param {Row} row @returns {boolean} */
-const isChosen = ({ link }) => link !== undefined && selected.value === link;
-
-/** @param {Row} row @returns {string} */
-function rowClass(row) {
-  const { link, eye } = row;
-  const states = [
-    isChosen(row) && "chosen",
-    link && hovered.value === link && "hovered",
-    link && !eye?.on && "faded",
-  ];
-  return ["tree-row", ...states].filter(Boolean).join(" ");
-}
-
-/** @param {Row} row @returns {string} what a screen reader says, beside level and state */
-function rowLabel({ label, meta, eye }) {
-  return [label, meta, eye && !eye.on ? t("hidden") : ""].filter(Boolean).join(", ");
-}
-
-/** @param {{row: Row, setOpen: (id: string, open: boolean) => void}} props */
-function Twisty({ row, setOpen }) {
-  if (!row.expandable) return html`<span class="twisty"></span>`;
-  /** @param {MouseEvent} event */
-  const onClick = (event) => {
-    event.stopPropagation();
-    setOpen(row.id, !row.expanded);
-  };
-  // Arrow keys do the same for the row, so this is not one more stop for the Tab key.
-  return html`<span class="twisty" aria-hidden="true" onClick=${onClick}>
-    <${Icon} name=${row.expanded ? "chevronDown" : "chevronRight"} size=${14} /></span>`;
-}
-
-/** @param {{eye: NonNullable<Row["eye"]>}} props */
-function Eye({ eye }) {
-  const locked = eye.shared && !mayEdit.value;
-  const hint = locked ? `${eye.label}\n${t("display.shared")}` : eye.label;
-  return html`<button type="button" class="eye" aria-label=${eye.label} title=${hint} aria-pressed=${eye.on}
-    tabindex=${-1} disabled=${locked} onDblClick=${stop}
-    onClick=${(/** @type {MouseEvent} */ event) => {
-      event.stopPropagation();
-      eye.set(!eye.on);
-    }}><${Icon} name=${eye.on ? "eye" : "eyeOff"} size=${15} /></button>`;
-}
-
-/** @param {Event} event */
-const stop = (event) => event.stopPropagation();
-
-/** @param {{value: number, label: string, set: (value: number) => void}} props */
-function ShareSlider({ value, label, set }) {
-  return html`<input type="range" class="slider short" min="0" max="1" step="0.05" value=${value} aria-label=${label}
-    disabled=${!mayEdit.value} style=${`--fill:${value * 100}%`} onClick=${stop}
-    onInput=${(/** @type {any} */ event) => set(Number(event.currentTarget.value))} />`;
-}
-
-/** @param {{value: number, unit: string, label: string, set: (value: number) => void}} props */
-function NumberBox({ value, unit, label, set }) {
-  /** @param {string} typed */
-  const onWrite = (typed) => {
-    const number = parseNumber(typed);
-    if (number !== null) set(number);
-  };
-  return html`<${TextBox} class="number narrow" label=${label} text=${value === 0 ? t("automatic") : formatNumber(value, 5)}
-    disabled=${!mayEdit.value} onWrite=${onWrite} /><span class="unit">${unit}</span>`;
 }

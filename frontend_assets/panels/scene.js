@@ -21,6 +21,7 @@ import { dialog, mouseMode, theme } from "../app/state/view.js";
 import { attachViewport, VIEWS, viewport } from "../app/viewport.js";
 import { t } from "../lib/i18n.js";
 import { Icon, IconButton, MenuButton, ProgressBar } from "../lib/ui.js";
+import { FixedFrame } from "./fixed-frame.js";
 import { MeasureCard } from "./measure-card.js";
 
 export function ScenePanel() {
@@ -57,6 +58,7 @@ function Tools() {
     <${MenuButton} label=${t("scene.mouse")} disabled=${off} items=${mouseItems}>
       <${Icon} name="mouse" /><${Icon} name="chevronDown" size=${12} />
     <//>
+    <${FixedFrame} />
   </div>`;
 }
 

@@ -294,6 +294,7 @@ export interface DisplayView {
   reliable: boolean;
   latched: boolean;
   depth: number;
+  wished: ListeningWish;
   values: Record<string, boolean | number | string>;
 }
 
@@ -781,6 +782,13 @@ export interface ListRecent {
   request?: number;
   document?: string;
   type: "list_recent";
+}
+
+/** How a display is to listen; None: as fits the publishers of its topic. */
+export interface ListeningWish {
+  reliable: boolean | null;
+  latched: boolean | null;
+  depth: number | null;
 }
 
 /** All displays of a document, in their order, and the frame they are drawn in. */

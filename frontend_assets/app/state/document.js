@@ -15,6 +15,7 @@ import { isChanged } from "../../lib/sites.js";
 import { linkTree } from "../../lib/tree.js";
 import { role, session, version } from "./connection.js";
 import { takeLeftWork, takeRestored } from "./keeping.js";
+import { takeDisplayStates, takeLiveDisplays } from "./live.js";
 import { takePoses } from "./poses.js";
 import { takeFeed, takeRos } from "./ros.js";
 import { takeTextNews } from "./source.js";
@@ -207,6 +208,8 @@ const TAKERS = {
   poses: takePoses,
   wire_state: takeRos,
   wire_feed: takeFeed,
+  live_displays: takeLiveDisplays,
+  display_states: takeDisplayStates,
   comparison: takeComparison,
   disk_merged: (event) => {
     diskMerged.value = event;

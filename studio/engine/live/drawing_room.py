@@ -8,7 +8,13 @@ from studio.displays.tf import TfDisplay
 from studio.engine.live.frames_desk import FramesDesk
 from studio.engine.live.reasons import remarks_on
 from studio.engine.live.running import RunningDisplay
-from studio.engine.messages.live import DisplayState, DisplayStates, DisplayView, Remark
+from studio.engine.messages.live import (
+    DisplayState,
+    DisplayStates,
+    DisplayView,
+    ListeningWish,
+    Remark,
+)
 from studio.errors import CommandError, SceneError
 from studio.ros.messages.shared import shared_types
 
@@ -16,7 +22,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from studio.displays.display import Display
-    from studio.engine.live.display_list import DisplayList, DisplaySpec
+    from studio.engine.live.display_list import DisplayList, DisplaySpec, Listening
     from studio.engine.live.placing import Pose
     from studio.engine.model import Model
     from studio.engine.wire.link import WireLink
@@ -111,6 +117,7 @@ class DrawingRoom:
             reliable=reliable,
             latched=latched,
             depth=depth,
+            wished=_wished(spec.listening),
             values=dict(running.display.values),
         )
 
@@ -165,3 +172,9 @@ class DrawingRoom:
         if pose is not None and pose != self._robot_at:
             self._robot_at = pose
             self._scene.place_robot(*pose)
+
+
+def _wished(listening: Listening) -> ListeningWish:
+    return ListeningWish(
+        reliable=listening.reliable, latched=listening.latched, depth=listening.depth
+    )

@@ -55,6 +55,7 @@ class LiveDesk:
         self._looked_s = 0.0
         self._asked_until_s = 0.0
         self._told: m.DisplayStates | None = None
+        self._told_displays: m.LiveDisplays | None = None
         self._closed = False
 
     @property
@@ -224,7 +225,7 @@ class LiveDesk:
     def _changed(self) -> None:
         """The list is another: tell it, keep it, draw it."""
         self._show_and_hide()
-        self._document.board.audience.tell(self._displays())
+        self._tell_displays()
         self._keep()
         self._looked_s = 0.0
         self._go_on()
@@ -266,6 +267,7 @@ class LiveDesk:
                 if began_s - self._looked_s >= _LOOK_EVERY_S:
                     self._looked_s = began_s
                     await self._listen()
+                    self._tell_displays()
                     self._tell_states()
                 self._room.step(self._list, time.time_ns())
             except Exception:  # noqa: BLE001 - one display that fails must not end the others
@@ -293,6 +295,13 @@ class LiveDesk:
         news = self._room.states(self._list, time.time_ns())
         if news != self._told:
             self._told = news
+            self._document.board.audience.tell(news)
+
+    def _tell_displays(self) -> None:
+        """Tell how all are set, if that is news: how they listen changes with who publishes."""
+        news = self._displays()
+        if news != self._told_displays:
+            self._told_displays = news
             self._document.board.audience.tell(news)
 
     def _displays(self) -> m.LiveDisplays:

@@ -145,6 +145,14 @@ class DisplayKinds(Message):
     kinds: tuple[DisplayKindView, ...]
 
 
+class ListeningWish(Message):
+    """How a display is to listen; None: as fits the publishers of its topic."""
+
+    reliable: bool | None
+    latched: bool | None
+    depth: int | None
+
+
 class DisplayView(Message):
     """A display as it is set."""
 
@@ -157,6 +165,8 @@ class DisplayView(Message):
     reliable: bool
     latched: bool
     depth: int
+    wished: ListeningWish
+    """What of these three was chosen; `reliable`, `latched` and `depth` are as they are now."""
     values: dict[str, PropertyValue]
 
 

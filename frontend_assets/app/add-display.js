@@ -1,0 +1,205 @@
+/** The window to add a display: by a topic that somebody publishes, or by its kind. */
+
+/** @import { DisplayKindView, TopicView } from "../types/wire.d.ts" */
+
+import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
+import { t } from "../lib/i18n.js";
+import { foundTopics, iconOf, includesAll } from "../lib/live-displays.js";
+import { remembered } from "../lib/remembered.js";
+import { Dialog, Icon, SearchBox } from "../lib/ui.js";
+import { addDisplay, needKinds, topicsNow } from "./live.js";
+import { connectRos } from "./ros.js";
+import { mayEdit } from "./state/connection.js";
+import { kinds } from "./state/live.js";
+import { ros } from "./state/ros.js";
+
+/** @typedef {"topic" | "kind"} By */
+/** @typedef {{key: string, icon: string, label: string, note: string, aside: string, off: string, kind: string, topic: string}} Offer `off`: why it cannot be added */
+
+const TABS = /** @type {const} */ (["topic", "kind"]);
+/** Nodes come and go while the window is open. */
+const LOOK_EVERY_MS = 1000;
+const lastTab = remembered("live.add.tab", /** @type {By} */ ("topic"), (value) =>
+  TABS.includes(/** @type {By} */ (value)),
+);
+
+/** @param {{onClose: () => void}} props */
+export function AddDisplayDialog({ onClose }) {
+  const by = useSignal(lastTab.value);
+  const words = useSignal("");
+  const at = useSignal(0);
+  const busy = useSignal(false);
+  const topics = useTopics();
+  const search = useRef(/** @type {HTMLElement | null} */ (null));
+  const seek = () => search.current?.querySelector("input")?.focus();
+  useEffect(() => void needKinds(), []);
+  const offers =
+    by.value === "topic"
+      ? foundTopics(topics.value ?? [], words.value).map(topicOffer)
+      : kindOffers(words.value);
+  const chosen = Math.min(at.value, offers.length - 1);
+  const add = async (/** @type {Offer | undefined} */ offer) => {
+    if (offer?.off !== "" || busy.value || !mayEdit.value) return;
+    busy.value = true;
+    const done = await addDisplay(offer.kind, offer.topic);
+    busy.value = false;
+    if (done) onClose();
+  };
+  /** @param {KeyboardEvent} event */
+  const onKeyDown = (event) => {
+    const step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
+    if (step && offers.length > 0) at.value = (chosen + step + offers.length) % offers.length;
+    else if (event.key === "Enter") add(offers[chosen]);
+    else return;
+    event.preventDefault();
+  };
+  const choose = (/** @type {By} */ tab) => {
+    by.value = tab;
+    lastTab.value = tab;
+    at.value = 0;
+  };
+  return html`<${Dialog} title=${t("live.add.title")} closeLabel=${t("close")} class="add-display-dialog" onClose=${onClose}>
+    <${Tabs} chosen=${by.value} onChoose=${choose} />
+    <div class="add-display-page" role="tabpanel" id="add-display-page" aria-labelledby=${`add-display-${by.value}`}>
+      <div class="add-display-search" ref=${search} onKeyDown=${onKeyDown}>
+        <${SearchBox} first label=${t(`live.add.search.${by.value}`)} value=${words.value} onInput=${(
+          /** @type {string} */ text,
+        ) => {
+          words.value = text;
+          at.value = 0;
+        }} />
+      </div>
+      ${by.value === "topic" && html`<${Connection} count=${topics.value?.length ?? 0} onDone=${seek} />`}
+      <${Offers} offers=${offers} chosen=${chosen} label=${t("live.add.title")} onPoint=${(
+        /** @type {number} */ n,
+      ) => {
+        at.value = n;
+      }} onAdd=${add} />
+      ${offers.length === 0 && words.value !== "" && html`<p class="nothing">${t("filter.nothing", { words: words.value })}</p>`}
+    </div>
+    <footer><span class="form-note">${offers[chosen]?.off ?? ""}</span><span class="push"></span>
+      <button type="button" class="button" onClick=${onClose}>${t("cancel")}</button>
+      <button type="button" class="button primary" disabled=${!mayEdit.value || busy.value || !offers[chosen] || offers[chosen]?.off !== ""}
+        onClick=${() => add(offers[chosen])}>${t("live.add")}</button></footer>
+  <//>`;
+}
+
+/** @returns {import("vendor/preact.js").Signal<readonly TopicView[] | null>} kept up to date; null: not known yet */
+function useTopics() {
+  const topics = useSignal(/** @type {readonly TopicView[] | null} */ (null));
+  useEffect(() => {
+    let closed = false;
+    /** @type {ReturnType<typeof setTimeout> | undefined} */
+    let timer;
+    const look = async () => {
+      const found = await topicsNow();
+      if (closed) return;
+      if (found) topics.value = found;
+      timer = setTimeout(look, LOOK_EVERY_MS);
+    };
+    look();
+    return () => {
+      closed = true;
+      clearTimeout(timer);
+    };
+  }, []);
+  return topics;
+}
+
+/** @param {TopicView} topic @returns {Offer} */
+function topicOffer({ name, types, publishers, kind }) {
+  const off = kind === "" ? t("live.add.unshown", { type: types[0] ?? "" }) : "";
+  return {
+    key: name,
+    icon: kind === "" ? "minus" : iconOf(kind),
+    label: name,
+    note: [types.join(", "), t("live.publishers", { count: publishers })].join(" · "),
+    aside: kind,
+    off,
+    kind,
+    topic: name,
+  };
+}
+
+/** @param {string} words @returns {Offer[]} */
+function kindOffers(words) {
+  return [...kinds.value.values()]
+    .filter(({ kind, doc, types }) => includesAll([kind, doc, ...types].join(" "), words))
+    .map(kindOffer);
+}
+
+/** @param {DisplayKindView} kind @returns {Offer} */
+const kindOffer = ({ kind, doc, types }) => ({
+  key: kind,
+  icon: iconOf(kind),
+  label: kind,
+  note: doc,
+  aside: types[0]?.split("/").at(-1) ?? "",
+  off: "",
+  kind,
+  topic: "",
+});
+
+/** @param {{chosen: By, onChoose: (tab: By) => void}} props */
+function Tabs({ chosen, onChoose }) {
+  const list = useRef(/** @type {HTMLElement | null} */ (null));
+  /** @param {KeyboardEvent} event */
+  const onKeyDown = (event) => {
+    if (event.key !== "ArrowLeft" && event.key !== "ArrowRight") return;
+    event.preventDefault();
+    const next = chosen === "topic" ? "kind" : "topic";
+    onChoose(next);
+    const button = list.current?.querySelector(`#add-display-${next}`);
+    if (button instanceof HTMLElement) button.focus();
+  };
+  return html`<div class="add-display-tabs" role="tablist" aria-label=${t("live.add.title")} ref=${list} onKeyDown=${onKeyDown}>
+    ${TABS.map(
+      (
+        tab,
+      ) => html`<button key=${tab} type="button" role="tab" id=${`add-display-${tab}`} aria-selected=${tab === chosen}
+        aria-controls="add-display-page" tabindex=${tab === chosen ? 0 : -1} onClick=${() => onChoose(tab)}>${t(`live.add.by_${tab}`)}</button>`,
+    )}
+  </div>`;
+}
+
+/** @param {{count: number, onDone: () => void}} props why there are no topics, and what to do */
+function Connection({ count, onDone }) {
+  const busy = useSignal(false);
+  const { state, endpoint } = ros.value;
+  if (count > 0) return null;
+  const connect = async () => {
+    busy.value = true;
+    await connectRos();
+    busy.value = false;
+    onDone();
+  };
+  if (state === "connected" || state === "connecting")
+    return html`<p class="add-display-none" role="status">${t("live.add.no_topics", { endpoint })}</p>`;
+  return html`<div class="add-display-none" role="status">
+    <p>${t("live.add.not_connected")}</p>
+    <button type="button" class="button" disabled=${busy.value || !mayEdit.value} onClick=${connect}>
+      ${busy.value ? html`<span class="spinner"></span>` : html`<${Icon} name="link" />`}${t("ros.connect")}</button>
+    <p class="form-note">${t("live.add.demo")}</p>
+  </div>`;
+}
+
+/** @param {{offers: readonly Offer[], chosen: number, label: string, onPoint: (n: number) => void, onAdd: (offer: Offer) => void}} props */
+function Offers({ offers, chosen, label, onPoint, onAdd }) {
+  const list = useRef(/** @type {HTMLElement | null} */ (null));
+  useEffect(() => {
+    list.current?.querySelector('[aria-selected="true"]')?.scrollIntoView({ block: "nearest" });
+  }, [chosen]);
+  return html`<div class="add-display-list" role="listbox" aria-label=${label} ref=${list}>
+    ${offers.map(
+      (
+        offer,
+        n,
+      ) => html`<div key=${offer.key} role="option" class="offer" aria-selected=${n === chosen} aria-disabled=${offer.off !== "" ? "true" : null}
+        title=${offer.off || offer.note} onClick=${() => onPoint(n)} onDblClick=${() => onAdd(offer)}>
+        <${Icon} name=${offer.icon} size=${18} />
+        <span class="offer-words"><span>${offer.label}</span><small>${offer.note}</small></span>
+        <span class="offer-aside">${offer.aside}</span>
+      </div>`,
+    )}
+  </div>`;
+}

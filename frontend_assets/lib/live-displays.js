@@ -1,0 +1,209 @@
+/** Live displays as rows of a tree: their groups, their order, and which of their properties mean something. */
+
+/** @import { DisplayState, DisplayView, PropertyView, TopicView } from "../types/wire.d.ts" */
+
+/** @typedef {boolean | number | string} Value */
+/** @typedef {{display: DisplayView} | {group: string, members: DisplayView[]}} Entry one at the top of the list */
+
+/** By kind, as RViz calls it. @type {Readonly<Record<string, string>>} */
+const ICONS = {
+  AccelStamped: "arrow",
+  Axes: "axes",
+  Camera: "camera",
+  CameraInfo: "camera",
+  Effort: "joints",
+  FluidPressure: "joints",
+  Grid: "grid",
+  GridCells: "grid",
+  Illuminance: "sun",
+  Image: "camera",
+  Imu: "compass",
+  LaserScan: "radar",
+  Map: "map",
+  Marker: "shapes",
+  MarkerArray: "shapes",
+  Odometry: "odometry",
+  Path: "route",
+  PointCloud2: "cloud",
+  PointStamped: "pin",
+  Polygon: "polygon",
+  Pose: "pose",
+  PoseArray: "pose",
+  PoseWithCovariance: "pose",
+  Range: "cone",
+  RelativeHumidity: "humidity",
+  RobotModel: "robot",
+  Temperature: "thermometer",
+  TF: "frames",
+  TwistStamped: "arrow",
+  Wrench: "arrow",
+};
+
+/** @param {string} kind @returns {string} */
+export const iconOf = (kind) => (Object.hasOwn(ICONS, kind) ? (ICONS[kind] ?? "") : "box");
+
+/** @param {readonly DisplayView[]} displays @returns {Entry[]} a group stands where its first member stands */
+export function inGroups(displays) {
+  /** @type {Map<string, DisplayView[]>} */
+  const groups = new Map();
+  /** @type {Entry[]} */
+  const entries = [];
+  for (const display of displays) {
+    const members = groups.get(display.group);
+    if (display.group === "") entries.push({ display });
+    else if (members) members.push(display);
+    else {
+      const first = [display];
+      groups.set(display.group, first);
+      entries.push({ group: display.group, members: first });
+    }
+  }
+  return entries;
+}
+
+/** @param {Entry} entry @returns {readonly DisplayView[]} */
+const membersOf = (entry) => ("display" in entry ? [entry.display] : entry.members);
+
+/**
+ * Where what stands at a place of a list comes to stand when it goes one place up or down.
+ *
+ * @param {readonly (readonly DisplayView[])[]} list of what moves as one
+ * @param {number} at
+ * @param {1 | -1} step
+ * @returns {{display: string, before: string}[] | null} what is to be moved, one after the other; null: it is at the end
+ */
+function stepped(list, at, step) {
+  const over = list[at + step];
+  const moved = list[at];
+  if (!over || !moved) return null;
+  const before = step < 0 ? over[0] : list[at + 2]?.[0];
+  return moved.map(({ id }) => ({ display: id, before: before?.id ?? "" }));
+}
+
+/**
+ * @param {readonly DisplayView[]} displays
+ * @param {string} id
+ * @param {1 | -1} step up is -1
+ * @returns {{display: string, before: string}[] | null} null: it stands at the end of its group or list
+ */
+export function moveOfDisplay(displays, id, step) {
+  const group = displays.find((one) => one.id === id)?.group ?? "";
+  const entries = inGroups(displays).map(membersOf);
+  const list =
+    group === "" ? entries : displays.filter((one) => one.group === group).map((one) => [one]);
+  const at = list.findIndex((members) => members[0]?.id === id);
+  return at < 0 ? null : stepped(list, at, step);
+}
+
+/** @param {readonly DisplayView[]} displays @param {string} group @param {1 | -1} step */
+export function moveOfGroup(displays, group, step) {
+  const list = inGroups(displays).map(membersOf);
+  const at = list.findIndex((members) => members[0]?.group === group);
+  return at < 0 ? null : stepped(list, at, step);
+}
+
+/** @param {readonly DisplayView[]} displays @returns {string[]} names of groups, each once */
+export const groupNames = (displays) => [
+  ...new Set(displays.map(({ group }) => group).filter((group) => group !== "")),
+];
+
+/** @param {readonly string[]} taken @param {string} stem @returns {string} a name that is not taken */
+export function freeName(taken, stem) {
+  let number = 1;
+  while (taken.includes(`${stem} ${number}`)) number += 1;
+  return `${stem} ${number}`;
+}
+
+/**
+ * @param {PropertyView} property
+ * @param {ReadonlyMap<string, PropertyView>} properties of its display, by name
+ * @param {(name: string) => Value | undefined} value
+ * @returns {boolean} with the others as they are it changes what is seen
+ */
+export function counts(property, properties, value) {
+  const seen = new Set();
+  let one = /** @type {PropertyView | undefined} */ (property);
+  while (one?.when && !seen.has(one.name)) {
+    seen.add(one.name);
+    const now = value(one.when);
+    if (now !== undefined && !one.when_values.includes(now)) return false;
+    one = properties.get(one.when);
+  }
+  return true;
+}
+
+/**
+ * @typedef {object} SettingRow
+ * @property {string} path its full name; of a group without a value of its own that of the group
+ * @property {string} label the last part
+ * @property {number} depth from 0
+ * @property {boolean} folds others stand below it
+ * @property {PropertyView | null} property null: a group and no more
+ */
+
+/**
+ * Properties with slashes in their names as a tree, in their order.
+ *
+ * @param {readonly PropertyView[]} properties those that count
+ * @param {(path: string) => boolean} isOpen
+ * @returns {SettingRow[]}
+ */
+export function settingRows(properties, isOpen) {
+  const own = new Map(properties.map((one) => [one.name, one]));
+  const paths = [...new Set(properties.flatMap(({ name }) => pathsTo(name)))];
+  const folding = new Set(paths.map(above));
+  return ordered(paths)
+    .filter((path) => pathsTo(above(path)).every((outer) => outer === "" || isOpen(outer)))
+    .map((path) => ({
+      path,
+      label: path.slice(above(path).length).replace(/^\//, ""),
+      depth: pathsTo(path).length - 1,
+      folds: folding.has(path),
+      property: own.get(path) ?? null,
+    }));
+}
+
+/** @param {string} path @returns {string} */
+const above = (path) => path.slice(0, Math.max(0, path.lastIndexOf("/")));
+
+/** @param {string} name @returns {string[]} "a/b/c": "a", "a/b", "a/b/c" */
+function pathsTo(name) {
+  const parts = name.split("/");
+  return parts.map((_, n) => parts.slice(0, n + 1).join("/"));
+}
+
+/** @param {readonly string[]} paths @returns {string[]} each with all below it, else in the order given */
+function ordered(paths) {
+  /** @type {Map<string, string[]>} */
+  const below = new Map();
+  for (const path of paths) below.set(above(path), [...(below.get(above(path)) ?? []), path]);
+  /** @type {(path: string) => string[]} */
+  const walk = (path) => [path, ...(below.get(path) ?? []).flatMap(walk)];
+  return (below.get("") ?? []).flatMap(walk);
+}
+
+/** @param {number} rate_hz @returns {string} as short as it says enough; empty: nothing comes */
+export function rateWords(rate_hz) {
+  if (rate_hz <= 0) return "";
+  return `${rate_hz < 10 ? rate_hz.toFixed(1) : Math.round(rate_hz)} Hz`;
+}
+
+/** @param {DisplayState | undefined} state @returns {DisplayState["remarks"][number] | null} what is in the way first */
+export const firstTrouble = (state) => state?.remarks.find(({ level }) => level !== "ok") ?? null;
+
+/** @param {readonly TopicView[]} topics @param {string} words @returns {TopicView[]} those that can be shown first */
+export function foundTopics(topics, words) {
+  const found = topics.filter(({ name, types, kind }) =>
+    includesAll([name, ...types, kind].join(" "), words),
+  );
+  return [...found.filter(({ kind }) => kind !== ""), ...found.filter(({ kind }) => kind === "")];
+}
+
+/** @param {string} text @param {string} words @returns {boolean} */
+export function includesAll(text, words) {
+  const all = text.toLowerCase();
+  return words
+    .toLowerCase()
+    .split(/\s+/)
+    .every((word) => all.includes(word));
+}

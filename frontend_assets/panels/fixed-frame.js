@@ -1,0 +1,23 @@
+/** In which frame everything is drawn: a box among the tools of the 3D view. */
+
+import { html } from "vendor/preact.js";
+import { framesNow, setFixedFrame } from "../app/live.js";
+import { mayEdit } from "../app/state/connection.js";
+import { robot } from "../app/state/document.js";
+import { fixedFrame, frameTrouble } from "../app/state/live.js";
+import { t } from "../lib/i18n.js";
+import { PickBox } from "../lib/pick-box.js";
+import { Icon } from "../lib/ui.js";
+
+export function FixedFrame() {
+  if (!robot.value) return null;
+  const trouble = frameTrouble.value;
+  const choices = async () => [
+    { label: t("live.fixed_frame.robot"), value: "" },
+    ...(await framesNow()).map(({ name }) => name),
+  ];
+  return html`<span class="divider"></span>
+    ${trouble && html`<span class="frame-trouble" role="img" aria-label=${trouble} title=${trouble}><${Icon} name="alert" size=${15} /></span>`}
+    <${PickBox} class="fixed-frame" label=${t("live.fixed_frame")} text=${fixedFrame.value} placeholder=${t("live.fixed_frame.placeholder")}
+      disabled=${!mayEdit.value} choices=${choices} onWrite=${(/** @type {string} */ frame) => void setFixedFrame(frame)} />`;
+}

@@ -1,0 +1,157 @@
+/** Displays of what others publish, as rows of the tree: by group, with their state and their settings. */
+
+/** @import { DisplayState, DisplayView } from "../types/wire.d.ts" */
+/** @import { Row } from "./display-tree.js" */
+
+import { html, signal } from "vendor/preact.js";
+import { mendDisplay, needKinds, switchDisplay, switchGroup } from "../app/live.js";
+import { mayEdit } from "../app/state/connection.js";
+import { documentId } from "../app/state/document.js";
+import { displayStates, groupsOff, kinds, liveDisplays } from "../app/state/live.js";
+import { dialog } from "../app/state/view.js";
+import { t } from "../lib/i18n.js";
+import { firstTrouble, iconOf, inGroups, rateWords } from "../lib/live-displays.js";
+import { Icon } from "../lib/ui.js";
+import { displayKeys, groupKeys, NameBox, RowMenu, renaming } from "./live-menu.js";
+import { settingsOf } from "./live-settings.js";
+
+/** Rows of displays and of their settings that are unfolded: at first none is. @type {import("vendor/preact.js").Signal<ReadonlySet<string>>} */
+const unfolded = signal(new Set());
+const isOpen = (/** @type {string} */ id) => unfolded.value.has(id);
+
+/** @param {string} id of a row @param {boolean} open @returns {boolean} it was one of ours */
+export function setLiveOpen(id, open) {
+  if (!/^(display|setting):/.test(id)) return false;
+  const now = new Set(unfolded.value);
+  if (open) now.add(id);
+  else now.delete(id);
+  unfolded.value = now;
+  if (open) needKinds();
+  return true;
+}
+
+export function AddDisplayButton() {
+  if (documentId.value === "") return null;
+  const add = () => {
+    dialog.value = { kind: "add_display" };
+  };
+  const hint = mayEdit.value ? t("live.add.hint") : t("display.shared");
+  return html`<button type="button" class="button small add-display" title=${hint} disabled=${!mayEdit.value}
+    onClick=${add}><${Icon} name="plus" size=${15} />${t("live.add")}</button>`;
+}
+
+/** @param {string} filter @param {ReadonlySet<string>} closed groups that are folded @returns {Row[]} */
+export function liveRows(filter, closed) {
+  const words = filter.trim().toLowerCase();
+  return inGroups(liveDisplays.value).flatMap((entry) => {
+    if ("display" in entry) return displayRows(entry.display, 1, words);
+    const hits = entry.group.toLowerCase().includes(words) ? "" : words;
+    const below = entry.members.flatMap((one) => displayRows(one, 2, hits));
+    if (below.length === 0) return [];
+    const open = words !== "" || !closed.has(`group:${entry.group}`);
+    return [groupRow(entry.group, entry.members.length, open), ...(open ? below : [])];
+  });
+}
+
+/** @param {string} group @param {number} count @param {boolean} open @returns {Row} */
+function groupRow(group, count, open) {
+  const on = !groupsOff.value.includes(group);
+  const id = `group:${group}`;
+  return {
+    id,
+    level: 1,
+    label: group,
+    icon: open ? "folderOpen" : "folder",
+    expandable: true,
+    expanded: open,
+    faded: !on,
+    meta: open ? "" : String(count),
+    ...renamable(id, group),
+    ...(mayEdit.value && {
+      keys: groupKeys(group),
+      controls: () => html`<${RowMenu} row=${id} name=${group} />`,
+    }),
+    eye: {
+      on,
+      label: t("display.show", { name: group }),
+      set: (shown) => void switchGroup(group, shown),
+      shared: true,
+    },
+  };
+}
+
+/** @param {string} id @param {string} text @returns {Pick<Row, "name">} */
+const renamable = (id, text) =>
+  renaming.value === id ? { name: () => html`<${NameBox} row=${id} text=${text} />` } : {};
+
+/** @param {DisplayView} display @param {number} level @param {string} words @returns {Row[]} */
+function displayRows(display, level, words) {
+  const { id, name, kind, topic } = display;
+  if (![name, kind, topic].some((text) => text.toLowerCase().includes(words))) return [];
+  const state = displayStates.value.get(id);
+  const open = isOpen(`display:${id}`);
+  return [
+    displayRow(display, level, state, open),
+    ...remarkRows(display, level + 1, state),
+    ...(open ? settingsOf(display, level + 1, isOpen) : []),
+  ];
+}
+
+/** @param {DisplayView} display @param {number} level @param {DisplayState | undefined} state @param {boolean} open @returns {Row} */
+function displayRow(display, level, state, open) {
+  const { id, name, kind, enabled, group } = display;
+  const row = `display:${id}`;
+  return {
+    id: row,
+    level,
+    label: name,
+    hint: `${name}\n${kinds.value.get(kind)?.doc ?? kind}`,
+    icon: iconOf(kind),
+    expandable: true,
+    expanded: open,
+    faded: !enabled || groupsOff.value.includes(group),
+    ...metaOf(display, state),
+    ...renamable(row, name),
+    ...(mayEdit.value && {
+      keys: displayKeys(id),
+      controls: () => html`<${RowMenu} row=${row} name=${name} />`,
+    }),
+    eye: {
+      on: enabled,
+      label: t("display.show", { name }),
+      set: (on) => void switchDisplay(id, on),
+      shared: true,
+    },
+  };
+}
+
+/** @param {DisplayView} display @param {DisplayState | undefined} state @returns {Pick<Row, "meta" | "tone">} */
+function metaOf({ topic, enabled }, state) {
+  const trouble = enabled ? firstTrouble(state) : null;
+  if (trouble?.level === "error" || trouble?.level === "warn")
+    return { meta: reasonWords(trouble.reason, trouble.level), tone: trouble.level };
+  const rate = enabled ? rateWords(state?.rate_hz ?? 0) : "";
+  return { meta: [topic, rate].filter(Boolean).join(" · ") };
+}
+
+/** @param {string} reason @param {"warn" | "error"} level @returns {string} in a word or two */
+function reasonWords(reason, level) {
+  const key = `live.reason.${reason}`;
+  const words = t(key);
+  return words === key ? t(`live.${level}`) : words;
+}
+
+/** @param {DisplayView} display @param {number} level @param {DisplayState | undefined} state @returns {Row[]} the first thing that is in the way */
+function remarkRows({ id, enabled }, level, state) {
+  const remark = enabled ? firstTrouble(state) : null;
+  if (!remark) return [];
+  const { mend, sentence } = remark;
+  const name = () => html`<span class="live-remark">
+    <span>${sentence}</span>
+    ${mend && mayEdit.value && html`<button type="button" class="button small" onClick=${() => mendDisplay(remark)}>${mend.label}</button>`}
+  </span>`;
+  const icon = remark.level === "error" ? "error" : "alert";
+  return [
+    { id: `remark:${id}`, level, label: sentence, icon, kind: `tree-note ${remark.level}`, name },
+  ];
+}
