@@ -43,17 +43,20 @@ class _Seen(NamedTuple):
     shown: Flags
     shades: Shades
 
-    def looks_like(self, other: _Seen) -> bool:
-        """Whether no eye would tell one from the other."""
-        ours, theirs = self.frames, other.frames
+    def shows_what(self, other: _Seen) -> bool:
+        """Whether the same frames are shown, and have faded as far, wherever they are."""
         return (
-            ours.names is theirs.names
-            and ours.fixed == theirs.fixed
+            self.frames.names is other.frames.names
             and np.array_equal(self.shown, other.shown)
             and np.array_equal(self.shades.grey, other.shades.grey)
             and np.array_equal(self.shades.opacity, other.shades.opacity)
-            and bool(np.abs(ours.wxyz_xyz - theirs.wxyz_xyz).max(initial=0.0) <= _STILL)
         )
+
+    def stands_as(self, other: _Seen) -> bool:
+        """Whether no eye would tell where frames are from where they were."""
+        ours, theirs = self.frames, other.frames
+        moved = np.abs(ours.wxyz_xyz - theirs.wxyz_xyz)
+        return ours.fixed == theirs.fixed and bool(moved.max(initial=0.0) <= _STILL)
 
 
 class TfDisplay(Display):
@@ -134,7 +137,7 @@ class TfDisplay(Display):
             for each in [one for one in self.values if one.startswith(f"{FRAMES}/")]:
                 del self.values[each]
         self._choice.changed()
-        self._names.clear()
+        self._names = {}
         self._seen = None
 
     def reset(self) -> None:
@@ -149,8 +152,15 @@ class TfDisplay(Display):
             self._seen = None
             return NOTHING
         seen = self._look(self._frames)
-        if self._seen is None or not seen.looks_like(self._seen):
-            self._seen, self._drawing = seen, self._drawn(seen)
+        before, self._seen = self._seen, seen
+        is_same = before is not None and seen.shows_what(before)
+        if not is_same:
+            self._names = self._written(seen) if self.values["Show Names"] else {}
+        if before is None or not is_same or not seen.stands_as(before):
+            self._drawing = self._drawn(seen)
+        else:
+            # Who creeps is drawn anew when he has come far enough from where he was drawn.
+            self._seen = before
         return self._drawing
 
     def statuses(self) -> tuple[Status, ...]:
@@ -202,13 +212,9 @@ class TfDisplay(Display):
             shapes |= self._axes(seen)
         if self.values["Show Arrows"]:
             shapes |= self._arrows(seen)
-        drawing: dict[str, Placed] = {}
-        if shapes:
-            drawing["frames"] = Placed(seen.frames.fixed, 0, shapes, follows=True)
-        if self.values["Show Names"]:
-            self._names = self._written(seen)
-            drawing |= self._names
-        return drawing
+        if not shapes:
+            return self._names
+        return {"frames": Placed(seen.frames.fixed, 0, shapes, follows=True), **self._names}
 
     def _axes(self, seen: _Seen) -> dict[str, Shape]:
         poses, fresh = seen.frames.wxyz_xyz, seen.shown & seen.shades.fresh

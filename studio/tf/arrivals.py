@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
+from itertools import pairwise
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
@@ -29,6 +31,8 @@ class Arrivals:
         self._other = np.zeros(0, np.int64)
         self._other_ns = np.zeros(0, np.int64)
         self._publishers: dict[str, int] = {"": 0}
+        self._names: dict[int, str] = {0: ""}
+        self._newest = 0
 
     def fit(self, count: int) -> None:
         """Let there be frames of numbers below this."""
@@ -42,8 +46,9 @@ class Arrivals:
         if number is None:
             if len(self._publishers) >= _PUBLISHERS_MAX:
                 self._forget_publishers()
-            number = max(self._publishers.values()) + 1
-            self._publishers[name] = number
+            self._newest += 1
+            number = self._publishers[name] = self._newest
+            self._names[number] = name
         return number
 
     def note(self, frames: Numbers, publisher: int, now_ns: int) -> None:
@@ -88,12 +93,12 @@ class Arrivals:
 
     def publishers_of(self, frame: int, now_ns: int) -> tuple[str, ...]:
         """Who told the newest of a frame, and who else did in the last seconds."""
-        numbers = [self._teller[frame]]
-        other_is_new = self._other_ns[frame] and now_ns - self._other_ns[frame] <= WINDOW_NS
-        if other_is_new and self._other[frame] != numbers[0]:
-            numbers.append(self._other[frame])
-        names = {number: name for name, number in self._publishers.items() if number in numbers}
-        return tuple(names.get(int(number), "") for number in numbers)
+        teller, other = int(self._teller[frame]), int(self._other[frame])
+        other_ns = int(self._other_ns[frame])
+        names = [self._name(teller)]
+        if other_ns and now_ns - other_ns <= WINDOW_NS and other != teller:
+            names.append(self._name(other))
+        return tuple(names)
 
     def rate_hz(self, frame: int, now_ns: int) -> float:
         """How often a frame comes, of the last 64 times within 10 s; 0 when that is not known.
@@ -101,29 +106,30 @@ class Arrivals:
         Who is silent for longer than the mean period becomes slower from then on.
         """
         times_ns = self._kept(frame)
-        times_ns = times_ns[times_ns > now_ns - WINDOW_NS]
+        del times_ns[: bisect_right(times_ns, now_ns - WINDOW_NS)]
         if len(times_ns) < 2 or times_ns[-1] <= times_ns[0]:
             return 0.0
         lately = (len(times_ns) - 1) / (times_ns[-1] - times_ns[0])
         until_now = len(times_ns) / max(now_ns - times_ns[0], 1)
-        return float(min(lately, until_now)) * 1e9
+        return min(lately, until_now) * 1e9
 
     def is_stale(self, frame: int, now_ns: int) -> bool:
         """Whether a frame has been silent for 3 of its longer pauses, and for a second at least."""
         times_ns = self._kept(frame)[-_PAUSES - 1 :]
-        silent_ns = now_ns - int(times_ns[-1]) if len(times_ns) else WINDOW_NS
-        pauses_ns = np.sort(np.diff(times_ns))
-        if not pauses_ns.size:
+        silent_ns = now_ns - times_ns[-1] if times_ns else WINDOW_NS
+        pauses_ns = sorted(after - before for before, after in pairwise(times_ns))
+        if not pauses_ns:
             return silent_ns >= WINDOW_NS
         # The longest may be from when its publisher was not there.
-        usual_ns = int(pauses_ns[-2:][0])
+        usual_ns = pauses_ns[-2:][0]
         return silent_ns > max(_STALE_AT_LEAST_NS, _STALE_AFTER_PAUSES * usual_ns)
 
-    def _kept(self, frame: int) -> Numbers:
+    def _kept(self, frame: int) -> list[int]:
         """The last arrivals, from the oldest."""
         count = int(self._count[frame])
-        times_ns = self._times_ns[frame, : min(count, _KEPT)]
-        return np.roll(times_ns, -(count % _KEPT)) if count > _KEPT else times_ns
+        times_ns: list[int] = self._times_ns[frame, : min(count, _KEPT)].tolist()
+        at = count % _KEPT if count > _KEPT else 0
+        return times_ns[at:] + times_ns[:at]
 
     def _last_ns(self, frames: Numbers) -> Numbers:
         return self._times_ns[frames, (self._count[frames] - 1) % _KEPT]
@@ -134,3 +140,7 @@ class Arrivals:
         self._publishers = {
             name: number for name, number in self._publishers.items() if number in used
         }
+        self._names = {number: name for name, number in self._publishers.items()}
+
+    def _name(self, publisher: int) -> str:
+        return self._names.get(publisher, "")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 
@@ -58,6 +58,30 @@ def report_of(
     return sorted(rows, key=lambda row: row.frame)
 
 
+def _root(name: str, *, is_broken: bool) -> FrameReport:
+    return FrameReport(
+        name,
+        parent=None,
+        root=name,
+        publishers=(),
+        static=False,
+        rate_hz=0.0,
+        age_s=None,
+        oldest_ns=0,
+        newest_ns=0,
+        state="broken" if is_broken else "fresh",
+        behind=None,
+    )
+
+
+class _Edge(NamedTuple):
+    static: bool
+    age_s: float
+    oldest_ns: int
+    newest_ns: int
+    is_stale: bool
+
+
 class _Reporting:
     """One report; what is known of the frames above one is looked up once."""
 
@@ -66,31 +90,48 @@ class _Reporting:
     ) -> None:
         self._forest, self._histories, self._arrivals = forest, histories, arrivals
         self._now_ns = now_ns
-        self._stale: dict[int, bool] = {}
+        self._edges = self._edges_now()
         self._above: dict[int, tuple[int, int]] = {}
         """Of each frame: its root, and the nearest stale frame from itself upwards."""
 
     def row(self, number: int, fixed_root: int) -> FrameReport:
         """What is to be said of one."""
-        forest, parent = self._forest, self._forest.parents[number]
+        forest, name = self._forest, self._forest.names[number]
         root, _ = self._upwards(number)
-        behind = NONE if parent == NONE else self._upwards(parent)[1]
         is_broken = root != fixed_root
-        state = "broken" if is_broken else "stale" if self._is_stale(number) else "fresh"
-        at, is_root = np.array([number]), parent == NONE
+        edge = self._edges.get(number)
+        if edge is None:
+            return _root(name, is_broken=is_broken)
+        parent = forest.parents[number]
+        behind = self._upwards(parent)[1]
         return FrameReport(
-            forest.names[number],
-            None if is_root else forest.names[parent],
+            name,
+            forest.names[parent],
             forest.names[root],
-            () if is_root else self._arrivals.publishers_of(number, self._now_ns),
-            not is_root and bool(self._histories.is_static(at)[0]),
-            0.0 if is_root else self._arrivals.rate_hz(number, self._now_ns),
-            None if is_root else float(self._arrivals.ages_s(at, self._now_ns)[0]),
-            0 if is_root else int(self._histories.oldest_ns(at)[0]),
-            0 if is_root else int(self._histories.newest_ns(at)[0]),
-            state,
+            self._arrivals.publishers_of(number, self._now_ns),
+            edge.static,
+            self._arrivals.rate_hz(number, self._now_ns),
+            edge.age_s,
+            edge.oldest_ns,
+            edge.newest_ns,
+            "broken" if is_broken else "stale" if edge.is_stale else "fresh",
             None if behind == NONE else forest.names[behind],
         )
+
+    def _edges_now(self) -> dict[int, _Edge]:
+        """What there is to say of each frame that hangs on one."""
+        numbers = [one for one in self._forest.numbers() if self._forest.parents[one] != NONE]
+        at = np.array(numbers, np.int64)
+        columns = (
+            self._histories.is_static(at).tolist(),
+            self._arrivals.ages_s(at, self._now_ns).tolist(),
+            self._histories.oldest_ns(at).tolist(),
+            self._histories.newest_ns(at).tolist(),
+        )
+        return {
+            number: _Edge(*row, not row[0] and self._arrivals.is_stale(number, self._now_ns))
+            for number, row in zip(numbers, zip(*columns, strict=True), strict=True)
+        }
 
     def _upwards(self, number: int) -> tuple[int, int]:
         way: list[int] = []
@@ -99,14 +140,6 @@ class _Reporting:
             number = self._forest.parents[number]
         found = self._above.setdefault(number, (number, NONE))
         for one in reversed(way):
-            found = found[0], one if self._is_stale(one) else found[1]
+            found = found[0], one if self._edges[one].is_stale else found[1]
             self._above[one] = found
         return found
-
-    def _is_stale(self, number: int) -> bool:
-        if number not in self._stale:
-            moves = self._forest.parents[number] != NONE and not bool(
-                self._histories.is_static(np.array([number]))[0]
-            )
-            self._stale[number] = moves and self._arrivals.is_stale(number, self._now_ns)
-        return self._stale[number]

@@ -159,6 +159,18 @@ def test_frames_that_stand_still_are_the_same_drawing_and_names_the_same_objects
     assert moved["names/wheel"] is first["names/wheel"]
 
 
+def test_who_creeps_is_drawn_anew_when_he_has_come_far_enough():
+    robot = Robot()
+    display = shown(robot)
+    drawings = {id(display.draw(0)): display.draw(0)}
+    for step in range(1, 101):
+        robot.clock.now_ns += S // 100
+        robot.turn(math.pi / 2 + step * 1e-7)
+        display.show(robot.buffer.all_in("odom"))
+        drawings[id(display.draw(0))] = display.draw(0)
+    assert 3 < len(drawings) < 30
+
+
 def test_a_frame_without_news_turns_grey_then_fades_then_is_gone():
     robot = Robot()
 
