@@ -77,6 +77,11 @@ class Histories:
         self._insert(frame, 0, stamp_ns, pose)
         self._static[frame] = True
 
+    def replace_static(self, frames: Numbers, stamps_ns: Numbers, poses: Floats) -> None:
+        """Let other poses hold at all times, of frames that are static, each named once."""
+        rows = self._first[frames]
+        self._stamps_ns[rows], self._poses[rows] = stamps_ns, poses
+
     def append(self, frames: Numbers, stamps_ns: Numbers, poses: Floats) -> None:
         """Add the newest row of frames that have rows and are not static, each named once.
 

@@ -64,10 +64,13 @@ class Intake:
         """Take columns up; answers what was left out, and what is worth knowing."""
         good, poses = sound(columns), poses_of(columns)
         frames = self._frames(columns)
-        fast = good & (frames != NONE) & (not static)
-        fast[fast] = self._is_newer(frames[fast], columns.stamps_ns[fast])
+        fast = good & (frames != NONE)
+        fast[fast] = self._is_usual(frames[fast], columns.stamps_ns[fast], static=static)
         if fast.any():
-            self._append(frames[fast], columns.stamps_ns[fast], poses[fast], publisher, now_ns)
+            known, stamps_ns = frames[fast], columns.stamps_ns[fast]
+            store = self._histories.replace_static if static else self._histories.append
+            store(known, stamps_ns, poses[fast])
+            self._note(known, publisher, now_ns)
         rest: list[int] = np.flatnonzero(~fast).tolist()
         notices: list[Notice] = []
         for at in rest:
@@ -124,15 +127,14 @@ class Intake:
             return NONE
         return number
 
-    def _is_newer(self, frames: Numbers, stamps_ns: Numbers) -> Flags:
-        """Which stamps are not older than what is known of moving frames."""
-        is_newer = stamps_ns >= self._histories.newest_ns(frames)
-        return is_newer & ~self._histories.is_static(frames)
+    def _is_usual(self, frames: Numbers, stamps_ns: Numbers, *, static: bool) -> Flags:
+        """Which frames stay static, or go on to move: their stamps are not older than the last."""
+        are_static = self._histories.is_static(frames)
+        if static:
+            return are_static
+        return ~are_static & (stamps_ns >= self._histories.newest_ns(frames))
 
-    def _append(
-        self, frames: Numbers, stamps_ns: Numbers, poses: Floats, publisher: str, now_ns: int
-    ) -> None:
-        self._histories.append(frames, stamps_ns, poses)
+    def _note(self, frames: Numbers, publisher: str, now_ns: int) -> None:
         self._arrivals.note(frames, self._arrivals.publisher(publisher), now_ns)
         if self._behind:
             for frame in frames.tolist():

@@ -169,6 +169,18 @@ def test_a_frame_becomes_static_and_moves_again():
         buffer.fixed_from("a", "b", 99 * S)
 
 
+def test_static_frames_that_are_told_again_have_their_new_places():
+    buffer = TransformBuffer()
+    for x_m in (1.0, 2.0, 3.0):
+        rows = Told("a", "b", 0, (x_m, 0.0, 0.0)), Told("b", "c", 0, (0.0, x_m, 0.0))
+        assert buffer.put(columns(*rows), static=True, publisher="robot") == ()
+        assert buffer.fixed_from("a", "c", 77 * S).xyz == (x_m, x_m, 0.0)
+    names = buffer.all_in("a").names
+    buffer.put(columns(Told("a", "b", 5 * S, (9.0, 0.0, 0.0)), Told("b", "c", 0)), static=True)
+    assert buffer.fixed_from("a", "c").xyz == (9.0, 0.0, 0.0)
+    assert buffer.all_in("a").names is names
+
+
 def fed(clock: HandClock) -> TransformBuffer:
     """A driver and a localisation, 30 s long, and a static laser."""
     buffer = TransformBuffer(clock=clock)
