@@ -213,7 +213,7 @@ class Service(Work):
         attachment = packed(number.sequence, time.time_ns(), number.gid)
         try:
             request.query.reply(request.query.key_expr, payload, attachment=attachment)
-        except zenoh.ZError:
+        except (zenoh.ZError, RuntimeError):  # RuntimeError: another thread drops it just now
             if self._incoming is not None:  # else it was taken back while the callback ran
                 raise
         self._finish(request)

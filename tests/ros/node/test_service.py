@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import gc
+import threading
 import weakref
 from typing import TYPE_CHECKING
 
@@ -17,7 +18,7 @@ from studio.ros.node.work import ReentrantCallbackGroup
 from studio.ros.qos import QoSProfile
 from studio.ros.wire.door import declare_querier
 from tests.support.node_pair import node_pair, spin_until
-from tests.support.wire import wait_until
+from tests.support.wire import PATIENCE_S, wait_until
 
 if TYPE_CHECKING:
     from collections.abc import Generator
@@ -282,3 +283,32 @@ def test_requests_that_come_while_a_server_is_taken_back_are_never_left_open(
         server.destroy_service(served)
         spin_until(lambda: all(future.done() for future in futures), asker)  # noqa: B023
         wait_until("it is gone", lambda: not client.service_is_ready())
+
+
+def test_a_server_that_is_taken_back_at_the_moment_of_its_answer_harms_nobody(
+    nodes: tuple[Node, Node],
+):
+    asker, server = nodes
+    for number in range(20):
+        begun, goes_on = threading.Event(), threading.Event()
+
+        def answer(
+            _asked: MessageValue,
+            given: MessageValue,
+            begun: threading.Event = begun,
+            goes_on: threading.Event = goes_on,
+        ) -> MessageValue:
+            begun.set()
+            goes_on.wait(PATIENCE_S)
+            return given
+
+        name = f"leaving_{number}"
+        served = server.create_service(AddTwoInts, name, answer)
+        client = asker.create_client(AddTwoInts, name)
+        assert client.wait_for_service(timeout_sec=PATIENCE_S)
+        with spinning(server):  # what its callbacks raise is raised here
+            future = client.call_async(AddTwoInts.Request())
+            wait_until("it works", begun.is_set)
+            goes_on.set()
+            server.destroy_service(served)
+            spin_until(future.done, asker)
