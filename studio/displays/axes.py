@@ -42,7 +42,7 @@ class AxesDisplay(StillDisplay):
             np.zeros((1, 3), np.float32),
             np.array([NO_TURN], np.float32),
             float(self.values["Length"]),
-            float(self.values["Radius"]),
+            float(self.values["Radius"]) / 2,  # RViz takes it for the thickness, too
             float(self.values["Alpha"]),
         )
         return {

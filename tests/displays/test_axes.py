@@ -19,7 +19,7 @@ def test_a_cross_stands_at_the_fixed_frame():
             "positions": [[0.0, 0.0, 0.0]],
             "wxyz": [[1.0, 0.0, 0.0, 0.0]],
             "length_m": 1.0,
-            "radius_m": 0.1,
+            "radius_m": 0.05,
             "opacity": 1.0,
         }
     }
@@ -31,7 +31,7 @@ def test_frame_length_radius_and_opacity_can_be_set():
     display.set("Alpha", 0.25)
     assert only(display).frame == "base"
     axes = shapes_of(display.draw(0))["axes"]
-    assert (axes["length_m"], axes["radius_m"], axes["opacity"]) == (0.5, 0.0001, 0.25)
+    assert (axes["length_m"], axes["radius_m"], axes["opacity"]) == (0.5, 0.00005, 0.25)
     with pytest.raises(DisplayPropertyError):
         display.set("Length", "long")
 
