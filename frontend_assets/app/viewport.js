@@ -10,7 +10,7 @@ import { effect, signal } from "vendor/preact.js";
 import { moveJoint } from "./actions.js";
 import { isStroke, onKey } from "./commands.js";
 import { movable, position, robot } from "./state/document.js";
-import { comparedFrames } from "./state/frame-pair.js";
+import { comparedFrames, litChain } from "./state/frame-pair.js";
 import { lights } from "./state/origin.js";
 import { mayMove } from "./state/ros.js";
 import { selectedJoint, selectLink } from "./state/selection.js";
@@ -135,8 +135,8 @@ function tell(view) {
     }),
     effect(() => view.setFrames(comparedFrames.value)),
     effect(() => {
-      const { changed_links: changed = [], moved_links: moved = [] } = lights.value ?? {};
-      view.setLit(changed, moved);
+      const lit = lights.value ?? { changed_links: [], moved_links: litChain.value };
+      view.setLit(lit.changed_links, lit.moved_links);
     }),
     effect(() => view.setCanDrag(mayMove.value)),
     effect(() => view.setAngleUnit(degrees.value ? "deg" : "rad")),

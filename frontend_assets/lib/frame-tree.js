@@ -96,6 +96,10 @@ function shownBy(frames, byName, filter) {
   return found;
 }
 
+/** @param {readonly FrameView[]} frames @param {string} name @returns {string[]} the frames above one, nearest first */
+export const framesAbove = (frames, name) =>
+  upwards(new Map(frames.map((frame) => [frame.name, frame])), name).slice(1);
+
 /**
  * @param {readonly FrameView[]} frames
  * @param {string} from

@@ -2,17 +2,19 @@
 
 /** @import { FrameRow } from "../lib/frame-tree.js" */
 /** @import { FrameView } from "../types/wire.d.ts" */
+/** @import { Signal } from "vendor/preact.js" */
 
-import { html, useSignal } from "vendor/preact.js";
+import { html, useEffect, useSignal } from "vendor/preact.js";
 import { robot } from "../app/state/document.js";
 import { chain, reference, setReference, setTarget, target } from "../app/state/frame-pair.js";
 import { fixedFrame, tfFrames } from "../app/state/tf.js";
 import { hovered } from "../app/state/view.js";
 import { viewport } from "../app/viewport.js";
-import { frameRows, isOwn } from "../lib/frame-tree.js";
+import { frameRows, framesAbove, isOwn } from "../lib/frame-tree.js";
 import { t } from "../lib/i18n.js";
 import { LongList } from "../lib/long-list.js";
 import { siblingPlaces } from "../lib/pieces.js";
+import { reveal } from "../lib/seen.js";
 import { shortTime } from "../lib/short-time.js";
 import { Icon, IconButton, LongName } from "../lib/ui.js";
 
@@ -20,6 +22,7 @@ import { Icon, IconButton, LongName } from "../lib/ui.js";
 export function FramesTree({ filter }) {
   const folded = useSignal(/** @type {ReadonlySet<string>} */ (new Set()));
   const active = useSignal("");
+  useEffect(() => showTarget(folded), [target.value]);
   const rows = frameRows(tfFrames.value, fixedFrame.value, folded.value, filter);
   if (rows.length === 0)
     return html`<p class="nothing">${t("filter.nothing", { words: filter })}</p>`;
@@ -57,6 +60,23 @@ export function FramesTree({ filter }) {
           setTarget(nameOf(row));
         }} />`} />
   </div>`;
+}
+
+/** What is chosen elsewhere comes into view. @param {Signal<ReadonlySet<string>>} folded @returns {() => void} the end of it */
+function showTarget(folded) {
+  const name = target.peek();
+  if (name === null) return () => {};
+  const above = new Set(framesAbove(tfFrames.peek(), name));
+  if ([...folded.peek()].some((one) => above.has(one)))
+    folded.value = new Set([...folded.peek()].filter((one) => !above.has(one)));
+  let end = () => {};
+  const frame = requestAnimationFrame(() => {
+    end = reveal(document.getElementById(rowId(name)));
+  });
+  return () => {
+    cancelAnimationFrame(frame);
+    end();
+  };
 }
 
 /** @param {FrameRow} row */

@@ -10,6 +10,7 @@ import { mayEdit } from "../app/state/connection.js";
 import { robot } from "../app/state/document.js";
 import {
   BY_FRAMES,
+  chain,
   comparing,
   frameNames,
   isToldByOthers,
@@ -40,6 +41,7 @@ import { troubleOf } from "../lib/frame-tree.js";
 import { t } from "../lib/i18n.js";
 import { LinkPicker } from "../lib/link-picker.js";
 import { useSeen } from "../lib/seen.js";
+import { shortTime } from "../lib/short-time.js";
 import { EmptyState, Icon, IconButton, SearchBox } from "../lib/ui.js";
 import { PoseForms } from "./frames-forms.js";
 import { FramesTree } from "./frames-tree.js";
@@ -140,12 +142,21 @@ function Values() {
   const pose = referenceFromTarget.value;
   if (pose) return html`<${PoseForms} pose=${pose} />`;
   if (source.value === "tf" && pairAnswer.value?.trouble)
-    return html`<p class="note padded frames-trouble" role="status"><${Icon} name="alert" size=${14} /><span>${pairAnswer.value.trouble}</span></p>`;
+    return html`<p class="note frames-trouble" role="status"><${Icon} name="alert" size=${14} /><span>${troubleText(pairAnswer.value.trouble)}</span></p>`;
   const [refused, again] =
     source.value === "tf" ? [tfRefused.value, askTf] : [framesRefused.value, askFrames];
   return refused
     ? html`<${Refusal} sentence=${refused} again=${again} />`
     : html`<p class="note padded">${t("loading")}</p>`;
+}
+
+/** @param {string} sentence the studio's @returns {string} a frame of the way that nobody tells of any more says it better */
+function troubleText(sentence) {
+  const stale = tfFrames.value.find(
+    ({ name, state }) => state === "stale" && chain.value.has(name),
+  );
+  if (!stale) return sentence;
+  return t("tf.stale.way", { frame: stale.name, time: shortTime(stale.age_s ?? 0) });
 }
 
 /** The frames from the one to the other, and the joints where those of the robot lead there. */
