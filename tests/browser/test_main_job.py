@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
+import json
 from typing import TYPE_CHECKING
 
 import pytest
 
 from tests.support.server import running_studio
-from tests.support.studio_page import StudioPage, changed_bytes, studio_page, wait_until
+from tests.support.studio_page import (
+    PATIENCE_S,
+    StudioPage,
+    changed_bytes,
+    studio_page,
+    wait_until,
+)
+from tests.support.wire import free_port
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -104,13 +112,25 @@ def test_two_documents_in_two_tabs_are_independent(
 
 
 def test_the_page_comes_back_by_itself_with_everything_as_it_was(browser: Browser, tmp_path: Path):
-    with running_studio(["demo"], tmp_path / "data") as first, studio_page(browser, first) as tab:
-        port = first.port
+    port = free_port()  # one that nobody is lent while no studio holds it
+    first_one = running_studio(["demo"], tmp_path / "data", port=port)
+    with first_one as first, studio_page(browser, first) as tab:
         first.stop()
         wait_until("the page to say so", lambda: "Not connected" in tab.page.inner_text("body"))
-        with running_studio(["demo"], tmp_path / "data", port=port):
+        with running_studio(["demo"], tmp_path / "data", port=port) as second:
             wait_until(
                 "the page to be back", lambda: "Not connected" not in tab.page.inner_text("body")
             )
+            hear_sites(second)
             wait_until("the robot to be drawn", tab.has_drawn_robot)
             assert tab.drag_slider("wheel_radius", 0.9) != "0.105"
+
+
+def hear_sites(studio: RunningStudio) -> None:
+    """Wait until it has opened its robot: until then the page shows the one of before."""
+    with studio.websocket("/control") as lane:
+        lane.send(json.dumps({"type": "watch", "document": "rover"}))
+        while True:
+            message = lane.recv(timeout=PATIENCE_S)
+            if isinstance(message, str) and json.loads(message)["type"] == "sites":
+                return

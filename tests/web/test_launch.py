@@ -22,6 +22,7 @@ from studio.settings import DEFAULT_PORT, Settings
 from studio.web.launch import remarks
 from tests.support.server import RunningStudio, running_studio
 from tests.support.studio_page import wait_until
+from tests.support.wire import free_port
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -131,8 +132,9 @@ def test_the_default_port_or_the_next_free_one_and_it_says_so(tmp_path: Path):
 
 
 def test_an_open_tab_is_still_known_after_a_restart(tmp_path: Path):
-    with running_studio(["demo"], tmp_path / "data") as first, first.client() as client:
-        port, cookies = first.port, dict(client.cookies)
+    port = free_port()  # one that nobody is lent while no studio holds it
+    with running_studio(["demo"], tmp_path / "data", port=port) as first, first.client() as client:
+        cookies = dict(client.cookies)
         first.stop()
     with running_studio(["demo"], tmp_path / "data", port=port) as second:
         assert second.token != first.token
