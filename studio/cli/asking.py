@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from studio.cli.acting import Actor
     from studio.errors import WireError
 
+_LATE_S = 0.5
 _ASKED = ("rcl_interfaces/srv/", "lifecycle_msgs/srv/")
 """Types of the services that are asked here."""
 
@@ -22,6 +23,8 @@ _ASKED = ("rcl_interfaces/srv/", "lifecycle_msgs/srv/")
 def node_asked_for(actor: Actor, options: argparse.Namespace) -> str | None:
     """Give the full name of the node; None, after words on stderr, when it is not there."""
     path = full_name(options.node_name)
+    # On a busy machine what stands may be told late, and this one is meant by its name.
+    actor.graph.wait_for(lambda: actor.graph.node(path) is not None, _LATE_S)
     node = actor.graph.node(path)
     if node is None:
         print("Node not found", file=sys.stderr)

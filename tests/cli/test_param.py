@@ -51,7 +51,7 @@ def test_p1_a_colour_is_set_and_read_back(endpoint: str):
         "Integer value is: 150\n"
     )
     hidden = studio("param", "get", "/turtlesim", "background_r", "--hide-type", *at)
-    assert hidden.out == "150\n"
+    assert hidden.out == "150\n", hidden.err
 
 
 def test_p2_negative_numbers_are_values(endpoint: str):
