@@ -14,6 +14,7 @@ from PIL import Image
 from tests.support.packages import write_package
 from tests.support.server import running_studio
 from tests.support.studio_page import StudioPage, changed_bytes, studio_page, wait_until
+from tests.support.wire import free_port
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
@@ -59,7 +60,7 @@ def test_a_killed_studio_loses_nothing_of_what_was_done_in_the_open_page(
     before = mast.read_bytes()
     drafts = tmp_path / "data/drafts"
     with (
-        running_studio(["open", str(mast)], tmp_path / "data") as first,
+        running_studio(["open", str(mast)], tmp_path / "data", port=free_port()) as first,
         studio_page(browser, first) as tab,
     ):
         page = tab.page
@@ -76,7 +77,8 @@ def test_a_killed_studio_loses_nothing_of_what_was_done_in_the_open_page(
         page.get_by_text("The studio does not answer").wait_for()
         with running_studio(["open", str(mast)], tmp_path / "data", port=first.port):
             page.get_by_text("were restored").wait_for()
-            assert (value(tab, "reach"), value(tab, "width")) == (reach, "0.1")
+            wait_until("the reach", lambda: value(tab, "reach") == reach)
+            wait_until("the width", lambda: value(tab, "width") == "0.1")
             steps = [f"width 0.1 → {width}", f"reach 0.4 → {reach}", "As it was opened"]
             assert undo_list(tab) == steps
             page.get_by_role("menuitemradio").first.click()

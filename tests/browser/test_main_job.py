@@ -2,19 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from typing import TYPE_CHECKING
 
 import pytest
 
 from tests.support.server import running_studio
-from tests.support.studio_page import (
-    PATIENCE_S,
-    StudioPage,
-    changed_bytes,
-    studio_page,
-    wait_until,
-)
+from tests.support.studio_page import StudioPage, changed_bytes, studio_page, wait_until
 from tests.support.wire import free_port
 
 if TYPE_CHECKING:
@@ -121,16 +114,6 @@ def test_the_page_comes_back_by_itself_with_everything_as_it_was(browser: Browse
             wait_until(
                 "the page to be back", lambda: "Not connected" not in tab.page.inner_text("body")
             )
-            hear_sites(second)
+            second.hear_sites("rover")
             wait_until("the robot to be drawn", tab.has_drawn_robot)
             assert tab.drag_slider("wheel_radius", 0.9) != "0.105"
-
-
-def hear_sites(studio: RunningStudio) -> None:
-    """Wait until it has opened its robot: until then the page shows the one of before."""
-    with studio.websocket("/control") as lane:
-        lane.send(json.dumps({"type": "watch", "document": "rover"}))
-        while True:
-            message = lane.recv(timeout=PATIENCE_S)
-            if isinstance(message, str) and json.loads(message)["type"] == "sites":
-                return

@@ -8,6 +8,7 @@ import pytest
 
 from tests.support.server import running_studio
 from tests.support.studio_page import StudioPage, studio_page, wait_until
+from tests.support.wire import free_port
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -149,12 +150,15 @@ def test_what_one_types_another_sees_and_a_viewer_cannot_change(
 def test_after_a_restart_of_the_studio_the_open_text_is_typed_into_as_before(
     browser: Browser, tmp_path: Path
 ):
-    with running_studio(["demo"], tmp_path / "data") as first, studio_page(browser, first) as tab:
+    port = free_port()  # one that nobody is lent while no studio holds it
+    first_one = running_studio(["demo"], tmp_path / "data", port=port)
+    with first_one as first, studio_page(browser, first) as tab:
         go_to(tab, "wheel_radius")
         first.stop()
         wait_until("the page to say so", lambda: "Not connected" in tab.page.inner_text("body"))
-        with running_studio(["demo"], tmp_path / "data", port=first.port):
+        with running_studio(["demo"], tmp_path / "data", port=port) as second:
             wait_until("it to be back", lambda: "Not connected" not in tab.page.inner_text("body"))
+            second.hear_sites("rover")
             tab.page.locator(".cm-content").focus()
             put_cursor_behind(tab, '"0.10')
             tab.page.keyboard.type("7")

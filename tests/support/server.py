@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import queue
 import signal
 import subprocess
@@ -80,6 +81,15 @@ class RunningStudio:
             open_timeout=60,
             max_size=None,
         )
+
+    def hear_sites(self, document: str) -> None:
+        """Wait until it has opened a robot: until then a page shows the one of before a restart."""
+        with self.websocket("/control") as lane:
+            lane.send(json.dumps({"type": "watch", "document": document}))
+            while True:
+                message = lane.recv(timeout=START_TIMEOUT_S)
+                if isinstance(message, str) and json.loads(message)["type"] == "sites":
+                    return
 
     def stop(self, number: signal.Signals = signal.SIGTERM) -> tuple[int, float]:
         """Send a signal; answers the exit code and the seconds it took to end, as `Stopwatch`."""
