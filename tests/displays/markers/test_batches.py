@@ -1,12 +1,13 @@
 from __future__ import annotations
 
 import re
+from copy import deepcopy
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from hypothesis import settings
 from hypothesis import strategies as st
-from hypothesis.stateful import RuleBasedStateMachine, rule
+from hypothesis.stateful import RuleBasedStateMachine, invariant, rule
 
 from studio.displays.drawing import Lines, Points, Solids
 from studio.displays.marker_array import MarkerArrayDisplay
@@ -17,6 +18,8 @@ from studio.displays.markers.store import APART_MAX
 from tests.support.markers import TYPES, array_of, marker, sentences, shapes_in
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     import pytest
 
     from studio.displays.drawing import Drawing, Shape
@@ -252,18 +255,50 @@ def test_a_batch_of_which_nothing_changed_is_not_even_looked_at(monkeypatch: pyt
 @st.composite
 def any_marker(draw: st.DrawFn) -> Any:  # noqa: ANN401
     return marker(
-        draw(st.sampled_from([Kind.CUBE, Kind.SPHERE, Kind.LINE_STRIP, Kind.POINTS, Kind.TEXT])),
+        draw(st.sampled_from([*[Kind.CUBE] * 4, Kind.LINE_STRIP, Kind.POINTS, Kind.TEXT])),
         draw(st.integers(0, 3)),
         at=(draw(st.sampled_from([0.0, 1.0])), 0.0, 0.0),
         points=LINE[: draw(st.integers(0, 2))],
-        rgba=(1.0, 0.0, 0.0, draw(st.sampled_from([1.0, 1.0, 0.5, 0.0]))),
-        frame=draw(st.sampled_from(["map", "odom", ""])),
+        rgba=(1.0, 0.0, 0.0, draw(st.sampled_from([1.0, 1.0, 1.0, 0.5, 0.0]))),
+        frame=draw(st.sampled_from(["map", "map", "odom", "odom", ""])),
         stamp_ns=draw(st.sampled_from([0, S])),
         ns=draw(st.sampled_from(NAMESPACES)),
-        action=draw(st.sampled_from([0, 0, 0, 0, int(Action.DELETE), DELETE_ALL])),
+        action=draw(st.sampled_from([*[0] * 8, int(Action.DELETE), DELETE_ALL])),
         frame_locked=draw(st.booleans()),
         text=draw(st.sampled_from(["", "a", "b"])),
     )
+
+
+def turn(one: Any) -> None:  # noqa: ANN401
+    one.pose.orientation.w, one.pose.orientation.z = 0.0, 1.0
+
+
+def lift(one: Any) -> None:  # noqa: ANN401
+    one.pose.position.z += 1
+
+
+def stretch(one: Any) -> None:  # noqa: ANN401
+    one.scale.x += 1
+
+
+def fade(one: Any) -> None:  # noqa: ANN401
+    one.color.a = 0.5 - one.color.a / 4
+
+
+def say_more(one: Any) -> None:  # noqa: ANN401
+    one.text += "."
+
+
+def reach_further(one: Any) -> None:  # noqa: ANN401
+    for point in one.points:
+        point.y += 1
+
+
+def lock(one: Any) -> None:  # noqa: ANN401
+    one.frame_locked = not one.frame_locked
+
+
+CHANGES: list[Callable[[Any], None]] = [turn, lift, stretch, fade, say_more, reach_further, lock]
 
 
 class Story(RuleBasedStateMachine):
@@ -273,22 +308,29 @@ class Story(RuleBasedStateMachine):
         super().__init__()
         self.display = MarkerArrayDisplay(TYPES)
         self.there: dict[tuple[str, int], Any] = {}
-        self.last: list[Any] = []
 
-    @rule(markers=st.lists(any_marker(), max_size=6))
-    def a_message_comes(self, markers: list[Any]) -> None:
-        self.last = markers
-        self._take(markers)
+    @rule(messages=st.lists(st.lists(any_marker(), max_size=5), min_size=1, max_size=2))
+    def messages_come(self, messages: list[list[Any]]) -> None:
+        for markers in messages:
+            self._take(markers)
+
+    @rule(changes=st.lists(st.tuples(st.integers(0, 9), st.sampled_from(CHANGES)), min_size=5))
+    def markers_change_a_little(self, changes: list[tuple[int, Callable[[Any], None]]]) -> None:
+        for which, change in changes if self.there else []:
+            one = deepcopy(list(self.there.values())[which % len(self.there)])
+            change(one)
+            self._take([one])
+            self.it_is_drawn()
 
     @rule()
-    def it_comes_again(self) -> None:
-        self._take(self.last)
+    def all_come_again(self) -> None:
+        self._take(list(self.there.values()))
 
-    @rule(namespace=st.sampled_from(NAMESPACES), shown=st.booleans())
+    @rule(namespace=st.sampled_from(NAMESPACES), shown=st.sampled_from([*[True] * 4, False]))
     def a_namespace_is_switched(self, namespace: str, shown: bool) -> None:
         self.display.set(f"Namespaces/{namespace}", shown)
 
-    @rule()
+    @invariant()
     def it_is_drawn(self) -> None:
         fresh = MarkerArrayDisplay(TYPES, self.display.values)
         fresh.take(array_of(*self.there.values()))
@@ -315,13 +357,16 @@ def listed(drawing: Drawing) -> list[str]:
         for name, shape in placed.shapes.items():
             match shape:
                 case Solids():
+                    looks = np.concatenate((shape.positions, shape.wxyz, shape.scales), axis=1)
                     colors = np.broadcast_to(shape.colors, (len(shape.positions), 3)).tolist()
                     alphas = np.broadcast_to(shape.opacities, len(shape.positions)).tolist()
-                    each = zip(shape.positions.tolist(), colors, alphas, strict=True)
+                    each = zip(looks.tolist(), colors, alphas, strict=True)
                 case Points():
-                    each = [(place, shape.opacity) for place in shape.positions.tolist()]
+                    each = [
+                        (place, shape.size_m, shape.opacity) for place in shape.positions.tolist()
+                    ]
                 case Lines():
-                    each = [(ends, shape.opacity) for ends in shape.ends.tolist()]
+                    each = [(ends, shape.width_m, shape.opacity) for ends in shape.ends.tolist()]
                 case _:
                     name, each = name.split("-")[0], [shape]  # noqa: PLW2901 - its row is anyone's
             found += [f"{where} {name} {one}" for one in each]
