@@ -93,7 +93,7 @@ def test_a_robot_and_its_meshes_chosen_together_find_each_other(
     tab.page.locator("input[type=file]").first.set_input_files([robot, mesh])
     tab.page.wait_for_url("**/d/a-b*")
     wait_until("it to be drawn", tab.has_drawn_robot)
-    assert tab.page.get_by_text(robot.name).count() > 0
+    wait_until("its name", lambda: tab.page.get_by_text(robot.name).count() > 0)
 
 
 def _send_slowly(network: CDPSession) -> None:
@@ -115,7 +115,8 @@ def test_a_sending_that_is_cancelled_leaves_nothing(tab: StudioPage, folder: Pat
     wait_until("the sending to begin", lambda: set(uploads.glob("*")) > before)
     tab.page.get_by_role("button", name="Cancel").click()
     wait_until("it to be gone", lambda: set(uploads.glob("*")) == before)
-    assert tab.page.get_by_text("Sending large.stl").count() == 0
+    sending = tab.page.get_by_text("Sending large.stl")
+    wait_until("the page to say so", lambda: sending.count() == 0)
 
 
 def test_a_pasted_text_is_drawn_at_once_and_gets_a_place_by_saving_it(tab: StudioPage):

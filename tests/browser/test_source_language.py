@@ -184,7 +184,7 @@ def test_a_viewer_reads_what_words_mean_and_writes_nothing(
     open_file(viewer, "wheel.xacro")
     read_by_pointing(viewer, FRONT, "wheel_base", "0.38")
     viewer.page.get_by_role("button", name="spoke", exact=False).first.click()
-    assert viewer.page.get_by_role("button", name="Go to definition").is_visible()
+    viewer.page.get_by_role("button", name="Go to definition").wait_for()
     assert viewer.page.get_by_role("button", name="Insert call").count() == 0
     viewer.page.get_by_role("treeitem", name="rover.urdf.xacro").focus()
     viewer.page.keyboard.press("ArrowDown")

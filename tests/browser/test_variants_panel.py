@@ -60,7 +60,7 @@ def look_as_a_viewer(browser: Browser, studio: RunningStudio, radii: list[str]) 
     show(viewer, "Variants")
     given = panel(viewer).get_by_role("row", name="wheel_radius property")
     given.wait_for()
-    assert given.get_by_role("cell").all_inner_texts() == radii
+    wait_until("both", lambda: given.get_by_role("cell").all_inner_texts() == radii)
     switches = panel(viewer).get_by_title("Only who has control can switch")
     assert [one.is_disabled() for one in switches.all()] == [True, True]
     for name in ("Save as variant…", "Over", "End the comparison"):
@@ -75,7 +75,7 @@ def compare(tab: StudioPage, was: str, now: str) -> None:
     tab.page.get_by_role("menuitem", name="Compare with the present robot").click()
     given = panel(tab).get_by_role("row", name="wheel_radius property")
     given.wait_for()
-    assert given.get_by_role("cell").all_inner_texts() == [was, now]
+    wait_until("both", lambda: given.get_by_role("cell").all_inner_texts() == [was, now])
     search = panel(tab).get_by_role("searchbox", name="Filter differences")
     search.fill("front_left_wheel radius")
     wheel = panel(tab).get_by_role("row", name="Collision 1 radius")
