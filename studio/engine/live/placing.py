@@ -90,11 +90,23 @@ class Placing:
         self._placed = {}
         self._shown = Shown(self._shown.drawing, {})
 
+    def forget(self) -> None:
+        """What waits is of another time, and is not shown any more."""
+        self._waiting.clear()
+        self._newest = {}  # even nothing is news now
+        self.renew()
+
+    @property
+    def waits(self) -> bool:
+        """Whether a drawing waits for its transforms."""
+        return bool(self._waiting)
+
     def _try(self, drawing: Drawing, lookup: Lookup) -> _Tried:
         tried = _Tried()
         for path, placed in drawing.items():
             known = self._shown.poses.get(path)
-            if known is not None and self._placed.get(path) is placed and not _moves(placed):
+            is_there = known is not None and _is_same_place(self._placed.get(path), placed)
+            if is_there and not _moves(placed):
                 tried.poses[path] = known
                 continue
             try:
@@ -124,6 +136,16 @@ class Placing:
     def _forget_older(self, at: int) -> None:
         for _ in range(at + 1):
             self._waiting.popleft()
+
+
+def _is_same_place(before: Placed | None, now: Placed) -> bool:
+    """Whether only the shapes may differ: what was placed once stays, however long ago it was."""
+    return before is not None and (before.frame, before.stamp_ns, before.follows, before.turns) == (
+        now.frame,
+        now.stamp_ns,
+        now.follows,
+        now.turns,
+    )
 
 
 def _moves(placed: Placed) -> bool:

@@ -143,3 +143,17 @@ def test_what_does_not_turn_with_its_frame_is_only_moved():
     shown = placing.step(lambda _frame, _stamp_ns: (turned, (1.0, 2.0, 3.0)), MOMENT)
     assert shown is not None
     assert shown.poses == {"turns": (turned, (1.0, 2.0, 3.0)), "stays": (NO_TURN, (1.0, 2.0, 3.0))}
+
+
+def test_other_shapes_at_the_same_place_and_time_stay_there_however_long_ago_it_was():
+    placing, frames = Placing(), Frames(scan=10)
+    placing.offer(drawing("scan", 5), MOMENT)
+    placing.step(frames.lookup, MOMENT)
+
+    def lookup(frame: str, stamp_ns: int) -> Pose:
+        raise ExtrapolationError(frame, stamp_ns, 100, 200)
+
+    placing.offer({"": Placed("scan", 5, {})}, MOMENT)
+    shown = placing.step(lookup, MOMENT)
+    assert shown is not None
+    assert shown.poses == {"": (NO_TURN, (5.0, 0.0, 0.0))}
