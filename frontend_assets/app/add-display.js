@@ -10,7 +10,7 @@ import { Dialog, Icon, SearchBox } from "../lib/ui.js";
 import { addDisplay, needKinds, topicsNow } from "./live.js";
 import { connectRos } from "./ros.js";
 import { mayEdit } from "./state/connection.js";
-import { kinds } from "./state/live.js";
+import { kinds, liveDisplays } from "./state/live.js";
 import { ros } from "./state/ros.js";
 
 /** @typedef {"topic" | "kind"} By */
@@ -43,7 +43,9 @@ export function AddDisplayDialog({ onClose }) {
     busy.value = true;
     const done = await addDisplay(offer.kind, offer.topic);
     busy.value = false;
-    if (done) onClose();
+    if (!done) return;
+    onClose();
+    showNewest();
   };
   /** @param {KeyboardEvent} event */
   const onKeyDown = (event) => {
@@ -82,6 +84,14 @@ export function AddDisplayDialog({ onClose }) {
       <button type="button" class="button primary" disabled=${!mayEdit.value || busy.value || !offers[chosen] || offers[chosen]?.off !== ""}
         onClick=${() => add(offers[chosen])}>${t("live.add")}</button></footer>
   <//>`;
+}
+
+/** Scroll its row into view. */
+function showNewest() {
+  const id = liveDisplays.value.at(-1)?.id ?? "";
+  requestAnimationFrame(() =>
+    document.getElementById(`row-display:${id}`)?.scrollIntoView({ block: "nearest" }),
+  );
 }
 
 /** @returns {import("vendor/preact.js").Signal<readonly TopicView[] | null>} kept up to date; null: not known yet */

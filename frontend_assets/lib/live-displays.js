@@ -67,16 +67,20 @@ const membersOf = (entry) => ("display" in entry ? [entry.display] : entry.membe
 /**
  * Where what stands at a place of a list comes to stand when it goes one place up or down.
  *
+ * @param {readonly DisplayView[]} all in their order
  * @param {readonly (readonly DisplayView[])[]} list of what moves as one
  * @param {number} at
  * @param {1 | -1} step
  * @returns {{display: string, before: string}[] | null} what is to be moved, one after the other; null: it is at the end
  */
-function stepped(list, at, step) {
+function stepped(all, list, at, step) {
   const over = list[at + step];
   const moved = list[at];
   if (!over || !moved) return null;
-  const before = step < 0 ? over[0] : list[at + 2]?.[0];
+  const last = over.at(-1);
+  // At the end of a group it stays before what follows the group.
+  const behind = list[at + 2]?.[0] ?? all[last ? all.indexOf(last) + 1 : all.length];
+  const before = step < 0 ? over[0] : behind;
   return moved.map(({ id }) => ({ display: id, before: before?.id ?? "" }));
 }
 
@@ -92,14 +96,14 @@ export function moveOfDisplay(displays, id, step) {
   const list =
     group === "" ? entries : displays.filter((one) => one.group === group).map((one) => [one]);
   const at = list.findIndex((members) => members[0]?.id === id);
-  return at < 0 ? null : stepped(list, at, step);
+  return at < 0 ? null : stepped(displays, list, at, step);
 }
 
 /** @param {readonly DisplayView[]} displays @param {string} group @param {1 | -1} step */
 export function moveOfGroup(displays, group, step) {
   const list = inGroups(displays).map(membersOf);
   const at = list.findIndex((members) => members[0]?.group === group);
-  return at < 0 ? null : stepped(list, at, step);
+  return at < 0 ? null : stepped(displays, list, at, step);
 }
 
 /** @param {readonly DisplayView[]} displays @returns {string[]} names of groups, each once */

@@ -44,7 +44,7 @@ export const groupKeys = (group) => ({
 /** @param {string} row */
 function menuKeys(row) {
   const open = () => {
-    const button = document.getElementById(rowId(row))?.querySelector(".row-menu");
+    const button = document.getElementById(rowId(row))?.querySelector(".tree-menu");
     if (button instanceof HTMLElement) button.click();
   };
   return { ContextMenu: open, "Shift+F10": open };
@@ -66,7 +66,7 @@ export function RowMenu({ row, name }) {
     else menu.current = openMenu(button, label, itemsOf(row));
   };
   // Its keys are the row's, so this is not one more stop for the Tab key.
-  return html`<button type="button" class="row-menu" aria-label=${label} title=${label} aria-haspopup="menu"
+  return html`<button type="button" class="tree-menu" aria-label=${label} title=${label} aria-haspopup="menu"
     aria-expanded="false" tabindex=${-1} onClick=${toggle}><${Icon} name="dots" size=${15} /></button>`;
 }
 

@@ -103,6 +103,7 @@ function displayRow(display, level, state, open) {
   const row = `display:${id}`;
   return {
     id: row,
+    kind: "display",
     level,
     label: name,
     hint: `${name}\n${kinds.value.get(kind)?.doc ?? kind}`,

@@ -19,7 +19,7 @@ import { Switch } from "../lib/ui.js";
 export function settingsOf(display, level, isOpen) {
   const kind = kinds.value.get(display.kind);
   if (!kind) return [{ id: `setting:${display.id}`, level, label: t("loading"), icon: "" }];
-  const properties = allProperties(kind, display);
+  const properties = [...kind.properties, ...display.more];
   const byName = new Map(properties.map((one) => [one.name, one]));
   const counting = properties.filter((one) =>
     counts(one, byName, (name) => settingOf(display, name)),
@@ -43,29 +43,6 @@ export function settingsOf(display, level, isOpen) {
     })),
   ];
 }
-
-/** @param {DisplayKindView} kind @param {DisplayView} display @returns {PropertyView[]} its own, and those that came with messages, as namespaces of markers */
-function allProperties(kind, { values }) {
-  const known = new Set(kind.properties.map(({ name }) => name));
-  const more = Object.entries(values).filter(
-    ([name, value]) => !known.has(name) && typeof value === "boolean",
-  );
-  return [...kind.properties, ...more.map(([name]) => switchNamed(name))];
-}
-
-/** @param {string} name @returns {PropertyView} */
-const switchNamed = (name) => ({
-  name,
-  kind: "switch",
-  default: true,
-  doc: name,
-  low: null,
-  high: null,
-  unit: "",
-  choices: [],
-  when: "",
-  when_values: [],
-});
 
 /** @param {DisplayView} display @param {DisplayKindView} kind @param {number} level @param {(id: string) => boolean} isOpen @returns {Row[]} */
 function listeningRows(display, kind, level, isOpen) {

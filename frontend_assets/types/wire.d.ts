@@ -296,6 +296,7 @@ export interface DisplayView {
   depth: number;
   wished: ListeningWish;
   values: Record<string, boolean | number | string>;
+  more: PropertyView[];
 }
 
 /** The shared display settings: display, then setting, then value. */

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from itertools import islice
+from typing import TYPE_CHECKING, Final
 
 from studio.displays.tf import TfDisplay
+from studio.engine.live.catalogue_views import property_view
 from studio.engine.live.frames_desk import FramesDesk
 from studio.engine.live.reasons import remarks_on
 from studio.engine.live.running import RunningDisplay
@@ -13,6 +15,7 @@ from studio.engine.messages.live import (
     DisplayStates,
     DisplayView,
     ListeningWish,
+    PropertyView,
     Remark,
 )
 from studio.errors import CommandError, SceneError
@@ -27,6 +30,8 @@ if TYPE_CHECKING:
     from studio.engine.model import Model
     from studio.engine.wire.link import WireLink
 
+_MORE_MAX: Final = 500
+"""Properties of one display that came with messages: more are not told."""
 _STILL: Pose = ((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
 
@@ -119,6 +124,7 @@ class DrawingRoom:
             depth=depth,
             wished=_wished(spec.listening),
             values=dict(running.display.values),
+            more=_more_properties(running.display),
         )
 
     def states(self, displays: DisplayList, now_ns: int) -> DisplayStates:
@@ -178,3 +184,9 @@ def _wished(listening: Listening) -> ListeningWish:
     return ListeningWish(
         reliable=listening.reliable, latched=listening.latched, depth=listening.depth
     )
+
+
+def _more_properties(display: Display) -> tuple[PropertyView, ...]:
+    own = frozenset(display.PROPERTIES)
+    more = (one for one in display.properties() if one not in own)
+    return tuple(map(property_view, islice(more, _MORE_MAX)))

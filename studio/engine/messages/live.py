@@ -111,22 +111,6 @@ LiveCommand: TypeAlias = (
 )  # fmt: skip
 
 
-class PropertyView(Message):
-    """A property of a kind of display."""
-
-    name: str
-    kind: Literal["switch", "whole", "number", "colour", "choice", "text", "frame"]
-    default: PropertyValue
-    doc: str
-    low: float | None
-    high: float | None
-    unit: str
-    choices: tuple[str, ...]
-    when: str
-    """The property that it depends on; empty: none."""
-    when_values: tuple[PropertyValue, ...]
-
-
 class DisplayKindView(Message):
     """A kind of display."""
 
@@ -143,6 +127,22 @@ class DisplayKinds(Message):
     type: Literal["display_kinds"] = "display_kinds"
     request: int
     kinds: tuple[DisplayKindView, ...]
+
+
+class PropertyView(Message):
+    """A property of a kind of display."""
+
+    name: str
+    kind: Literal["switch", "whole", "number", "colour", "choice", "text", "frame"]
+    default: PropertyValue
+    doc: str
+    low: float | None
+    high: float | None
+    unit: str
+    choices: tuple[str, ...]
+    when: str
+    """The property that it depends on; empty: none."""
+    when_values: tuple[PropertyValue, ...]
 
 
 class ListeningWish(Message):
@@ -168,6 +168,8 @@ class DisplayView(Message):
     wished: ListeningWish
     """What of these three was chosen; `reliable`, `latched` and `depth` are as they are now."""
     values: dict[str, PropertyValue]
+    more: tuple[PropertyView, ...]
+    """What can be set beside what its kind has, as namespaces of markers that came."""
 
 
 class LiveDisplays(Message):
