@@ -12,7 +12,7 @@ from tests.support.command_line import studio
 from tests.support.demos import heard, node_at, running, running_demo
 from tests.support.wire import running_router, wait_until
 
-pytestmark = [pytest.mark.network, pytest.mark.timeout(120)]
+pytestmark = pytest.mark.network
 README = Path(__file__).resolve().parents[2] / "README.md"
 
 
