@@ -32,6 +32,8 @@ if TYPE_CHECKING:
 
 _MORE_MAX: Final = 500
 """Properties of one display that came with messages: more are not told."""
+_AT_ONCE_S: Final = 0.03
+"""All displays together take messages for so long in one step: the loop has other work, too."""
 _STILL: Pose = ((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
 
@@ -43,6 +45,7 @@ class DrawingRoom:
         self.frames = FramesDesk(model)
         self._running: dict[str, RunningDisplay] = {}
         self._faults: dict[str, str] = {}
+        self._seen: frozenset[str] = frozenset()
         self._robot_at: Pose = _STILL
         self._robot_trouble = ""
 
@@ -65,19 +68,18 @@ class DrawingRoom:
         raise CommandError("This display is not there any more: choose another.")
 
     def close(self, display: str) -> RunningDisplay | None:
-        """Take one out of the scene; whoever asks ends its listening, in a thread."""
+        """Take one out of the scene; whoever asks closes it, in a thread."""
         self._scene.live.drop(display)
         self._faults.pop(display, None)
         return self._running.pop(display, None)
 
     def listen(self, link: WireLink, shown: Iterable[str]) -> None:
         """Have TF and those that are shown heard, and no others; in a thread."""
-        if not self.frames.listens:
-            self.frames.listen(link, link.graph)
-        wanted = set(shown)
+        self.frames.listen(link, link.graph)
+        wanted, connected = set(shown), link.is_connected
         for display, running in tuple(self._running.items()):
             if display in wanted:
-                running.listen(link, [link.graph.publishers(one) for one in running.topics])
+                running.listen(link, link.graph.publishers, connected=connected)
             else:
                 running.deafen()
 
@@ -86,6 +88,12 @@ class DrawingRoom:
         self.frames.deafen()
         for running in tuple(self._running.values()):
             running.deafen()
+
+    def close_all(self) -> None:
+        """Have nothing heard any more, whoever is about to listen; in a thread."""
+        self.frames.close()
+        for running in tuple(self._running.values()):
+            running.close()
 
     def renew(self) -> None:
         """The fixed frame is another: everything is placed anew."""
@@ -96,10 +104,10 @@ class DrawingRoom:
         """Draw what came since the last step."""
         self.frames.step()
         self._place_robot()
-        shown = [(one.id, self._running[one.id]) for one in displays if displays.is_shown(one)]
-        self._show_frames(running.display for _, running in shown)
-        for display, running in shown:
-            self._draw(display, running, now_ns)
+        shown = self._shown_of(displays)
+        self._show_frames(running.display for running in shown.values())
+        for display, running in shown.items():
+            self._draw(display, running, now_ns, _AT_ONCE_S / len(shown))
 
     def view(self, spec: DisplaySpec) -> DisplayView:
         """One display as it is set."""
@@ -148,9 +156,19 @@ class DrawingRoom:
             remarks=remarks,
         )
 
-    def _draw(self, display: str, running: RunningDisplay, now_ns: int) -> None:
+    def _shown_of(self, displays: DisplayList) -> dict[str, RunningDisplay]:
+        """Those that are seen; what came before time jumped, or before one was hidden, is not."""
+        shown = {one.id: self._running[one.id] for one in displays if displays.is_shown(one)}
+        jumped = self.frames.has_jumped()
+        for display, running in self._running.items():
+            if jumped or (display in self._seen and display not in shown):
+                running.reset()
+        self._seen = frozenset(shown)
+        return shown
+
+    def _draw(self, display: str, running: RunningDisplay, now_ns: int, at_once_s: float) -> None:
         drawn = running.drawn
-        shown = running.step(self.frames.lookup, now_ns)
+        shown = running.step(self.frames.lookup, now_ns, at_once_s)
         if shown is None:
             return
         try:

@@ -68,23 +68,30 @@ class Ear:
 
 
 def wish_for(
-    role: TopicRole, topic: str, chosen: Listening, publishers: Sequence[GraphEndpoint]
+    role: TopicRole,
+    topic: str,
+    chosen: Listening,
+    publishers: Sequence[GraphEndpoint],
+    before: Wish | None = None,
 ) -> Wish:
     """Listen as fits those who publish, unless somebody chose otherwise.
 
-    A topic that is latched by one is asked for what it said before; reliably, if all send so.
+    A topic that is latched by one is asked for what it said before; reliably, if all send so. When
+    all are gone, it is listened to as `before`: they may come back.
     """
-    fitting = [one for one in publishers if one.type_name in role.types]
-    latched, reliable = role.latched, role.reliable
-    if fitting:
+    name, latched, reliable = role.types[0], role.latched, role.reliable
+    if fitting := [one for one in publishers if one.type_name in role.types]:
+        name = min((one.type_name for one in fitting), key=role.types.index)
         latched = any(_is_latched(one.qos) for one in fitting)
         reliable = all(one.qos.reliability is not ReliabilityPolicy.BEST_EFFORT for one in fitting)
+    elif before is not None:
+        name, latched, reliable = before.type_name, before.latched, before.reliable
     return Wish(
         role.topic(topic),
-        fitting[0].type_name if fitting else role.types[0],
+        name,
         reliable if chosen.reliable is None else chosen.reliable,
         latched if chosen.latched is None else chosen.latched,
-        min(chosen.depth or role.depth, _DEPTH_MAX),
+        min(max(1, chosen.depth or role.depth), _DEPTH_MAX),
     )
 
 
@@ -94,10 +101,11 @@ def on_wire(
     """What is known of those who publish the topic of a role."""
     fitting = [one for one in publishers if one.type_name in role.types]
     return OnWire(
-        connected,
-        len(publishers),
-        tuple(dict.fromkeys(one.type_name for one in publishers)),
-        bool(fitting) and all(_is_foreign(one, types) for one in fitting),
+        connected=True,
+        lost=not connected,
+        publishers=len(publishers),
+        types=tuple(dict.fromkeys(one.type_name for one in publishers)),
+        foreign_hash=bool(fitting) and all(_is_foreign(one, types) for one in fitting),
     )
 
 

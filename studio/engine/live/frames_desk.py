@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final
+import threading
+from typing import TYPE_CHECKING, Final, Protocol
 
 from studio.displays.drawing import FIXED_FRAME
 from studio.engine.live.own_frames import OwnFrames
@@ -16,11 +17,12 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from studio.engine.live.ear import Hearing
+    from studio.engine.live.own_frames import PosedRobot
     from studio.engine.live.placing import Pose
-    from studio.engine.model import Model
-    from studio.ros.graph.graph import Graph
+    from studio.ros.graph.endpoints import GraphEndpoint
     from studio.ros.node.info import MessageInfo
     from studio.tf.admission import Notice
+    from studio.tf.columns import TransformColumns
     from studio.tf.report import FrameReport
 
 _TF_TYPE: Final = "tf2_msgs/msg/TFMessage"
@@ -31,18 +33,39 @@ _NOTICES_KEPT: Final = 20
 _PUBLISHERS_KEPT: Final = 1_000
 
 
+class KnowsPublishers(Protocol):
+    """What the desk needs of the graph."""
+
+    def endpoint_of_gid(self, gid: bytes) -> GraphEndpoint | None:
+        """Whose message it is."""
+        ...
+
+
+class Epoch:
+    """From the first message that is heard to the last: what comes later does not count."""
+
+    def __init__(self) -> None:
+        self.turn = threading.Lock()
+        self.is_over = False
+
+
 class FramesDesk:
     """Feeds one buffer and answers in the fixed frame.
 
     `/tf` is taken in on the wire's thread; all else is the loop's.
     """
 
-    def __init__(self, model: Model) -> None:
+    def __init__(self, robot: PosedRobot) -> None:
         self.buffer = TransformBuffer()
-        self.own = OwnFrames(model, self.buffer)
+        self.own = OwnFrames(robot, self.buffer)
         self.chosen = ""
         """The fixed frame as chosen; empty: the root link of the robot."""
+        self._turn = threading.Lock()
+        """Who listens and who ends that come from different threads."""
         self._ends: list[Callable[[], None]] = []
+        self._epoch = Epoch()
+        self._closed = False
+        self._jumped = False
         self._publishers: dict[bytes, str] = {}
         self._notices: dict[str, Notice] = {}
 
@@ -51,25 +74,40 @@ class FramesDesk:
         """The frame that everything is drawn in."""
         return self.chosen or self.own.root
 
-    @property
-    def listens(self) -> bool:
-        """Whether TF is heard."""
-        return bool(self._ends)
-
-    def listen(self, hearing: Hearing, graph: Graph) -> None:
-        """Hear TF from now on; in a thread."""
-        for topic, static in (("/tf_static", True), ("/tf", False)):
-            take = self._taker(graph, static=static)
-            self._ends.append(hearing.hear(_TF_TYPE, topic, take, _STATIC if static else _DYNAMIC))
+    def listen(self, hearing: Hearing, graph: KnowsPublishers) -> None:
+        """Hear TF from now on, if it is not heard already; in a thread."""
+        with self._turn:
+            if self._ends or self._closed:
+                return
+            for topic, static in (("/tf_static", True), ("/tf", False)):
+                take, qos = self._taker(graph, static=static), _STATIC if static else _DYNAMIC
+                self._ends.append(hearing.hear(_TF_TYPE, topic, take, qos))
 
     def deafen(self) -> None:
         """Hear TF no more, and forget what it told; in a thread."""
-        ends, self._ends = self._ends, []
-        for end in ends:
-            end()
-        self.buffer.clear()
-        self._publishers.clear()
-        self.own.take_back()
+        with self._turn:
+            ends, self._ends = self._ends, []
+            for end in ends:
+                end()
+            before, self._epoch = self._epoch, Epoch()
+            with before.turn:  # a message that is being taken in is forgotten with the others
+                before.is_over = True
+                self.buffer.clear()
+                self._publishers.clear()
+                self._notices.clear()
+                self.own.take_back()
+
+    def close(self) -> None:
+        """Hear TF no more, also if somebody is about to listen; in a thread."""
+        self._closed = True
+        self.deafen()
+
+    def has_jumped(self) -> bool:
+        """Whether time went back on /tf since this was asked last, as of a bag that begins anew."""
+        if not self._jumped:
+            return False  # what is said of it at this moment is told the next time
+        self._jumped = False
+        return True
 
     def step(self) -> None:
         """Tell of the robot's own links what nobody else tells."""
@@ -120,23 +158,30 @@ class FramesDesk:
             return None, str(error)
         return TfPose(wxyz=pose.wxyz, xyz=pose.xyz, chain=chain), ""
 
-    def _taker(self, graph: Graph, *, static: bool) -> Callable[[bytes, MessageInfo], None]:
-        codec = TransformCodec()
+    def _taker(
+        self, graph: KnowsPublishers, *, static: bool
+    ) -> Callable[[bytes, MessageInfo], None]:
+        codec, epoch = TransformCodec(), self._epoch
 
         def take(data: bytes, info: MessageInfo) -> None:
             try:
                 columns = codec.decode(data)
             except CdrError:
                 return
-            self.own.leave_to_others(frozenset(columns.children))
             name = self._publisher(graph, info["publisher_gid"])
-            notices = self.buffer.put(columns, static=static, publisher=name)
-            for one in notices:
-                self._note(one)
+            with epoch.turn:
+                if not epoch.is_over:
+                    self._take(columns, name, static=static)
 
         return take
 
-    def _publisher(self, graph: Graph, gid: bytes) -> str:
+    def _take(self, columns: TransformColumns, publisher: str, *, static: bool) -> None:
+        self.own.leave_to_others(columns.children)
+        for one in self.buffer.put(columns, static=static, publisher=publisher):
+            self._note(one)
+            self._jumped |= one.kind == "time_jumped"
+
+    def _publisher(self, graph: KnowsPublishers, gid: bytes) -> str:
         """The node that has a GID; one that is not known yet is looked up again."""
         if name := self._publishers.get(gid):
             return name

@@ -27,6 +27,10 @@ if TYPE_CHECKING:
 _TICK_S: Final = 1 / 30
 _LOOK_EVERY_S: Final = 0.5
 """Between two looks at who publishes, and two words about how displays fare."""
+_UNSEEN_S: Final = 10.0
+"""After so long without a page nothing is heard and drawn; one that is loaded anew misses none."""
+_PAUSE_SHARE: Final = 0.5
+"""After a step that took long, others get this share of its time."""
 _ASKED_FOR_S: Final = 5.0
 """TF is heard so long after somebody asked for frames: a panel of them asks every second."""
 
@@ -52,6 +56,9 @@ class LiveDesk:
         self._listening = asyncio.Lock()
         self._ticking: asyncio.Task[None] | None = None
         self._keeping: asyncio.Task[None] | None = None
+        self._unkept: KeptDisplays | None = None
+        self._seen_s = time.monotonic()
+        self._fault = ""
         self._looked_s = 0.0
         self._asked_until_s = 0.0
         self._told: m.DisplayStates | None = None
@@ -88,21 +95,23 @@ class LiveDesk:
             _log.warning("The display %s was left out: %s", spec.name, error)
 
     def events(self) -> Iterable[m.LiveEvent]:
-        """What a newcomer is told."""
+        """What a newcomer is told; with somebody there, it is drawn again."""
+        self._seen_s = time.monotonic()
+        self._go_on()
         yield self._displays()
         if self._told is not None:
             yield self._told
 
     async def add(self, command: m.AddDisplay) -> None:
         """Add a display; with a topic, the connection is made if there is none."""
-        spec = self._list.add(command.kind, command.topic)
+        spec = self._list.add(command.kind, _full_name(command.topic))
         try:
             self._room.open(spec)
         except StudioError:
             self._list.remove(spec.id)
             raise
         self._changed()
-        if command.topic:
+        if spec.topic:
             await self._connect()
 
     async def remove(self, command: m.RemoveDisplay) -> None:
@@ -111,7 +120,7 @@ class LiveDesk:
         running = self._room.close(command.display)
         self._changed()
         if running is not None:
-            await asyncio.to_thread(running.deafen)
+            await asyncio.to_thread(running.close)
 
     def duplicate(self, command: m.DuplicateDisplay) -> None:
         """Add one like another."""
@@ -141,14 +150,14 @@ class LiveDesk:
         """Listen to another topic, or otherwise."""
         before = self._list.get(command.display)
         listening = Listening(command.reliable, command.latched, command.depth)
-        spec = replace(before, topic=command.topic.strip(), listening=listening)
+        spec = replace(before, topic=_full_name(command.topic), listening=listening)
         old = None
         if spec.topic != before.topic:
             old = self._room.close(spec.id)
             self._room.open(spec)
         self._change(spec)
         if old is not None:
-            await asyncio.to_thread(old.deafen)
+            await asyncio.to_thread(old.close)
         if spec.topic:
             await self._connect()
 
@@ -205,6 +214,8 @@ class LiveDesk:
             self._ticking.cancel()
             await asyncio.gather(self._ticking, return_exceptions=True)
         await self.let_go()
+        if self._made is not None:
+            await asyncio.to_thread(self._made.close_all)
         if self._keeping is not None:
             await self._keeping
 
@@ -235,15 +246,15 @@ class LiveDesk:
             self._document.scene.live.show(spec.id, visible=self._list.is_shown(spec))
 
     def _keep(self) -> None:
-        kept = KeptDisplays(tuple(self._list), self._list.groups_off, self._fixed_frame)
-        before = self._keeping
+        self._unkept = KeptDisplays(tuple(self._list), self._list.groups_off, self._fixed_frame)
+        if self._keeping is None or self._keeping.done():
+            self._keeping = asyncio.create_task(self._write())
 
-        async def write() -> None:
-            if before is not None:
-                await before
+    async def _write(self) -> None:
+        """Keep the newest until there is no newer: a slider changes faster than the disk."""
+        while self._unkept is not None:
+            kept, self._unkept = self._unkept, None
             await asyncio.to_thread(self._file.write, kept)
-
-        self._keeping = asyncio.create_task(write())
 
     @property
     def _fixed_frame(self) -> str:
@@ -251,8 +262,11 @@ class LiveDesk:
 
     @property
     def _is_on(self) -> bool:
-        asked = time.monotonic() < self._asked_until_s
-        return asked or len(self._list) > 0 or self._fixed_frame != ""
+        now_s = time.monotonic()
+        if self._document.board.audience:
+            self._seen_s = now_s
+        wanted = now_s < self._asked_until_s or len(self._list) > 0 or self._fixed_frame != ""
+        return wanted and now_s - self._seen_s < _UNSEEN_S
 
     def _go_on(self) -> None:
         idle = self._ticking is None or self._ticking.done()
@@ -264,25 +278,36 @@ class LiveDesk:
         while self._is_on:
             began_s = loop.time()
             try:
-                if began_s - self._looked_s >= _LOOK_EVERY_S:
+                looks = began_s - self._looked_s >= _LOOK_EVERY_S
+                if looks:
                     self._looked_s = began_s
                     await self._listen()
+                self._room.step(self._list, time.time_ns())
+                if looks:
                     self._tell_displays()
                     self._tell_states()
-                self._room.step(self._list, time.time_ns())
-            except Exception:  # noqa: BLE001 - one display that fails must not end the others
-                _log.exception("A tick of the live scene failed.")
-            await asyncio.sleep(max(0.0, began_s + _TICK_S - loop.time()))
+            except Exception as error:  # noqa: BLE001 - what fails once must not end the rest
+                self._log_once(error)
+            ended_s = loop.time()
+            await asyncio.sleep(
+                max(began_s + _TICK_S - ended_s, _PAUSE_SHARE * (ended_s - began_s))
+            )
         self._room.step(self._list, time.time_ns())
         self._tell_states()
         await self.let_go()
         self._ticking = None
         self._go_on()  # somebody may have asked meanwhile
 
+    def _log_once(self, error: Exception) -> None:
+        """Say that a tick failed, unless that is what was said last: there are many ticks."""
+        if repr(error) != self._fault:
+            self._fault = repr(error)
+            _log.error("A tick of the live scene failed.", exc_info=error)
+
     async def _listen(self) -> None:
         """Listen to what is shown, as fits who publishes now."""
         link = self._wire.current
-        if link is not self._link:
+        if self._link is not None and link is not self._link:
             await self.let_go()
         async with self._listening:
             if link is None:
@@ -310,6 +335,12 @@ class LiveDesk:
             groups_off=self._list.groups_off,
             fixed_frame=self._fixed_frame,
         )
+
+
+def _full_name(topic: str) -> str:
+    """A topic as the graph names it."""
+    topic = topic.strip()
+    return f"/{topic}" if topic and topic[0] not in "/~" else topic
 
 
 def _topics_of(link: WireLink) -> tuple[m.TopicView, ...]:

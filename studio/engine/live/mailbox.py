@@ -7,6 +7,8 @@ from collections import deque
 from typing import TYPE_CHECKING, Final
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from studio.displays.display import Received
 
 _KEPT_MAX: Final = 1_000
@@ -39,15 +41,15 @@ class Mailbox:
                 self._bytes -= len(self._waiting.popleft().cdr)
                 self.lost += self._counts_loss
 
-    def take(self) -> list[Received]:
-        """Take out what waits, the oldest first."""
-        if not self._waiting:
-            return []
-        with self._lock:
-            taken = list(self._waiting)
-            self._waiting.clear()
-            self._bytes = 0
-        return taken
+    def take(self) -> Iterator[Received]:
+        """Take them out one by one, the oldest first: what is not asked for stays."""
+        while self._waiting:
+            with self._lock:
+                if not self._waiting:
+                    return
+                received = self._waiting.popleft()
+                self._bytes -= len(received.cdr)
+            yield received
 
     def rate_hz(self, now_ns: int) -> float:
         """Messages in a second, of late."""

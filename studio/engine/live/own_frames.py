@@ -3,20 +3,44 @@
 from __future__ import annotations
 
 import threading
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, NamedTuple, Protocol
 
 import numpy as np
 
+from studio.tf.admission import plain
 from studio.tf.columns import Transforms
+from studio.tf.forest import FRAMES_MAX
 from studio.tf.rotations import matrices_from_poses, poses_from_matrices
 
 if TYPE_CHECKING:
-    from studio.engine.model import Model
+    from studio.engine.posing.joints import JointPositions
     from studio.robot.kinematics import Floats, Kinematics
     from studio.robot.values import Robot
     from studio.tf.buffer import TransformBuffer
+    from studio.tf.columns import Numbers
 
 PUBLISHER: Final = "this robot"
+_ROUNDING: Final = 1e-12
+"""What moves less than this does not move: edges are computed from poses in the root link."""
+
+
+class PosedRobot(Protocol):
+    """A robot and where its joints stand: what OwnFrames needs of a model."""
+
+    @property
+    def robot(self) -> Robot:
+        """Its links and joints."""
+        ...
+
+    @property
+    def kinematics(self) -> Kinematics:
+        """Of this robot; made anew with it."""
+        ...
+
+    @property
+    def joints(self) -> JointPositions:
+        """Where its joints stand."""
+        ...
 
 
 class OwnFrames:
@@ -26,11 +50,14 @@ class OwnFrames:
     taken in, for a static one is told only once.
     """
 
-    def __init__(self, model: Model, buffer: TransformBuffer) -> None:
-        self._model, self._buffer = model, buffer
+    def __init__(self, robot: PosedRobot, buffer: TransformBuffer) -> None:
+        self._robot, self._buffer = robot, buffer
         self._lock = threading.Lock()
         self._kinematics: Kinematics | None = None
         self._values: Floats = np.empty(0)
+        self._edges: _Edges | None = None
+        self._told: Floats = np.empty((0, 7))
+        """The pose of each edge as it was told last."""
         self._rooted: Robot | None = None
         self._root = ""
         self._children: frozenset[str] = frozenset()
@@ -39,8 +66,8 @@ class OwnFrames:
     @property
     def root(self) -> str:
         """The robot's root link; empty before there is a robot."""
-        if self._rooted is not self._model.robot:
-            self._rooted = self._model.robot
+        if self._rooted is not self._robot.robot:
+            self._rooted = self._robot.robot
             children = {joint.child for joint in self._rooted.joints.values()}
             self._root = next((one for one in self._rooted.links if one not in children), "")
         return self._root
@@ -48,56 +75,108 @@ class OwnFrames:
     @property
     def links(self) -> tuple[str, ...]:
         """All its links."""
-        return self._model.kinematics.link_names
+        return self._robot.kinematics.link_names
 
-    def leave_to_others(self, children: frozenset[str]) -> None:
+    @property
+    def left_to_others(self) -> int:
+        """Frames that the wire tells of, as far as they are known."""
+        return len(self._told_by_others)
+
+    def leave_to_others(self, names: tuple[str, ...]) -> None:
         """Tell no more of frames that the wire tells of."""
-        if children <= self._told_by_others:
+        if self._told_by_others.issuperset(names):
             return
+        children = frozenset(map(plain, names))
         with self._lock:
-            self._told_by_others |= children
-            self._buffer.drop(children & self._children)
-            self._children -= children
+            own = children & self._children
+            # Names without end must not fill the memory.
+            is_full = len(self._told_by_others) >= FRAMES_MAX
+            self._told_by_others |= own if is_full else children
+            if own:
+                self._buffer.drop(own)
+                self._children -= own
+                self._edges = None
 
     def take_back(self) -> None:
         """Tell of all again: nobody is heard any more."""
         with self._lock:
             self._told_by_others, self._children = frozenset(), frozenset()
-            self._kinematics = None
+            self._kinematics = self._edges = None
 
     def step(self) -> None:
         """Tell what changed since the last step."""
-        robot, kinematics = self._model.robot, self._model.kinematics
-        values = self._model.joints.values
+        kinematics, values = self._robot.kinematics, self._robot.joints.values
         if kinematics is self._kinematics and np.array_equal(values, self._values):
             return
-        poses = kinematics.wxyz_xyz(values)
+        root_from_links = matrices_from_poses(kinematics.wxyz_xyz(values))
         with self._lock:
+            if kinematics is not self._kinematics or self._edges is None:
+                self._find_edges(kinematics.link_names)
             self._kinematics, self._values = kinematics, values.copy()
-            columns = _transforms(robot, kinematics.link_names, poses, self._told_by_others)
-            children = frozenset(columns.children)
-            self._buffer.drop(self._children - children)
-            self._children = children
-            self._buffer.put(columns, static=True, publisher=PUBLISHER)
+            self._tell(root_from_links)
+
+    def _find_edges(self, links: tuple[str, ...]) -> None:
+        before = self._edges
+        self._edges = _edges_of(self._robot.robot, links, self._told_by_others)
+        if before is None or before[:2] != self._edges[:2]:
+            self._told = np.full((len(self._edges.children), 7), np.nan)
+        children = frozenset(self._edges.children)
+        self._buffer.drop(self._children - children)
+        self._children = children
+
+    def _tell(self, root_from_links: Floats) -> None:
+        """Tell of the edges that moved: of a large robot few do."""
+        edges = self._edges
+        if edges is None or not edges.children:
+            return
+        poses = poses_from_matrices(
+            _seen_from(root_from_links[edges.parent_rows], root_from_links[edges.child_rows])
+        )
+        moved = np.flatnonzero(~(np.abs(poses - self._told) <= _ROUNDING).all(axis=1))
+        if moved.size:
+            self._told[moved] = poses[moved]
+            self._buffer.put(edges.transforms(moved, poses), static=True, publisher=PUBLISHER)
 
 
-def _transforms(
-    robot: Robot, links: tuple[str, ...], root_from_links: Floats, left_out: frozenset[str]
-) -> Transforms:
-    """The pose of each link in its parent."""
+class _Edges(NamedTuple):
+    """Which link hangs on which, and where each is among all links."""
+
+    parents: tuple[str, ...]
+    children: tuple[str, ...]
+    parent_rows: Numbers
+    child_rows: Numbers
+
+    def transforms(self, some: Numbers, poses: Floats) -> Transforms:
+        rows: list[int] = some.tolist()
+        return Transforms(
+            tuple(self.parents[row] for row in rows),
+            tuple(self.children[row] for row in rows),
+            np.zeros(len(rows), np.int64),
+            poses[some, 4:],
+            poses[some, :4],
+        )
+
+
+def _seen_from(root_from_parents: Floats, root_from_children: Floats) -> Floats:
+    """The pose of each child in its parent, shape (N, 4, 4)."""
+    parents_from_root = root_from_parents[:, :3, :3].swapaxes(1, 2)  # of rotations, the inverse
+    between = root_from_children[:, :3, 3:] - root_from_parents[:, :3, 3:]
+    found = root_from_children.copy()
+    found[:, :3, :3] = parents_from_root @ root_from_children[:, :3, :3]
+    found[:, :3, 3:] = parents_from_root @ between
+    return found
+
+
+def _edges_of(robot: Robot, links: tuple[str, ...], left_out: frozenset[str]) -> _Edges:
     place = {name: at for at, name in enumerate(links)}
     edges = [
         (one.parent, one.child)
         for one in robot.joints.values()
         if one.parent in place and one.child in place and one.child not in left_out
     ]
-    parents = tuple(parent for parent, _ in edges)
-    children = tuple(child for _, child in edges)
-    root_from_all = matrices_from_poses(root_from_links)
-    root_from_parents = root_from_all[[place[name] for name in parents]]
-    root_from_children = root_from_all[[place[name] for name in children]]
-    if not edges:
-        return Transforms((), (), np.empty(0, np.int64), np.empty((0, 3)), np.empty((0, 4)))
-    poses = poses_from_matrices(np.linalg.inv(root_from_parents) @ root_from_children)
-    stamps_ns = np.zeros(len(edges), np.int64)
-    return Transforms(parents, children, stamps_ns, poses[:, 4:], poses[:, :4])
+    return _Edges(
+        tuple(parent for parent, _ in edges),
+        tuple(child for _, child in edges),
+        np.array([place[parent] for parent, _ in edges], np.int64),
+        np.array([place[child] for _, child in edges], np.int64),
+    )

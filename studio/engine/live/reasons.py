@@ -24,6 +24,7 @@ class OnWire:
 
     Attributes:
         connected: Whether there is a connection with a ROS 2 system at all.
+        lost: Whether there was a connection, and its router is gone.
         publishers: Of the topic, of any type.
         types: Under which it is published.
         foreign_hash: Whether all publishers of a type that fits have it in another form.
@@ -33,6 +34,7 @@ class OnWire:
     publishers: int = 0
     types: tuple[str, ...] = ()
     foreign_hash: bool = False
+    lost: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,6 +54,7 @@ class Facts:
         stamp_zero: Whether messages come without a time.
         statuses: What the display itself says.
         draws: Whether anything of it is on screen.
+        waits: Whether a message waits for its transforms.
     """
 
     spec: DisplaySpec
@@ -66,14 +69,26 @@ class Facts:
     stamp_zero: bool = False
     statuses: tuple[Status, ...] = ()
     draws: bool = False
+    waits: bool = False
 
 
 def remarks_on(facts: Facts) -> tuple[Remark, ...]:
     """What is to be said, the first thing that is in the way first; "ok" when all is well."""
     found = list(_remarks(facts))[:_SHOWN_MAX]
-    if not found and facts.draws and facts.shown:
-        return (Remark(level="ok", reason="", sentence="Shown."),)
+    if not found and facts.shown and not facts.waits:
+        return (_well(facts),)
     return tuple(found)
+
+
+def _well(facts: Facts) -> Remark:
+    """Nothing is in the way."""
+    if facts.draws:
+        return Remark(level="ok", reason="", sentence="Shown.")
+    if facts.heard:
+        what = f"Messages come on {facts.spec.topic}, and there is nothing in them to draw."
+    else:
+        what = "There is nothing to draw."
+    return _warn("empty", what)
 
 
 def _remarks(facts: Facts) -> Iterator[Remark]:
@@ -117,6 +132,11 @@ def _silence(facts: Facts) -> Remark | None:
     spec, wire = facts.spec, facts.wire
     if not spec.topic:
         return _warn("no_topic", f"{spec.kind} listens to no topic yet: choose one.")
+    if wire.lost:
+        return _error(
+            "connection_lost",
+            "The router of ROS 2 is not there any more: it is joined again once it runs.",
+        )
     if not wire.connected:
         return _error(
             "not_connected",

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import logging
+import math
+import threading
+import time
 from contextlib import suppress
 from typing import TYPE_CHECKING, Final
 
@@ -15,7 +18,7 @@ from studio.engine.live.reasons import Facts, OnWire
 from studio.errors import DisplayPropertyError, StudioError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Sequence
+    from collections.abc import Callable, Iterable, Iterator, Sequence
 
     from studio.displays.drawing import Drawing, Placed
     from studio.displays.properties import Value
@@ -27,12 +30,15 @@ if TYPE_CHECKING:
     from studio.ros.types.library import TypeLibrary
 
 _SILENT_S: Final = 5.0
+_NOT_DRAWN: Final = "A message could not be drawn: the terminal says why."
 
 _log = logging.getLogger(__name__)
 
 
 class RunningDisplay:
-    """Lives as long as its kind and topic are the same; on the loop, but for `listen` and `close`.
+    """Lives as long as its kind and topic are the same.
+
+    All is the loop's, but for `listen`, `deafen` and `close`, which wait: they are for a thread.
 
     Raises:
         DisplayError: There is no such kind.
@@ -48,6 +54,9 @@ class RunningDisplay:
         self.drawn: Drawing = NOTHING
         """What stands in the scene."""
         self._ears: dict[str, Ear] = {}
+        self._turn = threading.Lock()
+        """Who listens and who ends that come from different threads."""
+        self._closed = False
         self._wire = OnWire()
         self._trouble = ""
         self._bad_message = ""
@@ -68,46 +77,62 @@ class RunningDisplay:
         self.display.set(name, value)
         return self.display.values[name]
 
-    def listen(self, hearing: Hearing, publishers: Sequence[Sequence[GraphEndpoint]]) -> None:
-        """Listen as fits who publishes now: those of each of `topics`, in their order.
+    def listen(
+        self,
+        hearing: Hearing,
+        publishers_of: Callable[[str], Sequence[GraphEndpoint]],
+        *,
+        connected: bool = True,
+    ) -> None:
+        """Listen as fits who publishes now.
 
-        In a thread. What cannot be heard is told by `facts`.
+        What cannot be heard is told by `facts`.
+
+        Args:
+            hearing: By which it is heard.
+            publishers_of: Those of a topic; raises a StudioError for what names none.
+            connected: Whether the router is there.
         """
-        roles = self.display.TOPICS
-        self._trouble = ""
-        for role, endpoints in zip(roles, publishers, strict=False):
-            wish = wish_for(role, self.spec.topic, self.spec.listening, endpoints)
-            try:
-                self._listen_as(hearing, role, wish)
-            except StudioError as error:
-                if not role.name:
-                    self._trouble = str(error)
-        if roles and publishers:
-            self._wire = on_wire(roles[0], publishers[0], self._types, connected=True)
+        with self._turn:
+            if not self._closed:
+                self._listen(hearing, publishers_of, connected=connected)
 
     def deafen(self) -> None:
-        """Stop listening, as when the connection is no more; in a thread."""
-        ears, self._ears = self._ears, {}
-        for ear in ears.values():
-            ear.close()
-        self._wire = OnWire()
+        """Stop listening, as when the connection is no more."""
+        with self._turn:
+            ears, self._ears = self._ears, {}
+            for ear in ears.values():
+                ear.close()
+            self._wire = OnWire()
 
-    def step(self, lookup: Lookup, now_ns: int) -> Shown | None:
-        """Take what came, and give what is to be drawn now; None: all is as it was."""
+    def close(self) -> None:
+        """Stop listening for good, also if somebody is about to listen."""
+        self._closed = True
+        self.deafen()
+
+    def step(self, lookup: Lookup, now_ns: int, at_once_s: float = math.inf) -> Shown | None:
+        """Take what came, and give what is to be drawn now; None: all is as it was.
+
+        Of each topic one message is taken, and more for so long; the rest waits for other steps.
+        """
+        until_s = time.perf_counter() + at_once_s
         for role, ear in tuple(self._ears.items()):
             for received in ear.mailbox.take():
                 self._take(received, role)
-        try:
-            drawing = self.display.draw(now_ns)
-        except StudioError as error:
-            self._bad_message, drawing = str(error), NOTHING
-        self.placing.offer(drawing, now_ns)
+                if time.perf_counter() > until_s:
+                    break
+        self.placing.offer(self._drawing(now_ns), now_ns)
         return self.placing.step(lookup, now_ns)
 
     def reset(self) -> None:
-        """Forget what came: time jumped."""
-        self.display.reset()
-        self.placing.renew()
+        """Forget what came: time jumped, or nobody wants to see it.
+
+        What is latched is told once, so it holds for all times.
+        """
+        wish = self.wish()
+        if wish is None or not wish.latched:
+            self.display.reset()
+            self.placing.forget()
 
     def wish(self) -> Wish | None:
         """How the main topic is listened to; None: it is not."""
@@ -123,12 +148,12 @@ class RunningDisplay:
         """How long ago the last one came."""
         ear = self._ears.get("")
         age_ns = ear.mailbox.age_ns(now_ns) if ear else None
-        return None if age_ns is None else age_ns / 1e9
+        return None if age_ns is None else max(0.0, age_ns / 1e9)
 
     @property
     def lost(self) -> int:
         """Messages that fell out because too many came at once."""
-        return sum(ear.mailbox.lost for ear in self._ears.values())
+        return sum(ear.mailbox.lost for ear in tuple(self._ears.values()))
 
     def facts(self, now_ns: int, *, shown: bool) -> Facts:
         """What is known of why it shows what it shows."""
@@ -149,13 +174,14 @@ class RunningDisplay:
             stamp_zero=bool(roles) and any(_has_no_time(one) for one in drawing.values()),
             statuses=self._statuses(),
             draws=any(placed.shapes for placed in drawing.values()),
+            waits=self.placing.waits,
         )
 
     @property
     def _patience_s(self) -> float:
         """What is latched says one thing and then nothing."""
         wish = self.wish()
-        return float("inf") if wish and wish.latched else _SILENT_S
+        return math.inf if wish and wish.latched else _SILENT_S
 
     def _statuses(self) -> tuple[Status, ...]:
         said = self.display.statuses()
@@ -170,14 +196,51 @@ class RunningDisplay:
         except StudioError as error:
             self._bad_message = str(error)
         except Exception:  # noqa: BLE001 - a message of a kind that nobody thought of must not end the rest
-            _log.exception("A message on %s could not be drawn.", self.spec.topic)
-            self._bad_message = "A message could not be drawn: the terminal says why."
+            self._not_drawn()
 
-    def _listen_as(self, hearing: Hearing, role: TopicRole, wish: Wish) -> None:
-        ear = self._ears.get(role.name)
-        if ear is not None and ear.wish == wish:
-            return
+    def _drawing(self, now_ns: int) -> Drawing:
+        try:
+            return self.display.draw(now_ns)
+        except StudioError as error:
+            self._bad_message = str(error)
+        except Exception:  # noqa: BLE001 - as in `_take`
+            self._not_drawn()
+        return NOTHING
+
+    def _not_drawn(self) -> None:
+        """The terminal says why, once: it may be so with every message."""
+        if self._bad_message != _NOT_DRAWN:
+            _log.exception("A message on %s could not be drawn.", self.spec.topic)
+        self._bad_message = _NOT_DRAWN
+
+    def _listen(
+        self,
+        hearing: Hearing,
+        publishers_of: Callable[[str], Sequence[GraphEndpoint]],
+        *,
+        connected: bool,
+    ) -> None:
+        self._trouble = ""
+        for role, topic in zip(self.display.TOPICS, self.topics, strict=False):
+            try:
+                publishers = publishers_of(topic)
+                if not role.name:
+                    self._wire = on_wire(role, publishers, self._types, connected=connected)
+                self._listen_as(hearing, role, publishers)
+            except StudioError as error:
+                if not role.name:
+                    self._wire = OnWire(connected=True, lost=not connected)
+                    self._trouble = str(error)
+
+    def _listen_as(
+        self, hearing: Hearing, role: TopicRole, publishers: Sequence[GraphEndpoint]
+    ) -> None:
+        ear, spec = self._ears.get(role.name), self.spec
+        before = ear.wish if ear else None
+        wish = wish_for(role, spec.topic, spec.listening, publishers, before)
         if ear is not None:
+            if wish == before:
+                return
             ear.close()
             del self._ears[role.name]
         self._ears[role.name] = Ear(hearing, wish, role)

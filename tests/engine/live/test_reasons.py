@@ -28,7 +28,20 @@ EMPTY = Status("warn", "transparent", "Its alpha is 0.", ("Alpha", 1.0))
 
 def test_of_a_display_that_shows_what_it_should_nothing_else_is_said():
     assert [one.level for one in remarks_on(WELL)] == ["ok"]
-    assert remarks_on(replace(WELL, draws=False)) == ()
+    assert remarks_on(replace(WELL, draws=False, waits=True)) == ()
+
+
+def test_a_display_that_draws_nothing_for_no_other_reason_says_so():
+    (remark,) = remarks_on(replace(WELL, draws=False))
+    assert (remark.level, remark.reason) == ("warn", "empty")
+    assert remark.sentence == "Messages come on /scan, and there is nothing in them to draw."
+    (remark,) = remarks_on(replace(WELL, draws=False, types=(), heard=0))
+    assert remark.sentence == "There is nothing to draw."
+
+
+def test_a_router_that_is_gone_is_named_before_all_that_follows_from_it():
+    (remark,) = remarks_on(replace(WELL, wire=OnWire(connected=True, lost=True), heard=0))
+    assert (remark.reason, remark.mend) == ("connection_lost", None)
 
 
 @pytest.mark.parametrize(
