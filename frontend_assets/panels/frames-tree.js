@@ -55,9 +55,8 @@ export function FramesTree({ filter }) {
       isKept=${(/** @type {FrameRow} */ row) => [focusable, target.value].includes(nameOf(row))}
       draw=${(/** @type {FrameRow} */ row, /** @type {number} */ at) =>
         html`<${Row} key=${nameOf(row)} row=${row} place=${places[at]} focusable=${nameOf(row) === focusable} setOpen=${setOpen}
-        onPick=${() => {
+        onFocus=${() => {
           active.value = nameOf(row);
-          setTarget(nameOf(row));
         }} />`} />
   </div>`;
 }
@@ -122,16 +121,16 @@ function parentAt(rows, at) {
 
 /**
  * @param {{row: FrameRow, place: {at: number, of: number} | undefined, focusable: boolean,
- *   setOpen: (name: string, open: boolean) => void, onPick: () => void}} props
+ *   setOpen: (name: string, open: boolean) => void, onFocus: () => void}} props
  */
-function Row({ row, place, focusable, setOpen, onPick }) {
+function Row({ row, place, focusable, setOpen, onFocus }) {
   const { frame, level, expandable, expanded } = row;
   const { name } = frame;
   const isLink = robot.value?.links.some((link) => link.name === name);
   const said = wordsOf(row);
   return html`<div id=${rowId(name)} role="treeitem" class=${rowClass(row)} style=${`--level:${level}`} tabindex=${focusable ? 0 : -1}
     aria-level=${level} aria-posinset=${place?.at} aria-setsize=${place?.of} aria-expanded=${expandable ? expanded : null}
-    aria-selected=${target.value === name} aria-label=${[name, ...said].join(", ")} title=${[name, ...said].join("\n")} onClick=${onPick}
+    aria-selected=${target.value === name} aria-label=${[name, ...said].join(", ")} title=${[name, ...said].join("\n")} onFocus=${onFocus} onClick=${() => setTarget(name)}
     onDblClick=${() => isLink && viewport.value?.focus(name)}
     onPointerEnter=${() => {
       hovered.value = isLink ? name : null;

@@ -9,8 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
+from studio.ros.messages import message
+from tests.support.demos import node_at
 from tests.support.server import running_studio
 from tests.support.studio_page import StudioPage, studio_page, wait_until
+from tests.support.wire import free_endpoint, router_at
 from tests.support.yourdfpy_poses import poses_by_yourdfpy
 
 if TYPE_CHECKING:
@@ -20,6 +23,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from playwright.sync_api import Browser, Locator
 
+    from studio.ros.client import Node
     from tests.support.server import RunningStudio
 
 pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(240)]
@@ -133,6 +137,88 @@ def test_poses_follow_the_joints_and_are_those_of_yourdfpy(tab: StudioPage, stud
                 client.post("/api/commands", json=command).raise_for_status()
                 agrees(tab, urdf, "base_link", target)
     assert tab.errors == []
+
+
+def tell_frames(node: Node) -> None:
+    """Tell where the rover is in odom, of a tree of its own, and what no frame can be."""
+    kind = message("tf2_msgs/msg/TFMessage")
+    out = node.create_publisher(kind, "/tf", 10)
+
+    def tell() -> None:
+        told = [("odom", "base_footprint", 1.5), ("moon", "crater", 2.0), ("odom", "odom", 0.0)]
+        out.publish(kind(transforms=[transform(*one) for one in told]))
+
+    node.create_timer(0.05, tell)
+
+
+def transform(parent: str, child: str, x_m: float) -> object:
+    one = message("geometry_msgs/msg/TransformStamped")(child_frame_id=child)
+    one.header.frame_id = parent
+    one.transform.translation.x = x_m
+    one.transform.rotation.w = 1.0
+    return one
+
+
+def row(tab: StudioPage, name: str) -> Locator:
+    return panel(tab).locator(f".tf-tree [role=treeitem][aria-label^='{name},']")
+
+
+def said_of(tab: StudioPage, name: str) -> str:
+    return " ".join(row(tab, name).all_inner_texts())
+
+
+def test_frames_of_others_stand_in_the_tree_with_who_tells_of_them(
+    browser: Browser, tmp_path: Path
+):
+    with router_at(free_endpoint()) as router, node_at(router.endpoint.text) as other:
+        tell_frames(other)
+        place = ["--connect", router.endpoint.text, "--router", "off"]
+        with (
+            running_studio(["demo", *place], tmp_path / "data") as studio,
+            studio_page(browser, studio) as tab,
+        ):
+            tab.page.context.grant_permissions(["clipboard-read", "clipboard-write"])
+            tab.page.get_by_role("tab", name="Frames").click()
+            wait_until("its own frames", lambda: "this robot" in said_of(tab, "base_link"))
+            tab.page.get_by_role("button", name="Connect", exact=True).click()
+            dialog = tab.page.get_by_role("dialog")
+            dialog.get_by_role("button", name="Connect", exact=True).click()
+            dialog.get_by_role("button", name="Disconnect").wait_for()
+            tab.page.keyboard.press("Escape")
+            name = other.get_fully_qualified_name()
+            wait_until("who tells of it", lambda: name in said_of(tab, "base_footprint"))
+            wait_until("how often", lambda: "Hz" in said_of(tab, "base_footprint"))
+            assert "not connected" in said_of(tab, "crater")
+            assert "not connected" not in said_of(tab, "odom")
+            sees_the_rover_in_odom(tab)
+            search = panel(tab).get_by_role("searchbox")
+            search.fill("crater")
+            wait_until("the way to it", lambda: panel(tab).get_by_role("treeitem").count() == 2)
+            panel(tab).get_by_text("1 refused transform").click()
+            sentences = panel(tab).locator(".tf-refused li").all_inner_texts()
+            assert [one.split(":")[1] for one in sentences] == [
+                " a frame cannot be its own parent."
+            ]
+            assert tab.errors == []
+
+
+def sees_the_rover_in_odom(tab: StudioPage) -> None:
+    row(tab, "odom").focus()
+    tab.page.keyboard.press("Shift+Enter")
+    row(tab, "lidar").click()
+    assert box(tab, "Frame in which it is told") == "odom"
+    wait_until("the pose by TF", lambda: panel(tab).locator(".frames-matrix").count() == 1)
+    lit = [
+        str(one.get_attribute("aria-label")).split(",")[0]
+        for one in panel(tab).locator(".on-chain").all()
+    ]
+    assert lit == ["odom", "base_footprint", "base_link", "lidar"]
+    in_odom = matrix(tab)
+    row(tab, "base_footprint").focus()
+    tab.page.keyboard.press("Shift+Enter")
+    wait_until("in the root", lambda: box(tab, "Frame in which it is told") == "base_footprint")
+    wait_until("its pose", lambda: panel(tab).locator(".frames-matrix").count() == 1)
+    assert np.abs(in_odom[0, 3] - matrix(tab)[0, 3] - 1.5) < 1e-9
 
 
 def agrees(tab: StudioPage, urdf: bytes, reference: str, target: str) -> None:

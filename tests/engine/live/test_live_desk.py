@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from studio.engine.messages import live as v
+from studio.engine.messages.wire import ConnectWire
 from studio.errors import CommandError, DisplayError
 from studio.ros.messages import message
 from tests.support.open_documents import until
@@ -131,6 +132,27 @@ def test_the_robot_goes_where_its_root_link_is_in_the_fixed_frame(
             _, sent = await joined(one.document.scene)
             moved = [each for each in sent if list(each.get("position", ())) == [3.25, 0.0, 0.0]]
             assert moved
+
+    asyncio.run(run())
+
+
+def test_tf_is_heard_as_long_as_somebody_asks_for_frames(
+    endpoint: str, tester: Node, tmp_path: Path
+):
+    async def run() -> None:
+        tf = tester.create_publisher(message(TF), "/tf", 100)
+        async with studio(endpoint, tmp_path) as one:
+            await one.do(ConnectWire())
+            await until(lambda: tf.get_subscription_count() == 0)
+            frames: list[str] = []
+            async with asyncio.timeout(60):
+                while "odom" not in frames:
+                    tf.publish(transform("odom", "base", 1.0))
+                    await one.do(v.GetTf())
+                    frames = [each["name"] for each in one.ear.last("tf_frames")["frames"]]
+                    await asyncio.sleep(0.05)
+            assert one.ear.last("tf_frames")["fixed"] == "base"
+            await until(lambda: tf.get_subscription_count() == 0)
 
     asyncio.run(run())
 
