@@ -37,6 +37,7 @@ from studio.engine.questions.texts import TextDesk
 from studio.engine.states.variants import VariantDesk
 from studio.engine.watching import FileWatch
 from studio.engine.wire.feed import FeedDesk
+from studio.engine.wire.opened_types import take_types
 from studio.errors import CommandError
 from studio.scene import DocumentScene
 from studio.settings import LOOPBACK_HOSTS
@@ -153,6 +154,10 @@ class Document:
         self.drafts.restore()
         self.live.restore()
         self._spawn("opening", self._open())
+        self._spawn("types", self._take_types())
+
+    async def _take_types(self) -> None:
+        self.board.find("types", await asyncio.to_thread(take_types, self.location))
 
     async def _open(self) -> None:
         self.board.progress("expand", 0, 1)
