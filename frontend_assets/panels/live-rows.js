@@ -15,6 +15,8 @@ import { Icon } from "../lib/ui.js";
 import { displayKeys, groupKeys, NameBox, RowMenu, renaming } from "./live-menu.js";
 import { settingsOf } from "./live-settings.js";
 
+/** What is said of all displays at once is said below the first one only. */
+const SAID_ONCE = new Set(["not_connected", "connection_lost"]);
 /** Rows of displays and of their settings that are unfolded: at first none is. @type {import("vendor/preact.js").Signal<ReadonlySet<string>>} */
 const unfolded = signal(new Set());
 const isOpen = (/** @type {string} */ id) => unfolded.value.has(id);
@@ -43,6 +45,26 @@ export function AddDisplayButton() {
 /** @param {string} filter @param {ReadonlySet<string>} closed groups that are folded @returns {Row[]} */
 export function liveRows(filter, closed) {
   const words = filter.trim().toLowerCase();
+  return oncePerPanel(rowsOf(words, closed));
+}
+
+/** @param {readonly Row[]} rows @returns {Row[]} without the remarks that repeat what concerns all */
+function oncePerPanel(rows) {
+  const said = new Set();
+  return rows.filter(({ id }) => {
+    const remark = id.startsWith("remark:") ? remarkOf(id.slice("remark:".length)) : null;
+    if (!remark || !SAID_ONCE.has(remark.reason)) return true;
+    const isNew = !said.has(remark.reason);
+    said.add(remark.reason);
+    return isNew;
+  });
+}
+
+/** @param {string} id of a display */
+const remarkOf = (id) => firstTrouble(displayStates.value.get(id));
+
+/** @param {string} words @param {ReadonlySet<string>} closed @returns {Row[]} */
+function rowsOf(words, closed) {
   return inGroups(liveDisplays.value).flatMap((entry) => {
     if ("display" in entry) return displayRows(entry.display, 1, words);
     const hits = entry.group.toLowerCase().includes(words) ? "" : words;
