@@ -1,49 +1,19 @@
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import pytest
 
 from studio.engine.live.own_frames import OwnFrames
-from studio.engine.posing.joints import JointPositions
 from studio.errors import UnknownFrameError
-from studio.robot.kinematics import Kinematics
-from studio.robot.values import Joint, JointType, Limit, Link, Origin, Robot
 from studio.tf.buffer import TransformBuffer
 from studio.tf.forest import FRAMES_MAX
+from tests.support.posed import Posed, arm
 from tests.support.transforms import Told, columns
 
 if TYPE_CHECKING:
     from studio.tf.admission import Notice
     from studio.tf.columns import TransformColumns
-
-LIMIT = Limit(lower=-1.0, upper=1.0, effort=1.0, velocity=1.0)
-
-
-def arm(reach_m: float = 0.5, tip: str = "tip") -> Robot:
-    """A shoulder that turns about x, and a tip beside it."""
-    links = {name: Link(name) for name in ("base", "upper", tip)}
-    shoulder = Joint("shoulder", JointType.REVOLUTE, "base", "upper", limit=LIMIT)
-    mount = Joint("mount", JointType.FIXED, "upper", tip, Origin((reach_m, 0.0, 0.0)))
-    return Robot("arm", links, {"shoulder": shoulder, "mount": mount})
-
-
-@dataclass
-class Posed:
-    """A robot with its joints at 0."""
-
-    robot: Robot
-    kinematics: Kinematics = field(init=False)
-    joints: JointPositions = field(init=False)
-
-    def __post_init__(self) -> None:
-        self.become(self.robot)
-
-    def become(self, robot: Robot) -> None:
-        """Be another robot."""
-        self.robot, self.kinematics = robot, Kinematics(robot)
-        self.joints = JointPositions(self.kinematics)
 
 
 class CountingBuffer(TransformBuffer):

@@ -1,0 +1,124 @@
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+
+from studio.displays.drawing import FIXED_FRAME
+from studio.engine.live.frames_desk import FramesDesk
+from studio.engine.messages.live import GetTf
+from studio.errors import UnknownFrameError
+from studio.ros.fast.transforms import TransformCodec, TransformColumns
+from tests.support.heard_topics import HeardTopics, publisher
+from tests.support.posed import Posed, arm
+from tests.support.transforms import S, Told, columns
+
+if TYPE_CHECKING:
+    from studio.ros.graph.endpoints import GraphEndpoint
+
+KNOWN = publisher("tf2_msgs/msg/TFMessage")
+
+
+class Known:
+    """A graph that knows of one publisher."""
+
+    def endpoint_of_gid(self, gid: bytes) -> GraphEndpoint | None:
+        return KNOWN if gid == KNOWN.gid else None
+
+
+def message_of(*rows: Told) -> bytes:
+    told = columns(*rows)
+    return bytes(
+        TransformCodec().encode(
+            TransformColumns(
+                told.parents, told.children, told.stamps_ns, told.translations, told.rotations_wxyz
+            )
+        )
+    )
+
+
+def listening() -> tuple[FramesDesk, HeardTopics]:
+    desk, heard = FramesDesk(Posed(arm())), HeardTopics()
+    desk.step()
+    desk.listen(heard, Known())
+    return desk, heard
+
+
+def x_m(desk: FramesDesk, frame: str) -> float:
+    return desk.lookup(frame, 0)[1][0]
+
+
+def test_poses_are_in_the_fixed_frame_that_was_chosen_or_else_in_the_root_link():
+    desk, heard = listening()
+    assert (desk.fixed, x_m(desk, "tip"), x_m(desk, FIXED_FRAME)) == ("base", 0.5, 0.0)
+    desk.chosen = "odom"
+    pose, trouble = desk.robot_pose()
+    assert pose is None
+    assert '"odom"' in trouble
+    heard.say("/tf", message_of(Told("odom", "base", S, (2.0, 0.0, 0.0))))
+    assert x_m(desk, "tip") == 2.5
+    assert desk.robot_pose() == (((1.0, 0.0, 0.0, 0.0), (2.0, 0.0, 0.0)), "")
+
+
+def test_the_answer_names_who_tells_of_each_frame_and_the_way_between_two():
+    desk, heard = listening()
+    heard.say("/tf", message_of(Told("odom", "base", S)), KNOWN.gid)
+    heard.say("/tf_static", message_of(Told("tip", "lamp")))
+    answer = desk.answer(GetTf(frame="tip", seen_from="odom"))
+    assert answer.pose
+    assert answer.pose.chain == ("odom", "base", "upper", "tip")
+    told = {one.name: (one.publisher, one.static) for one in answer.frames}
+    assert told["base"] == ("/talker", False)
+    assert told["tip"] == ("this robot", True)
+    assert told["lamp"] == ("00" * 16, True)
+
+
+def test_what_is_refused_is_told_in_sentences_of_which_few_are_kept():
+    desk, heard = listening()
+    for number in range(30):
+        heard.say("/tf", message_of(Told(f"f{number}", f"f{number}", S)))
+    refused = desk.answer(GetTf()).refused
+    assert len(refused) == 20
+    assert "f29" in refused[-1]
+    heard.say("/tf", b"no message")
+    assert desk.answer(GetTf()).refused == refused
+
+
+def test_a_jump_of_time_is_told_once():
+    desk, heard = listening()
+    heard.say("/tf", message_of(Told("odom", "base", 100 * S)))
+    heard.say("/tf", message_of(Told("odom", "base", 101 * S)))
+    assert not desk.has_jumped()
+    heard.say("/tf", message_of(Told("odom", "base", 1 * S)))
+    assert desk.has_jumped()
+    assert not desk.has_jumped()
+
+
+def test_without_a_connection_only_the_robots_own_frames_are_known_and_nothing_is_refused():
+    desk, heard = listening()
+    heard.say("/tf", message_of(Told("odom", "base", S), Told("a", "a", S)))
+    late = heard.takers["/tf"]
+    desk.deafen()
+    assert heard.takers == {}
+    heard.takers["/tf"] = late
+    heard.say("/tf", message_of(Told("map", "odom", S)))  # was on its way meanwhile
+    desk.step()
+    assert x_m(desk, "tip") == 0.5
+    with pytest.raises(UnknownFrameError):
+        desk.lookup("odom", 0)
+    assert desk.answer(GetTf()).refused == ()
+
+
+def test_who_listens_again_hears_once_and_who_is_closed_never():
+    desk, heard = listening()
+    desk.listen(heard, Known())
+    assert len(heard.asked) == 2
+    desk.deafen()
+    desk.listen(heard, Known())
+    heard.say("/tf", message_of(Told("odom", "base", S, (1.0, 0.0, 0.0))))
+    desk.step()
+    desk.chosen = "odom"
+    assert x_m(desk, "tip") == 1.5
+    desk.close()
+    desk.listen(heard, Known())
+    assert heard.takers == {}
