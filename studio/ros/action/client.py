@@ -76,8 +76,9 @@ class ActionClient:
             feedback_sub_qos_profile,
             status_sub_qos_profile,
         )
-        self._send, self._cancel, self._result = self._clients(names, qos, callback_group)
+        # First, for rings are emptied in this order: the last feedback comes before the result.
         self._subscriptions = self._subscribe(names, qos, callback_group)
+        self._send, self._cancel, self._result = self._clients(names, qos, callback_group)
 
     @property
     def action_type(self) -> ActionType:
