@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from playwright.sync_api import Browser, Locator
 
-    from studio.ros.client import Node
+    from studio.ros.client import Node, Publisher
     from tests.support.server import RunningStudio
 
 pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(240)]
@@ -139,7 +139,7 @@ def test_poses_follow_the_joints_and_are_those_of_yourdfpy(tab: StudioPage, stud
     assert tab.errors == []
 
 
-def tell_frames(node: Node) -> None:
+def tell_frames(node: Node) -> Publisher:
     """Tell where the rover is in odom, of a tree of its own, and what no frame can be."""
     kind = message("tf2_msgs/msg/TFMessage")
     out = node.create_publisher(kind, "/tf", 10)
@@ -149,6 +149,7 @@ def tell_frames(node: Node) -> None:
         out.publish(kind(transforms=[transform(*one) for one in told]))
 
     node.create_timer(0.05, tell)
+    return out
 
 
 def transform(parent: str, child: str, x_m: float) -> object:
@@ -171,7 +172,7 @@ def test_frames_of_others_stand_in_the_tree_with_who_tells_of_them(
     browser: Browser, tmp_path: Path
 ):
     with router_at(free_endpoint()) as router, node_at(router.endpoint.text) as other:
-        tell_frames(other)
+        out = tell_frames(other)
         place = ["--connect", router.endpoint.text, "--router", "off"]
         with (
             running_studio(["demo", *place], tmp_path / "data") as studio,
@@ -199,6 +200,8 @@ def test_frames_of_others_stand_in_the_tree_with_who_tells_of_them(
             assert [one.split(":")[1] for one in sentences] == [
                 " a frame cannot be its own parent."
             ]
+            tab.page.get_by_role("tab", name="Source").click()
+            wait_until("nobody listens", lambda: out.get_subscription_count() == 0)
             assert tab.errors == []
 
 
