@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from itertools import islice
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, Protocol
 
 from studio.displays.tf import TfDisplay
 from studio.engine.live.catalogue_views import property_view
-from studio.engine.live.frames_desk import FramesDesk
+from studio.engine.live.ear import Hearing
+from studio.engine.live.frames_desk import FramesDesk, KnowsPublishers
 from studio.engine.live.reasons import remarks_on
 from studio.engine.live.running import RunningDisplay
 from studio.engine.messages.live import (
@@ -22,19 +23,41 @@ from studio.errors import CommandError, SceneError
 from studio.ros.messages.shared import shared_types
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Iterable, Sequence
 
     from studio.displays.display import Display
     from studio.engine.live.display_list import DisplayList, DisplaySpec, Listening
     from studio.engine.live.placing import Pose
     from studio.engine.model import Model
-    from studio.engine.wire.link import WireLink
+    from studio.ros.graph.endpoints import GraphEndpoint
 
 _MORE_MAX: Final = 500
 """Properties of one display that came with messages: more are not told."""
 _AT_ONCE_S: Final = 0.03
 """All displays together take messages for so long in one step: the loop has other work, too."""
 _STILL: Pose = ((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+
+
+class Connected(Hearing, Protocol):
+    """What displays need of a connection."""
+
+    @property
+    def is_connected(self) -> bool:
+        """Whether its router is there."""
+        ...
+
+    @property
+    def graph(self) -> Publishing:
+        """Who publishes."""
+        ...
+
+
+class Publishing(KnowsPublishers, Protocol):
+    """What displays need of the graph."""
+
+    def publishers(self, topic: str) -> Sequence[GraphEndpoint]:
+        """Those of a topic; raises a RosNameError when it is none."""
+        ...
 
 
 class DrawingRoom:
@@ -73,7 +96,7 @@ class DrawingRoom:
         self._faults.pop(display, None)
         return self._running.pop(display, None)
 
-    def listen(self, link: WireLink, shown: Iterable[str]) -> None:
+    def listen(self, link: Connected, shown: Iterable[str]) -> None:
         """Have TF and those that are shown heard, and no others; in a thread."""
         self.frames.listen(link, link.graph)
         wanted, connected = set(shown), link.is_connected
