@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from studio.engine.live import live_desk
 from studio.engine.messages import live as v
 from studio.engine.messages.wire import ConnectWire
 from studio.errors import CommandError, DisplayError
@@ -263,5 +264,52 @@ def test_a_broken_message_says_so_and_what_was_drawn_before_stays(
             bad.pose.position.x = math.nan
             poses.publish(bad)
             await until(lambda: said(one) not in (["ok"], [""], ["stamp_zero"]))
+
+    asyncio.run(run())
+
+
+def test_a_topic_without_a_slash_is_the_one_that_has_it_and_no_topic_says_so_alone(
+    endpoint: str, tester: Node, tmp_path: Path
+):
+    async def run() -> None:
+        poses = tester.create_publisher(message(POSE), "/aim3", 10)
+        async with studio(endpoint, tmp_path) as one:
+            await one.do(v.AddDisplay(kind="Pose", topic="/no topic"))
+            await one.do(v.AddDisplay(kind="Pose", topic=" aim3 "))
+            assert listed(one)[1]["topic"] == "/aim3"
+            await until(lambda: said(one) == ["not_heard"])
+            await until(lambda: bool(poses.get_subscription_count()))
+
+    asyncio.run(run())
+
+
+def test_while_no_page_is_there_nothing_is_heard(
+    endpoint: str, tester: Node, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr(live_desk, "_UNSEEN_S", 0.2)
+
+    async def run() -> None:
+        poses = tester.create_publisher(message(POSE), "/aim4", 10)
+        async with studio(endpoint, tmp_path) as one:
+            await one.do(v.AddDisplay(kind="Pose", topic="/aim4"))
+            await until(lambda: bool(poses.get_subscription_count()))
+            one.document.board.audience.remove(one.ear)
+            await until(lambda: poses.get_subscription_count() == 0)
+            one.document.board.attach(one.ear)
+            await until(lambda: bool(poses.get_subscription_count()))
+
+    asyncio.run(run())
+
+
+def test_a_slider_that_is_drawn_along_is_kept_where_it_ended(tmp_path: Path):
+    async def run() -> None:
+        async with studio("tcp/127.0.0.1:1", tmp_path) as one:
+            await one.do(v.AddDisplay(kind="Path"))
+            path = listed(one)[0]["id"]
+            for step in range(100):
+                change = v.SetDisplayProperty(display=path, name="Alpha", value=step / 100)
+                await one.do(change)
+        async with studio("tcp/127.0.0.1:1", tmp_path) as again:
+            assert listed(again)[0]["values"]["Alpha"] == 0.99
 
     asyncio.run(run())
