@@ -16,6 +16,7 @@ PropertyKind: TypeAlias = Literal["switch", "whole", "number", "colour", "choice
 
 _COLOUR: Final = re.compile(r"#[0-9a-f]{6}")
 _TEXT_MAX: Final = 1000
+_NUMBER_MAX: Final = 1e15
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,9 +68,9 @@ class Property:
         if isinstance(value, bool) or not isinstance(value, int | float) or value != value:  # noqa: PLR0124
             raise DisplayPropertyError(self.name, "is a number", value)
         within = min(max(value, self.low), self.high)
-        if self.kind == "whole":
-            return int(within) if abs(within) != float("inf") else int(self.default)
-        return float(within)
+        if abs(within) > _NUMBER_MAX:  # JSON has no infinity: what is kept could not be read again
+            within = float(self.default)
+        return int(within) if self.kind == "whole" else float(within)
 
     def _text(self, value: str) -> str:
         if self.kind == "colour":

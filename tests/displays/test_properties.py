@@ -18,6 +18,9 @@ def test_numbers_are_held_within_their_range():
 
 def test_a_whole_number_without_an_end_stays_what_it_was_at_first_when_it_would_have_none():
     assert Property("Keep", "whole", 7, "How many.").checked(float("inf")) == 7
+    assert Property("Keep", "whole", 7, "How many.").checked(10**400) == 7
+    assert Property("Least", "number", 0.5, "How much.").checked(float("inf")) == 0.5
+    assert Property("Least", "number", 0.5, "How much.").checked(10**400) == 0.5
 
 
 @pytest.mark.parametrize(
