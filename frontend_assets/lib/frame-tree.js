@@ -1,6 +1,6 @@
 /** The frames of TF as a tree: what hangs on what, which rows are shown, and the way between two. */
 
-/** @import { FrameView } from "../types/wire.d.ts" */
+/** @import { FrameView, TfFrames } from "../types/wire.d.ts" */
 
 /** Who tells of the robot's own links when nobody on the wire does; a node's name begins with a slash. */
 const OWN = "this robot";
@@ -137,6 +137,28 @@ export function isOwnWay(frames, from, way) {
     before = at;
   }
   return true;
+}
+
+/**
+ * TF has no word for a link that no joint holds and that holds none, as in a robot of one link.
+ *
+ * @param {Pick<TfFrames, "frames" | "fixed" | "more">} told
+ * @param {readonly string[]} links of the robot
+ * @returns {readonly FrameView[]} with such links as roots
+ */
+export function withLooseLinks({ frames, fixed, more }, links) {
+  const known = new Set(frames.map(({ name }) => name));
+  const loose = more > 0 ? [] : links.filter((name) => !known.has(name));
+  if (loose.length === 0) return frames;
+  const bare = { parent: "", publisher: "", static: false, rate_hz: 0, age_s: null };
+  return [
+    ...frames,
+    ...loose.map((name) => {
+      /** @type {FrameView["state"]} */
+      const state = name === fixed ? "fresh" : "broken";
+      return { ...bare, name, state };
+    }),
+  ];
 }
 
 /** @param {readonly FrameView[]} frames @returns {{stale: number, broken: number}} how many are in trouble */

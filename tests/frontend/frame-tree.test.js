@@ -6,6 +6,7 @@ import {
   framesBetween,
   isOwnWay,
   troubleOf,
+  withLooseLinks,
 } from "../../frontend_assets/lib/frame-tree.js";
 import { shortTime } from "../../frontend_assets/lib/short-time.js";
 
@@ -102,6 +103,17 @@ test("a way is the robot's own while nobody on the wire tells of a frame on it",
   assert.equal(own("base", "lidar"), true);
   assert.equal(own("lidar", "odom"), false);
   assert.equal(own("odom", "base"), false);
+});
+
+test("a robot of one link has a frame, and one that hangs on nothing is broken", () => {
+  const named = (/** @type {string[]} */ links, more = 0) =>
+    withLooseLinks({ frames: [], fixed: "base", more }, links).map(
+      ({ name, state }) => `${name} ${state}`,
+    );
+  assert.deepEqual(named(["base", "loose"]), ["base fresh", "loose broken"]);
+  assert.deepEqual(named(["base"], 5), []);
+  const told = { frames: ROBOT, fixed: "base", more: 0 };
+  assert.equal(withLooseLinks(told, ["base", "wheel"]), ROBOT);
 });
 
 test("stale and broken frames are counted", () => {

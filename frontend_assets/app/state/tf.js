@@ -4,8 +4,9 @@
 /** @import { Signal } from "vendor/preact.js" */
 
 import { computed, effect, signal, untracked } from "vendor/preact.js";
+import { withLooseLinks } from "../../lib/frame-tree.js";
 import { connection } from "./connection.js";
-import { documentId } from "./document.js";
+import { documentId, robot } from "./document.js";
 import { sharedLook } from "./frames.js";
 import { askOrKeepWhy } from "./refusals.js";
 
@@ -22,8 +23,11 @@ export const tfRefused = signal("");
 
 /** @type {readonly FrameView[]} */
 const NONE = [];
-/** All frames, in the order of the alphabet; none before the first answer. */
-export const tfFrames = computed(() => answered.value?.told.frames ?? NONE);
+/** All frames; none before the first answer. */
+export const tfFrames = computed(() => {
+  const told = answered.value?.told;
+  return told ? withLooseLinks(told, robot.value?.links.map(({ name }) => name) ?? []) : NONE;
+});
 export const tfNames = computed(() => new Set(tfFrames.value.map(({ name }) => name)));
 /** The frame that everything is drawn in. */
 export const fixedFrame = computed(() => answered.value?.told.fixed ?? "");
