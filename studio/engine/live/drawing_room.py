@@ -23,13 +23,12 @@ from studio.errors import CommandError, SceneError
 from studio.ros.messages.shared import shared_types
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Sequence
+    from collections.abc import Callable, Iterable
 
     from studio.displays.display import Display
     from studio.engine.live.display_list import DisplayList, DisplaySpec, Listening
     from studio.engine.live.placing import Pose
     from studio.engine.model import Model
-    from studio.ros.graph.endpoints import GraphEndpoint
 
 _MORE_MAX: Final = 500
 """Properties of one display that came with messages: more are not told."""
@@ -47,16 +46,8 @@ class Connected(Hearing, Protocol):
         ...
 
     @property
-    def graph(self) -> Publishing:
+    def graph(self) -> KnowsPublishers:
         """Who publishes."""
-        ...
-
-
-class Publishing(KnowsPublishers, Protocol):
-    """What displays need of the graph."""
-
-    def publishers(self, topic: str) -> Sequence[GraphEndpoint]:
-        """Those of a topic; raises a RosNameError when it is none."""
         ...
 
 
@@ -100,6 +91,8 @@ class DrawingRoom:
         """Have TF and those that are shown heard, and no others; in a thread."""
         self.frames.listen(link, link.graph)
         wanted, connected = set(shown), link.is_connected
+        if connected:  # else all seem to be gone
+            self.frames.look(link.graph)
         for display, running in tuple(self._running.items()):
             if display in wanted:
                 running.listen(link, link.graph.publishers, connected=connected)

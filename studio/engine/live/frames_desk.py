@@ -14,7 +14,7 @@ from studio.ros.qos import DurabilityPolicy, QoSProfile
 from studio.tf.buffer import TransformBuffer
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from studio.engine.live.ear import Hearing
     from studio.engine.live.own_frames import PosedRobot
@@ -38,6 +38,10 @@ class KnowsPublishers(Protocol):
 
     def endpoint_of_gid(self, gid: bytes) -> GraphEndpoint | None:
         """Whose message it is."""
+        ...
+
+    def publishers(self, topic: str) -> Sequence[GraphEndpoint]:
+        """Those of a topic; raises a RosNameError when it is none."""
         ...
 
 
@@ -82,6 +86,17 @@ class FramesDesk:
             for topic, static in (("/tf_static", True), ("/tf", False)):
                 take, qos = self._taker(graph, static=static), _STATIC if static else _DYNAMIC
                 self._ends.append(hearing.hear(_TF_TYPE, topic, take, qos))
+
+    def look(self, graph: KnowsPublishers) -> None:
+        """Take back the robot's own links from those who told of them and are gone; in a thread."""
+        told = tuple(self._publishers.items())
+        there = {
+            one.node.path for topic in ("/tf", "/tf_static") for one in graph.publishers(topic)
+        }
+        gone = {name for _, name in told} - there
+        if gone:
+            self._publishers = {gid: name for gid, name in told if name not in gone}
+            self.own.take_back_from(gone)
 
     def deafen(self) -> None:
         """Hear TF no more, and forget what it told; in a thread."""
@@ -176,7 +191,7 @@ class FramesDesk:
         return take
 
     def _take(self, columns: TransformColumns, publisher: str, *, static: bool) -> None:
-        self.own.leave_to_others(columns.children)
+        self.own.leave_to_others(columns.children, publisher)
         for one in self.buffer.put(columns, static=static, publisher=publisher):
             self._note(one)
             self._jumped |= one.kind == "time_jumped"

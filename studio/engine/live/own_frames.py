@@ -13,6 +13,8 @@ from studio.tf.forest import FRAMES_MAX
 from studio.tf.rotations import matrices_from_poses, poses_from_matrices
 
 if TYPE_CHECKING:
+    from collections.abc import Collection, Container
+
     from studio.engine.posing.joints import JointPositions
     from studio.robot.kinematics import Floats, Kinematics
     from studio.robot.values import Robot
@@ -61,7 +63,8 @@ class OwnFrames:
         self._rooted: Robot | None = None
         self._root = ""
         self._children: frozenset[str] = frozenset()
-        self._told_by_others: frozenset[str] = frozenset()
+        self._told_by_others: dict[str, str] = {}
+        """By whom."""
 
     @property
     def root(self) -> str:
@@ -82,16 +85,16 @@ class OwnFrames:
         """Frames that the wire tells of, as far as they are known."""
         return len(self._told_by_others)
 
-    def leave_to_others(self, names: tuple[str, ...]) -> None:
-        """Tell no more of frames that the wire tells of."""
-        if self._told_by_others.issuperset(names):
+    def leave_to_others(self, names: tuple[str, ...], who: str = "") -> None:
+        """Tell no more of frames that somebody on the wire tells of."""
+        if all(name in self._told_by_others for name in names):
             return
         children = frozenset(map(plain, names))
         with self._lock:
             own = children & self._children
             # Names without end must not fill the memory.
             is_full = len(self._told_by_others) >= FRAMES_MAX
-            self._told_by_others |= own if is_full else children
+            self._told_by_others |= dict.fromkeys(own if is_full else children, who)
             if own:
                 self._buffer.drop(own)
                 self._children -= own
@@ -100,7 +103,18 @@ class OwnFrames:
     def take_back(self) -> None:
         """Tell of all again: nobody is heard any more."""
         with self._lock:
-            self._told_by_others, self._children = frozenset(), frozenset()
+            self._told_by_others, self._children = {}, frozenset()
+            self._kinematics = self._edges = None
+
+    def take_back_from(self, gone: Collection[str]) -> None:
+        """Tell again of links that those told of who are gone; in any thread."""
+        with self._lock:
+            free = {child for child, who in self._told_by_others.items() if who in gone}
+            if not free:
+                return
+            for child in free:
+                del self._told_by_others[child]
+            self._buffer.drop(free & {one.child for one in self._robot.robot.joints.values()})
             self._kinematics = self._edges = None
 
     def step(self) -> None:
@@ -167,7 +181,7 @@ def _seen_from(root_from_parents: Floats, root_from_children: Floats) -> Floats:
     return found
 
 
-def _edges_of(robot: Robot, links: tuple[str, ...], left_out: frozenset[str]) -> _Edges:
+def _edges_of(robot: Robot, links: tuple[str, ...], left_out: Container[str]) -> _Edges:
     place = {name: at for at, name in enumerate(links)}
     edges = [
         (one.parent, one.child)

@@ -14,6 +14,8 @@ from tests.support.posed import Posed, arm
 from tests.support.transforms import S, Told, columns
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from studio.ros.graph.endpoints import GraphEndpoint
 
 KNOWN = publisher("tf2_msgs/msg/TFMessage")
@@ -24,6 +26,17 @@ class Known:
 
     def endpoint_of_gid(self, gid: bytes) -> GraphEndpoint | None:
         return KNOWN if gid == KNOWN.gid else None
+
+    def publishers(self, topic: str) -> Sequence[GraphEndpoint]:
+        return [KNOWN] if topic == "/tf" else []
+
+
+class Empty(Known):
+    """A graph that it has left."""
+
+    def publishers(self, topic: str) -> Sequence[GraphEndpoint]:
+        del topic
+        return []
 
 
 def message_of(*rows: Told) -> bytes:
@@ -107,6 +120,22 @@ def test_without_a_connection_only_the_robots_own_frames_are_known_and_nothing_i
     with pytest.raises(UnknownFrameError):
         desk.lookup("odom", 0)
     assert desk.answer(GetTf()).refused == ()
+
+
+def test_when_those_who_told_of_the_robots_links_are_gone_they_follow_its_joints_again():
+    desk, heard = listening()
+    moved = message_of(Told("upper", "tip", S, (2.0, 0.0, 0.0)), Told("odom", "base", S))
+    heard.say("/tf", moved, KNOWN.gid)
+    desk.look(Known())
+    desk.step()
+    assert x_m(desk, "tip") == 2.0
+    desk.look(Empty())
+    desk.step()
+    assert x_m(desk, "tip") == 0.5
+    assert "odom" in desk.buffer.frames()
+    heard.say("/tf", moved, KNOWN.gid)
+    desk.step()
+    assert x_m(desk, "tip") == 2.0
 
 
 def test_who_listens_again_hears_once_and_who_is_closed_never():
