@@ -199,8 +199,8 @@ class WireLink:
     def let_go(self, node: Node) -> None:
         """End a node of a document."""
         self._executor.remove_node(node)
-        self._taken.discard(node.get_name())
         node.destroy_node()
+        self._taken.discard(node.get_name())  # last: else two may be there under one name
 
     def close(self) -> None:
         """End all nodes, the session, and the router if it is ours."""
