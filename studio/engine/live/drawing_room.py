@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final, Protocol
 from studio.displays.tf import TfDisplay
 from studio.engine.live.catalogue_views import property_view
 from studio.engine.live.ear import Hearing
-from studio.engine.live.frames_desk import FramesDesk, KnowsPublishers
+from studio.engine.live.frames_desk import STILL, FramesDesk, KnowsPublishers
 from studio.engine.live.reasons import remarks_on
 from studio.engine.live.running import RunningDisplay
 from studio.engine.messages.live import (
@@ -34,7 +34,6 @@ _MORE_MAX: Final = 500
 """Properties of one display that came with messages: more are not told."""
 _AT_ONCE_S: Final = 0.03
 """All displays together take messages for so long in one step: the loop has other work, too."""
-_STILL: Pose = ((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
 
 class Connected(Hearing, Protocol):
@@ -60,7 +59,7 @@ class DrawingRoom:
         self._running: dict[str, RunningDisplay] = {}
         self._faults: dict[str, str] = {}
         self._seen: frozenset[str] = frozenset()
-        self._robot_at: Pose = _STILL
+        self._robot_at: Pose = STILL
         self._robot_trouble = ""
 
     def open(self, spec: DisplaySpec) -> None:
@@ -119,9 +118,9 @@ class DrawingRoom:
     def step(self, displays: DisplayList, now_ns: int) -> None:
         """Draw what came since the last step."""
         self.frames.step()
-        self._place_robot()
         shown = self._shown_of(displays)
         self._show_frames(running.display for running in shown.values())
+        self._place_robot()
         for display, running in shown.items():
             self._draw(display, running, now_ns, _AT_ONCE_S / len(shown))
 
@@ -203,7 +202,7 @@ class DrawingRoom:
         """Hand all frames to those that draw them."""
         drawing = [one for one in displays if isinstance(one, TfDisplay)]
         if drawing:
-            frames = self.frames.buffer.all_in(self.frames.fixed)
+            frames = self.frames.now()
             for display in drawing:
                 display.show(frames)
 

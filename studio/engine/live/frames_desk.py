@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 from typing import TYPE_CHECKING, Final, Protocol
 
-from studio.displays.drawing import FIXED_FRAME
+from studio.displays.drawing import FIXED_FRAME, NO_TURN, ORIGIN
 from studio.engine.live.own_frames import OwnFrames
 from studio.engine.messages.live import FrameView, GetTf, TfFrames, TfPose
 from studio.errors import CdrError, FrameError
@@ -23,8 +23,10 @@ if TYPE_CHECKING:
     from studio.ros.node.info import MessageInfo
     from studio.tf.admission import Notice
     from studio.tf.columns import TransformColumns
+    from studio.tf.frames_now import FramesNow
     from studio.tf.report import FrameReport
 
+STILL: Final[Pose] = (NO_TURN, ORIGIN)
 _TF_TYPE: Final = "tf2_msgs/msg/TFMessage"
 _DYNAMIC: Final = QoSProfile(depth=100)
 _STATIC: Final = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -72,6 +74,8 @@ class FramesDesk:
         self._jumped = False
         self._publishers: dict[bytes, str] = {}
         self._notices: dict[str, Notice] = {}
+        self._now: FramesNow | None = None
+        self._now_of: tuple[int, str] = (0, "")
 
     @property
     def fixed(self) -> str:
@@ -134,10 +138,25 @@ class FramesDesk:
         Raises:
             FrameError: There is none at that time.
         """
-        pose = self.buffer.fixed_from(
-            self.fixed, self.fixed if frame == FIXED_FRAME else frame, stamp_ns
-        )
+        fixed = self.fixed
+        if frame in (FIXED_FRAME, fixed):
+            return STILL
+        if stamp_ns == 0 and (now := self._newest().pose_of(frame)):
+            return now[:4], now[4:]
+        pose = self.buffer.fixed_from(fixed, frame, stamp_ns)
         return pose.wxyz, pose.xyz
+
+    def now(self) -> FramesNow:
+        """All frames with their ages, each by the newest transforms on its way."""
+        self._now_of = self.buffer.changes, self.fixed
+        self._now = self.buffer.all_in(self.fixed)
+        return self._now
+
+    def _newest(self) -> FramesNow:
+        """The same, as of the last change: all that is drawn in one tick stands together."""
+        if self._now is None or self._now_of != (self.buffer.changes, self.fixed):
+            return self.now()
+        return self._now
 
     def robot_pose(self) -> tuple[Pose | None, str]:
         """Where the robot's root link is in the fixed frame, and why it is not known."""

@@ -73,6 +73,19 @@ def test_poses_are_in_the_fixed_frame_that_was_chosen_or_else_in_the_root_link()
     assert desk.robot_pose() == (((1.0, 0.0, 0.0, 0.0), (2.0, 0.0, 0.0)), "")
 
 
+def test_without_a_time_every_frame_stands_by_the_newest_transforms_as_those_that_are_drawn_do():
+    desk, heard = listening()
+    desk.chosen = "odom"
+    heard.say("/tf", message_of(Told("odom", "cart", 1 * S, (1.0, 0.0, 0.0))))
+    heard.say("/tf", message_of(Told("cart", "arm", 1 * S, (0.5, 0.0, 0.0))))
+    heard.say("/tf", message_of(Told("odom", "cart", 2 * S, (2.0, 0.0, 0.0))))
+    # The newest time of both is 1 s: there the arm is at 1.5 m, and no cross is drawn there.
+    assert (x_m(desk, "arm"), x_m(desk, "cart")) == (2.5, 2.0)
+    pose = desk.now().pose_of("arm")
+    assert pose is not None
+    assert pose[4] == 2.5
+
+
 def test_the_answer_names_who_tells_of_each_frame_and_the_way_between_two():
     desk, heard = listening()
     heard.say("/tf", message_of(Told("odom", "base", S)), KNOWN.gid)
