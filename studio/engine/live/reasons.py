@@ -9,7 +9,7 @@ from studio.engine.messages.live import Mend, Remark
 from studio.errors import ExtrapolationError, UnconnectedFramesError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterator
 
     from studio.displays.display import Status
     from studio.engine.live.display_list import DisplaySpec
@@ -51,6 +51,7 @@ class Facts:
         silent_s: Since the last one, when it is longer ago than is usual of them.
         trouble: Why the topic cannot be heard at all, in a sentence.
         frames: Why parts of the drawing have no place.
+        frame: The first of their frames; in it they have a place at any time.
         stamp_zero: Whether messages come without a time.
         statuses: What the display itself says.
         draws: Whether anything of it is on screen.
@@ -66,6 +67,7 @@ class Facts:
     silent_s: float | None = None
     trouble: str = ""
     frames: tuple[FrameError, ...] = ()
+    frame: str = ""
     stamp_zero: bool = False
     statuses: tuple[Status, ...] = ()
     draws: bool = False
@@ -99,7 +101,8 @@ def _remarks(facts: Facts) -> Iterator[Remark]:
         yield silence
         if facts.heard == 0:
             return
-    yield from map(_remark_on_frame, facts.frames)
+    for error in facts.frames:
+        yield _remark_on_frame(error, facts.frame)
     if facts.stamp_zero:
         yield _warn(
             "stamp_zero",
@@ -189,13 +192,18 @@ def _no_message(facts: Facts) -> Remark | None:
     return None
 
 
-def _remark_on_frame(error: FrameError) -> Remark:
+def _remark_on_frame(error: FrameError, frame: str) -> Remark:
     if isinstance(error, UnconnectedFramesError) and error.nearest:
-        command: Mapping[str, str] = {"type": "set_fixed_frame", "frame": error.nearest}
-        mend = Mend(label=f"Draw everything in {error.nearest}", command=dict(command))
-        return _error("not_connected_frame", str(error), mend)
-    reason = "stamp_out_of_buffer" if isinstance(error, ExtrapolationError) else "no_frame"
-    return _error(reason, str(error))
+        return _error("not_connected_frame", str(error), _drawn_in(error.nearest))
+    if isinstance(error, ExtrapolationError) and frame:
+        return _error("stamp_out_of_buffer", str(error), _drawn_in(frame))
+    return _error("no_frame", str(error))
+
+
+def _drawn_in(frame: str) -> Mend:
+    return Mend(
+        label=f"Draw everything in {frame}", command={"type": "set_fixed_frame", "frame": frame}
+    )
 
 
 def _of_property(spec: DisplaySpec, name: str, value: bool | float | str) -> Mend:  # noqa: FBT001

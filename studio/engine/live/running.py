@@ -171,6 +171,7 @@ class RunningDisplay:
             silent_s=age_s if age_s is not None and age_s > self._patience_s else None,
             trouble=self._trouble,
             frames=tuple(_first_of_each(self.placing.troubles.values())),
+            frame=next((drawing[one].frame for one in self.placing.troubles if one in drawing), ""),
             stamp_zero=bool(roles) and any(_has_no_time(one) for one in drawing.values()),
             statuses=self._statuses(),
             draws=any(placed.shapes for placed in drawing.values()),

@@ -67,7 +67,9 @@ def test_a_router_that_is_gone_is_named_before_all_that_follows_from_it():
         (replace(WELL, frames=(NEAREST,)), "not_connected_frame", "No chain"),
         (replace(WELL, frames=(UnknownFrameError("laser"),)), "no_frame", "tells of the frame"),
         (
-            replace(WELL, frames=(ExtrapolationError("laser", 9 * 10**9, 0, 10**9),)),
+            replace(
+                WELL, frames=(ExtrapolationError("laser", 9 * 10**9, 0, 10**9),), frame="laser"
+            ),
             "stamp_out_of_buffer",
             "8.000 s newer",
         ),
@@ -92,6 +94,10 @@ def test_each_reason_is_one_sentence(facts: Facts, reason: str, words: str):
             "Add a PointCloud2 for it",
         ),
         (replace(WELL, frames=(NEAREST,)), "Draw everything in base"),
+        (
+            replace(WELL, frames=(ExtrapolationError("a", 1, 2, 3),), frame="map"),
+            "Draw everything in map",
+        ),
         (replace(WELL, statuses=(EMPTY,)), "Set Alpha to 1.0"),
         (replace(WELL, spec=GROUPED, shown=False), "Show Sensors"),
     ],
