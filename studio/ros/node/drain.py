@@ -12,10 +12,14 @@ if TYPE_CHECKING:
 
 LOOK_S = 0.002
 """Between two looks while data flows."""
+STREAM_LOOK_S = 0.004
+"""Between two looks while so much comes that whatever is taken is one of many."""
 IDLE_LOOK_S = 0.01
 """Between two looks when nothing came for a while."""
 _FLOWS_S = 0.25
 _REST = 5
+_MANY = 8
+"""Samples of one look, some 4,000 a second: to look half as often takes a tenth less processor."""
 
 logger = logging.getLogger(__name__)
 
@@ -75,24 +79,28 @@ class Drain:
             self._thread.join()
 
     def _run(self) -> None:
-        look_at_all_s = 0.0
+        look_at_all_s, taken = 0.0, 0
         while not self._stopped.is_set():
             # To wait for the event would take twice the processor of a plain sleep.
-            time.sleep(LOOK_S if self._flowing else IDLE_LOOK_S)
+            time.sleep(_pause_s(taken) if self._flowing else IDLE_LOOK_S)
             now_s = time.monotonic()
             if now_s < look_at_all_s:
-                self._look_into(tuple(self._flowing), now_s)
+                taken = self._look_into(tuple(self._flowing), now_s)
             else:
-                self._look_into(self._sources, now_s)
+                taken = self._look_into(self._sources, now_s)
                 self._calm_down(now_s)
                 # Ten thousand rings are looked into less often, so that looking costs no core.
                 took_s = time.monotonic() - now_s
                 look_at_all_s = now_s + max(IDLE_LOOK_S, _REST * took_s)
 
-    def _look_into(self, sources: Iterable[Source], now_s: float) -> None:
+    def _look_into(self, sources: Iterable[Source], now_s: float) -> int:
+        """Empty rings, and give how much was in them."""
+        taken = 0
         for source in sources:
-            if self._drained(source):
+            if count := self._drained(source):
                 self._flowing[source] = now_s + _FLOWS_S
+                taken += count
+        return taken
 
     def _drained(self, source: Source) -> int:
         try:
@@ -108,3 +116,8 @@ class Drain:
         with self._lock:
             for source in [one for one, end_s in self._flowing.items() if end_s < now_s]:
                 del self._flowing[source]
+
+
+def _pause_s(taken: int) -> float:
+    """How long to sleep after a look that took so much."""
+    return STREAM_LOOK_S if taken >= _MANY else LOOK_S
