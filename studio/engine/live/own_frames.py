@@ -10,7 +10,6 @@ import numpy as np
 from studio.tf.admission import plain
 from studio.tf.columns import Transforms
 from studio.tf.forest import FRAMES_MAX
-from studio.tf.rotations import matrices_from_poses, poses_from_matrices
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Container
@@ -22,8 +21,6 @@ if TYPE_CHECKING:
     from studio.tf.columns import Numbers
 
 PUBLISHER: Final = "this robot"
-_ROUNDING: Final = 1e-12
-"""What moves less than this does not move: edges are computed from poses in the root link."""
 
 
 class PosedRobot(Protocol):
@@ -122,12 +119,12 @@ class OwnFrames:
         kinematics, values = self._robot.kinematics, self._robot.joints.values
         if kinematics is self._kinematics and np.array_equal(values, self._values):
             return
-        root_from_links = matrices_from_poses(kinematics.wxyz_xyz(values))
+        parent_from_links = kinematics.wxyz_xyz_in_parents(values)
         with self._lock:
             if kinematics is not self._kinematics or self._edges is None:
                 self._find_edges(kinematics.link_names)
             self._kinematics, self._values = kinematics, values.copy()
-            self._tell(root_from_links)
+            self._tell(parent_from_links)
 
     def _find_edges(self, links: tuple[str, ...]) -> None:
         before = self._edges
@@ -138,27 +135,24 @@ class OwnFrames:
         self._buffer.drop(self._children - children)
         self._children = children
 
-    def _tell(self, root_from_links: Floats) -> None:
+    def _tell(self, parent_from_links: Floats) -> None:
         """Tell of the edges that moved: of a large robot few do."""
         edges = self._edges
         if edges is None or not edges.children:
             return
-        poses = poses_from_matrices(
-            _seen_from(root_from_links[edges.parent_rows], root_from_links[edges.child_rows])
-        )
-        moved = np.flatnonzero(~(np.abs(poses - self._told) <= _ROUNDING).all(axis=1))
+        poses = parent_from_links[edges.rows]
+        moved = np.flatnonzero((poses != self._told).any(axis=1))
         if moved.size:
             self._told[moved] = poses[moved]
             self._buffer.put(edges.transforms(moved, poses), static=True, publisher=PUBLISHER)
 
 
 class _Edges(NamedTuple):
-    """Which link hangs on which, and where each is among all links."""
+    """Which link hangs on which, and where each child is among all links."""
 
     parents: tuple[str, ...]
     children: tuple[str, ...]
-    parent_rows: Numbers
-    child_rows: Numbers
+    rows: Numbers
 
     def transforms(self, some: Numbers, poses: Floats) -> Transforms:
         rows: list[int] = some.tolist()
@@ -171,16 +165,6 @@ class _Edges(NamedTuple):
         )
 
 
-def _seen_from(root_from_parents: Floats, root_from_children: Floats) -> Floats:
-    """The pose of each child in its parent, shape (N, 4, 4)."""
-    parents_from_root = root_from_parents[:, :3, :3].swapaxes(1, 2)  # of rotations, the inverse
-    between = root_from_children[:, :3, 3:] - root_from_parents[:, :3, 3:]
-    found = root_from_children.copy()
-    found[:, :3, :3] = parents_from_root @ root_from_children[:, :3, :3]
-    found[:, :3, 3:] = parents_from_root @ between
-    return found
-
-
 def _edges_of(robot: Robot, links: tuple[str, ...], left_out: Container[str]) -> _Edges:
     place = {name: at for at, name in enumerate(links)}
     edges = [
@@ -191,6 +175,5 @@ def _edges_of(robot: Robot, links: tuple[str, ...], left_out: Container[str]) ->
     return _Edges(
         tuple(parent for parent, _ in edges),
         tuple(child for _, child in edges),
-        np.array([place[parent] for parent, _ in edges], np.int64),
         np.array([place[child] for _, child in edges], np.int64),
     )
