@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 if TYPE_CHECKING:
     import numpy as np
@@ -14,38 +14,17 @@ Numbers: TypeAlias = "NDArray[np.int64]"
 Flags: TypeAlias = "NDArray[np.bool_]"
 
 
-class TransformColumns(Protocol):
-    """What a buffer takes; the codec of tf2_msgs/msg/TFMessage answers such columns."""
-
-    @property
-    def parents(self) -> tuple[str, ...]:
-        """N names."""
-        ...
-
-    @property
-    def children(self) -> tuple[str, ...]:
-        """N names."""
-        ...
-
-    @property
-    def stamps_ns(self) -> Numbers:
-        """Shape (N,)."""
-        ...
-
-    @property
-    def translations(self) -> Floats:
-        """Shape (N, 3), m: the child's origin in the parent."""
-        ...
-
-    @property
-    def rotations_wxyz(self) -> Floats:
-        """Shape (N, 4)."""
-        ...
-
-
 @dataclass(frozen=True, slots=True, eq=False)
-class Transforms:
-    """Columns of one's own; see `TransformColumns` for shapes and units."""
+class TransformColumns:
+    """The transforms of one message, in its order; arrays that were read belong to nobody else.
+
+    Attributes:
+        parents: Of each the `header.frame_id`.
+        children: Of each the `child_frame_id`.
+        stamps_ns: Shape (N,), int64, since the epoch.
+        translations: Shape (N, 3), float64, metres: the child's origin in the parent.
+        rotations_wxyz: Shape (N, 4), float64, as they were sent, of whatever length.
+    """
 
     parents: tuple[str, ...]
     children: tuple[str, ...]

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from studio.tf.buffer import TransformBuffer
-from studio.tf.columns import Transforms
+from studio.tf.columns import TransformColumns
 from studio.tf.rotations import IDENTITY, compose, inverse
 from tests.benchmarks.report import Timings, judge, judge_ratio, judge_that, say, say_beside
 
@@ -67,10 +67,10 @@ def _ten_ms(run: Callable[[], object]) -> float:
     return timeit.timeit(run, number=10) / 10 * 1000
 
 
-def _measure_telling(messages: list[Transforms]) -> None:
+def _measure_telling(messages: list[TransformColumns]) -> None:
     """Microseconds of each transform in the best of ten tenths, in messages of many and of one."""
     alone = [
-        Transforms(
+        TransformColumns(
             one.parents[:1],
             one.children[:1],
             one.stamps_ns[:1],
@@ -84,7 +84,7 @@ def _measure_telling(messages: list[Transforms]) -> None:
     judge("tf: to tell of a transform among 100", many_us, at_most=1.9, unit="us")
 
 
-def _telling_us(messages: list[Transforms]) -> float:
+def _telling_us(messages: list[TransformColumns]) -> float:
     buffer, tenth = TransformBuffer(), len(messages) // 10
     begins = range(0, 10 * tenth, tenth)
     parts = [messages[begin : begin + tenth] for begin in begins]
@@ -92,7 +92,7 @@ def _telling_us(messages: list[Transforms]) -> float:
     return min(seconds) / tenth * 1e6
 
 
-def _tell(buffer: TransformBuffer, messages: list[Transforms]) -> None:
+def _tell(buffer: TransformBuffer, messages: list[TransformColumns]) -> None:
     for one in messages:
         buffer.put(one)
 
@@ -109,13 +109,13 @@ def tree() -> tuple[tuple[str, ...], tuple[str, ...]]:
     return tuple(parents), tuple(names[1:])
 
 
-def message(parents: tuple[str, ...], children: tuple[str, ...], at: int) -> Transforms:
+def message(parents: tuple[str, ...], children: tuple[str, ...], at: int) -> TransformColumns:
     """All transforms at one time, each somewhere."""
     chance = np.random.default_rng(at)
     turns = chance.normal(size=(FRAMES, 4))
     turns /= np.linalg.norm(turns, axis=1)[:, None]
     stamps_ns = np.full(FRAMES, 10**9 + at * _STEP_NS)
-    return Transforms(parents, children, stamps_ns, chance.uniform(-1, 1, (FRAMES, 3)), turns)
+    return TransformColumns(parents, children, stamps_ns, chance.uniform(-1, 1, (FRAMES, 3)), turns)
 
 
 class ChainWalk:
@@ -124,7 +124,7 @@ class ChainWalk:
     def __init__(self) -> None:
         self._edges: dict[str, tuple[str, list[int], list[Pose]]] = {}
 
-    def put(self, columns: Transforms) -> None:
+    def put(self, columns: TransformColumns) -> None:
         """Append each."""
         poses = np.concatenate([columns.rotations_wxyz, columns.translations], axis=1).tolist()
         rows = zip(

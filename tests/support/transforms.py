@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from studio.tf.columns import Transforms
+from studio.tf.columns import TransformColumns
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -29,9 +29,9 @@ class Told(NamedTuple):
     wxyz: Vector = (1.0, 0.0, 0.0, 0.0)
 
 
-def columns(*rows: Told) -> Transforms:
+def columns(*rows: Told) -> TransformColumns:
     """What a message of these holds."""
-    return Transforms(
+    return TransformColumns(
         tuple(row.parent for row in rows),
         tuple(row.child for row in rows),
         np.array([row.stamp_ns for row in rows], np.int64),

@@ -6,7 +6,7 @@ from studio.ros.fast.transforms import TransformCodec
 from studio.ros.types.library import TypeLibrary
 from studio.ros.types.plain import from_dict
 from studio.tf.buffer import TransformBuffer
-from studio.tf.columns import Transforms
+from studio.tf.columns import TransformColumns
 
 MESSAGE = TypeLibrary("jazzy").message("tf2_msgs/msg/TFMessage")
 
@@ -37,7 +37,7 @@ def test_what_comes_from_the_wire_is_taken_as_it_is_read(little: bool):
 
 def test_columns_of_ones_own_are_taken_alike():
     buffer = TransformBuffer()
-    own = Transforms(
+    own = TransformColumns(
         ("map",), ("base",), np.array([5]), np.array([[1.0, 2.0, 3.0]]), np.array([[1.0, 0, 0, 0]])
     )
     assert buffer.put(own) == ()

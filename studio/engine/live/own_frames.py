@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple, Protocol
 import numpy as np
 
 from studio.tf.admission import plain
-from studio.tf.columns import Transforms
+from studio.tf.columns import TransformColumns
 from studio.tf.forest import FRAMES_MAX
 
 if TYPE_CHECKING:
@@ -154,9 +154,9 @@ class _Edges(NamedTuple):
     children: tuple[str, ...]
     rows: Numbers
 
-    def transforms(self, some: Numbers, poses: Floats) -> Transforms:
+    def transforms(self, some: Numbers, poses: Floats) -> TransformColumns:
         rows: list[int] = some.tolist()
-        return Transforms(
+        return TransformColumns(
             tuple(self.parents[row] for row in rows),
             tuple(self.children[row] for row in rows),
             np.zeros(len(rows), np.int64),

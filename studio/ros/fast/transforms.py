@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -20,34 +19,13 @@ from studio.ros.fast.skeleton import (
     view,
 )
 from studio.ros.fast.times import nanoseconds_at, put_nanoseconds
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
+from studio.tf.columns import TransformColumns
 
 TYPE_NAME = "tf2_msgs/msg/TFMessage"
 _TRANSFORM_BYTES_LEAST = 74
 _TEMPLATES_MAX = 16
 # Of the seven numbers of a transform; on the wire a quaternion is x, y, z, w.
 _WXYZ = [6, 3, 4, 5]
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class TransformColumns:
-    """The transforms of one message, in its order; arrays that were read belong to nobody else.
-
-    Attributes:
-        parents: Of each the `header.frame_id`.
-        children: Of each the `child_frame_id`.
-        stamps_ns: Shape (N,), int64, since the epoch.
-        translations: Shape (N, 3), float64, metres: the child's origin in the parent.
-        rotations_wxyz: Shape (N, 4), float64, as they were sent, of whatever length.
-    """
-
-    parents: tuple[str, ...]
-    children: tuple[str, ...]
-    stamps_ns: NDArray[np.int64]
-    translations: NDArray[np.float64]
-    rotations_wxyz: NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -7,8 +7,9 @@ from studio.engine.live.display_list import DisplayList, DisplaySpec, Listening
 from studio.engine.live.drawing_room import DrawingRoom
 from studio.engine.model import Model
 from studio.errors import RosNameError
-from studio.ros.fast.transforms import TransformCodec, TransformColumns
+from studio.ros.fast.transforms import TransformCodec
 from studio.scene import DocumentScene
+from studio.tf.columns import TransformColumns
 from tests.support.display_messages import NOW_NS, pose, received
 from tests.support.heard_topics import HeardTopics, publisher
 from tests.support.transforms import S, Told, columns

@@ -8,7 +8,8 @@ from studio.displays.drawing import FIXED_FRAME
 from studio.engine.live.frames_desk import FramesDesk
 from studio.engine.messages.live import GetTf
 from studio.errors import UnknownFrameError
-from studio.ros.fast.transforms import TransformCodec, TransformColumns
+from studio.ros.fast.transforms import TransformCodec
+from studio.tf.columns import TransformColumns
 from tests.support.heard_topics import HeardTopics, publisher
 from tests.support.posed import Posed, arm
 from tests.support.transforms import S, Told, columns
