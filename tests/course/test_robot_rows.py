@@ -10,7 +10,7 @@ import pytest
 
 from studio.ros.client import DurabilityPolicy, Node, QoSProfile, message, qos_profile_sensor_data
 from studio.ros.types.plain import from_yaml
-from studio.tf.tree import TransformTree
+from studio.tf.rotations import compose, matrices_from_poses
 from tests.support.demos import call, heard, node_at, running_demo
 from tests.support.wire import running_router, wait_until
 
@@ -182,16 +182,15 @@ def test_the_rovers_scan_fits_its_map(router: str):
         nearest = min(
             odometry, key=lambda one: abs(stamp_s(one.header.stamp) - stamp_s(scan.header.stamp))
         )
-        tree = TransformTree()
         pose = nearest.pose.pose
         place, turn = pose.position, pose.orientation
-        tree.put("map", "base", (place.x, place.y, 0.0), (turn.x, turn.y, turn.z, turn.w))
-        tree.put("base", "laser", (-0.02, 0.05, 0.0), (0.0, 0.0, 0.0, 1.0))
+        map_from_base = turn.w, turn.x, turn.y, turn.z, place.x, place.y, 0.0
+        map_from_laser = compose(map_from_base, (1.0, 0.0, 0.0, 0.0, -0.02, 0.05, 0.0))
         angles = scan.angle_min + np.arange(360) * scan.angle_increment
         ends = np.stack(
             [scan.ranges * np.cos(angles), scan.ranges * np.sin(angles), 0 * angles, 0 * angles + 1]
         )
-        x, y = (tree.target_from_source("map", "laser") @ ends)[:2]
+        x, y = (matrices_from_poses(np.array([map_from_laser]))[0] @ ends)[:2]
         columns = ((x - grid.info.origin.position.x) / grid.info.resolution).astype(int)
         rows = ((y - grid.info.origin.position.y) / grid.info.resolution).astype(int)
         cells = grid.data.reshape(grid.info.height, grid.info.width)

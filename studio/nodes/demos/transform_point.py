@@ -8,48 +8,54 @@ target_frame: map}"`, twice while the rover drives.
 from __future__ import annotations
 
 import studio.ros.client as rclpy
-from studio.errors import FrameError, TransformError
+from studio.errors import CdrError, FrameError
 from studio.nodes.demos.running import until_stopped
 from studio.ros.client import DurabilityPolicy, Node, QoSProfile
+from studio.ros.fast.transforms import TransformCodec
 from studio.ros.messages.studio_interfaces.srv import TransformPoint
 from studio.ros.messages.tf2_msgs.msg import TFMessage
-from studio.tf.tree import TransformTree
+from studio.tf.buffer import TransformBuffer
+from studio.tf.rotations import compose
 
 
 class TransformPointNode(Node):
-    """Keeps the newest transform of each frame, and answers out of them."""
+    """Keeps the transforms of the last ten seconds, and answers out of the newest."""
 
     def __init__(self) -> None:
         super().__init__("transform_point")
-        self.tree = TransformTree()
+        self.buffer, self.codec = TransformBuffer(), TransformCodec()
         kept = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-        self.create_subscription(TFMessage, "/tf_static", self.tf_callback, kept)
-        self.create_subscription(TFMessage, "/tf", self.tf_callback, 100)
+        self.create_subscription(TFMessage, "/tf_static", self.static_callback, kept, raw=True)
+        self.create_subscription(TFMessage, "/tf", self.tf_callback, 100, raw=True)
         self.create_service(TransformPoint, "transform_point", self.transform_callback)
 
-    def tf_callback(self, msg: TFMessage) -> None:
+    def static_callback(self, data: bytes) -> None:
+        """Take up transforms that hold at all times."""
+        self.tf_callback(data, static=True)
+
+    def tf_callback(self, data: bytes, *, static: bool = False) -> None:
         """Take up transforms; what is none is said once in ten seconds."""
-        for one in msg.transforms:
-            place, turn = one.transform.translation, one.transform.rotation
-            xyz, xyzw = (place.x, place.y, place.z), (turn.x, turn.y, turn.z, turn.w)
-            try:
-                self.tree.put(one.header.frame_id, one.child_frame_id, xyz, xyzw)
-            except TransformError as error:
-                self.get_logger().warn(str(error), throttle_duration_sec=10.0)
+        try:
+            notices = self.buffer.put(self.codec.decode(data), static=static)
+        except CdrError as error:
+            self.get_logger().warn(str(error), throttle_duration_sec=10.0)
+            return
+        for notice in notices:
+            self.get_logger().warn(notice.sentence, throttle_duration_sec=10.0)
 
     def transform_callback(
         self, request: TransformPoint.Request, response: TransformPoint.Response
     ) -> TransformPoint.Response:
         """Tell the point in the target frame, or what is missing for it."""
-        point = request.point
+        point, result = request.point, response.result
         try:
-            matrix = self.tree.target_from_source(request.target_frame, request.source_frame)
+            wxyz, xyz, _ = self.buffer.fixed_from(request.target_frame, request.source_frame)
         except FrameError as error:
             response.success, response.message = False, str(error)
             return response
-        moved = matrix @ (point.x, point.y, point.z, 1.0)
+        moved = compose((*wxyz, *xyz), (1.0, 0.0, 0.0, 0.0, point.x, point.y, point.z))
         response.success = True
-        response.result.x, response.result.y, response.result.z = (float(v) for v in moved[:3])
+        result.x, result.y, result.z = moved[4:]
         return response
 
 
