@@ -98,6 +98,8 @@ class Display(ABC):
     TOPICS: ClassVar[tuple[TopicRole, ...]] = ()
     """The main one first; empty for a display without messages."""
     PROPERTIES: ClassVar[tuple[Property, ...]] = ()
+    SETTINGS_MAX: ClassVar[int] = 1000
+    """How many properties are kept: some displays have more with what comes, as links."""
 
     def __init__(self, types: TypeLibrary, values: Mapping[str, Value] | None = None) -> None:
         self._types = types
@@ -111,8 +113,12 @@ class Display(ABC):
         """Change a property.
 
         Raises:
-            DisplayPropertyError: There is none of that name, or the value is of another kind.
+            DisplayPropertyError: There is none of that name, or the value is of another kind, or
+                it is one too many.
         """
+        if name not in self.values and len(self.values) >= self.SETTINGS_MAX:
+            reason = f"is one too many: {self.SETTINGS_MAX:,} properties can be set"
+            raise DisplayPropertyError(name, reason, None)
         self.values[name] = self._property(name).checked(value)
         self.changed(name)
 

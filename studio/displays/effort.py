@@ -14,7 +14,7 @@ from studio.displays.pose_look import length, switch
 from studio.displays.properties import Property
 from studio.displays.reading import reading
 from studio.displays.turning import FAR, drawable, shortest_turn, turned
-from studio.errors import DisplayMessageError, DisplayPropertyError, RobotError
+from studio.errors import DisplayMessageError, RobotError
 from studio.robot.urdf_text import robot_from_urdf
 from studio.robot.values import JointType
 
@@ -40,7 +40,6 @@ _OTHER_JOINTS: Final = "The robot description has none of the joints whose effor
 RINGS_MAX: Final = 1000
 """Of one message: more would make the view slow."""
 _JOINTS: Final = "Joints"
-_SETTINGS_MAX: Final = 10_000
 _ROUND: Final = (JointType.REVOLUTE, JointType.CONTINUOUS)
 _UP: Final = np.array([0.0, 0.0, 1.0])
 _LEAST: Final = 0.05
@@ -82,6 +81,7 @@ class EffortDisplay(HistoryDisplay[Efforts]):
         Property("History Length", "whole", 1, "How many messages are shown.", 1, 100),
         Property("TF Prefix", "text", "", "What stands before the names of links on /tf."),
     )
+    SETTINGS_MAX = 10_000
     KEEPS = "History Length"
 
     def __init__(self, types: TypeLibrary, values: Mapping[str, Value] | None = None) -> None:
@@ -93,16 +93,6 @@ class EffortDisplay(HistoryDisplay[Efforts]):
         joints = () if self._robot is None else self._robot.joints.values()
         turning = (one.name for one in joints if one.type in _ROUND)
         return (*self.PROPERTIES, *(_switch_of(name) for name in turning))
-
-    def set(self, name: str, value: object) -> None:
-        """Change a property.
-
-        Raises:
-            DisplayPropertyError: There is none of that name, or the value is of another kind.
-        """
-        if name not in self.values and len(self.values) >= _SETTINGS_MAX:
-            raise DisplayPropertyError(name, "is one joint too many to be set", None)
-        super().set(name, value)
 
     def take(self, received: Received, role: str = "") -> None:
         """Take in joint states, or the description of the robot.

@@ -12,7 +12,7 @@ from studio.displays.display import Received, Status, StillDisplay, TopicRole
 from studio.displays.drawing import NO_TURN, NOTHING, Axes, Placed
 from studio.displays.properties import Property
 from studio.displays.reading import reading
-from studio.errors import DisplayMessageError, DisplayPropertyError
+from studio.errors import DisplayMessageError
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -22,7 +22,6 @@ if TYPE_CHECKING:
 LINKS_MAX: Final = 2000
 DESCRIPTION_MAX: Final = 16_000_000
 """Letters of a description."""
-_SETTINGS_MAX: Final = 4 * LINKS_MAX
 _LINKS: Final = "Links/"
 _ALL_LINKS: Final = "Links/All Links Enabled"
 _ALPHA: Final = "/Alpha"
@@ -90,6 +89,7 @@ class RobotModelDisplay(StillDisplay):
         ),
         Property(_ALL_LINKS, "switch", default=True, doc="Shows the links that are on, or none."),
     )  # fmt: skip
+    SETTINGS_MAX = 4 * LINKS_MAX
 
     description = ""
     _links: Mapping[str, int] = MappingProxyType({})
@@ -102,16 +102,6 @@ class RobotModelDisplay(StillDisplay):
             for part in ("", _ALPHA, _SHOW_AXES)
         )
         return (*self.PROPERTIES, *of_links)
-
-    def set(self, name: str, value: object) -> None:
-        """Change a property.
-
-        Raises:
-            DisplayPropertyError: There is none of that name, or the value is of another kind.
-        """
-        if name not in self.values and len(self.values) >= _SETTINGS_MAX:
-            raise DisplayPropertyError(name, "is of one link too many to be set", None)
-        super().set(name, value)
 
     def know_links(self, links: Iterable[str]) -> None:
         """The robot was read: these are its links."""

@@ -18,7 +18,6 @@ from studio.displays.frame_look import (
     shades_of,
 )
 from studio.displays.properties import Property
-from studio.errors import DisplayPropertyError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -31,7 +30,6 @@ if TYPE_CHECKING:
 
 NAMES_MAX: Final = 1000
 """Names are nodes of their own, and nobody could read more."""
-_SETTINGS_MAX: Final = 25_000
 _STILL: Final = 1e-6
 """Of a place in m or of a part of a quaternion: who moved less stands still."""
 
@@ -103,6 +101,7 @@ class TfDisplay(Display):
         ),
         *PROPERTIES,
     )
+    SETTINGS_MAX = 25_000
 
     def __init__(self, types: TypeLibrary, values: Mapping[str, Value] | None = None) -> None:
         super().__init__(types, values)
@@ -120,16 +119,6 @@ class TfDisplay(Display):
         """Those of all frames, and a check for each frame that is there."""
         names = () if self._frames is None else sorted(self._frames.names)
         return (*self.PROPERTIES, *(self._property(f"{FRAMES}/{name}") for name in names))
-
-    def set(self, name: str, value: object) -> None:
-        """Change a property.
-
-        Raises:
-            DisplayPropertyError: There is none of that name, or the value is of another kind.
-        """
-        if name not in self.values and len(self.values) >= _SETTINGS_MAX:
-            raise DisplayPropertyError(name, "is one frame too many to be set", None)
-        super().set(name, value)
 
     def changed(self, name: str) -> None:
         """Draw anew; switching all is switching each, as in RViz."""

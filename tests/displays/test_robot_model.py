@@ -93,8 +93,8 @@ def test_what_was_saved_of_a_link_counts_when_it_comes(monkeypatch: pytest.Monke
     display = RobotModelDisplay(TYPES, {"Links/base": False, "Links/wheel/Alpha": 0.2})
     display.know_links(["base", "wheel"])
     assert display.look().opacities == {"wheel": 0.2}
-    monkeypatch.setattr(robot_model, "_SETTINGS_MAX", 1)
-    with pytest.raises(DisplayPropertyError, match="one link too many"):
+    monkeypatch.setattr(display, "SETTINGS_MAX", 1)
+    with pytest.raises(DisplayPropertyError, match="one too many"):
         display.set("Links/more", value=False)
 
 

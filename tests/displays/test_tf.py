@@ -315,6 +315,6 @@ def test_settings_of_frames_are_bounded():
     others = len(display.values)
     for number in range(25_000 - others):
         display.set(f"Frames/{number}", value=False)
-    with pytest.raises(DisplayPropertyError, match="one frame too many"):
+    with pytest.raises(DisplayPropertyError, match="one too many"):
         display.set("Frames/more", value=False)
     display.set("Frames/0", value=True)

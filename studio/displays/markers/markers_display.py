@@ -10,7 +10,6 @@ from studio.displays.markers.batches import MarkerBatches
 from studio.displays.markers.statuses import statuses_of
 from studio.displays.markers.store import MarkerStore
 from studio.displays.properties import Property
-from studio.errors import DisplayPropertyError
 from studio.ros.fast.markers import MarkerCodec
 
 if TYPE_CHECKING:
@@ -23,7 +22,6 @@ if TYPE_CHECKING:
 MARKER: Final = "visualization_msgs/msg/Marker"
 MARKER_ARRAY: Final = "visualization_msgs/msg/MarkerArray"
 NAMESPACES: Final = "Namespaces"
-_SETTINGS_MAX: Final = 2000
 
 
 class MarkersDisplay(Display):
@@ -39,6 +37,7 @@ class MarkersDisplay(Display):
             NAMESPACES, "switch", default=True, doc="Shows the namespaces that are on, or none."
         ),
     )
+    SETTINGS_MAX = 2000
 
     def __init__(self, types: TypeLibrary, values: Mapping[str, Value] | None = None) -> None:
         super().__init__(types, values)
@@ -50,16 +49,6 @@ class MarkersDisplay(Display):
     def properties(self) -> tuple[Property, ...]:
         """The switch for all, and one for each namespace that was heard of."""
         return (*self.PROPERTIES, *(_switch(_name_of(one)) for one in self._store.heard))
-
-    def set(self, name: str, value: object) -> None:
-        """Change a property.
-
-        Raises:
-            DisplayPropertyError: There is none of that name, or the value is of another kind.
-        """
-        if name not in self.values and len(self.values) >= _SETTINGS_MAX:
-            raise DisplayPropertyError(name, "is one namespace too many to be set", None)
-        super().set(name, value)
 
     def take(self, received: Received, role: str = "") -> None:
         """Take in a message.

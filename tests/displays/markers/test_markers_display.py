@@ -6,7 +6,6 @@ import pytest
 
 from studio.displays.display import Received
 from studio.displays.marker_array import MarkerArrayDisplay
-from studio.displays.markers import markers_display
 from studio.displays.markers.kinds import Action, Kind
 from studio.errors import CdrError, DisplayPropertyError
 from tests.support.markers import TYPES, array_of, marker, sentences, shapes_in
@@ -91,8 +90,8 @@ def test_what_is_no_namespace_or_no_switch_is_refused(monkeypatch: pytest.Monkey
         display.set("Namespaces/lane", "yes")
     with pytest.raises(DisplayPropertyError, match="is no property of MarkerArray"):
         display.set("Alpha", 1.0)
-    monkeypatch.setattr(markers_display, "_SETTINGS_MAX", 1)
-    with pytest.raises(DisplayPropertyError, match="one namespace too many"):
+    monkeypatch.setattr(display, "SETTINGS_MAX", 1)
+    with pytest.raises(DisplayPropertyError, match="one too many"):
         display.set("Namespaces/more", value=False)
 
 
