@@ -195,6 +195,14 @@ export interface ConnectWire {
   type: "connect_wire";
 }
 
+/** A named value of a message. */
+export interface ConstantView {
+  name: string;
+  base: string;
+  value: boolean | number | string;
+  comment: string;
+}
+
 /** Forget one's own pose; the joints stay where they are. */
 export interface DeletePose {
   request?: number;
@@ -407,6 +415,17 @@ export interface Examples {
   examples: ExampleEntry[];
 }
 
+/** One field of a message. */
+export interface FieldView {
+  name: string;
+  base: string;
+  shape: "single" | "array" | "bounded" | "sequence";
+  count: number;
+  string_bound: number;
+  default: boolean | number | string | (boolean | number | string)[] | null;
+  comment: string;
+}
+
 /** One file that has unsaved edits. */
 export interface FileChanges {
   file: string;
@@ -558,6 +577,14 @@ export interface GetFrames {
   type: "get_frames";
 }
 
+/** Ask what a type is made of, down to its numbers and texts. */
+export interface GetInterface {
+  request?: number;
+  document?: string;
+  type: "get_interface";
+  name: string;
+}
+
 /** A link that opens this robot with its arguments and unsaved edits. */
 export interface GetLink {
   request?: number;
@@ -679,6 +706,18 @@ export interface InputDifference {
 
 /** What a value that others are made of is in its file. */
 export type InputKind = "property" | "arg" | "parameter" | "param_default" | "yaml";
+
+/** Answer to `get_interface`. */
+export interface InterfaceAnswer {
+  type: "interface";
+  request: number;
+  name: string;
+  kind: "msg" | "srv" | "action";
+  parts: string[];
+  messages: MessageView[];
+  hash: string;
+  text: string;
+}
 
 /** Positions of all movable joints by name, after a command; streams are binary frames. */
 export interface JointPositions {
@@ -862,6 +901,14 @@ export interface MendAll {
   request?: number;
   document?: string;
   type: "mend_all";
+}
+
+/** A message, or a part of a call. */
+export interface MessageView {
+  name: string;
+  fields: FieldView[];
+  constants: ConstantView[];
+  comment: string;
 }
 
 /** Make a package `folder/name` out of a template, and open its robot. */
@@ -1841,6 +1888,7 @@ export type Command =
   | RenameVariant
   | DeleteVariant
   | CompareVariants
+  | GetInterface
   | ListRecent
   | OpenRecent
   | ForgetRecent
@@ -1903,6 +1951,7 @@ export type Event =
   | VariantApplied
   | VariantSaved
   | Comparison
+  | InterfaceAnswer
   | Recent
   | Examples
   | Places

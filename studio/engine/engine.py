@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from studio.engine import messages as m
+from studio.engine.bridge.desk import BridgeDesk
 from studio.engine.dispatch import carry_out
 from studio.engine.document import Document
 from studio.engine.keeping.left_work import LeftWorkDesk
@@ -47,7 +48,9 @@ class Engine:
         self._watching: dict[Listener, Document] = {}
         self.library = Library(settings, self)
         self.uploads = UploadDesk(settings.data_folder, self)
-        self._wire_robots = WireRobotDesk(self._services.wire, settings.data_folder, self)
+        wire = self._services.wire
+        self._bridge = BridgeDesk(wire)
+        self._wire_robots = WireRobotDesk(wire, settings.data_folder, self, self._bridge)
         self.served = ServedRoots((self.library.robots_folder,))
         """What can be listed and opened out of the page."""
         self._left_work = LeftWorkDesk(self, settings.data_folder)
@@ -58,7 +61,7 @@ class Engine:
 
     async def close(self) -> None:
         """Close all documents and end all workers."""
-        await self._left_work.close()
+        await asyncio.gather(self._left_work.close(), self._bridge.close())
         documents, self.documents = tuple(self.documents.values()), {}
         await asyncio.gather(*(document.close() for document in documents), self._services.close())
 
@@ -74,6 +77,7 @@ class Engine:
         self._lobby.remove(listener)
         self._left_work.detach(listener)
         self._services.wire.detach(listener)
+        self._bridge.detach(listener)
         if document := self._watching.pop(listener, None):
             document.board.audience.remove(listener)
 
@@ -126,6 +130,8 @@ class Engine:
                 answer = await self._wire_robots.carry_out(command)
             case _ if isinstance(command, m.LibraryCommand):
                 answer = await self.library.carry_out(command)
+            case _ if isinstance(command, m.BridgeCommand):
+                answer = await self._bridge.carry_out(command, listener)
             case _:
                 await carry_out(self.document(command.document), command, listener)
         return answer

@@ -59,6 +59,7 @@ _LOOK: Final = frozenset(
         "get_display_kinds",
         "get_topics",
         "get_tf",
+        "get_interface",
         "viser:ViewerCameraMessage",
     }
 )

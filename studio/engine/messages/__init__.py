@@ -12,6 +12,7 @@ from typing import Annotated, TypeAlias
 
 from pydantic import Field, TypeAdapter
 
+from studio.engine.messages.bridge import BridgeCommand, BridgeEvent
 from studio.engine.messages.documents import (
     ChoosePackage,
     CloseDocument,
@@ -153,6 +154,8 @@ from studio.engine.messages.variants import (
     Side,
     UpdateVariant,
     VariantApplied,
+    VariantCommand,
+    VariantEvent,
     Variants,
     VariantSaved,
     VariantText,
@@ -203,12 +206,8 @@ Command: TypeAlias = Annotated[
     | LookUp
     | GetReferences
     | Complete
-    | SaveVariant
-    | ApplyVariant
-    | UpdateVariant
-    | RenameVariant
-    | DeleteVariant
-    | CompareVariants
+    | VariantCommand
+    | BridgeCommand
     | ListRecent
     | OpenRecent
     | ForgetRecent
@@ -261,10 +260,8 @@ Event: TypeAlias = Annotated[
     | Effects
     | Frames
     | Masses
-    | Variants
-    | VariantApplied
-    | VariantSaved
-    | Comparison
+    | VariantEvent
+    | BridgeEvent
     | Recent
     | Examples
     | Places
@@ -281,6 +278,8 @@ __all__ = [
     "ApplyVariant",
     "ArgumentView",
     "Arguments",
+    "BridgeCommand",
+    "BridgeEvent",
     "Built",
     "ChoosePackage",
     "CloseDocument",

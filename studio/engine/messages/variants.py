@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Final, Literal
+from typing import Final, Literal, TypeAlias
 
 from pydantic import Field
 
@@ -165,3 +165,9 @@ class CompareVariants(CommandMessage):
 
     type: Literal["compare_variants"] = "compare_variants"
     sides: tuple[Side, Side] | None = None
+
+
+VariantCommand: TypeAlias = (
+    SaveVariant | ApplyVariant | UpdateVariant | RenameVariant | DeleteVariant | CompareVariants
+)
+VariantEvent: TypeAlias = Variants | VariantApplied | VariantSaved | Comparison

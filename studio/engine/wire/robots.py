@@ -41,11 +41,22 @@ class OpenRobots(Opener, Protocol):
         ...
 
 
-class WireRobotDesk:
-    """Carries them out for the engine."""
+class LetsGo(Protocol):
+    """Whoever uses the connection, and can do without."""
 
-    def __init__(self, wire: WireDesk, data_folder: Path, opener: OpenRobots) -> None:
+    async def let_go(self) -> None:
+        """Let go of the connection, which is about to end."""
+        ...
+
+
+class WireRobotDesk:
+    """Carries them out for the engine; `bridge` lets go of a connection before it ends."""
+
+    def __init__(
+        self, wire: WireDesk, data_folder: Path, opener: OpenRobots, bridge: LetsGo
+    ) -> None:
         self._wire, self._data_folder, self._opener = wire, data_folder, opener
+        self._bridge = bridge
 
     async def carry_out(self, command: EngineWireCommand) -> m.Event | None:
         """Carry out one command and give its answer, if it has one.
@@ -74,8 +85,8 @@ class WireRobotDesk:
 
     async def _let_go(self) -> None:
         documents = self._opener.documents.values()
-        parts = (part for one in documents for part in (one.feed, one.live))
-        await asyncio.gather(*(part.let_go() for part in parts))
+        parts: list[LetsGo] = [part for one in documents for part in (one.feed, one.live)]
+        await asyncio.gather(*(part.let_go() for part in (*parts, self._bridge)))
 
     async def _open(self, command: OpenFromWire) -> str:
         link = await self._wire.link()

@@ -1,0 +1,57 @@
+"""BridgeDesk: carries out what panels ask of the ROS 2 system as a whole."""
+
+from __future__ import annotations
+
+from inspect import isawaitable
+from typing import TYPE_CHECKING, Any, Final, TypeAlias, TypeVar
+
+from studio.engine.bridge.interfaces import InterfaceDesk
+from studio.engine.messages.interfaces import GetInterface
+from studio.engine.messages.message import CommandMessage
+
+if TYPE_CHECKING:
+    from collections.abc import Awaitable, Callable
+
+    from studio.engine import messages as m
+    from studio.engine.listeners import Listener
+    from studio.engine.wire.desk import WireDesk
+
+AnyCommand = TypeVar("AnyCommand", bound=CommandMessage)
+Answer: TypeAlias = "m.BridgeEvent | None"
+"""What the asker alone is told, if anything, before it is told that all is done."""
+Work: TypeAlias = "Callable[[BridgeDesk, AnyCommand, Listener], Answer | Awaitable[Answer]]"
+
+
+def _row(kind: type[AnyCommand], work: Work[AnyCommand]) -> tuple[type[CommandMessage], Work[Any]]:
+    """A row of the table; here the two are seen to fit."""
+    return kind, work
+
+
+class BridgeDesk:
+    """Holds one desk for each subject; all run on the loop."""
+
+    def __init__(self, wire: WireDesk) -> None:
+        self.interfaces = InterfaceDesk(wire)
+
+    async def carry_out(self, command: m.BridgeCommand, listener: Listener) -> m.BridgeEvent | None:
+        """Carry out one command and give its answer, if it has one.
+
+        Raises:
+            StudioError: It cannot be done.
+        """
+        answer = WORK[type(command)](self, command, listener)
+        return await answer if isawaitable(answer) else answer
+
+    def detach(self, listener: Listener) -> None:
+        """A page is gone: what ran for it alone ends."""
+
+    async def let_go(self) -> None:
+        """Let go of the connection, which is about to end."""
+
+    async def close(self) -> None:
+        """End all that runs."""
+
+
+_INTERFACES: Final = (_row(GetInterface, lambda d, c, _: d.interfaces.interface(c)),)
+WORK: Final = dict(_INTERFACES)
+"""What each command of the bridge does."""

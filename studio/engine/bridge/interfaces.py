@@ -1,0 +1,99 @@
+"""InterfaceDesk: tells what types are made of, with and without a connection."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import TYPE_CHECKING, Literal, cast
+
+from studio.engine.messages.interfaces import (
+    ConstantView,
+    FieldView,
+    GetInterface,
+    InterfaceAnswer,
+    MessageView,
+)
+
+if TYPE_CHECKING:
+    from studio.engine.wire.desk import WireDesk
+    from studio.ros.types.definitions import Constant, Field, Message
+    from studio.ros.types.library import TypeLibrary
+
+
+class InterfaceDesk:
+    """Asks the library of the connection; without one, that of the process."""
+
+    def __init__(self, wire: WireDesk) -> None:
+        self._wire = wire
+
+    async def interface(self, command: GetInterface) -> InterfaceAnswer:
+        """Tell what a type is made of.
+
+        Raises:
+            RosNameError: No type is named so.
+            UnknownTypeError: It, or what it is made of, is not known.
+        """
+        return await asyncio.to_thread(self._answer, command)
+
+    def library(self) -> TypeLibrary:
+        """Give the types that are known; the first time in a thread, for it takes its time."""
+        from studio.ros.messages.shared import shared_types  # noqa: PLC0415 - takes its time
+
+        link = self._wire.current
+        return shared_types() if link is None else link.types
+
+    def _answer(self, command: GetInterface) -> InterfaceAnswer:
+        from studio.ros.names import split_type_name  # noqa: PLC0415
+        from studio.ros.types.definitions import messages_of  # noqa: PLC0415
+
+        library = self.library()
+        kind = split_type_name(command.name)[1]
+        parts = messages_of(library.interface(command.name))
+        return InterfaceAnswer(
+            request=command.request,
+            name=command.name,
+            kind=cast("Literal['msg', 'srv', 'action']", kind),
+            parts=tuple(one.name for one in parts),
+            messages=tuple(_message_view(one) for one in _all_of(parts, library)),
+            hash=library.hash_of(command.name),
+            text=library.text_of(command.name) or "",
+        )
+
+
+def _all_of(parts: tuple[Message, ...], library: TypeLibrary) -> list[Message]:
+    """The parts and what they are made of, each once, whatever needs others before these."""
+    found: dict[str, Message] = {}
+    waiting = list(parts)
+    while waiting:
+        message = waiting.pop(0)
+        if message.name not in found:
+            found[message.name] = message
+            waiting.extend(library.find(name) for name in sorted(message.needs()))
+    return list(found.values())
+
+
+def _message_view(message: Message) -> MessageView:
+    return MessageView(
+        name=message.name,
+        fields=tuple(_field_view(one) for one in message.fields),
+        constants=tuple(_constant_view(one) for one in message.constants),
+        comment=message.comment,
+    )
+
+
+def _field_view(field: Field) -> FieldView:
+    kind = field.type
+    return FieldView(
+        name=field.name,
+        base=kind.base,
+        shape=kind.shape.value,
+        count=kind.count,
+        string_bound=kind.string_bound,
+        default=field.default,
+        comment=field.comment,
+    )
+
+
+def _constant_view(constant: Constant) -> ConstantView:
+    return ConstantView(
+        name=constant.name, base=constant.base, value=constant.value, comment=constant.comment
+    )
