@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from studio.displays.display import Status
+    from studio.displays.drawing import Sweep
 
 
 class Channels(Protocol):
@@ -50,6 +51,7 @@ class Cloud:
         available: How many have a place.
         channels: Of the message.
         nothing: Why there are no points.
+        sweep: When each was met, if that was not all at the stamp.
     """
 
     frame: str
@@ -59,6 +61,7 @@ class Cloud:
     available: int
     channels: Channels
     nothing: Status | None = None
+    sweep: Sweep | None = None
 
     @property
     def count(self) -> int:

@@ -119,7 +119,8 @@ class CloudDisplay(Display):
             # Once asked for it stays: a cloud that reaches now here, now there would be sent anew.
             self._precise |= needs_precision(one.cloud.positions, float(self.values[_SIZE]))
             shape = points_of(one.cloud, one.colours, self.values, precise=self._precise)
-            one.placed = Placed(one.cloud.frame, one.cloud.stamp_ns, {"points": shape})
+            cloud = one.cloud
+            one.placed = Placed(cloud.frame, cloud.stamp_ns, {"points": shape}, sweep=cloud.sweep)
         return one.placed
 
     def _decay_ns(self) -> int:

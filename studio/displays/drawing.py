@@ -231,6 +231,19 @@ Shape: TypeAlias = (
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Sweep:
+    """When each of some points was met, where they were not met all at once.
+
+    Attributes:
+        until_ns: When the last beam was sent, since the epoch; the first was at the stamp.
+        shares: Shape (N,), float32: of that time, for each point; 0 at the stamp.
+    """
+
+    until_ns: int
+    shares: NDArray[np.float32]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Placed:
     """Shapes in one frame at one moment.
 
@@ -242,6 +255,8 @@ class Placed:
             else they stay in the fixed frame where they were at the stamp.
         turns: Whether the shapes are turned as the frame is; else they are at its origin, in the
             axes of the fixed frame.
+        sweep: Of the points among the shapes, where not all were met at the stamp: each belongs
+            where the frame was at its own time.
     """
 
     frame: str
@@ -249,6 +264,7 @@ class Placed:
     shapes: Mapping[str, Shape] = field(default_factory=dict[str, Shape])
     follows: bool = False
     turns: bool = True
+    sweep: Sweep | None = None
 
 
 Drawing: TypeAlias = "Mapping[str, Placed]"

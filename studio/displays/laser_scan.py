@@ -10,6 +10,7 @@ import numpy as np
 from studio.displays.cloud import Cloud, stamp_of
 from studio.displays.cloud_display import CloudDisplay
 from studio.displays.display import Status, TopicRole
+from studio.displays.drawing import Sweep
 from studio.displays.spreading import spread_among
 from studio.errors import DisplayMessageError
 
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from studio.displays.limits import Limits
 
 _BEAMS_MAX: Final = 4_000_000
+_TURN_MAX_S: Final = 5.0
 
 
 class LaserScanDisplay(CloudDisplay):
@@ -48,6 +50,7 @@ class LaserScanDisplay(CloudDisplay):
         return Cloud(
             scan.header.frame_id, stamp_of(scan.header), positions, chosen,
             int(np.count_nonzero(returned)), _Beams(scan), _nothing(scan, len(chosen)),
+            _sweep_of(scan, chosen),
         )  # fmt: skip
 
 
@@ -87,6 +90,17 @@ def _rays(first_rad: float, step_rad: float, count: int) -> NDArray[np.float32]:
     rays[:, 0], rays[:, 1] = np.cos(angles), np.sin(angles)
     rays.setflags(write=False)
     return rays
+
+
+def _sweep_of(scan: Any, beams: NDArray[np.intp]) -> Sweep | None:  # noqa: ANN401
+    """When beams were sent, one after the other; None if all were at once, or nobody knows when."""
+    count, stamp_ns = len(scan.ranges), stamp_of(scan.header)
+    took_s = float(scan.time_increment) * (count - 1)
+    # The time of a turn is a part of a second; what is longer than all that is known is no time.
+    if not stamp_ns or count < 2 or not 0.0 < abs(took_s) <= _TURN_MAX_S:
+        return None
+    shares = beams.astype(np.float32) / np.float32(count - 1)
+    return Sweep(stamp_ns + round(took_s * 1e9), shares)
 
 
 def _check(scan: Any) -> None:  # noqa: ANN401

@@ -115,3 +115,33 @@ def test_too_many_returns_are_thinned():
     display.take(scan(np.ones(1000, dtype=np.float32)))
     assert len(drawn(display).positions) == 100
     assert display.statuses()[0].sentence == "Showing 100 of 1,000 points."
+
+
+@pytest.mark.parametrize(
+    ("fields", "until_ns"),
+    [
+        ({"time_increment": 0.01}, STAMP_NS + 30_000_000),
+        ({"time_increment": -0.01}, STAMP_NS - 30_000_000),
+        ({"time_increment": 0.0}, None),
+        ({"time_increment": NAN}, None),
+        ({"time_increment": INF}, None),
+        ({"time_increment": 1e6}, None),
+        ({"time_increment": 0.01, "header": {"frame_id": "map"}}, None),
+    ],
+)
+def test_beams_that_were_sent_one_after_the_other_say_when(
+    fields: dict[str, Any], until_ns: int | None
+):
+    display = LaserScanDisplay(TYPES)
+    display.take(scan([1.0, NAN, 3.0, 4.0], **fields))
+    sweep = display.draw(NOW_NS)["0"].sweep
+    assert (sweep is None) is (until_ns is None)
+    if sweep:
+        assert sweep.until_ns == pytest.approx(until_ns, abs=10)
+        assert_allclose(sweep.shares, [0, 2 / 3, 1], rtol=1e-6)
+
+
+def test_a_scan_of_one_beam_takes_no_time():
+    display = LaserScanDisplay(TYPES)
+    display.take(scan([1.0], time_increment=0.01))
+    assert display.draw(NOW_NS)["0"].sweep is None

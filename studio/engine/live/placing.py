@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Final, NamedTuple, TypeAlias
 
 from studio.displays.drawing import NO_TURN, NOTHING
+from studio.engine.live.carrying import Carrying
 from studio.errors import ExtrapolationError, FrameError
 
 if TYPE_CHECKING:
@@ -41,6 +42,8 @@ class _Waiting:
 class _Tried:
     poses: dict[str, Pose | None] = field(default_factory=dict[str, "Pose | None"])
     troubles: dict[str, FrameError] = field(default_factory=dict[str, FrameError])
+    ends: dict[str, Pose] = field(default_factory=dict[str, "Pose"])
+    """Of what was not met all at once: where its frame was in the end."""
 
 
 class Placing:
@@ -54,7 +57,11 @@ class Placing:
         self._waiting: deque[_Waiting] = deque(maxlen=_WAITING_MAX)
         self._newest: Drawing = NOTHING
         self._shown = Shown(NOTHING, {})
+        self._source: Drawing = NOTHING
+        """What is shown, as the display drew it."""
         self._placed: dict[str, Placed] = {}
+        self._ends: Mapping[str, Pose] = {}
+        self._carrying = Carrying()
         self.troubles: Mapping[str, FrameError] = {}
         """By path, why a part of what is shown, or would be, has no place."""
 
@@ -101,6 +108,11 @@ class Placing:
         """Whether a drawing waits for its transforms."""
         return bool(self._waiting)
 
+    @property
+    def rests(self) -> bool:
+        """Whether all that is shown has been placed, and nothing waits."""
+        return not self._waiting and bool(self._shown.poses)
+
     def _try(self, drawing: Drawing, lookup: Lookup) -> _Tried:
         tried = _Tried()
         for path, placed in drawing.items():
@@ -108,23 +120,28 @@ class Placing:
             is_there = known is not None and _is_same_place(self._placed.get(path), placed)
             if is_there and not _moves(placed):
                 tried.poses[path] = known
+                if path in self._ends:
+                    tried.ends[path] = self._ends[path]
                 continue
             try:
                 wxyz, xyz = lookup(placed.frame, placed.stamp_ns)
                 tried.poses[path] = (wxyz if placed.turns else NO_TURN), xyz
+                if placed.sweep is not None:
+                    tried.ends[path] = lookup(placed.frame, placed.sweep.until_ns)
             except FrameError as error:
                 tried.poses[path], tried.troubles[path] = None, error
         return tried
 
     def _show(self, drawing: Drawing, tried: _Tried) -> Shown:
-        self._placed = dict(drawing)
+        self._source, self._placed, self._ends = drawing, dict(drawing), tried.ends
         self.troubles = tried.troubles
-        self._shown = Shown(drawing, tried.poses)
+        carried = self._carrying.carried(drawing, tried.poses, tried.ends)
+        self._shown = Shown(carried, tried.poses)
         return self._shown
 
     def _follow(self, lookup: Lookup) -> Shown | None:
         """Move what goes with its frame, and place what had no place yet."""
-        drawing, poses = self._shown
+        drawing, poses = self._source, self._shown.poses
         if all(poses.get(path) and not _moves(placed) for path, placed in drawing.items()):
             return None
         tried = self._try(drawing, lookup)
