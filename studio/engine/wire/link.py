@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Final
 from studio.engine.wire.hearing import STRING, DescriptionIn, JointsIn, Place
 from studio.engine.wire.plan import planned_wire
 from studio.engine.wire.telling import JointsOut, RobotOut
+from studio.engine.wire.topic_rates import TopicRates
 from studio.errors import CommandError, ExternalShutdownException, NotServedError
 from studio.ros.messages.shared import types_of
 from studio.ros.node.context import Context
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
     from studio.robot.values import Robot
     from studio.ros.graph.graph import Graph
     from studio.ros.node.info import MessageInfo
+    from studio.ros.node.subscription import MessageCallback
     from studio.ros.qos import QoSProfile
     from studio.ros.types.classes import MessageValue
     from studio.ros.types.library import TypeLibrary
@@ -40,7 +42,8 @@ _ANSWER_S: Final = 3.0
 class WireLink:
     """An open connection; made and closed in a thread, for both wait.
 
-    `changed` is called from other threads whenever the connection or who is there changed.
+    `changed` is called from other threads whenever the connection or who is there changed;
+    `topic_rates` tells how often and how large what others publish is.
 
     Raises:
         WireError: There is no way to a router; the sentence says why.
@@ -53,6 +56,7 @@ class WireLink:
         self._executor = SingleThreadedExecutor(context=self._context)
         self._graph = self._context.graph
         self._graph.on_change(changed)
+        self.topic_rates = TopicRates(self._context)
         self._node = self._new_node("studio")
         self._taken: set[str] = set()
         # Zenoh joins a router that comes back by itself.
@@ -167,13 +171,7 @@ class WireLink:
         self, type_name: str, topic: str, take: Callable[[MessageValue], None], qos: QoSProfile
     ) -> Callable[[], None]:
         """Hear a topic, in the thread of the link; gives what ends that."""
-        kind = self._wire.types.message(type_name)
-        subscription = self._node.create_subscription(kind, topic, take, qos)
-
-        def end() -> None:
-            self._node.destroy_subscription(subscription)
-
-        return end
+        return self._subscribed(type_name, topic, take, qos)
 
     def hear(
         self,
@@ -188,13 +186,7 @@ class WireLink:
             RosNameError: No topic is named so.
             UnknownTypeError: The type is not known here.
         """
-        kind = self._wire.types.message(type_name)
-        subscription = self._node.create_subscription(kind, topic, take, qos, raw=True)
-
-        def end() -> None:
-            self._node.destroy_subscription(subscription)
-
-        return end
+        return self._subscribed(type_name, topic, take, qos, raw=True)
 
     def let_go(self, node: Node) -> None:
         """End a node of a document."""
@@ -214,6 +206,23 @@ class WireLink:
         node = Node(name, context=self._context)
         self._executor.add_node(node)
         return node
+
+    def _subscribed(
+        self,
+        type_name: str,
+        topic: str,
+        take: MessageCallback,
+        qos: QoSProfile,
+        *,
+        raw: bool = False,
+    ) -> Callable[[], None]:
+        kind = self._wire.types.message(type_name)
+        subscription = self._node.create_subscription(kind, topic, take, qos, raw=raw)
+
+        def end() -> None:
+            self._node.destroy_subscription(subscription)
+
+        return end
 
     def _take(self, name: str, what: str) -> None:
         if name in self._taken:
