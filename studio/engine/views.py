@@ -29,7 +29,7 @@ class RobotViews:
         return RobotState.model_construct(
             revision=model.revision,
             name=robot.name,
-            root=_root(model),
+            root=robot.root,
             links=self._link_views(robot, model.assembly),
             joints=self._joint_views(robot, model),
         )
@@ -74,11 +74,6 @@ def site_view(site: Site, saved_text: str | None, argument: str | None) -> SiteV
         owner=site.owner,
         argument=argument,
     )
-
-
-def _root(model: Model) -> str:
-    children = {joint.child for joint in model.robot.joints.values()}
-    return next((name for name in model.robot.links if name not in children), "")
 
 
 def _link_view(link: Link, part: Part | None) -> LinkView:

@@ -157,3 +157,9 @@ class Robot:
     links: dict[str, Link] = field(default_factory=dict[str, Link])
     joints: dict[str, Joint] = field(default_factory=dict[str, Joint])
     materials: dict[str, Material] = field(default_factory=dict[str, Material])
+
+    @property
+    def root(self) -> str:
+        """The first link that hangs on no other; empty where there is none."""
+        children = {joint.child for joint in self.joints.values()}
+        return next((name for name in self.links if name not in children), "")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from itertools import islice
 from typing import TYPE_CHECKING, Final, Protocol
 
+from studio.displays.display import TopicRole
 from studio.displays.tf import TfDisplay
 from studio.engine.live.catalogue_views import property_view
 from studio.engine.live.ear import Hearing
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
 
     from studio.displays.display import Display
     from studio.engine.live.display_list import DisplayList, DisplaySpec, Listening
+    from studio.engine.live.ear import Wish
     from studio.engine.live.placing import Pose
     from studio.engine.model import Model
 
@@ -34,6 +36,8 @@ _MORE_MAX: Final = 500
 """Properties of one display that came with messages: more are not told."""
 _AT_ONCE_S: Final = 0.03
 """All displays together take messages for so long in one step: the loop has other work, too."""
+
+_NO_TOPIC: Final = TopicRole("", (), depth=1)
 
 
 class Connected(Hearing, Protocol):
@@ -127,14 +131,7 @@ class DrawingRoom:
     def view(self, spec: DisplaySpec) -> DisplayView:
         """One display as it is set."""
         running = self._running[spec.id]
-        wish, main = running.wish(), next(iter(running.display.TOPICS), None)
-        reliable, latched, depth = (
-            (wish.reliable, wish.latched, wish.depth)
-            if wish
-            else (main.reliable, main.latched, main.depth)
-            if main
-            else (True, False, 1)
-        )
+        heard = _heard(running)
         return DisplayView(
             id=spec.id,
             kind=spec.kind,
@@ -142,9 +139,9 @@ class DrawingRoom:
             group=spec.group,
             enabled=spec.enabled,
             topic=spec.topic,
-            reliable=reliable,
-            latched=latched,
-            depth=depth,
+            reliable=heard.reliable,
+            latched=heard.latched,
+            depth=heard.depth,
             wished=_wished(spec.listening),
             values=dict(running.display.values),
             more=_more_properties(running.display),
@@ -211,6 +208,11 @@ class DrawingRoom:
         if pose is not None and pose != self._robot_at:
             self._robot_at = pose
             self._scene.place_robot(*pose)
+
+
+def _heard(running: RunningDisplay) -> Wish | TopicRole:
+    """How the main topic is listened to; before there is one, how it would be."""
+    return running.wish() or next(iter(running.display.TOPICS), _NO_TOPIC)
 
 
 def _wished(listening: Listening) -> ListeningWish:

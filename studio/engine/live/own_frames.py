@@ -68,8 +68,7 @@ class OwnFrames:
         """The robot's root link; empty before there is a robot."""
         if self._rooted is not self._robot.robot:
             self._rooted = self._robot.robot
-            children = {joint.child for joint in self._rooted.joints.values()}
-            self._root = next((one for one in self._rooted.links if one not in children), "")
+            self._root = self._rooted.root
         return self._root
 
     @property
