@@ -8,22 +8,17 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 
 from studio.displays import covariance_look
-from studio.displays.covariance_look import (
-    NOT_POSITIVE,
-    Spread,
-    covariance_shapes,
-    is_covariance,
-    spread_of,
-)
 from studio.displays.display import TopicRole
-from studio.displays.history import KEPT_MAX, Entry, HistoryDisplay, frame_and_stamp
-from studio.displays.pose_look import NOT_FINITE, pose_of, pose_properties, pose_shapes
+from studio.displays.history import KEPT_MAX
+from studio.displays.pose_look import pose_properties
 from studio.displays.properties import Property
+from studio.displays.spread_display import SpreadDisplay
 from studio.displays.turning import angle_between_rad
 
 if TYPE_CHECKING:
+    from studio.displays.covariance_look import Spread
     from studio.displays.display import Received
-    from studio.displays.drawing import Shape
+    from studio.displays.history import Entry
 
 _UNDER: Final = "Shape/"
 _NOT_UNIT: Final = (
@@ -34,7 +29,7 @@ _NOT_UNIT: Final = (
 _SQUARE_OFF_MAX: Final = 0.01
 
 
-class OdometryDisplay(HistoryDisplay[Spread]):
+class OdometryDisplay(SpreadDisplay):
     """Draws a pose whenever the robot moved far enough from the last one that is drawn."""
 
     KIND = "Odometry"
@@ -51,25 +46,20 @@ class OdometryDisplay(HistoryDisplay[Spread]):
         *covariance_look.PROPERTIES,
     )  # fmt: skip
     KEEPS = "Keep"
+    UNDER = _UNDER
 
     def read(self, received: Received) -> Entry[Spread] | None:
         """The pose, unless it cannot be drawn or is where the last one is."""
-        message = self.decode(received)
-        pose = pose_of(message.pose.pose)
-        spread = None if pose is None else spread_of(pose, message.pose.covariance)
-        if spread is None:
-            return self.refuse("not_finite", NOT_FINITE)
-        if not _is_unit(message.pose.pose.orientation):
-            return self.refuse("bad_message", _NOT_UNIT)
-        if not is_covariance(spread):
-            self.warn(None, NOT_POSITIVE)
-        entry = Entry(*frame_and_stamp(message.header), spread)
-        return None if self._is_near_the_newest(entry) else entry
+        entry = super().read(received)
+        return None if entry is None or self._is_near_the_newest(entry) else entry
 
-    def shapes(self, content: Spread) -> dict[str, Shape]:
-        """The pose, an ellipsoid, and the spread of its axes."""
-        pose = pose_shapes(content.pose, self.values, _UNDER)
-        return pose | covariance_shapes(content, self.values)
+    def takes_turn(self, turn: Any) -> bool:  # noqa: ANN401 - a message
+        """Refuses what is no quaternion of length 1."""
+        square = math.fsum(min(abs(part), 2.0) ** 2 for part in (turn.w, turn.x, turn.y, turn.z))
+        is_unit = abs(square - 1.0) < _SQUARE_OFF_MAX
+        if not is_unit:
+            self.refuse("bad_message", _NOT_UNIT)
+        return is_unit
 
     def _is_near_the_newest(self, entry: Entry[Spread]) -> bool:
         """Whether a pose is in the same frame and neither moved nor turned far."""
@@ -82,8 +72,3 @@ class OdometryDisplay(HistoryDisplay[Spread]):
         return moved_m < self.number("Position Tolerance") and turned_rad < self.number(
             "Angle Tolerance"
         )
-
-
-def _is_unit(turn: Any) -> bool:  # noqa: ANN401 - a message
-    square = math.fsum(min(abs(part), 2.0) ** 2 for part in (turn.w, turn.x, turn.y, turn.z))
-    return abs(square - 1.0) < _SQUARE_OFF_MAX
