@@ -161,14 +161,22 @@ class TransformBuffer:
             fixed = plain(fixed) or next(iter(self._all.tree_sizes()), "")
             return report_of(self._forest, self._histories, self._arrivals, fixed, now_ns)
 
-    def jump_back(self, stamp_ns: int) -> None:
+    def jump_back(self, stamp_ns: int, from_ns: int | None = None) -> None:
         """Time begins anew here, as /clock tells: what is newer is forgotten.
 
         What is static stays; of the others a frame of which nothing is left loses its edge.
+
+        Args:
+            stamp_ns: The time now.
+            from_ns: The time before: a frame whose stamps are far beyond it goes by another clock.
         """
         with self._lock:
             self.changes += 1
-            self._intake.jump_back(self._hanging(), stamp_ns)
+            frames = np.array(self._hanging(), np.int64)
+            if from_ns is not None:
+                newest_ns = self._histories.newest_ns(frames)
+                frames = frames[newest_ns <= from_ns + self._history_ns]
+            self._intake.jump_back(frames.tolist(), stamp_ns)
 
     def drop(self, children: Iterable[str]) -> None:
         """Forget the edges of frames, as when links are no more."""

@@ -6,11 +6,13 @@ import threading
 from typing import TYPE_CHECKING, Final, Protocol
 
 from studio.displays.drawing import FIXED_FRAME, NO_TURN, ORIGIN
+from studio.engine.live.clock_watch import CLOCK_QOS, CLOCK_TYPE, ClockWatch
 from studio.engine.live.own_frames import OwnFrames
 from studio.engine.messages.live import FrameView, GetTf, TfFrames, TfPose
 from studio.errors import CdrError, FrameError
 from studio.ros.fast.transforms import TransformCodec
 from studio.ros.qos import DurabilityPolicy, QoSProfile
+from studio.tf.admission import Notice
 from studio.tf.buffer import TransformBuffer
 
 if TYPE_CHECKING:
@@ -21,7 +23,6 @@ if TYPE_CHECKING:
     from studio.engine.live.placing import Pose
     from studio.ros.graph.endpoints import GraphEndpoint
     from studio.ros.node.info import MessageInfo
-    from studio.tf.admission import Notice
     from studio.tf.columns import TransformColumns
     from studio.tf.frames_now import FramesNow
     from studio.tf.report import FrameReport
@@ -90,6 +91,8 @@ class FramesDesk:
             for topic, static in (("/tf_static", True), ("/tf", False)):
                 take, qos = self._taker(graph, static=static), _STATIC if static else _DYNAMIC
                 self._ends.append(hearing.hear(_TF_TYPE, topic, take, qos))
+            clock = ClockWatch(self._clock_jumped).take
+            self._ends.append(hearing.hear(CLOCK_TYPE, "/clock", clock, CLOCK_QOS))
 
     def look(self, graph: KnowsPublishers) -> None:
         """Take back the robot's own links from those who told of them and are gone; in a thread."""
@@ -122,7 +125,7 @@ class FramesDesk:
         self.deafen()
 
     def has_jumped(self) -> bool:
-        """Whether time went back on /tf since this was asked last, as of a bag that begins anew."""
+        """Whether time went back since this was asked last, as of a bag that begins anew."""
         if not self._jumped:
             return False  # what is said of it at this moment is told the next time
         self._jumped = False
@@ -214,6 +217,16 @@ class FramesDesk:
         for one in self.buffer.put(columns, static=static, publisher=publisher):
             self._note(one)
             self._jumped |= one.kind == "time_jumped"
+
+    def _clock_jumped(self, now_ns: int, before_ns: int) -> None:
+        """As tf2 does: what was told of later times does not hold."""
+        self.buffer.jump_back(now_ns, before_ns)
+        sentence = (
+            f"Time went back by {(before_ns - now_ns) / 1e9:.3f} s on /clock: what was told of "
+            "later times was forgotten."
+        )
+        self._note(Notice("time_jumped", "", "", "", sentence, left_out=False))
+        self._jumped = True
 
     def _publisher(self, graph: KnowsPublishers, gid: bytes) -> str:
         """The node that has a GID; one that is not known yet is looked up again."""

@@ -8,8 +8,11 @@ from studio.displays.drawing import FIXED_FRAME
 from studio.engine.live.frames_desk import FramesDesk
 from studio.engine.messages.live import GetTf
 from studio.errors import UnknownFrameError
+from studio.ros.cdr import Codec
 from studio.ros.fast.transforms import TransformCodec
+from studio.ros.types.plain import from_dict
 from studio.tf.columns import TransformColumns
+from tests.support.display_messages import TYPES
 from tests.support.heard_topics import HeardTopics, publisher
 from tests.support.posed import Posed, arm
 from tests.support.transforms import S, Told, columns
@@ -121,6 +124,43 @@ def test_a_jump_of_time_is_told_once():
     assert not desk.has_jumped()
 
 
+def clock(sec: int, nanosec: int = 0) -> bytes:
+    kind = TYPES.message("rosgraph_msgs/msg/Clock")
+    return bytes(Codec(kind).encode(from_dict(kind, {"clock": {"sec": sec, "nanosec": nanosec}})))
+
+
+def test_when_clock_goes_back_what_was_told_of_later_times_is_forgotten():
+    desk, heard = listening()
+    heard.say("/clock", clock(100))
+    heard.say("/tf_static", message_of(Told("tip", "lamp")))
+    heard.say("/tf", message_of(Told("odom", "base", 100 * S), Told("gps", "car", 900_000 * S)))
+    heard.say("/clock", clock(101))
+    heard.say("/clock", clock(100, 950_000_000))  # somebody was overtaken by himself
+    assert not desk.has_jumped()
+    heard.say("/clock", clock(5))
+    assert desk.has_jumped()
+    assert not desk.has_jumped()
+    (said,) = desk.answer(GetTf()).refused
+    assert said == (
+        "Time went back by 96.000 s on /clock: what was told of later times was forgotten."
+    )
+    frames = {one.name: one.parent for one in desk.answer(GetTf()).frames}
+    assert (frames["lamp"], frames["base"]) == ("tip", "")
+    assert frames["car"] == "gps"  # goes by another clock
+    heard.say("/tf", message_of(Told("odom", "base", 5 * S, (1.0, 0.0, 0.0))))
+    desk.chosen = "odom"
+    assert x_m(desk, "base") == 1.0
+
+
+def test_two_who_tell_different_times_on_clock_do_not_make_time_jump():
+    desk, heard = listening()
+    for second in range(5):
+        heard.say("/clock", clock(1000 + second), b"a" * 16)
+        heard.say("/clock", clock(second), b"b" * 16)
+    heard.say("/clock", b"no message")
+    assert not desk.has_jumped()
+
+
 def test_without_a_connection_only_the_robots_own_frames_are_known_and_nothing_is_refused():
     desk, heard = listening()
     heard.say("/tf", message_of(Told("odom", "base", S), Told("a", "a", S)))
@@ -155,7 +195,7 @@ def test_when_those_who_told_of_the_robots_links_are_gone_they_follow_its_joints
 def test_who_listens_again_hears_once_and_who_is_closed_never():
     desk, heard = listening()
     desk.listen(heard, Known())
-    assert len(heard.asked) == 2
+    assert [topic for _, topic, _ in heard.asked] == ["/tf_static", "/tf", "/clock"]
     desk.deafen()
     desk.listen(heard, Known())
     heard.say("/tf", message_of(Told("odom", "base", S, (1.0, 0.0, 0.0))))

@@ -1,0 +1,54 @@
+"""ClockWatch: hears /clock, and notices when its time begins anew: a simulation, or a bag."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+from studio.errors import CdrError
+from studio.ros.cdr import Codec
+from studio.ros.duration import NANOSECONDS
+from studio.ros.messages.shared import shared_types
+from studio.ros.qos import QoSProfile, ReliabilityPolicy
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from studio.ros.node.info import MessageInfo
+
+CLOCK_TYPE: Final = "rosgraph_msgs/msg/Clock"
+CLOCK_QOS: Final = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+_JITTER_NS: Final = 100_000_000
+"""Who tells the time from several threads may be that much out of order."""
+_TELLERS_MAX: Final = 16
+
+
+class ClockWatch:
+    """Takes what /clock tells, on the wire's thread.
+
+    Each publisher is compared with itself: two that tell different times never jump.
+
+    Args:
+        jumped: Is called with the new time and the one before, ns, when one went back.
+    """
+
+    def __init__(self, jumped: Callable[[int, int], None]) -> None:
+        self._jumped = jumped
+        self._codec = Codec(shared_types().message(CLOCK_TYPE))
+        self._told_ns: dict[bytes, int] = {}
+
+    def take(self, data: bytes, info: MessageInfo) -> None:
+        """Take one message; what is none is left out."""
+        try:
+            clock = self._codec.decode(data).clock
+        except CdrError:
+            return
+        now_ns = clock.sec * NANOSECONDS + clock.nanosec
+        teller = info["publisher_gid"]
+        before_ns = self._told_ns.pop(teller, now_ns)
+        if len(self._told_ns) >= _TELLERS_MAX:
+            del self._told_ns[next(iter(self._told_ns))]
+        if now_ns < before_ns - _JITTER_NS:
+            self._jumped(now_ns, before_ns)
+        elif now_ns < before_ns:
+            now_ns = before_ns
+        self._told_ns[teller] = now_ns
