@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import argparse
 import textwrap
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-from studio.cli.interface_types import environment_with
+from studio.cli.interface_types import add_interfaces_option, environment_with
 from studio.cli.wire import STARTING, add_wire_options, opened_wire
 from studio.errors import SettingsError
 
@@ -40,13 +39,9 @@ def add(parser: argparse.ArgumentParser) -> None:
         metavar="...",
         help="given to each node: -p NAME:=VALUE, -r FROM:=TO",
     )
-    parser.add_argument(
-        "--interfaces",
-        action="append",
-        default=[],
-        type=Path,
-        metavar="PATH",
-        help="types of one's own that the nodes know: a package's folder, a folder of packages, "
+    add_interfaces_option(
+        parser,
+        "types of one's own that the nodes know: a package's folder, a folder of packages, "
         "or a file; may be given again",
     )
     parser.set_defaults(run=run)

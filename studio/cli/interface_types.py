@@ -22,17 +22,20 @@ if TYPE_CHECKING:
 
 def add_type_options(parser: argparse.ArgumentParser) -> None:
     """Options of every verb that needs types."""
-    parser.add_argument(
-        "--interfaces",
-        action="append",
-        default=[],
-        type=Path,
-        metavar="PATH",
-        help="take the types of a package's folder, a folder of packages, or of one "
+    add_interfaces_option(
+        parser,
+        "take the types of a package's folder, a folder of packages, or of one "
         ".msg, .srv or .action file; - takes what is pasted, each text below a line such as "
         '"MSG: my_interfaces/Telemetry"; nothing is built; may be given again',
     )
     add_package_options(parser)
+
+
+def add_interfaces_option(parser: argparse.ArgumentParser, says: str) -> None:
+    """The option of types of one's own, and what the help says of it."""
+    parser.add_argument(
+        "--interfaces", action="append", default=[], type=Path, metavar="PATH", help=says
+    )
 
 
 def known_types(options: argparse.Namespace, distro: str) -> TypeLibrary:
