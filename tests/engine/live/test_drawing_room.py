@@ -140,7 +140,7 @@ def test_a_router_that_is_gone_is_said_of_each_display():
 def test_after_the_end_nothing_is_heard():
     def story() -> None:
         made = Room("/goal")
-        assert set(made.link.takers) == {"/goal", "/tf", "/tf_static"}
+        assert set(made.link.takers) == {"/clock", "/goal", "/tf", "/tf_static"}
         made.room.close_all()
         made.listen()
         assert made.link.takers == {}
