@@ -188,10 +188,17 @@ export interface CompletionsAnswer {
   completions: Completions;
 }
 
-/** Join the ROS 2 system, if that was not done yet; done when the connection stands. */
+/**
+ * Join the ROS 2 system, if that was not done yet; done when the connection stands.
+ *
+ * Another place than that of now: what uses the connection lets go of it before.
+ */
 export interface ConnectWire {
   request?: number;
   document?: string;
+  address?: string;
+  domain?: number | null;
+  distro?: "" | "humble" | "jazzy" | "kilted";
   type: "connect_wire";
 }
 
@@ -343,6 +350,12 @@ export interface Documents {
   documents: DocumentEntry[];
 }
 
+/** How many nodes of others a domain has. */
+export interface DomainView {
+  domain: number;
+  nodes: number;
+}
+
 /** The command was carried out. */
 export interface Done {
   type: "done";
@@ -399,6 +412,16 @@ export interface Effects {
   decisions: number;
   readers: Place[];
   is_cut: boolean;
+}
+
+/** Look what there is at a place; nothing is joined or started by it. */
+export interface ExamineWire {
+  request?: number;
+  document?: string;
+  address?: string;
+  domain?: number | null;
+  distro?: "" | "humble" | "jazzy" | "kilted";
+  type: "examine_wire";
 }
 
 /** One shipped model; `text` says what it shows. */
@@ -648,6 +671,14 @@ export interface GetTf {
   type: "get_tf";
   frame?: string;
   seen_from?: string;
+}
+
+/** How topics come; they are heard for some seconds from now on, so ask again every second. */
+export interface GetTopicRates {
+  request?: number;
+  document?: string;
+  type: "get_topic_rates";
+  topics: string[];
 }
 
 /** Which topics there are, and which display shows each. */
@@ -1645,6 +1676,22 @@ export interface TfPose {
   chain: string[];
 }
 
+/** How a topic comes. */
+export interface TopicRate {
+  name: string;
+  rate_hz: number;
+  bytes_per_s: number;
+  age_s: number | null;
+  state: "waiting" | "live" | "silent" | "latched";
+}
+
+/** Answer to `get_topic_rates`: those that somebody publishes, and for which there is room. */
+export interface TopicRates {
+  type: "topic_rates";
+  request: number;
+  rates: TopicRate[];
+}
+
 /** A topic that others publish. */
 export interface TopicView {
   name: string;
@@ -1785,6 +1832,21 @@ export interface WireFeed {
   trouble: string;
 }
 
+/** Answer to `examine_wire`: what there is, and if nobody can be met there, why. */
+export interface WireReport {
+  type: "wire_report";
+  request: number;
+  endpoint: string;
+  domain: number;
+  distro: string;
+  verdict: "fine" | "no_router" | "foreign" | "not_admitted" | "alone" | "other_domain" | "other_distro" | "bridge";
+  starts_router: boolean;
+  nodes: number;
+  domains: DomainView[];
+  distros: string[];
+  types: string[];
+}
+
 /** Answer to `find_wire_robots`: topics with a robot description, the usual one first. */
 export interface WireRobots {
   type: "wire_robots";
@@ -1855,6 +1917,7 @@ export type Command =
   | FindTexts
   | ReplaceTexts
   | ConnectWire
+  | ExamineWire
   | DisconnectWire
   | SetJointSource
   | PublishRobot
@@ -1889,6 +1952,7 @@ export type Command =
   | DeleteVariant
   | CompareVariants
   | GetInterface
+  | GetTopicRates
   | ListRecent
   | OpenRecent
   | ForgetRecent
@@ -1923,6 +1987,7 @@ export type Event =
   | WireState
   | WireFeed
   | WireRobots
+  | WireReport
   | DisplayKinds
   | LiveDisplays
   | DisplayStates
@@ -1952,6 +2017,7 @@ export type Event =
   | VariantSaved
   | Comparison
   | InterfaceAnswer
+  | TopicRates
   | Recent
   | Examples
   | Places

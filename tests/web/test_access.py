@@ -19,6 +19,7 @@ VIEWER_COMMANDS = {
     *("watch", "get_urdf", "get_text", "get_origin", "get_effects"),
     *("get_outline", "look_up", "get_references"),
     *("get_frames", "get_masses", "get_display_kinds", "get_topics", "get_tf"),
+    "get_topic_rates",
     *("find_texts", "get_urdf_changes", "get_interface"),
 }
 CLIENT_MESSAGES = {

@@ -84,6 +84,7 @@ FIELDS: dict[str, object] = {
     "source": "sliders",
     **dict.fromkeys(("kind", "topic", "frame"), "x"),
     "enabled": True,
+    "topics": ["/x"],
 }
 """A value for each field that a command needs."""
 

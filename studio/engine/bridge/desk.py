@@ -6,8 +6,10 @@ from inspect import isawaitable
 from typing import TYPE_CHECKING, Any, Final, TypeAlias, TypeVar
 
 from studio.engine.bridge.interfaces import InterfaceDesk
+from studio.engine.bridge.rates import RateDesk
 from studio.engine.messages.interfaces import GetInterface
 from studio.engine.messages.message import CommandMessage
+from studio.engine.messages.topic_rates import GetTopicRates
 
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable
@@ -32,6 +34,7 @@ class BridgeDesk:
 
     def __init__(self, wire: WireDesk) -> None:
         self.interfaces = InterfaceDesk(wire)
+        self.rates = RateDesk(wire)
 
     async def carry_out(self, command: m.BridgeCommand, listener: Listener) -> m.BridgeEvent | None:
         """Carry out one command and give its answer, if it has one.
@@ -53,5 +56,6 @@ class BridgeDesk:
 
 
 _INTERFACES: Final = (_row(GetInterface, lambda d, c, _: d.interfaces.interface(c)),)
-WORK: Final = dict(_INTERFACES)
+_RATES: Final = (_row(GetTopicRates, lambda d, c, _: d.rates.rates(c)),)
+WORK: Final = dict((*_INTERFACES, *_RATES))
 """What each command of the bridge does."""

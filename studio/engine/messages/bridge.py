@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TypeAlias
 
 from studio.engine.messages.interfaces import InterfaceCommand, InterfaceEvent
+from studio.engine.messages.topic_rates import RatesCommand, RatesEvent
 
-BridgeCommand: TypeAlias = InterfaceCommand
+BridgeCommand: TypeAlias = InterfaceCommand | RatesCommand
 """Each concerns the connection, and none a document: the bridge desk carries them out."""
-BridgeEvent: TypeAlias = InterfaceEvent
+BridgeEvent: TypeAlias = InterfaceEvent | RatesEvent
