@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
 import numpy as np
+
+from studio.tf.rotations import quaternions_from_matrices
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -12,6 +14,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 Floats: TypeAlias = "NDArray[np.float64]"
+Number = TypeVar("Number", float, "Floats")
 
 
 def matrix_from_rpy(rpy_rad: Floats) -> Floats:
@@ -19,12 +22,21 @@ def matrix_from_rpy(rpy_rad: Floats) -> Floats:
     cosines, sines = np.cos(rpy_rad), np.sin(rpy_rad)
     cr, cp, cy = cosines[..., 0], cosines[..., 1], cosines[..., 2]
     sr, sp, sy = sines[..., 0], sines[..., 1], sines[..., 2]
-    rows = (
+    return _filled(rows_of_turn((cr, cp, cy), (sr, sp, sy)))
+
+
+def rows_of_turn(
+    cosines: tuple[Number, Number, Number], sines: tuple[Number, Number, Number]
+) -> tuple[
+    tuple[Number, Number, Number], tuple[Number, Number, Number], tuple[Number, Number, Number]
+]:
+    """The matrix of one roll, pitch and yaw, or the entries of many, row by row."""
+    (cr, cp, cy), (sr, sp, sy) = cosines, sines
+    return (
         (cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr),
         (sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr),
         (-sp, cp * sr, cp * cr),
     )
-    return _filled(rows)
 
 
 def unit_vectors(vectors: Floats) -> Floats:
@@ -41,29 +53,11 @@ def cross_matrices(vectors: Floats) -> Floats:
 
 
 def wxyz_from_matrices(rotations: Floats) -> Floats:
-    """Unit quaternions (..., 4) with w >= 0 of rotations (..., 3, 3).
-
-    Of the four ways to write it, each row takes the one with the largest divisor (Shepperd).
-    """
-    m = rotations
-    xx, yy, zz = m[..., 0, 0], m[..., 1, 1], m[..., 2, 2]
-    squares = np.stack((1 + xx + yy + zz, 1 + xx - yy - zz, 1 - xx + yy - zz, 1 - xx - yy + zz), -1)
-    wx, wy, wz = (
-        m[..., 2, 1] - m[..., 1, 2],
-        m[..., 0, 2] - m[..., 2, 0],
-        m[..., 1, 0] - m[..., 0, 1],
-    )
-    xy, xz, yz = (
-        m[..., 0, 1] + m[..., 1, 0],
-        m[..., 0, 2] + m[..., 2, 0],
-        m[..., 1, 2] + m[..., 2, 1],
-    )
-    ww, ii, jj, kk = (squares[..., i] for i in range(4))
-    candidates = _filled(((ww, wx, wy, wz), (wx, ii, xy, xz), (wy, xy, jj, yz), (wz, xz, yz, kk)))
-    best = np.argmax(squares, axis=-1)[..., None, None]
-    chosen: Floats = np.take_along_axis(candidates, best, axis=-2)[..., 0, :]
-    chosen = chosen / np.linalg.norm(chosen, axis=-1, keepdims=True)
-    return np.where(chosen[..., :1] < 0, -chosen, chosen)
+    """Unit quaternions (..., 4) with w >= 0 of rotations (..., 3, 3)."""
+    # Products of many rotations drift from length 1.
+    found = unit_vectors(quaternions_from_matrices(rotations.reshape(-1, 3, 3)))
+    found[found[:, 0] < 0] *= -1.0
+    return found.reshape(*rotations.shape[:-2], 4)
 
 
 def _filled(rows: Sequence[Sequence[Floats]]) -> Floats:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from studio.robot.rotations import wxyz_from_matrices
+from studio.robot.rotations import rows_of_turn, wxyz_from_matrices
+from studio.tf.rotations import turned
 
 if TYPE_CHECKING:
     import numpy as np
@@ -31,13 +32,8 @@ def wxyz_from_rpy(rpy_rad: Vector3) -> Quaternion:
 def rows_from_rpy(rpy_rad: Vector3) -> tuple[Vector3, Vector3, Vector3]:
     """The rotation matrix of fixed-axis roll, pitch, yaw, row by row."""
     roll, pitch, yaw = (angle if math.isfinite(angle) else 0.0 for angle in rpy_rad)
-    cr, cp, cy = math.cos(roll), math.cos(pitch), math.cos(yaw)
-    sr, sp, sy = math.sin(roll), math.sin(pitch), math.sin(yaw)
-    return (
-        (cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr),
-        (sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr),
-        (-sp, cp * sr, cp * cr),
-    )
+    cosines = math.cos(roll), math.cos(pitch), math.cos(yaw)
+    return rows_of_turn(cosines, (math.sin(roll), math.sin(pitch), math.sin(yaw)))
 
 
 def wxyz_and_position(origin: Origin) -> tuple[Quaternion, Vector3]:
@@ -54,12 +50,4 @@ def wxyz_and_translation(a_from_b: NDArray[np.float64]) -> tuple[Quaternion, Vec
 
 def rotated(wxyz: Quaternion, point: Vector3) -> Vector3:
     """A point turned about the origin by a quaternion of length 1."""
-    w, x, y, z = wxyz
-    px, py, pz = point
-    # 2 q x p, which counts once times the real part and once more crossed with q.
-    cx, cy, cz = 2 * (y * pz - z * py), 2 * (z * px - x * pz), 2 * (x * py - y * px)
-    return (
-        px + w * cx + y * cz - z * cy,
-        py + w * cy + z * cx - x * cz,
-        pz + w * cz + x * cy - y * cx,
-    )
+    return turned(wxyz, *point)

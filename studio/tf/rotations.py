@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from studio.tf.columns import Floats
 
 Pose: TypeAlias = tuple[float, float, float, float, float, float, float]
@@ -74,7 +76,7 @@ def matrices_from_poses(poses: Floats) -> Floats:
 def poses_from_matrices(matrices: Floats) -> Floats:
     """Poses, shape (N, 7), of homogeneous matrices (N, 4, 4) without scale."""
     poses = np.empty((len(matrices), 7))
-    poses[:, :4] = _quaternions(matrices)
+    poses[:, :4] = quaternions_from_matrices(matrices)
     poses[:, 4:] = matrices[:, :3, 3]
     return poses
 
@@ -116,8 +118,11 @@ _ENTRY_OF_PRODUCTS = _entries_of_products()
 _PRODUCT_OF_ENTRIES, _PRODUCT_OF_NOTHING = _products_of_entries()
 
 
-def _quaternions(matrices: Floats) -> Floats:
-    """Unit quaternions (N, 4): of the products of all parts, the row of the largest part."""
+def quaternions_from_matrices(matrices: Floats) -> Floats:
+    """Unit quaternions (N, 4) of rotations (N, 3, 3), or of matrices that begin with them.
+
+    Of the products of all parts, each is the row of its largest part.
+    """
     entries = matrices[:, :3, :3].reshape(-1, 9)
     products = (entries @ _PRODUCT_OF_ENTRIES + _PRODUCT_OF_NOTHING).reshape(-1, 4, 4)
     every, largest = np.arange(len(products)), np.einsum("nii->ni", products).argmax(axis=1)
@@ -138,7 +143,7 @@ def compose(a_from_b: Pose, b_from_c: Pose) -> Pose:
     """The pose of c in a."""
     w, x, y, z, px, py, pz = a_from_b
     ow, ox, oy, oz, qx, qy, qz = b_from_c
-    rx, ry, rz = _turned(a_from_b, qx, qy, qz)
+    rx, ry, rz = turned(a_from_b, qx, qy, qz)
     return (
         w * ow - x * ox - y * oy - z * oz,
         w * ox + x * ow + y * oz - z * oy,
@@ -154,11 +159,12 @@ def inverse(a_from_b: Pose) -> Pose:
     """The pose of a in b."""
     w, x, y, z, px, py, pz = a_from_b
     back: Pose = (w, -x, -y, -z, 0.0, 0.0, 0.0)
-    rx, ry, rz = _turned(back, px, py, pz)
+    rx, ry, rz = turned(back, px, py, pz)
     return (w, -x, -y, -z, -rx, -ry, -rz)
 
 
-def _turned(turn: Pose, x: float, y: float, z: float) -> tuple[float, float, float]:
+def turned(turn: Sequence[float], x: float, y: float, z: float) -> tuple[float, float, float]:
+    """A point turned about the origin by the unit quaternion that `turn` begins with."""
     w, i, j, k = turn[:4]
     cx, cy, cz = 2 * (j * z - k * y), 2 * (k * x - i * z), 2 * (i * y - j * x)
     return (
