@@ -22,10 +22,12 @@ class UnconnectedFramesError(FrameError):
 
     def __init__(self, target: str, source: str, nearest: str | None = None) -> None:
         """`nearest` is the frame that everything around `source` hangs on, if one is known."""
+        missing = "publish the one that is missing between their trees"
+        if nearest == source:
+            missing = f'publish where "{source}" is, which nothing tells'
         instead = "" if nearest is None else f', or look from "{nearest}" instead'
         super().__init__(
-            f'No chain of transforms connects "{source}" with "{target}": '
-            f"publish the one that is missing between their trees{instead}."
+            f'No chain of transforms connects "{source}" with "{target}": {missing}{instead}.'
         )
         self.target, self.source, self.nearest = target, source, nearest
 

@@ -170,6 +170,8 @@ def test_frames_of_other_trees_and_unknown_ones_are_told_apart():
     with pytest.raises(UnconnectedFramesError, match='look from "base"') as caught:
         buffer.fixed_from("map", "hand")
     assert caught.value.nearest == "base"
+    with pytest.raises(UnconnectedFramesError, match='publish where "base" is, which nothing'):
+        buffer.fixed_from("map", "base")
     with pytest.raises(UnknownFrameError, match='"wheel"'):
         buffer.fixed_from("map", "wheel")
     assert buffer.fixed_from("/nowhere", "nowhere").xyz == (0.0, 0.0, 0.0)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
 from studio.engine.messages.live import Mend, Remark
-from studio.errors import ExtrapolationError, UnconnectedFramesError
+from studio.errors import ExtrapolationError, UnconnectedFramesError, UnknownFrameError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -195,9 +195,15 @@ def _no_message(facts: Facts) -> Remark | None:
 def _remark_on_frame(error: FrameError, frame: str) -> Remark:
     if isinstance(error, UnconnectedFramesError) and error.nearest:
         return _error("not_connected_frame", str(error), _drawn_in(error.nearest))
-    if isinstance(error, ExtrapolationError) and frame:
-        return _error("stamp_out_of_buffer", str(error), _drawn_in(frame))
-    return _error("no_frame", str(error))
+    mend = _drawn_in(frame) if frame else None
+    if isinstance(error, ExtrapolationError):
+        return _error("stamp_out_of_buffer", str(error), mend)
+    if isinstance(error, UnknownFrameError) and not error.frame:
+        return _error(
+            "no_frame_id",
+            "Messages come without a frame: have the publisher fill in frame_id of their header.",
+        )
+    return _error("no_frame", str(error), mend)
 
 
 def _drawn_in(frame: str) -> Mend:

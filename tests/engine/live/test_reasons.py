@@ -66,6 +66,7 @@ def test_a_router_that_is_gone_is_named_before_all_that_follows_from_it():
         (replace(WELL, silent_s=12.3), "silent", "12 s ago"),
         (replace(WELL, frames=(NEAREST,)), "not_connected_frame", "No chain"),
         (replace(WELL, frames=(UnknownFrameError("laser"),)), "no_frame", "tells of the frame"),
+        (replace(WELL, frames=(UnknownFrameError(""),)), "no_frame_id", "without a frame"),
         (
             replace(
                 WELL, frames=(ExtrapolationError("laser", 9 * 10**9, 0, 10**9),), frame="laser"
@@ -97,6 +98,10 @@ def test_each_reason_is_one_sentence(facts: Facts, reason: str, words: str):
         (
             replace(WELL, frames=(ExtrapolationError("a", 1, 2, 3),), frame="map"),
             "Draw everything in map",
+        ),
+        (
+            replace(WELL, frames=(UnknownFrameError("odom"),), frame="laser"),
+            "Draw everything in laser",
         ),
         (replace(WELL, statuses=(EMPTY,)), "Set Alpha to 1.0"),
         (replace(WELL, spec=GROUPED, shown=False), "Show Sensors"),
