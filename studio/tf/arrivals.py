@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from bisect import bisect_right
-from itertools import pairwise
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
+from studio.tf.forest import NONE
 from studio.tf.growing import grown
 
 if TYPE_CHECKING:
-    from studio.tf.columns import Floats, Numbers
+    from studio.tf.columns import Flags, Floats, Numbers
 
 _KEPT: Final = 64
 WINDOW_NS: Final = 10_000_000_000
@@ -69,8 +68,8 @@ class Arrivals:
         self._times_ns[frame, self._count[frame] % _KEPT] = now_ns
         self._count[frame] += 1
 
-    def clear(self, frame: int) -> None:
-        """Forget a frame."""
+    def clear(self, frame: int | Numbers) -> None:
+        """Forget a frame, or several."""
         for one in (self._count, self._teller, self._other, self._other_ns):
             one[frame] = 0
 
@@ -100,36 +99,35 @@ class Arrivals:
             names.append(self._name(other))
         return tuple(names)
 
-    def rate_hz(self, frame: int, now_ns: int) -> float:
-        """How often a frame comes, of the last 64 times within 10 s; 0 when that is not known.
+    def rates_hz(self, frames: Numbers, now_ns: int) -> Floats:
+        """How often each comes, of the last 64 times within 10 s; 0 when that is not known.
 
         Who is silent for longer than the mean period becomes slower from then on.
         """
-        times_ns = self._kept(frame)
-        del times_ns[: bisect_right(times_ns, now_ns - WINDOW_NS)]
-        if len(times_ns) < 2 or times_ns[-1] <= times_ns[0]:
-            return 0.0
-        lately = (len(times_ns) - 1) / (times_ns[-1] - times_ns[0])
-        until_now = len(times_ns) / max(now_ns - times_ns[0], 1)
-        return min(lately, until_now) * 1e9
+        times_ns, known = self._lately(frames, _KEPT)
+        counts = np.count_nonzero(known & (times_ns > now_ns - WINDOW_NS), axis=1)
+        first_ns = times_ns[np.arange(len(frames)), np.maximum(counts - 1, 0)]
+        span_ns = times_ns[:, 0] - first_ns
+        told = (counts > 1) & (span_ns > 0)
+        lately = (counts - 1) / np.where(told, span_ns, 1)
+        until_now = counts / np.maximum(now_ns - first_ns, 1)
+        return np.where(told, np.minimum(lately, until_now) * 1e9, 0.0)
 
-    def is_stale(self, frame: int, now_ns: int) -> bool:
-        """Whether a frame has been silent for 3 of its longer pauses, and for a second at least."""
-        times_ns = self._kept(frame)[-_PAUSES - 1 :]
-        silent_ns = now_ns - times_ns[-1] if times_ns else WINDOW_NS
-        pauses_ns = sorted(after - before for before, after in pairwise(times_ns))
-        if not pauses_ns:
-            return silent_ns >= WINDOW_NS
-        # The longest may be from when its publisher was not there.
-        usual_ns = pauses_ns[-2:][0]
-        return silent_ns > max(_STALE_AT_LEAST_NS, _STALE_AFTER_PAUSES * usual_ns)
+    def are_stale(self, frames: Numbers, now_ns: int) -> Flags:
+        """Which have been silent for 3 of their longer pauses, and for a second at least."""
+        times_ns, known = self._lately(frames, _PAUSES + 1)
+        silent_ns = np.where(known[:, 0], now_ns - times_ns[:, 0], WINDOW_NS)
+        pauses_ns = np.where(known[:, 1:], times_ns[:, :-1] - times_ns[:, 1:], NONE)
+        # The longest may be from when its publisher was not there; of one alone it is all there is.
+        pauses_ns.partition((-2, -1), axis=1)
+        usual_ns = np.where(pauses_ns[:, -2] == NONE, pauses_ns[:, -1], pauses_ns[:, -2])
+        after_ns = np.maximum(_STALE_AT_LEAST_NS, _STALE_AFTER_PAUSES * usual_ns)
+        return np.where(known[:, 1], silent_ns > after_ns, silent_ns >= WINDOW_NS)
 
-    def _kept(self, frame: int) -> list[int]:
-        """The last arrivals, from the oldest."""
-        count = int(self._count[frame])
-        times_ns: list[int] = self._times_ns[frame, : min(count, _KEPT)].tolist()
-        at = count % _KEPT if count > _KEPT else 0
-        return times_ns[at:] + times_ns[:at]
+    def _lately(self, frames: Numbers, most: int) -> tuple[Numbers, Flags]:
+        """The last arrivals of each from the newest, shape (N, most), and which there were."""
+        back, counts = np.arange(most), self._count[frames, None]
+        return self._times_ns[frames[:, None], (counts - 1 - back) % _KEPT], back < counts
 
     def _last_ns(self, frames: Numbers) -> Numbers:
         return self._times_ns[frames, (self._count[frames] - 1) % _KEPT]

@@ -15,7 +15,7 @@ from studio.tf.arrivals import Arrivals
 from studio.tf.forest import Forest
 from studio.tf.histories import Histories
 from studio.tf.intake import Intake
-from studio.tf.report import FrameReport, report_of
+from studio.tf.report import FrameReport, Reporting
 from studio.tf.rotations import IDENTITY, Pose, compose, inverse
 
 if TYPE_CHECKING:
@@ -143,23 +143,33 @@ class TransformBuffer:
         with self._lock:
             return sorted(name for name in self._forest.names if name)
 
+    def count(self) -> int:
+        """How many frames there are."""
+        with self._lock:
+            return len(self._forest)
+
     def roots(self) -> list[str]:
         """The frame that each tree hangs on, from that of the largest tree."""
         with self._lock:
-            return list(self._all.tree_sizes())
+            return list(self._all.shape().tree_sizes)
 
-    def report(self, fixed: str = "", now_ns: int | None = None) -> list[FrameReport]:
+    def report(
+        self, fixed: str = "", now_ns: int | None = None, most: int | None = None
+    ) -> list[FrameReport]:
         """What is to be said of each frame, in the order of the alphabet.
 
         Args:
             fixed: What is not connected with it is broken; without one, the root of the largest
                 tree.
             now_ns: By the buffer's clock.
+            most: So many are told of, the first ones; None: all.
         """
         now_ns = self._clock() if now_ns is None else now_ns
         with self._lock:
-            fixed = plain(fixed) or next(iter(self._all.tree_sizes()), "")
-            return report_of(self._forest, self._histories, self._arrivals, fixed, now_ns)
+            shape = self._all.shape()
+            fixed = plain(fixed) or next(iter(shape.tree_sizes), "")
+            found = Reporting(shape, self._histories, self._arrivals, fixed, now_ns, most)
+        return found.reports()
 
     def jump_back(self, stamp_ns: int, from_ns: int | None = None) -> None:
         """Time begins anew here, as /clock tells: what is newer is forgotten.

@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Final
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Sequence
 
 NONE: Final = -1
 FRAMES_MAX: Final = 20_000
@@ -63,6 +68,18 @@ class Forest:
             self.version += 1
         return lower
 
+    def hang_new(self, edges: Sequence[tuple[str, str]]) -> list[int] | None:
+        """Tie many new frames, each named once as a child, to their parents at once.
+
+        Returns:
+            The children's numbers; None when one of them closes a circle or hangs too deep, or when
+            there is no room for all: then nothing was tied.
+        """
+        new = {name: None for edge in edges for name in edge if name not in self._numbers}
+        if len(self) + len(new) > FRAMES_MAX or not self._can_hang(edges, new):
+            return None
+        return [self.hang(parent, child) for parent, child in edges]
+
     def cut(self, child: int) -> None:
         """Untie a frame from its parent; who has no edge any more is forgotten."""
         former, self.parents[child] = self.parents[child], NONE
@@ -82,6 +99,21 @@ class Forest:
         while (parent := self.parents[number]) != NONE:
             number = parent
         return number
+
+    def _can_hang(self, edges: Sequence[tuple[str, str]], new: Collection[str]) -> bool:
+        """Whether with these edges every frame would find its root, and soon enough."""
+        places = {name: at for at, name in enumerate(new, len(self.names))}
+        places |= {
+            name: self._numbers[name] for edge in edges for name in edge if name not in places
+        }
+        reached = np.array([*self.parents, *[NONE] * len(new)], np.int64)
+        reached[[places[child] for _, child in edges]] = [places[parent] for parent, _ in edges]
+        depths = (reached != NONE).astype(np.int64)
+        reached = np.where(reached == NONE, np.arange(len(reached)), reached)
+        for _ in range(DEPTH_MAX.bit_length()):
+            depths += depths[reached]
+            reached = reached[reached]
+        return bool((depths[reached] == 0).all() and depths.max() <= DEPTH_MAX)
 
     def _made(self, name: str) -> int:
         number = self._numbers.get(name)

@@ -77,6 +77,14 @@ class Histories:
         self._insert(frame, 0, stamp_ns, pose)
         self._static[frame] = True
 
+    def begin(self, frames: Numbers, stamps_ns: Numbers, poses: Floats, *, static: bool) -> None:
+        """Give the first row to frames of which nothing is known, each named once."""
+        blocks = np.array([self._take(_BLOCK) for _ in range(len(frames))], np.int64)
+        self._block[frames] = self._first[frames] = blocks
+        self._size[frames], self._end[frames] = _BLOCK, blocks + 1
+        self._static[frames] = static
+        self._stamps_ns[blocks], self._poses[blocks] = stamps_ns, poses
+
     def replace_static(self, frames: Numbers, stamps_ns: Numbers, poses: Floats) -> None:
         """Let other poses hold at all times, of frames that are static, each named once."""
         rows = self._first[frames]

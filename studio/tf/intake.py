@@ -17,6 +17,7 @@ from studio.tf.admission import (
     sound,
 )
 from studio.tf.forest import DEPTH_MAX, FRAMES_MAX, NONE
+from studio.tf.newcomers import newcomers_among
 
 if TYPE_CHECKING:
     from studio.tf.admission import Kind
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     from studio.tf.columns import Flags, Floats, Numbers, TransformColumns
     from studio.tf.forest import Forest
     from studio.tf.histories import Histories
+    from studio.tf.newcomers import Newcomers
 
 _NOTICES_MAX: Final = 20
 _LAYOUTS_MAX: Final = 64
@@ -71,6 +73,11 @@ class Intake:
             store = self._histories.replace_static if static else self._histories.append
             store(known, stamps_ns, poses[fast])
             self._note(known, publisher, now_ns)
+        new = newcomers_among(columns, good & ~fast, self._forest)
+        hung = self._hang_new(new, columns, poses, static=static) if new else None
+        if new and hung is not None:
+            self._note(hung, publisher, now_ns)
+            fast[new.rows] = True
         rest: list[int] = np.flatnonzero(~fast).tolist()
         notices: list[Notice] = []
         for at in rest:
@@ -103,6 +110,20 @@ class Intake:
             self._histories.drop_newer(frame, stamp_ns)
             if not self._histories.has_rows(frame):
                 self.drop(frame)
+
+    def _hang_new(
+        self, new: Newcomers, columns: TransformColumns, poses: Floats, *, static: bool
+    ) -> Numbers | None:
+        """Hang frames that nothing was known of, all at once; None when one of them cannot be."""
+        hung = self._forest.hang_new(new.edges)
+        if hung is None:
+            return None
+        frames = np.array(hung, np.int64)
+        for one in (self._histories, self._arrivals):
+            one.fit(len(self._forest.names))
+        self._arrivals.clear(frames)
+        self._histories.begin(frames, columns.stamps_ns[new.rows], poses[new.rows], static=static)
+        return frames
 
     def _frames(self, columns: TransformColumns) -> Numbers:
         """The children's numbers; NONE where no such edge stands, or a message names it twice."""

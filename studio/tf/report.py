@@ -11,8 +11,9 @@ from studio.tf.forest import NONE
 
 if TYPE_CHECKING:
     from studio.tf.arrivals import Arrivals
-    from studio.tf.forest import Forest
+    from studio.tf.columns import Flags, Numbers
     from studio.tf.histories import Histories
+    from studio.tf.shape import ForestShape
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,15 +48,111 @@ class FrameReport:
     behind: str | None
 
 
-def report_of(
-    forest: Forest, histories: Histories, arrivals: Arrivals, fixed: str, now_ns: int
-) -> list[FrameReport]:
-    """Report all frames in the order of the alphabet."""
-    reporting = _Reporting(forest, histories, arrivals, now_ns)
-    number = forest.number(fixed)
-    fixed_root = NONE if number is None else forest.root(number)
-    rows = [reporting.row(number, fixed_root) for number in forest.numbers()]
-    return sorted(rows, key=lambda row: row.frame)
+class Reporting:
+    """What is known of frames at one time: gathered in one go, put into words at leisure.
+
+    Whoever makes it holds the buffer's lock; `reports` needs none.
+
+    Args:
+        shape: Of the forest.
+        histories: Of its frames.
+        arrivals: Of its frames.
+        fixed: What is not connected with it is broken.
+        now_ns: By the clock of the arrivals.
+        most: So many are told of, the first of the alphabet; None: all.
+    """
+
+    def __init__(
+        self,
+        shape: ForestShape,
+        histories: Histories,
+        arrivals: Arrivals,
+        fixed: str,
+        now_ns: int,
+        most: int | None,
+    ) -> None:
+        self._shape, structure = shape, shape.structure
+        chosen = shape.alphabetical[:most]
+        self._chosen: list[int] = chosen.tolist()
+        fixed_row = shape.rows.get(fixed)
+        fixed_root = NONE if fixed_row is None else structure.roots[fixed_row]
+        self._broken: list[bool] = (structure.roots != fixed_root).tolist()
+        hung = chosen[structure.parents[chosen] != NONE]
+        told = _told_of(shape.numbers[hung], histories, arrivals, now_ns)
+        self._told = dict(zip(hung.tolist(), told, strict=True))
+        self._stale = _stale(shape, histories, arrivals, now_ns)
+
+    def reports(self) -> list[FrameReport]:
+        """Of each frame, in the order of the alphabet."""
+        structure = self._shape.structure
+        ways = _Ways(
+            structure.parents.tolist(),
+            structure.roots.tolist(),
+            self._stale.tolist(),
+            structure.first_above(self._stale).tolist(),
+        )
+        return [self._report(row, ways) for row in self._chosen]
+
+    def _report(self, row: int, ways: _Ways) -> FrameReport:
+        names, told = self._shape.names, self._told.get(row)
+        if told is None:
+            return _root(names[row], is_broken=self._broken[row])
+        parent = ways.parents[row]
+        behind = ways.first_stale[parent]
+        return FrameReport(
+            names[row],
+            names[parent],
+            names[ways.roots[row]],
+            *told,
+            _state(is_broken=self._broken[row], is_stale=ways.stale[row]),
+            None if behind == NONE else names[behind],
+        )
+
+
+class _Told(NamedTuple):
+    """What is known of a frame that hangs on one, as in a FrameReport."""
+
+    publishers: tuple[str, ...]
+    static: bool
+    rate_hz: float
+    age_s: float
+    oldest_ns: int
+    newest_ns: int
+
+
+class _Ways(NamedTuple):
+    """Of all rows; `first_stale` is the nearest stale frame from each upwards, or NONE."""
+
+    parents: list[int]
+    roots: list[int]
+    stale: list[bool]
+    first_stale: list[int]
+
+
+def _told_of(frames: Numbers, histories: Histories, arrivals: Arrivals, now_ns: int) -> list[_Told]:
+    publishers = [arrivals.publishers_of(frame, now_ns) for frame in frames.tolist()]
+    columns = (
+        publishers,
+        histories.is_static(frames).tolist(),
+        arrivals.rates_hz(frames, now_ns).tolist(),
+        arrivals.ages_s(frames, now_ns).tolist(),
+        histories.oldest_ns(frames).tolist(),
+        histories.newest_ns(frames).tolist(),
+    )
+    return [_Told(*row) for row in zip(*columns, strict=True)]
+
+
+def _stale(shape: ForestShape, histories: Histories, arrivals: Arrivals, now_ns: int) -> Flags:
+    """Which rows have been silent for long."""
+    stale, frames = np.zeros(len(shape.names), np.bool_), shape.numbers[shape.hung]
+    stale[shape.hung] = arrivals.are_stale(frames, now_ns) & ~histories.is_static(frames)
+    return stale
+
+
+def _state(*, is_broken: bool, is_stale: bool) -> Literal["fresh", "stale", "broken"]:
+    if is_broken:
+        return "broken"
+    return "stale" if is_stale else "fresh"
 
 
 def _root(name: str, *, is_broken: bool) -> FrameReport:
@@ -72,74 +169,3 @@ def _root(name: str, *, is_broken: bool) -> FrameReport:
         state="broken" if is_broken else "fresh",
         behind=None,
     )
-
-
-class _Edge(NamedTuple):
-    static: bool
-    age_s: float
-    oldest_ns: int
-    newest_ns: int
-    is_stale: bool
-
-
-class _Reporting:
-    """One report; what is known of the frames above one is looked up once."""
-
-    def __init__(
-        self, forest: Forest, histories: Histories, arrivals: Arrivals, now_ns: int
-    ) -> None:
-        self._forest, self._histories, self._arrivals = forest, histories, arrivals
-        self._now_ns = now_ns
-        self._edges = self._edges_now()
-        self._above: dict[int, tuple[int, int]] = {}
-        """Of each frame: its root, and the nearest stale frame from itself upwards."""
-
-    def row(self, number: int, fixed_root: int) -> FrameReport:
-        """What is to be said of one."""
-        forest, name = self._forest, self._forest.names[number]
-        root, _ = self._upwards(number)
-        is_broken = root != fixed_root
-        edge = self._edges.get(number)
-        if edge is None:
-            return _root(name, is_broken=is_broken)
-        parent = forest.parents[number]
-        behind = self._upwards(parent)[1]
-        return FrameReport(
-            name,
-            forest.names[parent],
-            forest.names[root],
-            self._arrivals.publishers_of(number, self._now_ns),
-            edge.static,
-            self._arrivals.rate_hz(number, self._now_ns),
-            edge.age_s,
-            edge.oldest_ns,
-            edge.newest_ns,
-            "broken" if is_broken else "stale" if edge.is_stale else "fresh",
-            None if behind == NONE else forest.names[behind],
-        )
-
-    def _edges_now(self) -> dict[int, _Edge]:
-        """What there is to say of each frame that hangs on one."""
-        numbers = [one for one in self._forest.numbers() if self._forest.parents[one] != NONE]
-        at = np.array(numbers, np.int64)
-        columns = (
-            self._histories.is_static(at).tolist(),
-            self._arrivals.ages_s(at, self._now_ns).tolist(),
-            self._histories.oldest_ns(at).tolist(),
-            self._histories.newest_ns(at).tolist(),
-        )
-        return {
-            number: _Edge(*row, not row[0] and self._arrivals.is_stale(number, self._now_ns))
-            for number, row in zip(numbers, zip(*columns, strict=True), strict=True)
-        }
-
-    def _upwards(self, number: int) -> tuple[int, int]:
-        way: list[int] = []
-        while number not in self._above and self._forest.parents[number] != NONE:
-            way.append(number)
-            number = self._forest.parents[number]
-        found = self._above.setdefault(number, (number, NONE))
-        for one in reversed(way):
-            found = found[0], one if self._edges[one].is_stale else found[1]
-            self._above[one] = found
-        return found

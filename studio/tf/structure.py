@@ -55,6 +55,16 @@ class Structure:
             greatest[rows] = np.maximum(greatest[rows], greatest[reached])
         return greatest
 
+    def first_above(self, flags: Flags) -> Numbers:
+        """Of each row the nearest with a flag (F,), itself or one above it; NONE if there is none.
+
+        A root's own flag does not count.
+        """
+        first = np.where(flags & (self.parents != NONE), np.arange(len(flags)), NONE)
+        for rows, reached in self._rounds:
+            first[rows] = np.where(first[rows] == NONE, first[reached], first[rows])
+        return first
+
     def without(self, cut: Flags) -> Structure:
         """The structure in which some rows hang on nothing."""
         return Structure(np.where(cut, NONE, self.parents))

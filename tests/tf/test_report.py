@@ -168,3 +168,14 @@ def test_a_thousand_publishers_that_come_and_go_are_not_kept():
         robot.tell("base", f"publisher {number}")
         robot.clock.now_ns += MS
     assert robot.report()["base"].publishers == ("publisher 4999", "publisher 4998")
+
+
+def test_of_many_frames_the_first_are_told_of_as_among_all():
+    robot = Robot()
+    robot.run(3.0, odom=10.0, base=10.0)
+    robot.run(3.0, base=10.0, wheel=10.0)
+    every = robot.buffer.report("map")
+    assert [one.frame for one in every] == ["base", "laser", "map", "odom", "wheel"]
+    assert every[1].behind == "odom"
+    assert robot.buffer.report("map", most=2) == every[:2]
+    assert robot.buffer.count() == 5

@@ -78,3 +78,15 @@ def test_what_is_cut_begins_a_tree_of_its_own():
 
 def test_a_forest_of_nothing_is_one():
     assert Structure(np.zeros(0, np.int64)).roots.tolist() == []
+
+
+@given(FORESTS, st.data())
+def test_the_first_with_a_flag_is_found_on_the_way_up(
+    forest: tuple[tuple[int, ...], list[int]], data: st.DataObject
+):
+    parents = shuffled(forest)
+    flags = data.draw(st.lists(st.booleans(), min_size=len(parents), max_size=len(parents)))
+    found = Structure(np.array(parents, np.int64)).first_above(np.array(flags, np.bool_))
+    ways = [upwards(parents, row)[:-1] for row in range(len(parents))]
+    expected = [next((one for one in way if flags[one]), -1) for way in ways]
+    assert found.tolist() == expected

@@ -171,15 +171,15 @@ class FramesDesk:
         except FrameError as error:
             return None, str(error)
 
-    def answer(self, asked: GetTf) -> TfFrames:
-        """All frames, as the page lists them, and where one is in another."""
-        rows = self.buffer.report(self.fixed)
+    def answer(self, asked: GetTf, fixed: str) -> TfFrames:
+        """All frames, as the page lists them, and where one is in another; in any thread."""
+        rows = self.buffer.report(fixed, most=_FRAMES_SHOWN)
         pose, trouble = self._pose(asked.seen_from, asked.frame)
         return TfFrames(
             request=asked.request,
-            fixed=self.fixed,
-            frames=tuple(map(_view, rows[:_FRAMES_SHOWN])),
-            more=max(0, len(rows) - _FRAMES_SHOWN),
+            fixed=fixed,
+            frames=tuple(map(_view, rows)),
+            more=max(0, self.buffer.count() - len(rows)),
             refused=tuple(one.sentence for one in tuple(self._notices.values())),
             pose=pose,
             trouble=trouble,

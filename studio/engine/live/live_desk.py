@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from studio.engine.live.display_list import DisplaySpec
     from studio.engine.live.drawing_room import DrawingRoom
     from studio.engine.live.placing import Shown
+    from studio.engine.live.robot_models import RobotModels
     from studio.engine.services import Services
     from studio.engine.wire.link import WireLink
 
@@ -47,11 +48,13 @@ class LiveDesk:
     def __init__(
         self, document: Document, services: Services, want_meshes: Callable[[], None]
     ) -> None:
-        self._document, self._wire = document, services.wire
+        self._document, self._services, self._wire = document, services, services.wire
         self._file = DisplayFile(services.settings.data_folder, document.entry)
         self._want_meshes = want_meshes
         self._list = DisplayList()
         self._made: DrawingRoom | None = None
+        self._robots: RobotModels | None = None
+        """Made with the room."""
         self._link: WireLink | None = None
         self._listening = asyncio.Lock()
         self._ticking: asyncio.Task[None] | None = None
@@ -70,8 +73,10 @@ class LiveDesk:
         """Made when it is first needed: what it imports takes time, and many need no displays."""
         if self._made is None:
             from studio.engine.live.drawing_room import DrawingRoom  # noqa: PLC0415 - see above
+            from studio.engine.live.robot_models import RobotModels  # noqa: PLC0415
 
             self._made = DrawingRoom(self._document.model, self._want_meshes)
+            self._robots = RobotModels(self._document, self._services)
         return self._made
 
     def restore(self) -> None:
@@ -104,7 +109,8 @@ class LiveDesk:
 
     async def add(self, command: m.AddDisplay) -> None:
         """Add a display; with a topic, the connection is made if there is none."""
-        spec = self._list.add(command.kind, _full_name(command.topic))
+        topic = _full_name(command.topic) or _first_topic(command.kind)
+        spec = self._list.add(command.kind, topic)
         try:
             self._room.open(spec)
         except StudioError:
@@ -193,17 +199,21 @@ class LiveDesk:
         found = await asyncio.to_thread(_topics_of, link) if link else ()
         return m.Topics(request=command.request, topics=found)
 
-    def tf(self, command: m.GetTf) -> m.TfFrames:
+    async def tf(self, command: m.GetTf) -> m.TfFrames:
         """Which frames there are, and where one is in another; TF is heard from now on."""
         self._asked_until_s = time.monotonic() + _ASKED_FOR_S
         self._go_on()
-        self._room.frames.step()
-        return self._room.frames.answer(command)
+        frames = self._room.frames
+        frames.step()
+        # Thousands of frames in words take a while, and the loop has other work.
+        return await asyncio.to_thread(frames.answer, command, frames.fixed)
 
     async def let_go(self) -> None:
         """Let go of the connection; displays stay, and listen again when there is one."""
         async with self._listening:
             self._link = None
+            if self._robots is not None:
+                await self._robots.let_go()
             if self._made is not None:
                 await asyncio.to_thread(self._made.deafen)
 
@@ -214,6 +224,8 @@ class LiveDesk:
             self._ticking.cancel()
             await asyncio.gather(self._ticking, return_exceptions=True)
         await self.let_go()
+        if self._robots is not None:
+            await self._robots.close()
         if self._made is not None:
             await asyncio.to_thread(self._made.close_all)
         if self._keeping is not None:
@@ -282,7 +294,7 @@ class LiveDesk:
                 if looks:
                     self._looked_s = began_s
                     await self._listen()
-                self._room.step(self._list, time.time_ns())
+                self._step()
                 if looks:
                     self._tell_displays()
                     self._tell_states()
@@ -297,6 +309,12 @@ class LiveDesk:
         await self.let_go()
         self._ticking = None
         self._go_on()  # somebody may have asked meanwhile
+
+    def _step(self) -> None:
+        room = self._room
+        if self._robots is not None:
+            self._robots.step(room.displays(), self._link)
+        room.step(self._list, time.time_ns())
 
     def _log_once(self, error: Exception) -> None:
         """Say that a tick failed, unless that is what was said last: there are many ticks."""
@@ -337,6 +355,17 @@ class LiveDesk:
         )
 
 
+def _first_topic(kind: str) -> str:
+    """What a display listens to when nobody says what.
+
+    Raises:
+        DisplayError: There is no such kind.
+    """
+    from studio.displays.catalogue import display_of_kind  # noqa: PLC0415 - imports all
+
+    return display_of_kind(kind).FIRST_TOPIC
+
+
 def _full_name(topic: str) -> str:
     """A topic as the graph names it."""
     topic = topic.strip()
@@ -349,7 +378,7 @@ def _topics_of(link: WireLink) -> tuple[m.TopicView, ...]:
     found: list[m.TopicView] = []
     for name, types in link.graph.topics():
         publishers = len(link.graph.publishers(name))
-        kinds = [kind.KIND for one in types for kind in displays_of_type(one)]
+        kinds = [kind.KIND for one in types for kind in displays_of_type(one, name)]
         if publishers:
             kind = kinds[0] if kinds else ""
             found.append(

@@ -94,7 +94,7 @@ def test_the_answer_names_who_tells_of_each_frame_and_the_way_between_two():
     desk, heard = listening()
     heard.say("/tf", message_of(Told("odom", "base", S)), KNOWN.gid)
     heard.say("/tf_static", message_of(Told("tip", "lamp")))
-    answer = desk.answer(GetTf(frame="tip", seen_from="odom"))
+    answer = desk.answer(GetTf(frame="tip", seen_from="odom"), desk.fixed)
     assert answer.pose
     assert answer.pose.chain == ("odom", "base", "upper", "tip")
     told = {one.name: (one.publisher, one.static) for one in answer.frames}
@@ -107,11 +107,11 @@ def test_what_is_refused_is_told_in_sentences_of_which_few_are_kept():
     desk, heard = listening()
     for number in range(30):
         heard.say("/tf", message_of(Told(f"f{number}", f"f{number}", S)))
-    refused = desk.answer(GetTf()).refused
+    refused = desk.answer(GetTf(), desk.fixed).refused
     assert len(refused) == 20
     assert "f29" in refused[-1]
     heard.say("/tf", b"no message")
-    assert desk.answer(GetTf()).refused == refused
+    assert desk.answer(GetTf(), desk.fixed).refused == refused
 
 
 def test_a_jump_of_time_is_told_once():
@@ -140,11 +140,11 @@ def test_when_clock_goes_back_what_was_told_of_later_times_is_forgotten():
     heard.say("/clock", clock(5))
     assert desk.has_jumped()
     assert not desk.has_jumped()
-    (said,) = desk.answer(GetTf()).refused
+    (said,) = desk.answer(GetTf(), desk.fixed).refused
     assert said == (
         "Time went back by 96.000 s on /clock: what was told of later times was forgotten."
     )
-    frames = {one.name: one.parent for one in desk.answer(GetTf()).frames}
+    frames = {one.name: one.parent for one in desk.answer(GetTf(), desk.fixed).frames}
     assert (frames["lamp"], frames["base"]) == ("tip", "")
     assert frames["car"] == "gps"  # goes by another clock
     heard.say("/tf", message_of(Told("odom", "base", 5 * S, (1.0, 0.0, 0.0))))
@@ -173,7 +173,7 @@ def test_without_a_connection_only_the_robots_own_frames_are_known_and_nothing_i
     assert x_m(desk, "tip") == 0.5
     with pytest.raises(UnknownFrameError):
         desk.lookup("odom", 0)
-    assert desk.answer(GetTf()).refused == ()
+    assert desk.answer(GetTf(), desk.fixed).refused == ()
 
 
 def test_when_those_who_told_of_the_robots_links_are_gone_they_follow_its_joints_again():
