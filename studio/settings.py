@@ -37,6 +37,8 @@ class WireChoice:
     connect: tuple[str, ...] = ()
     """Zenoh endpoints of routers; empty: the usual one of this machine."""
     domain: int | None = None
+    distro: str = ""
+    """Whose wire is spoken; empty: that which ROS_DISTRO names."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,10 +12,31 @@ JointSource: TypeAlias = Literal["sliders", "animation", "joint_states", "tf"]
 """Who moves the joints: one of these at a time."""
 
 
-class ConnectWire(CommandMessage):
-    """Join the ROS 2 system, if that was not done yet; done when the connection stands."""
+Distro: TypeAlias = Literal["", "humble", "jazzy", "kilted"]
+
+
+class WirePlace(CommandMessage):
+    """Where a ROS 2 system is looked for, and what it speaks; what is left out stays as it is."""
+
+    address: str = Field(default="", max_length=300)
+    """`robot.local`, `192.0.2.7:7447`, or an endpoint as Zenoh writes it."""
+    domain: int | None = Field(default=None, ge=0, le=232)
+    distro: Distro = ""
+
+
+class ConnectWire(WirePlace):
+    """Join the ROS 2 system, if that was not done yet; done when the connection stands.
+
+    Another place than that of now: what uses the connection lets go of it before.
+    """
 
     type: Literal["connect_wire"] = "connect_wire"
+
+
+class ExamineWire(WirePlace):
+    """Look what there is at a place; nothing is joined or started by it."""
+
+    type: Literal["examine_wire"] = "examine_wire"
 
 
 class DisconnectWire(CommandMessage):
@@ -63,6 +84,7 @@ class OpenFromWire(CommandMessage):
 
 WireCommand: TypeAlias = (
     ConnectWire
+    | ExamineWire
     | DisconnectWire
     | SetJointSource
     | PublishRobot
@@ -124,4 +146,45 @@ class WireRobots(Message):
     """Full names of nodes that may have one as a parameter."""
 
 
-WireEvent: TypeAlias = WireState | WireFeed | WireRobots
+class DomainView(Message):
+    """How many nodes of others a domain has."""
+
+    domain: int
+    nodes: int
+
+
+class WireReport(Message):
+    """Answer to `examine_wire`: what there is, and if nobody can be met there, why."""
+
+    type: Literal["wire_report"] = "wire_report"
+    request: int
+    endpoint: str
+    domain: int
+    distro: str
+    """That is spoken here."""
+    verdict: Literal[
+        "fine",
+        "no_router",
+        "foreign",
+        "not_admitted",
+        "alone",
+        "other_domain",
+        "other_distro",
+        "bridge",
+    ]
+    """`foreign`: something else holds the place; `not_admitted`: the router wants another name or
+    certificate; `alone`: a router without nodes; `bridge`: only one for DDS, which speaks other
+    keys; `other_distro`: nodes are there, and types of theirs have another form."""
+    starts_router: bool
+    """Connecting would start a router here."""
+    nodes: int
+    """Of others, in the domain."""
+    domains: tuple[DomainView, ...]
+    """Those that have nodes, in their order; the first ones."""
+    distros: tuple[str, ...]
+    """Whose types the nodes of the domain have, as far as their tokens tell."""
+    types: tuple[str, ...]
+    """Of another form than here; the first ones."""
+
+
+WireEvent: TypeAlias = WireState | WireFeed | WireRobots | WireReport

@@ -60,6 +60,16 @@ class WireDesk:
         """The connection, if there is one."""
         return self._link
 
+    @property
+    def choice(self) -> WireChoice:
+        """Where a connection is looked for."""
+        return self._choice
+
+    def choose(self, choice: WireChoice) -> None:
+        """Look elsewhere from the next connection on."""
+        self._choice = choice
+        self._tell()
+
     async def link(self) -> WireLink:
         """Give the connection; the first who asks has it opened.
 
@@ -149,10 +159,11 @@ class WireDesk:
 
     def _state_without(self) -> WireState:
         """How it stands while there is no connection; what the environment says may be wrong."""
-        trouble, endpoint, domain = self._trouble, "", 0
+        trouble, endpoint, domain, distro = self._trouble, "", 0, ""
         try:
             planned = planned_wire(self._choice)
             endpoint, domain = ", ".join(planned.connect), planned.domain
+            distro = planned.profile.distro
         except StudioError as error:
             trouble = str(error)
         return WireState(
@@ -160,7 +171,7 @@ class WireDesk:
             router="",
             endpoint=endpoint,
             domain=domain,
-            distro="",
+            distro=distro,
             nodes=(),
             node_count=0,
             trouble=trouble,

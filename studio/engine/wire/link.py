@@ -91,6 +91,11 @@ class WireLink:
         return self._wire.profile.distro
 
     @property
+    def zid(self) -> str:
+        """Of the session, by which its own nodes are known."""
+        return self._wire.zid
+
+    @property
     def types(self) -> TypeLibrary:
         """All types that are known on this wire."""
         return self._wire.types

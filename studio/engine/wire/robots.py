@@ -11,10 +11,13 @@ from studio.engine.library import Opener
 from studio.engine.messages.wire import (
     ConnectWire,
     DisconnectWire,
+    ExamineWire,
     FindWireRobots,
     OpenFromWire,
+    WireReport,
     WireRobots,
 )
+from studio.engine.wire.plan import chosen_wire
 from studio.errors import CommandError
 from studio.packages.from_wire import choose_packages, keep_description
 
@@ -27,7 +30,9 @@ if TYPE_CHECKING:
     from studio.engine.wire.hearing import DescriptionIn
     from studio.packages.index import PackageIndex
 
-EngineWireCommand: TypeAlias = ConnectWire | DisconnectWire | FindWireRobots | OpenFromWire
+EngineWireCommand: TypeAlias = (
+    ConnectWire | ExamineWire | DisconnectWire | FindWireRobots | OpenFromWire
+)
 _FIRST_PATIENCE_S = 5.0
 """For a description that is latched: it comes at once, or nobody tells one."""
 
@@ -66,8 +71,10 @@ class WireRobotDesk:
         """
         match command:
             case ConnectWire():
-                await self._wire.link()
+                await self._connect(command)
                 return None
+            case ExamineWire():
+                return await asyncio.to_thread(self._examine, command)
             case DisconnectWire():
                 await self._disconnect()
                 return None
@@ -77,6 +84,20 @@ class WireRobotDesk:
                 return WireRobots(request=command.request, topics=topics, nodes=nodes)
             case OpenFromWire():
                 return m.Opened(request=command.request, document=await self._open(command))
+
+    async def _connect(self, command: ConnectWire) -> None:
+        chosen = chosen_wire(self._wire.choice, command)
+        if chosen != self._wire.choice:
+            await self._disconnect()
+            self._wire.choose(chosen)
+        await self._wire.link()
+
+    def _examine(self, command: ExamineWire) -> WireReport:
+        from studio.engine.wire.report import examine  # noqa: PLC0415 - imports zenoh
+
+        link = self._wire.current
+        own = () if link is None else (link.zid,)
+        return examine(chosen_wire(self._wire.choice, command), own, command.request)
 
     async def _disconnect(self) -> None:
         await self._let_go()

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from studio.engine.wire.plan import planned_wire
+from studio.engine.messages.wire import ConnectWire
+from studio.engine.wire.plan import chosen_wire, planned_wire
 from studio.errors import WireSettingsError
 from studio.ros.wire.settings import ROUTER_ENDPOINT
 from studio.settings import WireChoice
@@ -41,3 +42,44 @@ def test_a_domain_that_is_none_is_an_error(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setenv("ROS_DOMAIN_ID", "many")
     with pytest.raises(WireSettingsError):
         planned_wire(WireChoice())
+
+
+def test_a_distribution_that_was_chosen_comes_before_that_of_the_environment(
+    monkeypatch: pytest.MonkeyPatch,
+):
+    monkeypatch.setenv("ROS_DISTRO", "humble")
+    assert planned_wire(WireChoice(distro="kilted")).profile.distro == "kilted"
+
+
+@pytest.mark.parametrize(
+    ("address", "endpoint"),
+    [
+        ("robot.local", "tcp/robot.local:7447"),
+        (" 192.0.2.7:7448 ", "tcp/192.0.2.7:7448"),
+        ("tls/robot", "tls/robot:7447"),
+        ("tcp/[::1]:9", "tcp/[::1]:9"),
+        ("[::1]", "tcp/[::1]:7447"),
+        ("::1", "tcp/[::1]:7447"),
+        ("fe80::1:2", "tcp/[fe80::1:2]:7447"),
+        ("unixsock-stream/zenoh", "unixsock-stream/zenoh"),
+    ],
+)
+def test_an_address_is_taken_as_people_write_it(address: str, endpoint: str):
+    assert chosen_wire(WireChoice(), ConnectWire(address=address)).connect == (endpoint,)
+
+
+@pytest.mark.parametrize("address", ["http://robot", "a b", "tcp/", "robot:0", "x:99999999", "/"])
+def test_an_address_that_is_none_is_an_error(address: str):
+    with pytest.raises(WireSettingsError):
+        chosen_wire(WireChoice(), ConnectWire(address=address))
+
+
+def test_what_a_person_leaves_out_stays_as_it_was():
+    before = WireChoice("tcp/127.0.0.1:9", ("tcp/a:1",), 4, "humble")
+    assert chosen_wire(before, ConnectWire()) == before
+    assert chosen_wire(before, ConnectWire(domain=0)) == WireChoice(
+        "tcp/127.0.0.1:9", ("tcp/a:1",), 0, "humble"
+    )
+    elsewhere = chosen_wire(before, ConnectWire(address="tcp/b:2", distro="jazzy"))
+    assert elsewhere == WireChoice("auto", ("tcp/b:2",), 4, "jazzy")
+    assert chosen_wire(WireChoice("off"), ConnectWire(address="b")).router == "off"

@@ -11,17 +11,19 @@ from studio.engine import messages as m
 from studio.engine.messages.wire import (
     ConnectWire,
     DisconnectWire,
+    ExamineWire,
     FindWireRobots,
     OpenFromWire,
     PublishJoints,
     PublishRobot,
     SetJointSource,
 )
-from studio.errors import CommandError, NotServedError
+from studio.errors import CommandError, NoRouterError, NotServedError, WireSettingsError
 from studio.nodes.robot_state_publisher import LATCHED
 from studio.ros.messages import message
 from studio.ros.parameters.parameter import Parameter
 from tests.support.open_documents import until
+from tests.support.wire import free_endpoint
 from tests.support.wired_studio import ARM, STRING, joint_states_of, studio
 
 if TYPE_CHECKING:
@@ -123,5 +125,37 @@ def test_who_disconnects_ends_what_goes_out_and_comes_in_and_may_connect_again(
             await one.do(PublishRobot(running=True))
             assert one.ear.last("wire_state")["state"] == "connected"
             await until(lambda: "robot_state_publisher" in tester.get_node_names())
+
+    asyncio.run(run())
+
+
+def test_another_place_is_joined_at_run_time_and_looking_at_one_joins_nothing(
+    endpoint: str, tester: Node, tmp_path: Path
+):
+    tester.create_publisher(message(STRING), "/chatter", 10)
+
+    async def run() -> None:
+        async with studio(endpoint, tmp_path) as one:
+            await one.do(ConnectWire(domain=41))
+            assert (one.ear.last("wire_state")["domain"], one.ear.last("wire_state")["nodes"]) == (
+                41,
+                [],
+            )
+            await one.do(ExamineWire())
+            report = one.ear.last("wire_report")
+            assert (report["verdict"], report["domains"]) == (
+                "other_domain",
+                [{"domain": 0, "nodes": 1}],
+            )
+            await one.do(ConnectWire(domain=0))
+            await until(lambda: one.ear.last("wire_state")["node_count"] == 1)
+            assert one.ear.last("wire_state")["domain"] == 0
+            with pytest.raises(NoRouterError):
+                await one.do(ConnectWire(address=free_endpoint()))
+            assert one.ear.last("wire_state")["state"] == "failed"
+            with pytest.raises(WireSettingsError):
+                await one.do(ConnectWire(address="what is this"))
+            await one.do(ConnectWire(address=endpoint))
+            assert one.ear.last("wire_state")["state"] == "connected"
 
     asyncio.run(run())
