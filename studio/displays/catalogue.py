@@ -27,6 +27,7 @@ from studio.displays.pose_array import PoseArrayDisplay
 from studio.displays.pose_with_covariance import PoseWithCovarianceDisplay
 from studio.displays.range import RangeDisplay
 from studio.displays.relative_humidity import RelativeHumidityDisplay
+from studio.displays.robot_model import RobotModelDisplay
 from studio.displays.temperature import TemperatureDisplay
 from studio.displays.tf import TfDisplay
 from studio.displays.twist import TwistDisplay
@@ -60,6 +61,7 @@ DISPLAYS: Final[tuple[type[Display], ...]] = (
     PoseWithCovarianceDisplay,
     RangeDisplay,
     RelativeHumidityDisplay,
+    RobotModelDisplay,
     TemperatureDisplay,
     TfDisplay,
     TwistDisplay,
@@ -84,9 +86,16 @@ def display_of_kind(kind: str) -> type[Display]:
     return found
 
 
-def displays_of_type(type_name: str) -> tuple[type[Display], ...]:
-    """Those whose main topic has messages of a type, the best first; none when nothing draws it."""
-    return tuple(one for one in DISPLAYS if type_name in _types_of(one))
+def displays_of_type(type_name: str, topic: str = "") -> tuple[type[Display], ...]:
+    """Those whose main topic has messages of a type, the best first; none when nothing draws it.
+
+    A text may be anything: what draws texts is there for topics with the name of its first one.
+    """
+    return tuple(
+        one
+        for one in DISPLAYS
+        if type_name in _types_of(one) and topic.endswith(one.FIRST_TOPIC.removeprefix("/"))
+    )
 
 
 def drawn_types() -> tuple[str, ...]:

@@ -97,6 +97,8 @@ class Display(ABC):
     """One sentence on what it shows."""
     TOPICS: ClassVar[tuple[TopicRole, ...]] = ()
     """The main one first; empty for a display without messages."""
+    FIRST_TOPIC: ClassVar[str] = ""
+    """What is listened to when nobody chose a topic."""
     PROPERTIES: ClassVar[tuple[Property, ...]] = ()
     SETTINGS_MAX: ClassVar[int] = 1000
     """How many properties are kept: some displays have more with what comes, as links."""
@@ -121,6 +123,15 @@ class Display(ABC):
             raise DisplayPropertyError(name, reason, None)
         self.values[name] = self._property(name).checked(value)
         self.changed(name)
+
+    def roles(self) -> tuple[TopicRole, ...]:
+        """What it listens to as it is set now."""
+        return self.TOPICS
+
+    @property
+    def interval_ns(self) -> int:
+        """How long what is drawn stays where it is, though its frame may move."""
+        return 0
 
     def changed(self, name: str) -> None:
         """A property has another value, or all (empty): what was drawn may look different."""

@@ -10,6 +10,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
+from studio.displays.link_parts import LinkParts
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
@@ -226,7 +228,7 @@ class GridLines:
 
 Shape: TypeAlias = (
     Points | Lines | Arrows | Axes | Solids | Triangles | MeshFile | Text | Picture | Frustum
-    | GridLines
+    | GridLines | LinkParts
 )  # fmt: skip
 
 

@@ -1,23 +1,25 @@
-"""RobotModel: how a robot is shown; whoever has robots draws it as a `RobotLook` says."""
+"""RobotModel: a robot from its description, each link where its frame on /tf is."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from types import MappingProxyType
-from typing import TYPE_CHECKING, ClassVar, Final
+from dataclasses import replace
+from itertools import islice
+from typing import TYPE_CHECKING, ClassVar, Final, Literal, NamedTuple, cast
 
 import numpy as np
 
 from studio.displays.display import Received, Status, StillDisplay, TopicRole
-from studio.displays.drawing import NO_TURN, NOTHING, Axes, Placed
+from studio.displays.drawing import NO_TURN, Axes, Placed
+from studio.displays.link_parts import LinkParts
 from studio.displays.properties import Property
 from studio.displays.reading import reading
 from studio.errors import DisplayMessageError
+from studio.robot.values import Robot
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable
 
-    from studio.displays.drawing import Drawing
+    from studio.displays.drawing import Drawing, Shape
 
 LINKS_MAX: Final = 2000
 DESCRIPTION_MAX: Final = 16_000_000
@@ -26,37 +28,33 @@ _LINKS: Final = "Links/"
 _ALL_LINKS: Final = "Links/All Links Enabled"
 _ALPHA: Final = "/Alpha"
 _SHOW_AXES: Final = "/Show Axes"
+_SOURCE: Final = "Description Source"
+_PARTS: Final = (
+    "Visual Enabled",
+    "Collision Enabled",
+    "Mass Properties/Mass",
+    "Mass Properties/Inertia",
+)
 # RViz's own, of each link.
 _AXIS_LENGTH_M: Final = 0.1
 _AXIS_RADIUS_M: Final = 0.01
 
 
-@dataclass(frozen=True, slots=True)
-class RobotLook:
-    """How a robot is to be drawn.
+class DescriptionSource(NamedTuple):
+    """Where a description comes from."""
 
-    Attributes:
-        visual: Whether its looks are shown.
-        collision: Whether its collision shapes are.
-        mass: Whether the mass of each link is shown as a ball.
-        inertia: Whether its inertia is, as a box.
-        opacities: Of each link that is shown, by its name; 1 is opaque.
-        frames: Where each link that is shown is, by its name: a frame on /tf.
-    """
-
-    visual: bool
-    collision: bool
-    mass: bool
-    inertia: bool
-    opacities: Mapping[str, float]
-    frames: Mapping[str, str]
+    kind: Literal["Topic", "Parameter", "File", "Document"]
+    where: str = ""
+    """The full name of the node, or the file."""
+    parameter: str = ""
 
 
 class RobotModelDisplay(StillDisplay):
-    """Takes descriptions and settings; of the robot itself it draws nothing but axes of links.
+    """Takes descriptions and settings; whoever reads descriptions shows it what robot they tell.
 
     Attributes:
         description: The last text of the topic; empty before it came.
+        robot: What is shown; without links before the first.
     """
 
     KIND = "RobotModel"
@@ -64,6 +62,7 @@ class RobotModelDisplay(StillDisplay):
     TOPICS: ClassVar[tuple[TopicRole, ...]] = (
         TopicRole("", ("std_msgs/msg/String",), latched=True, depth=1),
     )
+    FIRST_TOPIC = "/robot_description"
     PROPERTIES: ClassVar[tuple[Property, ...]] = (
         Property("Visual Enabled", "switch", default=True, doc="Shows what the robot looks like."),
         Property("Collision Enabled", "switch", default=False, doc="Shows its collision shapes."),
@@ -73,16 +72,24 @@ class RobotModelDisplay(StillDisplay):
         ),
         Property("Alpha", "number", 1.0, "How opaque it is: 0 is not seen.", low=0.0, high=1.0),
         Property(
-            "Description Source", "choice", "Topic", "Where the description comes from.",
-            choices=("Topic", "File", "Document"),
+            _SOURCE, "choice", "Topic", "Where the description comes from.",
+            choices=("Topic", "Parameter", "File", "Document"),
+        ),
+        Property(
+            "Description Node", "text", "/robot_state_publisher",
+            "The node that has the description as a parameter.", when=(_SOURCE, ("Parameter",)),
+        ),
+        Property(
+            "Description Parameter", "text", "robot_description", "The name of that parameter.",
+            when=(_SOURCE, ("Parameter",)),
         ),
         Property(
             "Description File", "text", "", "The file of the description.",
-            when=("Description Source", ("File",)),
+            when=(_SOURCE, ("File",)),
         ),
         Property("TF Prefix", "text", "", "What stands, with a slash, before the frame of a link."),
         Property(
-            "Mass Properties/Mass", "switch", default=False, doc="Shows masses as balls of iron."
+            "Mass Properties/Mass", "switch", default=False, doc="Shows masses as balls of lead."
         ),
         Property(
             "Mass Properties/Inertia", "switch", default=False, doc="Shows inertias as boxes."
@@ -92,22 +99,58 @@ class RobotModelDisplay(StillDisplay):
     SETTINGS_MAX = 4 * LINKS_MAX
 
     description = ""
-    _links: Mapping[str, int] = MappingProxyType({})
+    robot = Robot("")
+    _fault = ""
+    _left_out = 0
+    _missing: tuple[str, ...] = ()
 
     def properties(self) -> tuple[Property, ...]:
         """Those of the robot, and three of each link that is known."""
         of_links = (
             self._property(f"{_LINKS}{link}{part}")
-            for link in self._links
+            for link in self.robot.links
             for part in ("", _ALPHA, _SHOW_AXES)
         )
         return (*self.PROPERTIES, *of_links)
 
-    def know_links(self, links: Iterable[str]) -> None:
-        """The robot was read: these are its links."""
-        known = tuple(dict.fromkeys(links))[:LINKS_MAX]
-        self._links = {link: number for number, link in enumerate(known)}
+    def roles(self) -> tuple[TopicRole, ...]:
+        """Its topic, as long as the description comes from there."""
+        return self.TOPICS if self.source.kind == "Topic" else ()
+
+    @property
+    def source(self) -> DescriptionSource:
+        """Where the description is to come from."""
+        kind = cast('Literal["Topic", "Parameter", "File", "Document"]', self.values[_SOURCE])
+        match kind:
+            case "Parameter":
+                node, name = self.values["Description Node"], self.values["Description Parameter"]
+                return DescriptionSource(kind, str(node).strip(), str(name).strip())
+            case "File":
+                return DescriptionSource(kind, str(self.values["Description File"]).strip())
+            case "Topic" | "Document":
+                return DescriptionSource(kind)
+
+    @property
+    def interval_ns(self) -> int:
+        """How long links stay where they are, whatever /tf tells."""
+        return round(float(self.values["Update Interval"]) * 1e9)
+
+    def show(self, robot: Robot) -> None:
+        """This is the robot from now on; of a very large one the first links are shown."""
+        self._left_out = max(0, len(robot.links) - LINKS_MAX)
+        if self._left_out:
+            links = dict(islice(robot.links.items(), LINKS_MAX))
+            robot = replace(robot, links=links)
+        self.robot = robot
         self.redraw()
+
+    def fail(self, sentence: str) -> None:
+        """Why the newest description is not shown, or not as it is; empty when it is."""
+        self._fault = sentence
+
+    def miss(self, sentences: Iterable[str]) -> None:
+        """Why some of its meshes are not shown."""
+        self._missing = tuple(sentences)
 
     def take(self, received: Received, role: str = "") -> None:
         """Keep a description.
@@ -129,61 +172,73 @@ class RobotModelDisplay(StillDisplay):
     def reset(self) -> None:
         """Keep all: a description is as true after a jump of time as before."""
 
-    def look(self) -> RobotLook:
-        """How the robot is to be drawn."""
-        shown = self._shown()
-        alpha = float(self.values["Alpha"])
-        return RobotLook(
-            bool(self.values["Visual Enabled"]),
-            bool(self.values["Collision Enabled"]),
-            bool(self.values["Mass Properties/Mass"]),
-            bool(self.values["Mass Properties/Inertia"]),
-            {link: alpha * self._alpha_of(link) for link in shown},
-            {link: self.frame_of(link) for link in shown},
-        )
-
     def frame_of(self, link: str) -> str:
         """The frame of a link on /tf."""
-        prefix = str(self.values["TF Prefix"]).strip("/")
-        return f"{prefix}/{link}" if prefix else link
+        return prefixed(link, str(self.values["TF Prefix"]))
 
     def statuses(self) -> tuple[Status, ...]:
-        """Why nothing of the robot is seen, as far as settings are the cause."""
+        """What is wrong with the description, and why nothing of the robot is seen."""
+        return (*self._of_description(), *self._of_settings(), *self._of_meshes())
+
+    def _of_description(self) -> tuple[Status, ...]:
+        if self._fault:
+            kept = " What was there before stays." if self.robot.links else ""
+            return (Status("error", "bad_message", self._fault + kept),)
+        if not self.robot.links and (self.description or self.source.kind != "Topic"):
+            return (Status("warn", "empty", "The description of the robot is on its way."),)
+        if self._left_out:
+            words = f"{self._left_out:,} links are left out: {LINKS_MAX:,} are shown at most."
+            return (Status("warn", "thinned", words),)
+        return ()
+
+    def _of_settings(self) -> tuple[Status, ...]:
         if not self.values["Alpha"]:
             words = "Alpha is 0, so nothing of the robot is seen."
             return (Status("warn", "transparent", words, ("Alpha", 1.0)),)
-        parts = ("Visual Enabled", "Collision Enabled", *_MASS_PROPERTIES)
-        if not any(self.values[part] for part in parts):
+        if not any(self.values[part] for part in _PARTS):
             words = "Neither looks nor collision shapes of the robot are switched on."
             return (Status("warn", "empty", words, ("Visual Enabled", True)),)
-        if self._links and not self._shown():
-            off = (
-                _ALL_LINKS if not self.values[_ALL_LINKS] else f"{_LINKS}{next(iter(self._links))}"
-            )
+        links = self.robot.links
+        if links and not self._shown():
+            off = _ALL_LINKS if not self.values[_ALL_LINKS] else f"{_LINKS}{next(iter(links))}"
             return (Status("warn", "empty", "All links are switched off.", (off, True)),)
         return ()
 
+    def _of_meshes(self) -> tuple[Status, ...]:
+        if not self._missing:
+            return ()
+        count = len(self._missing)
+        words = self._missing[0]
+        if count > 1:
+            words = f"{count} meshes of the robot cannot be shown. The first: {words}"
+        return (Status("warn", "no_mesh", words),)
+
     def _drawn(self) -> Drawing:
-        shown = [link for link in self._shown() if self.values.get(f"{_LINKS}{link}{_SHOW_AXES}")]
-        if not shown:
-            return NOTHING
-        axes = Axes(
-            np.zeros((1, 3), np.float32),
-            np.array([NO_TURN], np.float32),
-            _AXIS_LENGTH_M,
-            _AXIS_RADIUS_M,
-        )
         return {
-            f"link-{self._links[link]}": Placed(
-                self.frame_of(link), 0, {"axes": axes}, follows=True
-            )
-            for link in shown
+            link: Placed(self.frame_of(link), 0, self._shapes_of(link), follows=True)
+            for link in self._shown()
         }
+
+    def _shapes_of(self, link: str) -> dict[str, Shape]:
+        shapes: dict[str, Shape] = {}
+        visual, collision, mass, inertia = (bool(self.values[part]) for part in _PARTS)
+        opacity = float(self.values["Alpha"]) * self._alpha_of(link)
+        if opacity > 0 and (visual or collision or mass or inertia):
+            made = self.robot.links[link]
+            shapes["link"] = LinkParts(made, self.robot, visual, collision, mass, inertia, opacity)
+        if self.values.get(f"{_LINKS}{link}{_SHOW_AXES}"):
+            shapes["axes"] = Axes(
+                np.zeros((1, 3), np.float32),
+                np.array([NO_TURN], np.float32),
+                _AXIS_LENGTH_M,
+                _AXIS_RADIUS_M,
+            )
+        return shapes
 
     def _shown(self) -> tuple[str, ...]:
         if not self.values[_ALL_LINKS]:
             return ()
-        return tuple(link for link in self._links if self.values.get(f"{_LINKS}{link}", True))
+        return tuple(one for one in self.robot.links if self.values.get(f"{_LINKS}{one}", True))
 
     def _alpha_of(self, link: str) -> float:
         return float(self.values.get(f"{_LINKS}{link}{_ALPHA}", 1.0))
@@ -191,13 +246,16 @@ class RobotModelDisplay(StillDisplay):
     def _property(self, name: str) -> Property:
         if name == _ALL_LINKS or not name.startswith(_LINKS):
             return super()._property(name)
-        if name.removeprefix(_LINKS) in self._links:
-            return Property(name, "switch", default=True, doc="Shows this link.")
-        if name.endswith(_ALPHA):
-            return Property(name, "number", 1.0, "How opaque this link is.", low=0.0, high=1.0)
-        if name.endswith(_SHOW_AXES):
-            return Property(name, "switch", default=False, doc="Shows the axes of this link.")
+        if name.removeprefix(_LINKS) not in self.robot.links:
+            if name.endswith(_ALPHA):
+                return Property(name, "number", 1.0, "How opaque this link is.", low=0.0, high=1.0)
+            if name.endswith(_SHOW_AXES):
+                doc = "Shows the axes of this link."
+                return Property(name, "switch", default=False, doc=doc)
         return Property(name, "switch", default=True, doc="Shows this link.")
 
 
-_MASS_PROPERTIES: Final = ("Mass Properties/Mass", "Mass Properties/Inertia")
+def prefixed(link: str, prefix: str) -> str:
+    """The frame of a link on /tf, with RViz's prefix: a slash stands between."""
+    prefix = prefix.strip("/")
+    return f"{prefix}/{link}" if prefix else link

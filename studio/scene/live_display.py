@@ -8,18 +8,17 @@ from typing import TYPE_CHECKING, Final, TypeAlias
 
 import numpy as np
 
-from studio.displays.drawing import MeshFile, Shape
 from studio.scene import node
 from studio.scene.naming import live_node
 from studio.scene.pose_writer import PoseWriter
-from studio.scene.shapes import Shelves, nodes_of, same_arrays
+from studio.scene.shapes import Shelves, mesh_uris_of, nodes_of, same_arrays
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from numpy.typing import NDArray
 
-    from studio.displays.drawing import Drawing
+    from studio.displays.drawing import Drawing, Shape
     from studio.robot.values import Vector3
     from studio.scene.graph import Graph
     from studio.scene.node import Node, Quaternion
@@ -57,7 +56,8 @@ class LiveDisplay:
     def __init__(self, graph: Graph, display_id: str, shelves: Shelves, *, visible: bool) -> None:
         self._graph, self._id, self._shelves = graph, display_id, shelves
         self._groups: dict[str, _Group] = {}
-        self._meshes: dict[tuple[str, str], str] = {}  # path and name of a shape to its URI
+        self._meshes: dict[tuple[str, str], frozenset[str]] = {}
+        """By path and name of a shape, what it is drawn with."""
         self._paths: tuple[str, ...] = ()
         self._writer = PoseWriter(graph, lambda path: live_node(display_id, path))
         self.show(visible=visible)
@@ -101,12 +101,12 @@ class LiveDisplay:
 
     def mesh_uris(self) -> set[str]:
         """Of the meshes that it draws or waits for."""
-        return set(self._meshes.values())
+        return {uri for wanted in self._meshes.values() for uri in wanted}
 
     def draw_mesh(self, uri: str) -> None:
         """Draw a mesh anew that came or that failed."""
-        for (path, name), wanted in self._meshes.items():
-            if wanted == uri:
+        for (path, name), wanted in tuple(self._meshes.items()):
+            if uri in wanted:
                 drawn = self._groups[path].shapes[name]
                 nodes = nodes_of(drawn.shape, drawn.stream, self._shelves)
                 self._put(path, name, replace(drawn, nodes=nodes))
@@ -136,8 +136,8 @@ class LiveDisplay:
         for part, made in drawn.nodes.items():
             self._graph.put(self._node(path, name, part), made)
         shapes[name] = drawn
-        if isinstance(drawn.shape, MeshFile):
-            self._meshes[path, name] = drawn.shape.uri
+        if uris := mesh_uris_of(drawn.shape):
+            self._meshes[path, name] = uris
         else:
             self._meshes.pop((path, name), None)
         return len(gone)

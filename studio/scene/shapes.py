@@ -22,10 +22,12 @@ from studio.displays.drawing import (
     Text,
     Triangles,
 )
+from studio.displays.link_parts import LinkParts
 from studio.errors import SceneError
 from studio.scene import node
 from studio.scene.arrow_nodes import arrows_of
 from studio.scene.geometry_drawing import MISSING_LOOK, MISSING_SIZE_M, MeshShelf
+from studio.scene.link_nodes import link_nodes
 from studio.scene.many_nodes import linear, many_of
 from studio.scene.node import Look, Node
 from studio.scene.pictures import EncodedShelf, frustum_of, tiles_of
@@ -68,8 +70,8 @@ def nodes_of(shape: Shape, stream: str, shelves: Shelves) -> dict[str, Node]:
     """
     _check_size(shape)
     match shape:
-        case MeshFile():
-            return _mesh(shape, shelves.meshes)
+        case MeshFile() | LinkParts():
+            return _of_meshes(shape, shelves.meshes)
         case Text():
             return _text(shape)
         case Picture():
@@ -98,6 +100,17 @@ def _batch(
             return many_of(shape, stream)
         case Triangles():
             return surface_of(shape, stream)
+
+
+def mesh_uris_of(shape: Shape) -> frozenset[str]:
+    """Of the meshes that a shape is drawn with."""
+    match shape:
+        case MeshFile():
+            return frozenset({shape.uri})
+        case LinkParts():
+            return shape.mesh_uris()
+        case _:
+            return frozenset()
 
 
 def same_arrays(one: Shape | None, other: Shape) -> bool:
@@ -211,6 +224,10 @@ def _axes(shape: Axes, stream: str) -> dict[str, Node]:
     # viser's page forgets the places when only the sizes change: they are sent with them.
     name = f"{stream}/{shape.length_m}/{shape.radius_m}"
     return {"axes": Node(_messages.BatchedAxesMessage, props, stream=name, flowing=arrays)}
+
+
+def _of_meshes(shape: MeshFile | LinkParts, shelf: MeshShelf) -> dict[str, Node]:
+    return _mesh(shape, shelf) if isinstance(shape, MeshFile) else link_nodes(shape, shelf)
 
 
 def _mesh(shape: MeshFile, shelf: MeshShelf) -> dict[str, Node]:

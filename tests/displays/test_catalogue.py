@@ -37,7 +37,9 @@ def test_a_name_of_no_display_is_refused_with_those_there_are():
 
 def test_a_display_is_found_by_the_messages_that_it_draws():
     assert [one.KIND for one in displays_of_type("nav_msgs/msg/Path")] == ["Path"]
-    assert displays_of_type("std_msgs/msg/String") == ()
+    assert displays_of_type("std_msgs/msg/String", "/chatter") == ()
+    [of_descriptions] = displays_of_type("std_msgs/msg/String", "/r1/robot_description")
+    assert of_descriptions.KIND == "RobotModel"
     assert "geometry_msgs/msg/PoseStamped" in drawn_types()
 
 

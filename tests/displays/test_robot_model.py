@@ -5,8 +5,11 @@ import pytest
 from studio.displays import robot_model
 from studio.displays.display import Received
 from studio.displays.drawing import NOTHING, Axes
+from studio.displays.link_parts import LinkParts
 from studio.displays.robot_model import RobotModelDisplay
 from studio.errors import CdrError, DisplayMessageError, DisplayPropertyError
+from studio.robot.urdf_text import robot_from_urdf
+from studio.robot.values import Link, Robot
 from studio.ros.cdr import Codec
 from tests.support.display_messages import TYPES
 
@@ -19,9 +22,16 @@ def described(text: str, *, little: bool = True) -> Received:
     return Received(STRING, bytes(Codec(kind).encode(kind(data=text), little_endian=little)), 0)
 
 
+ROVER = robot_from_urdf(
+    """<robot name="rover"><link name="base"/><link name="wheel"/><link name="tool/Alpha"/>
+    <joint name="a" type="fixed"><parent link="base"/><child link="wheel"/></joint>
+    <joint name="b" type="fixed"><parent link="base"/><child link="tool/Alpha"/></joint></robot>"""
+)
+
+
 def rover(**values: object) -> RobotModelDisplay:
     display = RobotModelDisplay(TYPES)
-    display.know_links(["base", "wheel", "tool/Alpha"])
+    display.show(ROVER)
     for name, value in values.items():
         display.set(name.replace("_", " "), value)
     return display
@@ -50,30 +60,69 @@ def test_a_text_that_is_no_description_leaves_the_one_before(
     assert display.description == "<robot/>"
 
 
+def parts(display: RobotModelDisplay) -> dict[str, LinkParts]:
+    """What is drawn of each link."""
+    drawn = display.draw(0)
+    found = {link: placed.shapes.get("link") for link, placed in drawn.items()}
+    return {link: shape for link, shape in found.items() if isinstance(shape, LinkParts)}
+
+
 def test_at_first_all_links_are_shown_as_they_look_at_frames_of_their_names():
-    look = rover().look()
-    assert (look.visual, look.collision, look.mass, look.inertia) == (True, False, False, False)
-    assert look.opacities == {"base": 1.0, "wheel": 1.0, "tool/Alpha": 1.0}
-    assert look.frames == {"base": "base", "wheel": "wheel", "tool/Alpha": "tool/Alpha"}
+    drawn = rover().draw(0)
+    assert [(link, placed.frame) for link, placed in drawn.items()] == [
+        (link, link) for link in ("base", "wheel", "tool/Alpha")
+    ]
+    assert all(placed.follows and placed.stamp_ns == 0 for placed in drawn.values())
+    for link, shape in parts(rover()).items():
+        assert (shape.link.name, shape.opacity) == (link, 1.0)
+        assert (shape.visual, shape.collision, shape.mass, shape.inertia) == (
+            (True, False, False, False)
+        )
+
+
+def test_what_is_switched_on_is_drawn():
+    display = rover(Visual_Enabled=False, Collision_Enabled=True)
+    display.set("Mass Properties/Inertia", value=True)
+    [shape, *_] = parts(display).values()
+    assert (shape.visual, shape.collision, shape.mass, shape.inertia) == (
+        (False, True, False, True)
+    )
 
 
 @pytest.mark.parametrize("prefix", ["r1", "r1/", "/r1/"])
 def test_a_prefix_stands_before_each_frame_with_one_slash(prefix: str):
-    assert rover(TF_Prefix=prefix).look().frames["base"] == "r1/base"
+    assert rover(TF_Prefix=prefix).draw(0)["base"].frame == "r1/base"
 
 
 def test_alpha_of_a_link_counts_with_that_of_the_robot():
     display = rover(Alpha=0.5)
     display.set("Links/wheel/Alpha", 0.5)
-    assert display.look().opacities == {"base": 0.5, "wheel": 0.25, "tool/Alpha": 0.5}
+    opacities = {link: shape.opacity for link, shape in parts(display).items()}
+    assert opacities == {"base": 0.5, "wheel": 0.25, "tool/Alpha": 0.5}
+    display.set("Links/wheel/Alpha", 0.0)
+    assert list(parts(display)) == ["base", "tool/Alpha"]
 
 
 def test_links_are_switched_one_by_one_and_all_at_once():
     display = rover()
     display.set("Links/tool/Alpha", value=False)
-    assert list(display.look().opacities) == ["base", "wheel"]
+    assert list(display.draw(0)) == ["base", "wheel"]
     display.set("Links/All Links Enabled", value=False)
-    assert display.look().opacities == {}
+    assert display.draw(0) == NOTHING
+
+
+def test_only_what_is_shown_of_a_link_asks_for_its_meshes():
+    robot = robot_from_urdf(
+        """<robot name="r"><link name="l">
+        <visual><geometry><mesh filename="package://p/looks.dae"/></geometry></visual>
+        <collision><geometry><mesh filename="package://p/touch.stl"/></geometry></collision>
+        </link></robot>"""
+    )
+    link = robot.links["l"]
+    assert LinkParts(link, robot).mesh_uris() == {"package://p/looks.dae"}
+    assert LinkParts(link, robot, visual=False, collision=True).mesh_uris() == {
+        "package://p/touch.stl"
+    }
 
 
 def test_each_link_that_is_known_has_properties():
@@ -85,14 +134,17 @@ def test_each_link_that_is_known_has_properties():
     assert names[-9:-6] == ["Links/base", "Links/base/Alpha", "Links/base/Show Axes"]
     for one in display.properties():
         assert one.checked(one.default) == one.default
-    display.know_links(f"link{number}" for number in range(5000))
+    names = [f"link{number}" for number in range(5000)]
+    display.show(Robot("large", {name: Link(name) for name in names}))
     assert len(display.properties()) == len(display.PROPERTIES) + 3 * robot_model.LINKS_MAX
+    assert display.statuses()[0].sentence == "3,000 links are left out: 2,000 are shown at most."
 
 
 def test_what_was_saved_of_a_link_counts_when_it_comes(monkeypatch: pytest.MonkeyPatch):
     display = RobotModelDisplay(TYPES, {"Links/base": False, "Links/wheel/Alpha": 0.2})
-    display.know_links(["base", "wheel"])
-    assert display.look().opacities == {"wheel": 0.2}
+    display.show(ROVER)
+    assert parts(display)["wheel"].opacity == 0.2
+    assert "base" not in display.draw(0)
     monkeypatch.setattr(display, "SETTINGS_MAX", 1)
     with pytest.raises(DisplayPropertyError, match="one too many"):
         display.set("Links/more", value=False)
@@ -100,16 +152,63 @@ def test_what_was_saved_of_a_link_counts_when_it_comes(monkeypatch: pytest.Monke
 
 def test_axes_of_links_follow_their_frames():
     display = rover(TF_Prefix="r1")
-    assert display.draw(0) == NOTHING
     display.set("Links/wheel/Show Axes", value=True)
-    [placed] = display.draw(0).values()
+    placed = display.draw(0)["wheel"]
     assert (placed.frame, placed.follows) == ("r1/wheel", True)
     axes = placed.shapes["axes"]
     assert isinstance(axes, Axes)
     assert (axes.length_m, axes.radius_m) == (0.1, 0.01)
     assert display.draw(1) is display.draw(2)
     display.set("Links/wheel", value=False)
-    assert display.draw(0) == NOTHING
+    assert "wheel" not in display.draw(0)
+
+
+def test_it_listens_to_a_topic_only_as_long_as_its_description_comes_from_there():
+    display = rover()
+    assert display.roles() == display.TOPICS
+    display.set("Description Source", "Parameter")
+    assert display.roles() == ()
+    assert display.source == ("Parameter", "/robot_state_publisher", "robot_description")
+    display.set("Description Source", "File")
+    display.set("Description File", " package://p/robot.urdf ")
+    assert display.source == ("File", "package://p/robot.urdf", "")
+
+
+def test_its_interval_is_told_in_nanoseconds():
+    assert rover().interval_ns == 0
+    assert rover(Update_Interval=0.5).interval_ns == 500_000_000
+
+
+def test_a_fault_of_the_description_is_told_and_what_was_there_stays():
+    display = rover()
+    display.fail("The description cannot be shown: it ends too early.")
+    [status] = display.statuses()
+    assert status.sentence == (
+        "The description cannot be shown: it ends too early. What was there before stays."
+    )
+    assert len(display.draw(0)) == 3
+    display.fail("")
+    assert display.statuses() == ()
+
+
+def test_a_description_that_is_being_read_is_told_to_be_on_its_way():
+    display = RobotModelDisplay(TYPES)
+    assert display.statuses() == ()
+    display.take(described("<robot name='r'/>"))
+    [status] = display.statuses()
+    assert status.sentence == "The description of the robot is on its way."
+
+
+def test_meshes_that_are_missing_are_counted_with_what_is_wrong_with_the_first():
+    display = rover()
+    display.miss(["Mesh a.stl does not exist."])
+    assert [one.sentence for one in display.statuses()] == ["Mesh a.stl does not exist."]
+    display.miss(["Mesh a.stl does not exist.", "Mesh b.stl does not exist."])
+    [status] = display.statuses()
+    assert (status.reason, status.sentence) == (
+        "no_mesh",
+        "2 meshes of the robot cannot be shown. The first: Mesh a.stl does not exist.",
+    )
 
 
 @pytest.mark.parametrize(

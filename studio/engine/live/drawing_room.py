@@ -90,6 +90,10 @@ class DrawingRoom:
         self._faults.pop(display, None)
         return self._running.pop(display, None)
 
+    def displays(self) -> dict[str, Display]:
+        """All displays by their ids."""
+        return {name: running.display for name, running in self._running.items()}
+
     def listen(self, link: Connected, shown: Iterable[str]) -> None:
         """Have TF and those that are shown heard, and no others; in a thread."""
         self.frames.listen(link, link.graph)
@@ -212,7 +216,7 @@ class DrawingRoom:
 
 def _heard(running: RunningDisplay) -> Wish | TopicRole:
     """How the main topic is listened to; before there is one, how it would be."""
-    return running.wish() or next(iter(running.display.TOPICS), _NO_TOPIC)
+    return running.wish() or next(iter(running.display.roles()), _NO_TOPIC)
 
 
 def _wished(listening: Listening) -> ListeningWish:

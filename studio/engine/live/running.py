@@ -7,6 +7,7 @@ import math
 import threading
 import time
 from contextlib import suppress
+from itertools import chain
 from typing import TYPE_CHECKING, Final
 
 from studio.displays.catalogue import display_of_kind, displays_of_type
@@ -60,13 +61,14 @@ class RunningDisplay:
         self._wire = OnWire()
         self._trouble = ""
         self._bad_message = ""
+        self._placed_ns = 0
 
     @property
     def topics(self) -> tuple[str, ...]:
         """Of all its roles."""
         if not self.spec.topic:
             return ()
-        return tuple(role.topic(self.spec.topic) for role in self.display.TOPICS)
+        return tuple(role.topic(self.spec.topic) for role in self.display.roles())
 
     def set(self, name: str, value: Value) -> Value:
         """Change a property, and give the value that it took.
@@ -122,6 +124,10 @@ class RunningDisplay:
                 if time.perf_counter() > until_s:
                     break
         self.placing.offer(self._drawing(now_ns), now_ns)
+        rests = bool(self.placing.shown.poses) and not self.placing.waits
+        if rests and now_ns - self._placed_ns < self.display.interval_ns:
+            return None
+        self._placed_ns = now_ns
         return self.placing.step(lookup, now_ns)
 
     def reset(self) -> None:
@@ -158,8 +164,9 @@ class RunningDisplay:
     def facts(self, now_ns: int, *, shown: bool) -> Facts:
         """What is known of why it shows what it shows."""
         ear, age_s = self._ears.get(""), self.age_s(now_ns)
-        roles = self.display.TOPICS
-        fitting = next((one for name in self._wire.types for one in displays_of_type(name)), None)
+        roles = self.display.roles()
+        of_types = (displays_of_type(name, self.spec.topic) for name in self._wire.types)
+        fitting = next(chain.from_iterable(of_types), None)
         drawing = self.placing.shown.drawing
         return Facts(
             self.spec,
@@ -222,7 +229,10 @@ class RunningDisplay:
         connected: bool,
     ) -> None:
         self._trouble = ""
-        for role, topic in zip(self.display.TOPICS, self.topics, strict=False):
+        roles = self.display.roles()
+        for gone in self._ears.keys() - {role.name for role in roles}:
+            self._ears.pop(gone).close()
+        for role, topic in zip(roles, self.topics, strict=False):
             try:
                 publishers = publishers_of(topic)
                 if not role.name:
