@@ -8,7 +8,7 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from studio.cli.values import domain_number
+from studio.cli.joining import JOINING, add_joining_options
 from studio.settings import DEFAULT_HOST, DEFAULT_PORT
 
 if TYPE_CHECKING:
@@ -34,33 +34,14 @@ def add_server_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--viewer-link", action="store_true", help="print an address for those who only look, too"
     )
-    _add_wire_options(parser)
+    wire = parser.add_argument_group(JOINING)
+    add_joining_options(
+        wire.add_argument,
+        "auto",
+        "where no router answers: auto starts one in this process for this machine, off starts "
+        "none (default: auto)",
+    )
     add_read_options(parser)
-
-
-def _add_wire_options(parser: argparse.ArgumentParser) -> None:
-    """How ROS 2 is joined, once the page asks for it."""
-    wire = parser.add_argument_group("ROS 2 over Zenoh")
-    wire.add_argument(
-        "--connect",
-        action="append",
-        default=[],
-        metavar="ENDPOINT",
-        help="the router, for example tcp/192.0.2.7:7447 (default: tcp/127.0.0.1:7447)",
-    )
-    wire.add_argument(
-        "--domain",
-        type=domain_number,
-        metavar="N",
-        help="the domain (default: ROS_DOMAIN_ID, else 0)",
-    )
-    wire.add_argument(
-        "--router",
-        default="auto",
-        metavar="auto|off|ENDPOINT",
-        help="where no router answers: auto starts one in this process for this machine, off "
-        "starts none (default: auto)",
-    )
 
 
 def add_read_options(parser: argparse.ArgumentParser) -> None:

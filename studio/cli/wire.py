@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from studio.cli.interface_types import add_type_options, known_types
-from studio.cli.values import domain_number
+from studio.cli.joining import JOINING, add_joining_options
 
 if TYPE_CHECKING:
     from collections.abc import Generator
@@ -26,26 +26,12 @@ def add_wire_options(
     parser: argparse.ArgumentParser, router: str = LOOKING, *, own_types: bool = True
 ) -> None:
     """Let a verb speak with nodes; `router` is what it does by itself where no router answers."""
-    wire = parser.add_argument_group("ROS 2 over Zenoh")
-    wire.add_argument(
-        "--connect",
-        action="append",
-        default=[],
-        metavar="ENDPOINT",
-        help="the router, for example tcp/192.0.2.7:7447 (default: tcp/127.0.0.1:7447)",
-    )
-    wire.add_argument(
-        "--domain",
-        type=domain_number,
-        metavar="N",
-        help="the domain (default: ROS_DOMAIN_ID, else 0)",
-    )
-    wire.add_argument(
-        "--router",
-        default=router,
-        metavar="auto|off|ENDPOINT",
-        help="where no router answers: auto starts one in this process for as long as it runs, "
-        f"off says so and ends (default here: {router})",
+    wire = parser.add_argument_group(JOINING)
+    add_joining_options(
+        wire.add_argument,
+        router,
+        "where no router answers: auto starts one in this process for as long as it runs, off "
+        f"says so and ends (default here: {router})",
     )
     wire.add_argument(
         "--distro", help="humble, jazzy or kilted (default: ROS_DISTRO where known, else jazzy)"

@@ -32,8 +32,8 @@ QoSMessageLostInfo = IncompatibleTypeInfo = CountInfo
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class PublisherEventCallbacks:
-    """What a publisher tells.
+class _EventCallbacks:
+    """What either end of a topic tells.
 
     `incompatible_qos` is never called: Zenoh carries samples between any profiles.
 
@@ -53,25 +53,15 @@ class PublisherEventCallbacks:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class SubscriptionEventCallbacks:
-    """What a subscription tells.
+class PublisherEventCallbacks(_EventCallbacks):
+    """What a publisher tells."""
 
-    `incompatible_qos` is never called: Zenoh carries samples between any profiles.
 
-    Raises:
-        UnsupportedEventTypeError: A callback is given for what Zenoh does not tell.
-    """
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SubscriptionEventCallbacks(_EventCallbacks):
+    """What a subscription tells: also that messages were lost."""
 
-    incompatible_qos: Callable[[object], object] | None = None
-    liveliness: Callable[[object], object] | None = None
-    deadline: Callable[[object], object] | None = None
     message_lost: Callable[[CountInfo], object] | None = None
-    matched: Callable[[MatchedInfo], object] | None = None
-    incompatible_type: Callable[[CountInfo], object] | None = None
-    use_default_callbacks: bool = True
-
-    def __post_init__(self) -> None:
-        _refuse(deadline=self.deadline, liveliness=self.liveliness)
 
 
 def _refuse(**callbacks: Callable[[object], object] | None) -> None:

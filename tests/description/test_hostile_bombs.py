@@ -17,14 +17,12 @@ from tests.support.hostile import (
     HostileStudio,
     chain,
     expression,
-    hostile_studio,
     loaded,
     properties,
     stopped,
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
     from pathlib import Path
 
 
@@ -171,12 +169,6 @@ CASES: dict[str, dict[str, str]] = {
     **{f"long: {name}": {"a.xacro": expression(text)} for name, text in LONG_WORK.items()},
     **TREES,
 }
-
-
-@pytest.fixture(scope="module")
-def studio() -> Iterator[HostileStudio]:
-    with hostile_studio() as made:
-        yield made
 
 
 @pytest.mark.parametrize("case", CASES)

@@ -15,14 +15,13 @@ from tests.support.hostile import (
     WITHIN_S,
     HostileStudio,
     expression,
-    hostile_studio,
     loaded,
     properties,
     stopped,
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Mapping
     from pathlib import Path
 
 
@@ -157,12 +156,6 @@ HARMLESS: dict[str, tuple[Mapping[str, str | bytes], str]] = {
     ),
     "a mark of UTF-8": ({"a.xacro": "\ufeff" + robot("<x/>")}, "<x/>"),
 }
-
-
-@pytest.fixture(scope="module")
-def studio() -> Iterator[HostileStudio]:
-    with hostile_studio() as made:
-        yield made
 
 
 @pytest.mark.parametrize("case", REFUSED)

@@ -9,32 +9,13 @@ import pytest
 from studio.description.editing.disk_news import FileChange
 from studio.description.editing.splice import apply
 from studio.errors import UnreadableFileError
-from tests.support.edited_rover import LIMITS, ROVER, count, opened, radius
+from tests.support.edited_rover import ROVER, count, radius
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from studio.description.editing.merging import Side
     from studio.description.editing.sources import Sources
-
-
-@pytest.fixture
-def rover(tmp_path: Path) -> Path:
-    path = tmp_path / "rover.xacro"
-    path.write_bytes(ROVER.encode())
-    return path
-
-
-@pytest.fixture
-def limits(tmp_path: Path) -> Path:
-    path = tmp_path / "limits.yaml"
-    path.write_bytes(LIMITS.encode())
-    return path
-
-
-@pytest.fixture
-def sources(tmp_path: Path, rover: Path, limits: Path) -> Sources:
-    return opened(tmp_path, rover, limits)
 
 
 def test_a_change_on_disk_is_taken_when_there_is_nothing_to_lose(sources: Sources, rover: Path):

@@ -23,29 +23,10 @@ from studio.description.values import (
 from studio.errors import EditError, SaveConflictError, StaleEditError, UnreadableFileError
 from studio.packages.roots import ServedRoots
 from tests.support.corpus_files import package_folders
-from tests.support.edited_rover import LIMITS, ROVER, count, opened, radius
+from tests.support.edited_rover import ROVER, count, opened, radius
 
 if TYPE_CHECKING:
     from pathlib import Path
-
-
-@pytest.fixture
-def rover(tmp_path: Path) -> Path:
-    path = tmp_path / "rover.xacro"
-    path.write_bytes(ROVER.encode())
-    return path
-
-
-@pytest.fixture
-def limits(tmp_path: Path) -> Path:
-    path = tmp_path / "limits.yaml"
-    path.write_bytes(LIMITS.encode())
-    return path
-
-
-@pytest.fixture
-def sources(tmp_path: Path, rover: Path, limits: Path) -> Sources:
-    return opened(tmp_path, rover, limits)
 
 
 def test_an_edit_changes_the_text_here_and_not_the_disk(sources: Sources, rover: Path):

@@ -1,0 +1,31 @@
+"""Options of all commands that join ROS nodes: over which router, and in which domain."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+from studio.cli.values import domain_number
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+JOINING: Final = "ROS 2 over Zenoh"
+"""The group of these options in the help."""
+
+
+def add_joining_options(add: Callable[..., object], router: str, says: str) -> None:
+    """Add them; `router` is what is done where none is named, and `says` what the help tells."""
+    add(
+        "--connect",
+        action="append",
+        default=[],
+        metavar="ENDPOINT",
+        help="the router, for example tcp/192.0.2.7:7447 (default: tcp/127.0.0.1:7447)",
+    )
+    add(
+        "--domain",
+        type=domain_number,
+        metavar="N",
+        help="the domain (default: ROS_DOMAIN_ID, else 0)",
+    )
+    add("--router", default=router, metavar="auto|off|ENDPOINT", help=says)
