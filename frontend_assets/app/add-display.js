@@ -1,17 +1,20 @@
 /** The window to add a display: by a topic that somebody publishes, or by its kind. */
 
-/** @import { DisplayKindView, TopicView } from "../types/wire.d.ts" */
+/** @import { DisplayKindView, TopicRate, TopicView } from "../types/wire.d.ts" */
 
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
 import { foundTopics, iconOf, includesAll } from "../lib/live-displays.js";
+import { LongList } from "../lib/long-list.js";
 import { remembered } from "../lib/remembered.js";
+import { ageWords, flowWords } from "../lib/topic-rates.js";
 import { Dialog, Icon, SearchBox } from "../lib/ui.js";
 import { addDisplay, needKinds, topicsNow } from "./live.js";
 import { connectRos } from "./ros.js";
 import { mayEdit } from "./state/connection.js";
 import { kinds, liveDisplays } from "./state/live.js";
 import { ros } from "./state/ros.js";
+import { useTopicRates } from "./topic-rates.js";
 
 /** @typedef {"topic" | "kind"} By */
 /** @typedef {{key: string, icon: string, label: string, note: string, aside: string, off: string, kind: string, topic: string}} Offer `off`: why it cannot be added */
@@ -196,20 +199,50 @@ function Connection({ count, onDone }) {
 /** @param {{offers: readonly Offer[], chosen: number, label: string, onPoint: (n: number) => void, onAdd: (offer: Offer) => void}} props */
 function Offers({ offers, chosen, label, onPoint, onAdd }) {
   const list = useRef(/** @type {HTMLElement | null} */ (null));
+  const rates = useTopicRates(() => topicsInView(list.current));
   useEffect(() => {
     list.current?.querySelector('[aria-selected="true"]')?.scrollIntoView({ block: "nearest" });
   }, [chosen]);
-  return html`<div class="add-display-list" role="listbox" aria-label=${label} ref=${list}>
-    ${offers.map(
-      (
-        offer,
-        n,
-      ) => html`<div key=${offer.key} role="option" class="offer" aria-selected=${n === chosen} aria-disabled=${offer.off !== "" ? "true" : null}
-        title=${offer.off || offer.note} onClick=${() => onPoint(n)} onDblClick=${() => onAdd(offer)}>
-        <${Icon} name=${offer.icon} size=${18} />
-        <span class="offer-words"><span>${offer.label}</span><small>${offer.note}</small></span>
-        <span class="offer-aside">${offer.aside}</span>
-      </div>`,
-    )}
+  return html`<div class="add-display-list scroll" role="listbox" aria-label=${label} ref=${list}>
+    <${LongList} items=${offers} keyOf=${(/** @type {Offer} */ { key }) =>
+      key} row="44px" isKept=${(/** @type {Offer} */ offer) => offer === offers[chosen]}
+      draw=${(
+        /** @type {Offer} */ offer,
+        /** @type {number} */ n,
+      ) => html`<${OfferRow} key=${offer.key} offer=${offer} chosen=${n === chosen} rate=${rates.value.get(offer.topic)}
+        onPoint=${() => onPoint(n)} onAdd=${() => onAdd(offer)} />`} />
   </div>`;
+}
+
+/** @param {HTMLElement | null} list @returns {string[]} */
+function topicsInView(list) {
+  if (!list) return [];
+  const view = list.getBoundingClientRect();
+  return [...list.querySelectorAll("[data-topic]")]
+    .filter((row) => {
+      const { top, bottom } = row.getBoundingClientRect();
+      return top < view.bottom && bottom > view.top;
+    })
+    .map((row) => row.getAttribute("data-topic") ?? "");
+}
+
+/** @param {{offer: Offer, chosen: boolean, rate: TopicRate | undefined, onPoint: () => void, onAdd: () => void}} props */
+function OfferRow({ offer, chosen, rate, onPoint, onAdd }) {
+  const { icon, label, note, aside, off, topic } = offer;
+  return html`<div role="option" class="offer" aria-selected=${chosen} aria-disabled=${off === "" ? null : "true"} data-topic=${topic || null}
+    title=${off || note} onClick=${onPoint} onDblClick=${onAdd}>
+    <${Icon} name=${icon} size=${18} />
+    <span class="offer-words"><span>${label}</span><small>${note}</small></span>
+    ${topic && html`<${Flow} rate=${rate} />`}
+    <span class="offer-aside">${aside}</span>
+  </div>`;
+}
+
+/** @param {{rate: TopicRate | undefined}} props how often it comes, how much that is, and when it came last */
+function Flow({ rate }) {
+  const state = rate?.state ?? "waiting";
+  const age = ageWords(rate);
+  const quiet = { silent: t("live.reason.silent"), latched: t("live.latched") }[String(state)];
+  return html`<span class=${`offer-flow ${state}`}>
+    <span>${quiet ?? flowWords(rate)}</span><small>${age && t("tf.ago", { time: age })}</small></span>`;
 }
