@@ -9,7 +9,6 @@ import { DialogHelp } from "./help.js";
 import { LaunchDialog } from "./launch-dialog.js";
 import { MergeDialog } from "./merge-dialog.js";
 import { Palette } from "./palette.js";
-import { RosDialog } from "./ros-status.js";
 import { ShareDialog } from "./share.js";
 import { dialog } from "./state/view.js";
 
@@ -20,6 +19,7 @@ const KeysDialog = later(async () => (await import("./keys-dialog.js")).KeysDial
 const LayoutsDialog = later(async () => (await import("./layouts-dialog.js")).LayoutsDialog);
 const OpenDialog = later(async () => (await import("./open-dialog.js")).OpenDialog);
 const PackageDialog = later(async () => (await import("./open-dialog.js")).PackageDialog);
+const RosDialog = later(async () => (await import("./ros-dialog.js")).RosDialog);
 const SaveAsDialog = later(async () => (await import("./save-as.js")).SaveAsDialog);
 const SaveDialog = later(async () => (await import("./save-dialog.js")).SaveDialog);
 

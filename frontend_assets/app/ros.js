@@ -1,11 +1,35 @@
 /** What a person can ask of ROS 2. */
 
-/** @import { WireRobots } from "../types/wire.d.ts" */
+/** @import { WireReport, WireRobots } from "../types/wire.d.ts" */
+/** @import { Place } from "../lib/wire-places.js" */
 
+import { withRecent } from "../lib/wire-places.js";
 import { ask, goTo } from "./actions.js";
+import { recentPlaces } from "./state/ros.js";
 import { RefusedError, send } from "./wire.js";
 
 export const connectRos = () => ask({ type: "connect_wire" });
+
+/** @param {Place} place @returns {Promise<string>} why it is not joined; empty: it is */
+export async function connectAt(place) {
+  try {
+    await send({ type: "connect_wire", ...place });
+    recentPlaces.value = withRecent(recentPlaces.value, place);
+    return "";
+  } catch (error) {
+    return error instanceof RefusedError ? error.message : "…";
+  }
+}
+
+/** @param {Place} place @returns {Promise<WireReport | string>} or why it cannot be looked at */
+export async function examineAt(place) {
+  try {
+    const answer = await send({ type: "examine_wire", ...place });
+    return answer.type === "wire_report" ? answer : "…";
+  } catch (error) {
+    return error instanceof RefusedError ? error.message : "…";
+  }
+}
 
 /** All that goes out or comes in, for any robot, ends with it. */
 export const disconnectRos = () => ask({ type: "disconnect_wire" });

@@ -21,6 +21,7 @@ export function StartCard() {
       <${StartButton} tab="browse" icon="open" label="command.open" primary=${true} />
       <${StartButton} tab="new" icon="filePlus" label="command.new_robot" primary=${false} />
       <${StartButton} tab="paste" icon="clipboard" label="command.new_pasted" primary=${false} />
+      <${ConnectButton} />
     </div>
     <${FileButtons} />
     <h2>${t("open.tab.recent")}</h2>
@@ -37,4 +38,12 @@ function StartButton({ tab, icon, label, primary }) {
   };
   return html`<button type="button" class=${`button ${primary ? "primary" : ""}`} onClick=${show}>
     <${Icon} name=${icon} />${t(label)}…</button>`;
+}
+
+/** A robot that runs may be met before any is open. */
+function ConnectButton() {
+  const show = () => {
+    dialog.value = { kind: "ros" };
+  };
+  return html`<button type="button" class="button" onClick=${show}><${Icon} name="link" />${t("start.connect")}…</button>`;
 }

@@ -4,6 +4,8 @@
 /** @import { WireFeed, WireState } from "../../types/wire.d.ts" */
 
 import { computed, signal } from "vendor/preact.js";
+import { remembered } from "../../lib/remembered.js";
+import { isPlace } from "../../lib/wire-places.js";
 import { mayEdit } from "./connection.js";
 
 /** @type {Signal<WireState>} */
@@ -32,6 +34,13 @@ export const feed = signal({
   description_from: "",
   trouble: "",
 });
+
+/** Where this browser joined of late. */
+export const recentPlaces = remembered(
+  "ros.places",
+  /** @type {readonly import("../../lib/wire-places.js").Place[]} */ ([]),
+  (value) => Array.isArray(value) && value.every(isPlace),
+);
 
 /** The joints are this page's to move: nothing on the wire moves them. */
 export const mayMove = computed(() => mayEdit.value && feed.value.source === "sliders");
