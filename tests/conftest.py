@@ -34,6 +34,12 @@ def pytest_collection_finish() -> None:
     gc.freeze()
 
 
+def pytest_runtest_setup(item: pytest.Item) -> None:
+    """A sweep over real files has bounded time, and pays for no garbage of the tests before it."""
+    if item.get_closest_marker("corpus"):
+        gc.collect()
+
+
 @pytest.fixture(autouse=True, scope="session")
 def _own_data_folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     """No test reads or writes the data folder of whoever runs it."""

@@ -7,10 +7,9 @@ import time
 from typing import TYPE_CHECKING, Any
 
 from studio.cli.acting import acting
-from studio.cli.learning import learn_type, say_foreign
+from studio.cli.learning import say_aside, say_foreign
 from studio.cli.looking import full_name, say_other_types
 from studio.cli.wire import add_wire_options
-from studio.errors import UnknownTypeError
 from studio.ros.graph.actions import goal_service
 from studio.ros.names import full_type_name
 
@@ -21,7 +20,6 @@ if TYPE_CHECKING:
     from studio.cli.verbs import Verbs
     from studio.ros.action.client_goal import ClientGoalHandle
     from studio.ros.types.classes import MessageValue
-    from studio.ros.types.library import ActionType
 
 _CANCEL_S = 1.0
 
@@ -44,12 +42,13 @@ def add_send_goal(verbs: Verbs) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     from studio.ros.action.client import ActionClient
+    from studio.ros.remote.known_types import known_action
     from studio.ros.types.plain import from_yaml
 
     name = full_name(options.action_name)
     type_name = full_type_name(options.action_type, "action")
     with acting(options) as actor:
-        kind = _type_of(actor, name, type_name)
+        kind = known_action(actor.node, name, type_name, say_aside)
         goal = from_yaml(kind.Goal, options.goal, now_ns=time.time_ns())
         client = ActionClient(actor.node, kind, name)
         say_other_types(name, type_name, actor.graph.actions())
@@ -59,25 +58,18 @@ def _run(options: argparse.Namespace) -> int:
             print(f"Nobody serves {name} as {type_name}.", file=sys.stderr)
             return 1
         print(f"Sending goal:\n     {_text(goal)}", flush=True)
-        sent = client.send_goal_async(goal, _say_feedback if options.feedback else None)
+        feedback = _Feedback()
+        sent = client.send_goal_async(goal, feedback.take if options.feedback else None)
         actor.wait(sent)
-        return _follow(actor, sent.result())
+        return _follow(actor, sent.result(), feedback)
 
 
-def _type_of(actor: Actor, name: str, type_name: str) -> ActionType:
-    """Find the type among those that are known, else ask a node that serves it what it is."""
-    try:
-        return actor.types.action(type_name)
-    except UnknownTypeError:
-        learn_type(actor, actor.graph.servers(goal_service(name)))
-        return actor.types.action(type_name)
-
-
-def _follow(actor: Actor, goal: ClientGoalHandle) -> int:
+def _follow(actor: Actor, goal: ClientGoalHandle, feedback: _Feedback) -> int:
     if not goal.accepted:
         print("Goal was rejected.")
         return 0
     print(f"Goal accepted with ID: {bytes(goal.goal_id.uuid).hex()}\n", flush=True)
+    feedback.begin()
     try:
         ended = goal.get_result_async()
         actor.wait(ended)
@@ -104,8 +96,24 @@ def _cancel(actor: Actor, goal: ClientGoalHandle) -> None:
         print("Goal canceled.", flush=True)
 
 
-def _say_feedback(message: Any) -> None:  # noqa: ANN401  # of the action's own class
-    print(f"Feedback:\n    {_text(message.feedback)}", flush=True)
+class _Feedback:
+    """Says feedback; what overtakes the answer that the goal is accepted waits for that."""
+
+    def __init__(self) -> None:
+        self._early: list[Any] | None = []
+
+    def take(self, message: Any) -> None:  # noqa: ANN401  # of the action's own class
+        """Say it now, or once the goal is said to be accepted."""
+        if self._early is None:
+            print(f"Feedback:\n    {_text(message.feedback)}", flush=True)
+        else:
+            self._early.append(message)
+
+    def begin(self) -> None:
+        """Say what came too early, and from now on what comes."""
+        early, self._early = self._early or [], None
+        for message in early:
+            self.take(message)
 
 
 def _text(message: MessageValue) -> str:
