@@ -44,7 +44,7 @@ _TO_WEBP = """async (png) => {
   await picture.decode();
   const canvas = new OffscreenCanvas(picture.width, picture.height);
   canvas.getContext("2d").drawImage(picture, 0, 0);
-  const webp = await canvas.convertToBlob({ type: "image/webp", quality: 0.85 });
+  const webp = await canvas.convertToBlob({ type: "image/webp", quality: 0.65 });
   return btoa(String.fromCharCode(...new Uint8Array(await webp.arrayBuffer())));
 }"""
 _DOCK_OF = """(id) => {
