@@ -5,8 +5,6 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING
 
-from studio.errors import StudioError
-
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
@@ -19,20 +17,14 @@ def learn_type(actor: Actor, endpoints: Iterable[GraphEndpoint]) -> None:
 
     Why one did not is said on stderr; whether the type is known is seen by who needs it.
     """
-    from studio.ros.describing import SERVICE_NAME
-    from studio.ros.remote.type_asking import learn_from
+    from studio.ros.remote.known_types import learn_from_any
 
-    for endpoint in endpoints:
-        node = endpoint.node.path
-        if not actor.graph.has_server(f"{node}/{SERVICE_NAME}"):  # asking would wait for it
-            print(f"{node} does not tell what its types are made of.", file=sys.stderr)
-            continue
-        try:
-            learn_from(actor.node, endpoint)
-        except StudioError as error:
-            print(f"{node}: {error}", file=sys.stderr)
-        else:
-            return
+    learn_from_any(actor.node, endpoints, say_aside)
+
+
+def say_aside(sentence: str) -> None:
+    """Say something on stderr."""
+    print(sentence, file=sys.stderr)
 
 
 def say_foreign(actor: Actor, endpoints: Sequence[GraphEndpoint]) -> None:

@@ -8,10 +8,9 @@ import time
 from typing import TYPE_CHECKING
 
 from studio.cli.acting import acting
-from studio.cli.learning import learn_type, say_foreign
+from studio.cli.learning import say_aside, say_foreign
 from studio.cli.looking import full_name, say_other_types
 from studio.cli.wire import add_wire_options
-from studio.errors import UnknownTypeError
 from studio.ros.names import full_type_name
 
 if TYPE_CHECKING:
@@ -19,7 +18,6 @@ if TYPE_CHECKING:
     from studio.cli.verbs import Verbs
     from studio.ros.node.service_client import Client
     from studio.ros.types.classes import MessageValue
-    from studio.ros.types.library import ServiceType
 
 
 def add_call(verbs: Verbs) -> None:
@@ -47,12 +45,13 @@ def _seconds(text: str) -> float:
 
 
 def _run(options: argparse.Namespace) -> int:
+    from studio.ros.remote.known_types import known_service
     from studio.ros.types.plain import from_yaml
 
     name = full_name(options.service_name)
     type_name = full_type_name(options.service_type, "srv")
     with acting(options) as actor:
-        kind = _type_of(actor, name, type_name)
+        kind = known_service(actor.node, name, type_name, say_aside)
         request = from_yaml(kind.Request, options.values, now_ns=time.time_ns())
         client = actor.node.create_client(kind, name)
         say_other_types(name, type_name, actor.graph.services())
@@ -67,15 +66,6 @@ def _run(options: argparse.Namespace) -> int:
             if options.rate is None or not options.rate > 0:
                 return 0
             time.sleep(max(0.0, begun_s + 1 / options.rate - time.monotonic()))
-
-
-def _type_of(actor: Actor, name: str, type_name: str) -> ServiceType:
-    """Find the type among those that are known, else ask a node that serves it what it is."""
-    try:
-        return actor.types.service(type_name)
-    except UnknownTypeError:
-        learn_type(actor, actor.graph.servers(name))
-        return actor.types.service(type_name)
 
 
 def wait_for_service(client: Client, timeout_s: float | None) -> bool:

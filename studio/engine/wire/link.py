@@ -96,6 +96,11 @@ class WireLink:
         return self._wire.zid
 
     @property
+    def node(self) -> Node:
+        """The studio's own node, by which panels act."""
+        return self._node
+
+    @property
     def types(self) -> TypeLibrary:
         """All types that are known on this wire."""
         return self._wire.types
@@ -104,6 +109,11 @@ class WireLink:
     def graph(self) -> Graph:
         """Who is there."""
         return self._graph
+
+    @property
+    def node(self) -> Node:
+        """The studio's own node: what panels hear and do is its."""
+        return self._node
 
     def node_names(self) -> list[str]:
         """Full names of the nodes of others."""
