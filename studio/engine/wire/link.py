@@ -110,11 +110,6 @@ class WireLink:
         """Who is there."""
         return self._graph
 
-    @property
-    def node(self) -> Node:
-        """The studio's own node: what panels hear and do is its."""
-        return self._node
-
     def node_names(self) -> list[str]:
         """Full names of the nodes of others."""
         return [one.path for one in self._graph.nodes() if one.zid != self._wire.zid]

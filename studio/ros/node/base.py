@@ -200,9 +200,16 @@ class NodeBase:
             self._shown.undeclare()
 
     def endpoint(
-        self, kind: EndpointKind, type_name: str, name: str, qos: QoSProfile | int
+        self,
+        kind: EndpointKind,
+        type_name: str,
+        name: str,
+        qos: QoSProfile | int,
+        type_hash: str | None = None,
     ) -> Endpoint:
         """Number an endpoint of this node, which whoever declares it shows.
+
+        A type whose hash is given, as others show it, need not be known here.
 
         Raises:
             RosNameError: It cannot be named so.
@@ -211,9 +218,9 @@ class NodeBase:
         """
         self._refuse_destroyed()
         wire, full_name = self._wire, self.resolve_topic_name(name)
-        type_hash = wire.profile.type_hash(wire.types.hash_of(type_name))
+        known_hash = type_hash or wire.profile.type_hash(wire.types.hash_of(type_name))
         token = EndpointToken(
-            self._token, wire.next_id(), kind, full_name, type_name, type_hash, as_profile(qos)
+            self._token, wire.next_id(), kind, full_name, type_name, known_hash, as_profile(qos)
         )
         return Endpoint(wire, token, lambda: self._context.graph)
 

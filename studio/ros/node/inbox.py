@@ -67,3 +67,10 @@ class Inbox:
             return self.samples.popleft()
         except IndexError:
             return None
+
+    def take_all(self) -> list[RawSample]:
+        """Take all out, the oldest first."""
+        with self._lock:
+            taken = list(self.samples)
+            self.samples.clear()
+        return taken

@@ -137,6 +137,10 @@ class Subscription(Work):
         sample = self._inbox.take()
         return None if sample is None else partial(self._call_back, sample)
 
+    def take_all(self) -> list[RawSample]:
+        """Take all that waits, as it came; for those that have no callback."""
+        return self._inbox.take_all()
+
     def destroy(self) -> None:
         """Take it back; again is harmless."""
         incoming, self._incoming = self._incoming, None

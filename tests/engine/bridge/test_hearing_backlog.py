@@ -1,0 +1,33 @@
+from __future__ import annotations
+
+from studio.engine.bridge.hearing_backlog import KEPT_BYTES, Backlog
+from studio.engine.bridge.hearing_frames import Chunk, chunk_of
+from tests.engine.bridge.test_hearing_frames import samples
+from tests.support.hearers import read_frame
+
+
+def chunk(channel: int, *payloads: bytes, keeps_all: bool) -> Chunk:
+    return chunk_of(channel, samples(list(payloads)), 0, keeps_all=keeps_all)
+
+
+def payloads(frame: bytes) -> list[bytes]:
+    return [one.payload for one in read_frame(frame)[1]]
+
+
+def test_of_a_channel_where_the_newest_counts_only_that_is_kept():
+    backlog = Backlog()
+    for text in (b"old", b"newer", b"newest"):
+        backlog.add([chunk(1, text, keeps_all=False), chunk(2, text, keeps_all=True)])
+    assert sorted(payloads(backlog.frame())) == [b"newer", b"newest", b"newest", b"old"]
+    assert not backlog
+    assert backlog.dropped == 0
+
+
+def test_what_a_browser_owes_is_bounded_and_what_is_given_up_is_counted():
+    backlog = Backlog()
+    big = bytes(KEPT_BYTES // 4)
+    for _ in range(10):
+        backlog.add([chunk(1, big, b"x", keeps_all=True)])
+    dropped, came = read_frame(backlog.frame())
+    assert dropped == backlog.dropped == 20 - len(came) == 14
+    assert read_frame(backlog.frame()) == (14, [])
