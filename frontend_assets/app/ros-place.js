@@ -25,7 +25,7 @@ export function PlaceFields({ place }) {
       <input type="number" class="box" min="0" max=${DOMAIN_MAX} step="1" disabled=${off} value=${Number.isNaN(domain) ? "" : domain}
         onInput=${(/** @type {any} */ event) => change({ domain: event.currentTarget.valueAsNumber })} /></label>
     <label class="field"><span>${t("ros.distro")}</span>
-      <select disabled=${off} value=${distro} onChange=${(/** @type {any} */ event) => change({ distro: event.currentTarget.value })}>
+      <select class="box" disabled=${off} value=${distro} onChange=${(/** @type {any} */ event) => change({ distro: event.currentTarget.value })}>
         ${DISTROS.map((one) => html`<option key=${one} value=${one}>${one}</option>`)}</select></label>
   </div>`;
 }
