@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import argparse
 import sys
+from functools import partial
 from typing import TYPE_CHECKING
 
 from tests.benchmarks import (
@@ -13,6 +15,7 @@ from tests.benchmarks import (
     evaluator,
     fan_out,
     live_scene,
+    memory,
     meshes_to_websocket,
     page,
     start,
@@ -37,21 +40,33 @@ BENCHMARKS: dict[str, Callable[[], None]] = {
     "tf": tf.run,
     "wire": wire.run,
     "displays": displays.run,
+    "memory": memory.run,
 }
 
 
-def main(names: list[str]) -> int:
+def main(arguments: list[str]) -> int:
     """Run the named ones; answers the exit code."""
+    names, minutes = _read(arguments)
     unknown = [name for name in names if name not in BENCHMARKS]
     if unknown:
         say(f"There is no benchmark {unknown[0]}: choose of {', '.join(BENCHMARKS)}.")
         return 2
     say_machine()
-    for name in names or BENCHMARKS:
+    runs = {**BENCHMARKS, "memory": partial(memory.run, minutes)}
+    for name in names or runs:
         say(f"\n[{name}]")
-        BENCHMARKS[name]()
+        runs[name]()
     say_verdicts()
     return 0
+
+
+def _read(arguments: list[str]) -> tuple[list[str], float]:
+    """The names, and for how many minutes memory is watched."""
+    parser = argparse.ArgumentParser(prog="python -m tests.benchmarks")
+    parser.add_argument("names", nargs="*")
+    parser.add_argument("--minutes", type=float, default=1.0, help="for which memory is watched")
+    options = parser.parse_args(arguments)
+    return options.names, options.minutes
 
 
 if __name__ == "__main__":
