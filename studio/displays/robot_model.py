@@ -17,8 +17,6 @@ from studio.errors import DisplayMessageError
 from studio.robot.values import Robot
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from studio.displays.drawing import Drawing, Shape
 
 LINKS_MAX: Final = 2000
@@ -102,7 +100,6 @@ class RobotModelDisplay(StillDisplay):
     robot = Robot("")
     _fault = ""
     _left_out = 0
-    _missing: tuple[str, ...] = ()
 
     def properties(self) -> tuple[Property, ...]:
         """Those of the robot, and three of each link that is known."""
@@ -148,10 +145,6 @@ class RobotModelDisplay(StillDisplay):
         """Why the newest description is not shown, or not as it is; empty when it is."""
         self._fault = sentence
 
-    def miss(self, sentences: Iterable[str]) -> None:
-        """Why some of its meshes are not shown."""
-        self._missing = tuple(sentences)
-
     def take(self, received: Received, role: str = "") -> None:
         """Keep a description.
 
@@ -178,7 +171,7 @@ class RobotModelDisplay(StillDisplay):
 
     def statuses(self) -> tuple[Status, ...]:
         """What is wrong with the description, and why nothing of the robot is seen."""
-        return (*self._of_description(), *self._of_settings(), *self._of_meshes())
+        return (*self._of_description(), *self._of_settings())
 
     def _of_description(self) -> tuple[Status, ...]:
         if self._fault:
@@ -203,15 +196,6 @@ class RobotModelDisplay(StillDisplay):
             off = _ALL_LINKS if not self.values[_ALL_LINKS] else f"{_LINKS}{next(iter(links))}"
             return (Status("warn", "empty", "All links are switched off.", (off, True)),)
         return ()
-
-    def _of_meshes(self) -> tuple[Status, ...]:
-        if not self._missing:
-            return ()
-        count = len(self._missing)
-        words = self._missing[0]
-        if count > 1:
-            words = f"{count} meshes of the robot cannot be shown. The first: {words}"
-        return (Status("warn", "no_mesh", words),)
 
     def _drawn(self) -> Drawing:
         return {

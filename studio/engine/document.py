@@ -99,7 +99,7 @@ class Document:
         self._meshes = MeshDesk(self, services.meshes, self._watch_files)
         self.robot_checks = RobotChecks(self, services.meshes, self._meshes)
         self.variants = VariantDesk(self, services, self._meshes.want)
-        self.live = LiveDesk(self, services, self._meshes.want)
+        self.live = LiveDesk(self, services, self._meshes)
         self._files, self._watch = (self.path,), FileWatch(self._changed_on_disk)
         self._packages = PackagesUsed()
         self._packages_seen: dict[str, str] | None = None

@@ -90,11 +90,22 @@ class LiveScene:
 
     def missing_meshes(self) -> set[str]:
         """URIs of meshes to load and `provide_mesh`."""
-        return {uri for uri in self._mesh_uris() if uri not in self._shelves.meshes}
+        return {uri for uri in self.mesh_uris() if uri not in self._shelves.meshes}
+
+    def mesh_uris(self) -> set[str]:
+        """URIs of all meshes that displays name."""
+        return {uri for display in self._displays.values() for uri in display.mesh_uris()}
+
+    def failed_meshes(self, display_id: str) -> list[str]:
+        """URIs of meshes of a display that cannot be loaded."""
+        display = self._displays.get(display_id)
+        meshes = self._shelves.meshes
+        uris = display.mesh_uris() if display else set[str]()
+        return sorted(uri for uri in uris if uri in meshes and meshes.get(uri) is None)
 
     def provide_mesh(self, uri: str, mesh: LoadedMesh | None) -> None:
         """Draw a mesh wherever it is named, or a sign when it is None."""
-        if uri not in self._mesh_uris() or not self._shelves.meshes.put(uri, mesh):
+        if uri not in self.mesh_uris() or not self._shelves.meshes.put(uri, mesh):
             return
         with self._graph.atomic():
             for display in self._displays.values():
@@ -104,12 +115,9 @@ class LiveScene:
         """A mesh that came; None when it has not, or failed."""
         return self._shelves.meshes.get(uri)
 
-    def _mesh_uris(self) -> set[str]:
-        return {uri for display in self._displays.values() for uri in display.mesh_uris()}
-
     def _tidy_meshes(self) -> None:
         """Forget meshes that nobody names, and take those that the robot has."""
-        uris = self._mesh_uris()
+        uris = self.mesh_uris()
         self._shelves.meshes.keep_only(uris)
         for uri in uris:
             if uri not in self._shelves.meshes and (mesh := self._known(uri)) is not None:

@@ -199,18 +199,6 @@ def test_a_description_that_is_being_read_is_told_to_be_on_its_way():
     assert status.sentence == "The description of the robot is on its way."
 
 
-def test_meshes_that_are_missing_are_counted_with_what_is_wrong_with_the_first():
-    display = rover()
-    display.miss(["Mesh a.stl does not exist."])
-    assert [one.sentence for one in display.statuses()] == ["Mesh a.stl does not exist."]
-    display.miss(["Mesh a.stl does not exist.", "Mesh b.stl does not exist."])
-    [status] = display.statuses()
-    assert (status.reason, status.sentence) == (
-        "no_mesh",
-        "2 meshes of the robot cannot be shown. The first: Mesh a.stl does not exist.",
-    )
-
-
 @pytest.mark.parametrize(
     ("off", "mend"),
     [

@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import islice
 from typing import TYPE_CHECKING, Final, Protocol
 
-from studio.displays.display import TopicRole
+from studio.displays.display import Status, TopicRole
 from studio.displays.tf import TfDisplay
 from studio.engine.live.catalogue_views import property_view
 from studio.engine.live.ear import Hearing
@@ -24,7 +24,7 @@ from studio.errors import CommandError, SceneError
 from studio.ros.messages.shared import shared_types
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Iterable
 
     from studio.displays.display import Display
     from studio.engine.live.display_list import DisplayList, DisplaySpec, Listening
@@ -54,11 +54,23 @@ class Connected(Hearing, Protocol):
         ...
 
 
+class Meshes(Protocol):
+    """Who loads the meshes that the scene lacks."""
+
+    def want(self) -> None:
+        """Load them."""
+        ...
+
+    def trouble_of(self, uri: str) -> str:
+        """Why one cannot be shown, in a sentence."""
+        ...
+
+
 class DrawingRoom:
     """Steps every display that is shown and applies what it draws."""
 
-    def __init__(self, model: Model, want_meshes: Callable[[], None]) -> None:
-        self._scene, self._want_meshes = model.scene, want_meshes
+    def __init__(self, model: Model, meshes: Meshes) -> None:
+        self._scene, self._meshes = model.scene, meshes
         self.frames = FramesDesk(model)
         self._running: dict[str, RunningDisplay] = {}
         self._faults: dict[str, str] = {}
@@ -123,6 +135,11 @@ class DrawingRoom:
         for running in self._running.values():
             running.placing.renew()
 
+    def forget(self) -> None:
+        """Take what came by a connection that is no more off the screen."""
+        for running in self._running.values():
+            running.forget()
+
     def step(self, displays: DisplayList, now_ns: int) -> None:
         """Draw what came since the last step."""
         self.frames.step()
@@ -161,7 +178,8 @@ class DrawingRoom:
     def _state(self, spec: DisplaySpec, displays: DisplayList, now_ns: int) -> DisplayState:
         running = self._running[spec.id]
         age_s = running.age_s(now_ns)
-        remarks = remarks_on(running.facts(now_ns, shown=displays.is_shown(spec)))
+        more = self._of_meshes(spec.id)
+        remarks = remarks_on(running.facts(now_ns, shown=displays.is_shown(spec), more=more))
         if fault := self._faults.get(spec.id):
             remarks = (Remark(level="error", reason="too_much", sentence=fault), *remarks)
         return DisplayState(
@@ -171,6 +189,16 @@ class DrawingRoom:
             lost=running.lost,
             remarks=remarks,
         )
+
+    def _of_meshes(self, display: str) -> tuple[Status, ...]:
+        """Which meshes cannot be shown; in their places are boxes of wire."""
+        failed = self._scene.live.failed_meshes(display)
+        if not failed:
+            return ()
+        words = self._meshes.trouble_of(failed[0])
+        if len(failed) > 1:
+            words = f"{len(failed)} meshes cannot be shown. The first: {words}"
+        return (Status("warn", "no_mesh", words),)
 
     def _shown_of(self, displays: DisplayList) -> dict[str, RunningDisplay]:
         """Those that are seen; what came before time jumped, or before one was hidden, is not."""
@@ -197,7 +225,7 @@ class DrawingRoom:
         except SceneError as error:
             self._faults[display] = str(error)
         if self._scene.live.missing_meshes():
-            self._want_meshes()
+            self._meshes.want()
 
     def _show_frames(self, displays: Iterable[Display]) -> None:
         """Hand all frames to those that draw them."""

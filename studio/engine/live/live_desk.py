@@ -11,15 +11,16 @@ from typing import TYPE_CHECKING, Final
 from studio.engine.live.display_file import DisplayFile, KeptDisplays
 from studio.engine.live.display_list import DisplayList, Listening
 from studio.engine.messages import live as m
+from studio.engine.wire.rejoining import Rejoining
 from studio.errors import CommandError, StudioError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Iterable
 
     from studio.displays.properties import Value
     from studio.engine.document import Document
     from studio.engine.live.display_list import DisplaySpec
-    from studio.engine.live.drawing_room import DrawingRoom
+    from studio.engine.live.drawing_room import DrawingRoom, Meshes
     from studio.engine.live.placing import Shown
     from studio.engine.live.robot_models import RobotModels
     from studio.engine.services import Services
@@ -45,16 +46,16 @@ class LiveDesk:
     was.
     """
 
-    def __init__(
-        self, document: Document, services: Services, want_meshes: Callable[[], None]
-    ) -> None:
+    def __init__(self, document: Document, services: Services, meshes: Meshes) -> None:
         self._document, self._services, self._wire = document, services, services.wire
         self._file = DisplayFile(services.settings.data_folder, document.entry)
-        self._want_meshes = want_meshes
+        self._meshes = meshes
         self._list = DisplayList()
         self._made: DrawingRoom | None = None
         self._robots: RobotModels | None = None
         """Made with the room."""
+        self._rejoining = Rejoining(services.wire)
+        self._joining: asyncio.Task[None] | None = None
         self._link: WireLink | None = None
         self._listening = asyncio.Lock()
         self._ticking: asyncio.Task[None] | None = None
@@ -75,7 +76,7 @@ class LiveDesk:
             from studio.engine.live.drawing_room import DrawingRoom  # noqa: PLC0415 - see above
             from studio.engine.live.robot_models import RobotModels  # noqa: PLC0415
 
-            self._made = DrawingRoom(self._document.model, self._want_meshes)
+            self._made = DrawingRoom(self._document.model, self._meshes)
             self._robots = RobotModels(self._document, self._services)
         return self._made
 
@@ -89,6 +90,8 @@ class LiveDesk:
         for group in {one.group for one in self._list} & set(kept.groups_off) - {""}:
             self._list.switch_group(group, shown=False)
         self._show_and_hide()
+        if kept.fixed_frame or any(one.topic for one in self._list):
+            self._joining = asyncio.create_task(self._rejoining.rejoin(kept.connected_to))
         self._go_on()
 
     def _restore_one(self, spec: DisplaySpec) -> None:
@@ -196,7 +199,11 @@ class LiveDesk:
     async def topics(self, command: m.GetTopics) -> m.Topics:
         """Which topics there are; none without a connection."""
         link = self._wire.current
-        found = await asyncio.to_thread(_topics_of, link) if link else ()
+        if link is None:
+            return m.Topics(request=command.request, topics=())
+        from studio.engine.live.topic_views import topic_views  # noqa: PLC0415 - imports all
+
+        found = await asyncio.to_thread(topic_views, link)
         return m.Topics(request=command.request, topics=found)
 
     async def tf(self, command: m.GetTf) -> m.TfFrames:
@@ -220,9 +227,10 @@ class LiveDesk:
     async def close(self) -> None:
         """Draw nothing more."""
         self._closed = True
-        if self._ticking is not None:
-            self._ticking.cancel()
-            await asyncio.gather(self._ticking, return_exceptions=True)
+        running = [one for one in (self._ticking, self._joining) if one is not None]
+        for one in running:
+            one.cancel()
+        await asyncio.gather(*running, return_exceptions=True)
         await self.let_go()
         if self._robots is not None:
             await self._robots.close()
@@ -258,7 +266,9 @@ class LiveDesk:
             self._document.scene.live.show(spec.id, visible=self._list.is_shown(spec))
 
     def _keep(self) -> None:
-        self._unkept = KeptDisplays(tuple(self._list), self._list.groups_off, self._fixed_frame)
+        self._unkept = KeptDisplays(
+            tuple(self._list), self._list.groups_off, self._fixed_frame, self._rejoining.place
+        )
         if self._keeping is None or self._keeping.done():
             self._keeping = asyncio.create_task(self._write())
 
@@ -327,6 +337,9 @@ class LiveDesk:
         link = self._wire.current
         if self._link is not None and link is not self._link:
             await self.let_go()
+        if self._rejoining.has_moved():
+            self._room.forget()
+            self._keep()
         async with self._listening:
             if link is None:
                 return
@@ -370,18 +383,3 @@ def _full_name(topic: str) -> str:
     """A topic as the graph names it."""
     topic = topic.strip()
     return f"/{topic}" if topic and topic[0] not in "/~" else topic
-
-
-def _topics_of(link: WireLink) -> tuple[m.TopicView, ...]:
-    from studio.displays.catalogue import displays_of_type  # noqa: PLC0415 - only when it is used
-
-    found: list[m.TopicView] = []
-    for name, types in link.graph.topics():
-        publishers = len(link.graph.publishers(name))
-        kinds = [kind.KIND for one in types for kind in displays_of_type(one, name)]
-        if publishers:
-            kind = kinds[0] if kinds else ""
-            found.append(
-                m.TopicView(name=name, types=tuple(types), publishers=publishers, kind=kind)
-            )
-    return tuple(found)

@@ -137,8 +137,12 @@ class RunningDisplay:
         """
         wish = self.wish()
         if wish is None or not wish.latched:
-            self.display.reset()
-            self.placing.forget()
+            self.forget()
+
+    def forget(self) -> None:
+        """Show nothing of what came: it is of a connection that is no more."""
+        self.display.reset()
+        self.placing.forget()
 
     def wish(self) -> Wish | None:
         """How the main topic is listened to; None: it is not."""
@@ -161,8 +165,8 @@ class RunningDisplay:
         """Messages that fell out because too many came at once."""
         return sum(ear.mailbox.lost for ear in tuple(self._ears.values()))
 
-    def facts(self, now_ns: int, *, shown: bool) -> Facts:
-        """What is known of why it shows what it shows."""
+    def facts(self, now_ns: int, *, shown: bool, more: tuple[Status, ...] = ()) -> Facts:
+        """What is known of why it shows what it shows, with more that is to be said."""
         ear, age_s = self._ears.get(""), self.age_s(now_ns)
         roles = self.display.roles()
         of_types = (displays_of_type(name, self.spec.topic) for name in self._wire.types)
@@ -180,7 +184,7 @@ class RunningDisplay:
             frames=tuple(_first_of_each(self.placing.troubles.values())),
             frame=next((drawing[one].frame for one in self.placing.troubles if one in drawing), ""),
             stamp_zero=bool(roles) and any(_has_no_time(one) for one in drawing.values()),
-            statuses=self._statuses(),
+            statuses=(*self._statuses(), *more),
             draws=any(placed.shapes for placed in drawing.values()),
             waits=self.placing.waits,
         )

@@ -43,8 +43,9 @@ class MeshDesk:
 
     def want(self) -> None:
         """Load what the scene lacks, and forget what nobody names any more."""
-        self._loading.forget(self._document.model.mesh_uris())
-        self._loading.want(self._document.scene.missing_meshes())
+        scene = self._document.scene
+        self._loading.forget(self._document.model.mesh_uris() | scene.live.mesh_uris())
+        self._loading.want(scene.missing_meshes())
         self._tell_problems()
 
     def retry(self) -> None:
@@ -58,10 +59,16 @@ class MeshDesk:
 
     @property
     def problems(self) -> dict[str, Problem]:
-        """What is wrong with meshes by URI, each at the first link that names it."""
-        found = self._loading.problems
+        """What is wrong with meshes of the robot by URI, each at the first link that names it."""
+        named = self._document.model.mesh_uris() if self._loading.problems else frozenset[str]()
+        found = {uri: one for uri, one in self._loading.problems.items() if uri in named}
         users = self._document.model.mesh_users() if found else {}
         return {uri: _placed(found[uri], users.get(uri)) for uri in found}
+
+    def trouble_of(self, uri: str) -> str:
+        """Why a mesh cannot be shown, whoever names it, in a sentence."""
+        found = self._loading.problems.get(uri)
+        return found.sentence if found else f"Mesh {uri} cannot be shown."
 
     def tell_nearer(self, nearer: Mapping[Problem, Problem]) -> None:
         """Say from now on what was meant by names of meshes that are not there."""

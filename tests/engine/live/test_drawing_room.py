@@ -50,13 +50,22 @@ def frame_at(parent: str, child: str, stamp_ns: int) -> bytes:
     return bytes(TransformCodec().encode(shown))
 
 
+class NoMeshes:
+    """Loads nothing: nothing here is drawn with a mesh."""
+
+    def want(self) -> None: ...
+
+    def trouble_of(self, uri: str) -> str:
+        return uri
+
+
 class Room:
     """A room with displays of topics at a link, in the fixed frame `map`."""
 
     def __init__(self, *topics: str) -> None:
         self.link, self.displays = Link(), DisplayList()
         model = Model(DocumentScene(asyncio.get_running_loop()))
-        self.room = DrawingRoom(model, lambda: None)
+        self.room = DrawingRoom(model, NoMeshes())
         self.room.frames.chosen = "map"
         self.ids: list[str] = []
         for topic in topics:

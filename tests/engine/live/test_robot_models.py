@@ -11,6 +11,7 @@ from studio.engine.messages import live as v
 from studio.nodes.robot_state_publisher import LATCHED, RobotStatePublisher
 from studio.ros.messages import message
 from studio.ros.parameters.parameter import Parameter
+from tests.support.meshes import stl
 from tests.support.open_documents import until
 from tests.support.viser_frames import joined
 from tests.support.wired_studio import STRING, Studio, studio
@@ -189,5 +190,26 @@ def test_the_robot_of_the_document_and_one_of_a_file_stand_where_their_own_frame
                 v.SetDisplayProperty(display=file, name="Description File", value="/etc/passwd")
             )
             await until(lambda: any("passwd" in said for said in remarks(one, file)))
+
+    asyncio.run(run())
+
+
+def test_a_mesh_that_is_not_there_is_told_and_one_beside_the_document_is_drawn(
+    endpoint: str, tester: Node, tmp_path: Path
+):
+    async def run() -> None:
+        (tmp_path / "there.stl").write_bytes(stl())
+        text = (
+            '<robot name="r"><link name="base"><visual><geometry><mesh filename="there.stl"/>'
+            '</geometry></visual><visual><geometry><mesh filename="package://gone/a.dae"/>'
+            "</geometry></visual></link></robot>"
+        )
+        out = tester.create_publisher(message(STRING), "/robot_description", LATCHED)
+        out.publish(message(STRING)(data=text))
+        async with studio(endpoint, tmp_path) as one:
+            display = await add(one)
+            await until(lambda: any("gone" in said for said in remarks(one, display)))
+            drawn = (await nodes(one)).keys()
+            assert {f"/live/{display}/base/link.visual-{at}" for at in (0, 1)} <= drawn
 
     asyncio.run(run())
