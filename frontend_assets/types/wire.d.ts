@@ -1,6 +1,13 @@
 // Written by `python -m studio.web.wire_types` from studio/engine/messages/: do not edit.
 // A command goes to the websocket /control as JSON text; each event comes from it as JSON text.
 
+/** Answer to `get_actions`. */
+export interface Actions {
+  type: "actions";
+  request: number;
+  actions: OfferView[];
+}
+
 /** Add a display; with a topic, it listens with what fits the topic's publishers. */
 export interface AddDisplay {
   request?: number;
@@ -84,11 +91,58 @@ export interface ArrangeDisplay {
 /** What changes about a part. */
 export type Aspect = "size" | "shape" | "color" | "pose" | "collision" | "inertia" | "motion" | "name" | "other" | "presence";
 
+/** Answer to what begins a deed: the number by which it is told and ended. */
+export interface Begun {
+  type: "begun";
+  request: number;
+  deed: number;
+}
+
 /** A run ended: how long it took from the edit to the scene. */
 export interface Built {
   type: "built";
   ok: boolean;
   duration_ms: number;
+}
+
+/** Call a service; what becomes of it is told to those who follow calls. */
+export interface CallService {
+  request?: number;
+  document?: string;
+  type: "call_service";
+  name: string;
+  service_type: string;
+  text?: string;
+  timeout_s?: number;
+}
+
+/** A call, and what became of it. */
+export interface CallView {
+  deed: number;
+  name: string;
+  service_type: string;
+  text: string;
+  state: "calling" | "answered" | "failed" | "cancelled";
+  began_s: number;
+  took_s: number;
+  timeout_s: number;
+  reply: string;
+  trouble: string;
+}
+
+/** Calls, the oldest first; all that are kept, or those that changed. */
+export interface Calls {
+  type: "calls";
+  whole: boolean;
+  deeds: CallView[];
+}
+
+/** Wait for the answer of a call no longer. */
+export interface CancelCall {
+  request?: number;
+  document?: string;
+  type: "cancel_call";
+  deed: number;
 }
 
 /** Answer to `get_changes`. */
@@ -508,6 +562,23 @@ export interface FolderEntry {
   reason: string;
 }
 
+/** Be told what runs and ran of a kind, for any page, from now on; or no more. */
+export interface FollowDeeds {
+  request?: number;
+  document?: string;
+  type: "follow_deeds";
+  deeds: "calls" | "goals" | "publications";
+  following?: boolean;
+}
+
+/** Have a frame that is no link stand in the scene for some seconds, for a camera to go with. */
+export interface FollowFrame {
+  request?: number;
+  document?: string;
+  type: "follow_frame";
+  frame: string;
+}
+
 /** Take a file out of that list; the file stays. */
 export interface ForgetRecent {
   request?: number;
@@ -532,6 +603,13 @@ export interface FoundText {
   in_run: boolean;
 }
 
+/** Answer to `follow_frame`. */
+export interface FrameFollowed {
+  type: "frame_followed";
+  request: number;
+  trouble: string;
+}
+
 /** A frame of TF. */
 export interface FrameView {
   name: string;
@@ -553,6 +631,13 @@ export interface Frames {
   request: number;
   revision: number;
   origins: Record<string, [number, number, number, number, number, number]>;
+}
+
+/** Ask which actions somebody serves. */
+export interface GetActions {
+  request?: number;
+  document?: string;
+  type: "get_actions";
 }
 
 /** What a robot can be launched with: the open document's, or that of a file not yet open. */
@@ -615,6 +700,14 @@ export interface GetLink {
   type: "get_link";
 }
 
+/** Ask for what was said after a line; the log is heard from the first such question on. */
+export interface GetLog {
+  request?: number;
+  document?: string;
+  type: "get_log";
+  after?: number;
+}
+
 /** What the links of the last good robot weigh, and what room their shapes take. */
 export interface GetMasses {
   request?: number;
@@ -654,6 +747,13 @@ export interface GetRenaming {
   offset: number;
   type: "get_renaming";
   name: string;
+}
+
+/** Ask which services somebody serves. */
+export interface GetServices {
+  request?: number;
+  document?: string;
+  type: "get_services";
 }
 
 /** The text of a file as it is edited; `texts_changed` tells from then on what happens to it. */
@@ -870,6 +970,28 @@ export interface LiveDisplays {
   fixed_frame: string;
 }
 
+/** Answer to `get_log`: the oldest lines after that one, and how many there are in all. */
+export interface LogAnswer {
+  type: "log";
+  request: number;
+  connected: boolean;
+  lines: LogLine[];
+  first: number;
+  last: number;
+}
+
+/** One thing that a node said. */
+export interface LogLine {
+  number: number;
+  stamp_s: number;
+  level: number;
+  node: string;
+  text: string;
+  file: string;
+  function: string;
+  line: number;
+}
+
 /** What stands there, what it came to in the run, and where it is defined. */
 export interface LookUp {
   request?: number;
@@ -958,6 +1080,13 @@ export interface NewUntitled {
   document?: string;
   type: "new_untitled";
   text: string;
+}
+
+/** A service or an action. */
+export interface OfferView {
+  name: string;
+  types: string[];
+  nodes: string[];
 }
 
 /** Open the working copy of a shipped model. */
@@ -1235,6 +1364,16 @@ export interface RandomizeJoints {
   type: "randomize_joints";
 }
 
+/** Read YAML as values of a type; refused with the field that does not take its value. */
+export interface ReadValues {
+  request?: number;
+  document?: string;
+  type: "read_values";
+  name: string;
+  place?: number;
+  text: string;
+}
+
 /** Answer to `list_recent` and `forget_recent`: newest first. */
 export interface Recent {
   type: "recent";
@@ -1477,6 +1616,13 @@ export interface SaveVariant {
 export interface Saved {
   type: "saved";
   files: string[];
+}
+
+/** Answer to `get_services`. */
+export interface Services {
+  type: "services";
+  request: number;
+  services: OfferView[];
 }
 
 /** Pass an argument as `name:=value` on the command line would; None takes it back. */
@@ -1749,6 +1895,13 @@ export interface UrdfChanges {
   fault: string;
 }
 
+/** Answer to `read_values`: only what the text names; `now` and `auto` stay as they are. */
+export interface ValuesRead {
+  type: "values_read";
+  request: number;
+  values: string;
+}
+
 /** Answer to `apply_variant`; `left_out` says what found no place. */
 export interface VariantApplied {
   type: "variant_applied";
@@ -1935,6 +2088,7 @@ export type Command =
   | GetDisplayKinds
   | GetTopics
   | GetTf
+  | FollowFrame
   | GetText
   | GetOrigin
   | GetEffects
@@ -1952,7 +2106,14 @@ export type Command =
   | DeleteVariant
   | CompareVariants
   | GetInterface
+  | GetLog
   | GetTopicRates
+  | GetServices
+  | GetActions
+  | ReadValues
+  | FollowDeeds
+  | CallService
+  | CancelCall
   | ListRecent
   | OpenRecent
   | ForgetRecent
@@ -1993,6 +2154,7 @@ export type Event =
   | DisplayStates
   | Topics
   | TfFrames
+  | FrameFollowed
   | Text
   | TextsChanged
   | OutlineAnswer
@@ -2017,7 +2179,13 @@ export type Event =
   | VariantSaved
   | Comparison
   | InterfaceAnswer
+  | LogAnswer
   | TopicRates
+  | Services
+  | Actions
+  | ValuesRead
+  | Begun
+  | Calls
   | Recent
   | Examples
   | Places

@@ -19,8 +19,10 @@ VIEWER_COMMANDS = {
     *("watch", "get_urdf", "get_text", "get_origin", "get_effects"),
     *("get_outline", "look_up", "get_references"),
     *("get_frames", "get_masses", "get_display_kinds", "get_topics", "get_tf"),
+    "follow_frame",
     "get_topic_rates",
-    *("find_texts", "get_urdf_changes", "get_interface"),
+    *("get_services", "get_actions", "read_values", "follow_deeds"),
+    *("find_texts", "get_urdf_changes", "get_interface", "get_log"),
 }
 CLIENT_MESSAGES = {
     "ViewerCameraMessage",

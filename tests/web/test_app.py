@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
     from tests.support.web_server import RunningWeb
 
-SOCKETS = {"/control", "/d/{document}/viser"}
+SOCKETS = {"/data", "/control", "/d/{document}/viser"}
 POSTS = {"/api/commands", "/api/uploads"}
 
 
@@ -85,6 +85,9 @@ FIELDS: dict[str, object] = {
     **dict.fromkeys(("kind", "topic", "frame"), "x"),
     "enabled": True,
     "topics": ["/x"],
+    "service_type": "x/srv/X",
+    "deed": 1,
+    "deeds": "calls",
 }
 """A value for each field that a command needs."""
 

@@ -26,7 +26,7 @@ class DeedDesk:
 
     def follow(self, command: FollowDeeds, listener: Listener) -> None:
         """Tell a page of a kind of deeds, or no more."""
-        ledger = self._ledgers[command.kind]
+        ledger = self._ledgers[command.deeds]
         if command.following:
             ledger.follow(listener)
         else:

@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+import asyncio
 from inspect import isawaitable
 from typing import TYPE_CHECKING, Any, Final, TypeAlias, TypeVar
 
+from studio.engine.bridge.deeds import DeedDesk
+from studio.engine.bridge.hearing import HearingDesk
 from studio.engine.bridge.interfaces import InterfaceDesk
+from studio.engine.bridge.logs import LogDesk
 from studio.engine.bridge.rates import RateDesk
+from studio.engine.messages import calls as k
 from studio.engine.messages.interfaces import GetInterface
+from studio.engine.messages.logs import GetLog
 from studio.engine.messages.message import CommandMessage
 from studio.engine.messages.topic_rates import GetTopicRates
 
@@ -34,7 +40,10 @@ class BridgeDesk:
 
     def __init__(self, wire: WireDesk) -> None:
         self.interfaces = InterfaceDesk(wire)
+        self.hearing = HearingDesk(wire)
         self.rates = RateDesk(wire)
+        self.logs = LogDesk(wire)
+        self.deeds = DeedDesk(wire, self.interfaces)
 
     async def carry_out(self, command: m.BridgeCommand, listener: Listener) -> m.BridgeEvent | None:
         """Carry out one command and give its answer, if it has one.
@@ -47,15 +56,27 @@ class BridgeDesk:
 
     def detach(self, listener: Listener) -> None:
         """A page is gone: what ran for it alone ends."""
+        self.deeds.detach(listener)
 
     async def let_go(self) -> None:
         """Let go of the connection, which is about to end."""
+        await asyncio.gather(self.hearing.let_go(), self.deeds.let_go(), self.logs.let_go())
 
     async def close(self) -> None:
         """End all that runs."""
+        await asyncio.gather(self.hearing.close(), self.deeds.close())
 
 
 _INTERFACES: Final = (_row(GetInterface, lambda d, c, _: d.interfaces.interface(c)),)
 _RATES: Final = (_row(GetTopicRates, lambda d, c, _: d.rates.rates(c)),)
-WORK: Final = dict((*_INTERFACES, *_RATES))
+_DEEDS: Final = (
+    _row(k.GetServices, lambda d, c, _: d.deeds.offers.services(c)),
+    _row(k.GetActions, lambda d, c, _: d.deeds.offers.actions(c)),
+    _row(k.ReadValues, lambda d, c, _: d.deeds.offers.read(c)),
+    _row(k.FollowDeeds, lambda d, c, who: d.deeds.follow(c, who)),
+    _row(k.CallService, lambda d, c, _: d.deeds.calls.begin(c)),
+    _row(k.CancelCall, lambda d, c, _: d.deeds.calls.cancel(c)),
+)
+_LOGS: Final = (_row(GetLog, lambda d, c, _: d.logs.log(c)),)
+WORK: Final = dict((*_LOGS, *_INTERFACES, *_RATES, *_DEEDS))
 """What each command of the bridge does."""

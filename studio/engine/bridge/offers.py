@@ -71,9 +71,9 @@ class OfferDesk:
 
         library = self._interfaces.library()
         parts = messages_of(library.interface(command.name))
-        if command.part >= len(parts):
-            raise CommandError(f"{command.name} has no part {command.part}.")
-        from_yaml(library.message(parts[command.part].name), command.text, now_ns=time.time_ns())
+        if command.place >= len(parts):
+            raise CommandError(f"{command.name} has no part {command.place}.")
+        from_yaml(library.message(parts[command.place].name), command.text, now_ns=time.time_ns())
         values = read_yaml(command.text)
         return plain_json({} if values is None else values)
 

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from typing import TypeAlias
 
+from studio.engine.messages.calls import CallCommand, CallEvent
 from studio.engine.messages.interfaces import InterfaceCommand, InterfaceEvent
+from studio.engine.messages.logs import LogCommand, LogEvent
 from studio.engine.messages.topic_rates import RatesCommand, RatesEvent
 
-BridgeCommand: TypeAlias = InterfaceCommand | RatesCommand
+BridgeCommand: TypeAlias = InterfaceCommand | LogCommand | RatesCommand | CallCommand
 """Each concerns the connection, and none a document: the bridge desk carries them out."""
-BridgeEvent: TypeAlias = InterfaceEvent | RatesEvent
+BridgeEvent: TypeAlias = InterfaceEvent | LogEvent | RatesEvent | CallEvent

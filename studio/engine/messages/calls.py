@@ -36,7 +36,7 @@ class ReadValues(CommandMessage):
     type: Literal["read_values"] = "read_values"
     name: Name
     """Of the type in full."""
-    part: int = Field(default=0, ge=0, le=2)
+    place: int = Field(default=0, ge=0, le=2)
     """Among the parts of `interface`: 0 is the message itself, a request or a goal."""
     text: Yaml
 
@@ -45,7 +45,7 @@ class FollowDeeds(CommandMessage):
     """Be told what runs and ran of a kind, for any page, from now on; or no more."""
 
     type: Literal["follow_deeds"] = "follow_deeds"
-    kind: Literal["calls", "goals", "publications"]
+    deeds: Literal["calls", "goals", "publications"]
     following: bool = True
 
 

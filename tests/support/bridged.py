@@ -1,0 +1,58 @@
+"""A bridge at a router, and a page's ear that follows what is done there."""
+
+from __future__ import annotations
+
+from contextlib import asynccontextmanager
+from typing import TYPE_CHECKING, Any, cast
+
+from studio.engine.bridge.desk import BridgeDesk
+from studio.engine.messages.calls import FollowDeeds
+from studio.engine.wire.desk import WireDesk
+from studio.settings import WireChoice
+from tests.support.open_documents import Ear, until
+
+if TYPE_CHECKING:
+    from collections.abc import AsyncGenerator
+
+    from studio.engine.messages import BridgeCommand
+
+
+class Bridged:
+    """Does what a page asks, and knows how all deeds fare, as a page does."""
+
+    def __init__(self, desk: BridgeDesk, ear: Ear) -> None:
+        self.desk, self.ear = desk, ear
+
+    async def do(self, command: BridgeCommand) -> Any:  # noqa: ANN401 - the answer
+        """Ask, and give the answer."""
+        return await self.desk.carry_out(command, self.ear)
+
+    def deed(self, kind: str, number: int) -> dict[str, Any]:
+        """A deed as it was told last; empty before."""
+        told = (one for one in self.ear.events if one["type"] == kind)
+        found = [deed for one in told for deed in one["deeds"] if deed["deed"] == number]
+        return found[-1] if found else {}
+
+    async def deed_in(self, kind: str, number: int, *states: str) -> dict[str, Any]:
+        """Wait until a deed is told to be in one of some states."""
+        await until(lambda: self.deed(kind, number).get("state") in states)
+        return self.deed(kind, number)
+
+    async def begin(self, command: BridgeCommand) -> int:
+        """Begin a deed; gives its number."""
+        return cast("int", (await self.do(command)).deed)
+
+
+@asynccontextmanager
+async def bridged(endpoint: str) -> AsyncGenerator[Bridged]:
+    """A bridge that has joined the router; its ear follows calls, goals and publications."""
+    wire = WireDesk(WireChoice("off", (endpoint,)))
+    desk, ear = BridgeDesk(wire), Ear()
+    try:
+        await wire.link()
+        for kind in ("calls",):
+            await desk.carry_out(FollowDeeds(deeds=kind), ear)
+        yield Bridged(desk, ear)
+    finally:
+        await desk.close()
+        await wire.close()
