@@ -10,6 +10,7 @@ import threading
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Any
 
+from studio.errors import DestroyedError
 from studio.nodes.demos.starting import environment_for
 from studio.nodes.demos.table import find_demo
 from studio.ros.client import Context, ExternalShutdownException, Node, SingleThreadedExecutor
@@ -141,5 +142,6 @@ def call(node: Node, type_name: str, called: str, /, **fields: Any) -> Any:  # n
 
 
 def _spin(executor: SingleThreadedExecutor) -> None:
-    with suppress(ExternalShutdownException):
+    # A timer may be about to publish at the moment in which its node ends.
+    with suppress(ExternalShutdownException, DestroyedError):
         executor.spin()
