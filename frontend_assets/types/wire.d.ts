@@ -468,6 +468,22 @@ export interface Effects {
   is_cut: boolean;
 }
 
+/** A publisher or a subscription. */
+export interface EndView {
+  node: string;
+  own: boolean;
+  type_name: string;
+  reliability: string;
+  durability: string;
+  history: string;
+  depth: number;
+  deadline_s: number | null;
+  lifespan_s: number | null;
+  liveliness: string;
+  lease_s: number | null;
+  hash: string;
+}
+
 /** Look what there is at a place; nothing is joined or started by it. */
 export interface ExamineWire {
   request?: number;
@@ -773,6 +789,14 @@ export interface GetTf {
   seen_from?: string;
 }
 
+/** Ask who publishes a topic and who subscribes to it, how, and what keeps them apart. */
+export interface GetTopicEnds {
+  request?: number;
+  document?: string;
+  type: "get_topic_ends";
+  topic: string;
+}
+
 /** How topics come; they are heard for some seconds from now on, so ask again every second. */
 export interface GetTopicRates {
   request?: number;
@@ -955,6 +979,13 @@ export interface ListRecent {
   type: "list_recent";
 }
 
+/** Ask which topics anybody publishes or subscribes to. */
+export interface ListTopics {
+  request?: number;
+  document?: string;
+  type: "list_topics";
+}
+
 /** How a display is to listen; None: as fits the publishers of its topic. */
 export interface ListeningWish {
   reliable: boolean | null;
@@ -1062,6 +1093,14 @@ export interface MessageView {
   fields: FieldView[];
   constants: ConstantView[];
   comment: string;
+}
+
+/** A publisher and a subscription that would not meet on DDS. */
+export interface Misfit {
+  publisher: string;
+  subscriber: string;
+  reasons: string[];
+  heard: boolean;
 }
 
 /** Make a package `folder/name` out of a template, and open its robot. */
@@ -1822,6 +1861,15 @@ export interface TfPose {
   chain: string[];
 }
 
+/** Answer to `get_topic_ends`. */
+export interface TopicEnds {
+  type: "topic_ends";
+  request: number;
+  publishers: EndView[];
+  subscribers: EndView[];
+  misfits: Misfit[];
+}
+
 /** How a topic comes. */
 export interface TopicRate {
   name: string;
@@ -1836,6 +1884,22 @@ export interface TopicRates {
   type: "topic_rates";
   request: number;
   rates: TopicRate[];
+}
+
+/** One topic; the studio's own ends are not counted. */
+export interface TopicRow {
+  name: string;
+  types: string[];
+  publishers: number;
+  subscribers: number;
+  kind: string;
+}
+
+/** Answer to `list_topics`. */
+export interface TopicTable {
+  type: "topic_table";
+  request: number;
+  topics: TopicRow[];
 }
 
 /** A topic that others publish. */
@@ -2108,6 +2172,8 @@ export type Command =
   | GetInterface
   | GetLog
   | GetTopicRates
+  | ListTopics
+  | GetTopicEnds
   | GetServices
   | GetActions
   | ReadValues
@@ -2181,6 +2247,8 @@ export type Event =
   | InterfaceAnswer
   | LogAnswer
   | TopicRates
+  | TopicTable
+  | TopicEnds
   | Services
   | Actions
   | ValuesRead

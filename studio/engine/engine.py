@@ -50,6 +50,7 @@ class Engine:
         self.uploads = UploadDesk(settings.data_folder, self)
         wire = self._services.wire
         self._bridge = BridgeDesk(wire)
+        self.hearing = self._bridge.hearing
         self._wire_robots = WireRobotDesk(wire, settings.data_folder, self, self._bridge)
         self.served = ServedRoots((self.library.robots_folder,))
         """What can be listed and opened out of the page."""

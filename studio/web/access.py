@@ -60,6 +60,8 @@ _LOOK: Final = frozenset(
         "get_masses",
         "get_display_kinds",
         "get_topics",
+        "list_topics",
+        "get_topic_ends",
         "get_topic_rates",
         "get_tf",
         "follow_frame",

@@ -39,14 +39,14 @@ def parse_command(text: bytes) -> Command:
     try:
         return COMMANDS.validate_json(text)
     except ValidationError as error:
-        raise CommandError(_sentence(error)) from None
+        raise CommandError(malformed("command", error)) from None
 
 
-def _sentence(error: ValidationError) -> str:
+def malformed(what: str, error: ValidationError) -> str:
     """The first thing that is wrong, without repeating what was sent at length."""
     first = error.errors(include_url=False, include_context=False, include_input=False)[0]
     place = ".".join(str(step) for step in first["loc"]) or "its text"
-    return f"The command is malformed at {place}: {first['msg']}"[:_REASON_LIMIT]
+    return f"The {what} is malformed at {place}: {first['msg']}"[:_REASON_LIMIT]
 
 
 def request_of(text: bytes) -> int:

@@ -1,4 +1,4 @@
-"""The routes that a browser uses: the page, its files, the 3D view's page, the two websockets."""
+"""The routes that a browser uses: the page, its files, the 3D view's page, the websockets."""
 
 from http import HTTPStatus
 from typing import TYPE_CHECKING, Final
@@ -13,6 +13,7 @@ from studio.engine.messages import Hello
 from studio.scene import viser_page, viser_page_gzipped
 from studio.web.assets import Asset, Assets
 from studio.web.control import ControlLane
+from studio.web.data_lane import DataLane
 from studio.web.lane import Lane
 from studio.web.pages import studio_page
 from studio.web.policy import SCENE_POLICY
@@ -51,6 +52,7 @@ class Site:
                 response_model=None,
             )
         app.add_api_websocket_route("/control", self.control)
+        app.add_api_websocket_route("/data", self.data)
         app.add_api_websocket_route("/d/{document}/viser", self.scene)
 
     async def home(self) -> Response:
@@ -96,6 +98,11 @@ class Site:
         role: Role = websocket.scope["state"]["role"]
         hello = Hello(role=role.value, version=studio.__version__, session=self._session)
         await ControlLane(Lane(websocket), role).serve(self._engine, hello)
+
+    async def data(self, websocket: WebSocket) -> None:
+        """The data lane."""
+        await websocket.accept()
+        await DataLane(Lane(websocket)).serve(self._engine.hearing)
 
     async def scene(self, document: str, websocket: WebSocket) -> None:
         """The 3D lane of one document."""

@@ -7,9 +7,11 @@ from typing import TYPE_CHECKING, Protocol
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
 
+    from studio.engine.bridge.hearing import Hearer
     from studio.engine.keeping.exports import Download, MeshNames
     from studio.engine.listeners import Listener
     from studio.engine.messages import Command
+    from studio.engine.messages.hearing import Wish
     from studio.scene import Connection
 
 
@@ -65,8 +67,29 @@ class TakesUploads(Protocol):
         ...
 
 
+class HearsTopics(Protocol):
+    """What hears topics for browsers."""
+
+    def attach(self, hearer: Hearer, /) -> None:
+        """A data lane was opened."""
+        ...
+
+    def detach(self, hearer: Hearer, /) -> None:
+        """It was closed."""
+        ...
+
+    def wish(self, hearer: Hearer, wish: Wish, /) -> None:
+        """Carry out what a browser wishes; how that stands is told to it."""
+        ...
+
+
 class OpenDocuments(Protocol):
     """The engine."""
+
+    @property
+    def hearing(self) -> HearsTopics:
+        """Hears topics for browsers."""
+        ...
 
     @property
     def uploads(self) -> TakesUploads:

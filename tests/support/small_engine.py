@@ -25,14 +25,17 @@ from studio.engine.messages import (
     Urdf,
     ZeroJoints,
 )
+from studio.engine.messages.hearing import NotHeard
 from studio.errors import ExportError, SaveConflictError, UnknownDocumentError, UploadError
 from studio.scene.connection import SUBPROTOCOL
 
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator, Callable
 
+    from studio.engine.bridge.hearing import Hearer
     from studio.engine.keeping.exports import MeshNames
     from studio.engine.listeners import Listener
+    from studio.engine.messages.hearing import Wish
     from studio.scene import Connection
 
 FLOOD = 40
@@ -96,6 +99,24 @@ class SmallUploads:
         return "small"
 
 
+class SmallHearing:
+    """Says that nothing is heard, and remembers who wished what."""
+
+    def __init__(self) -> None:
+        self.hearers: list[Hearer] = []
+        self.wishes: list[Wish] = []
+
+    def attach(self, hearer: Hearer, /) -> None:
+        self.hearers.append(hearer)
+
+    def detach(self, hearer: Hearer, /) -> None:
+        self.hearers.remove(hearer)
+
+    def wish(self, hearer: Hearer, wish: Wish, /) -> None:
+        self.wishes.append(wish)
+        hearer.say(NotHeard(wish=wish.wish, reason="there is nothing to hear"))
+
+
 class SmallEngine:
     """Saving conflicts, undo has a bug, redo waits until `go_on`, closing cancels
     what it waits for; all else is done at once."""
@@ -103,6 +124,7 @@ class SmallEngine:
     def __init__(self) -> None:
         self.documents = {"small": SmallDocument()}
         self.uploads = SmallUploads()
+        self.hearing = SmallHearing()
         self.default_document: str | None = "small"
         self.executed: list[Command] = []
         self.listeners: list[Listener] = []

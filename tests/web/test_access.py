@@ -23,6 +23,7 @@ VIEWER_COMMANDS = {
     "get_topic_rates",
     *("get_services", "get_actions", "read_values", "follow_deeds"),
     *("find_texts", "get_urdf_changes", "get_interface", "get_log"),
+    *("list_topics", "get_topic_ends"),
 }
 CLIENT_MESSAGES = {
     "ViewerCameraMessage",

@@ -11,11 +11,13 @@ from studio.engine.bridge.hearing import HearingDesk
 from studio.engine.bridge.interfaces import InterfaceDesk
 from studio.engine.bridge.logs import LogDesk
 from studio.engine.bridge.rates import RateDesk
+from studio.engine.bridge.topics import TopicDesk
 from studio.engine.messages import calls as k
 from studio.engine.messages.interfaces import GetInterface
 from studio.engine.messages.logs import GetLog
 from studio.engine.messages.message import CommandMessage
 from studio.engine.messages.topic_rates import GetTopicRates
+from studio.engine.messages.topics import GetTopicEnds, ListTopics
 
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable
@@ -41,6 +43,7 @@ class BridgeDesk:
     def __init__(self, wire: WireDesk) -> None:
         self.interfaces = InterfaceDesk(wire)
         self.hearing = HearingDesk(wire)
+        self.topics = TopicDesk(wire)
         self.rates = RateDesk(wire)
         self.logs = LogDesk(wire)
         self.deeds = DeedDesk(wire, self.interfaces)
@@ -77,6 +80,10 @@ _DEEDS: Final = (
     _row(k.CallService, lambda d, c, _: d.deeds.calls.begin(c)),
     _row(k.CancelCall, lambda d, c, _: d.deeds.calls.cancel(c)),
 )
+_TOPICS: Final = (
+    _row(ListTopics, lambda d, c, _: d.topics.table(c)),
+    _row(GetTopicEnds, lambda d, c, _: d.topics.ends(c)),
+)
 _LOGS: Final = (_row(GetLog, lambda d, c, _: d.logs.log(c)),)
-WORK: Final = dict((*_LOGS, *_INTERFACES, *_RATES, *_DEEDS))
+WORK: Final = dict((*_LOGS, *_INTERFACES, *_RATES, *_DEEDS, *_TOPICS))
 """What each command of the bridge does."""

@@ -1,0 +1,145 @@
+"""TopicDesk: tells which topics there are, who is at their ends, and what keeps those apart."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import TYPE_CHECKING, Final
+
+from studio.engine.messages.topics import (
+    EndView,
+    GetTopicEnds,
+    ListTopics,
+    Misfit,
+    TopicEnds,
+    TopicRow,
+    TopicTable,
+)
+from studio.ros.qos_matching import why_unmatched
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from studio.engine.wire.desk import WireDesk
+    from studio.engine.wire.link import WireLink
+    from studio.ros.duration import Duration
+    from studio.ros.graph.endpoints import GraphEndpoint
+
+ENDS_MAX: Final = 100
+"""Of a side that are told; `/rosout` has one for every node."""
+MISFITS_MAX: Final = 20
+
+
+class TopicDesk:
+    """Asks the graph of the connection; without one there are no topics."""
+
+    def __init__(self, wire: WireDesk) -> None:
+        self._wire = wire
+
+    async def table(self, command: ListTopics) -> TopicTable:
+        """Tell every topic."""
+        link = self._wire.current
+        rows = await asyncio.to_thread(_rows, link) if link else ()
+        return TopicTable(request=command.request, topics=rows)
+
+    def ends(self, command: GetTopicEnds) -> TopicEnds:
+        """Tell who is at the ends of a topic.
+
+        Raises:
+            RosNameError: No topic is named so.
+        """
+        link = self._wire.current
+        publishers = link.graph.publishers(command.topic) if link else []
+        subscribers = link.graph.subscriptions(command.topic) if link else []
+        own = link.zid if link else ""
+        return TopicEnds(
+            request=command.request,
+            publishers=tuple(_end(one, own) for one in publishers[:ENDS_MAX]),
+            subscribers=tuple(_end(one, own) for one in subscribers[:ENDS_MAX]),
+            misfits=_misfits(publishers[:ENDS_MAX], subscribers[:ENDS_MAX]),
+        )
+
+
+def _rows(link: WireLink) -> tuple[TopicRow, ...]:
+    from studio.displays.catalogue import displays_of_type  # noqa: PLC0415 - only when it is used
+
+    found: list[TopicRow] = []
+    for name, types in link.graph.topics():
+        publishers = _others(link.graph.publishers(name), link.zid)
+        subscribers = _others(link.graph.subscriptions(name), link.zid)
+        kinds = [kind.KIND for one in types for kind in displays_of_type(one)]
+        if publishers or subscribers:
+            found.append(
+                TopicRow(
+                    name=name,
+                    types=tuple(types),
+                    publishers=publishers,
+                    subscribers=subscribers,
+                    kind=kinds[0] if kinds else "",
+                )
+            )
+    return tuple(found)
+
+
+def _others(ends: Iterable[GraphEndpoint], own_zid: str) -> int:
+    """How many are not the studio's own."""
+    return sum(one.node.zid != own_zid for one in ends)
+
+
+def _end(endpoint: GraphEndpoint, own_zid: str) -> EndView:
+    qos = endpoint.qos
+    return EndView(
+        node=endpoint.node.path,
+        own=endpoint.node.zid == own_zid,
+        type_name=endpoint.type_name,
+        reliability=_words(qos.reliability.name),
+        durability=_words(qos.durability.name),
+        history=_words(qos.history.name),
+        depth=qos.depth,
+        deadline_s=_seconds(qos.deadline),
+        lifespan_s=_seconds(qos.lifespan),
+        liveliness=_words(qos.liveliness.name),
+        lease_s=_seconds(qos.liveliness_lease_duration),
+        hash=endpoint.type_hash,
+    )
+
+
+def _words(name: str) -> str:
+    """As `ros2 topic info` writes a policy, in small letters."""
+    return name.lower().replace("_", " ")
+
+
+def _seconds(span: Duration) -> float | None:
+    """None stands for no bound at all."""
+    return span.nanoseconds / 1e9 if span.nanoseconds else None
+
+
+def _misfits(
+    publishers: Sequence[GraphEndpoint], subscribers: Sequence[GraphEndpoint]
+) -> tuple[Misfit, ...]:
+    found: list[Misfit] = []
+    for publisher in publishers:
+        for subscriber in subscribers:
+            reasons = (*_why_deaf(publisher, subscriber),)
+            unmatched = why_unmatched(publisher.qos, subscriber.qos)
+            if (reasons or unmatched) and len(found) < MISFITS_MAX:
+                found.append(
+                    Misfit(
+                        publisher=publisher.node.path,
+                        subscriber=subscriber.node.path,
+                        reasons=(*reasons, *unmatched),
+                        heard=not reasons,
+                    )
+                )
+    return tuple(found)
+
+
+def _why_deaf(publisher: GraphEndpoint, subscriber: GraphEndpoint) -> list[str]:
+    """What keeps them apart on Zenoh, too, whose keys hold type and hash."""
+    if publisher.type_name != subscriber.type_name:
+        return [f"one sends {publisher.type_name}, the other wants {subscriber.type_name}"]
+    if publisher.type_hash != subscriber.type_hash:
+        return [
+            f"their {publisher.type_name} are of different forms: they come from different "
+            "distributions or versions of its package"
+        ]
+    return []

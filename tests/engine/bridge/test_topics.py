@@ -1,0 +1,72 @@
+from __future__ import annotations
+
+import asyncio
+from typing import TYPE_CHECKING
+
+import pytest
+
+from studio.engine.bridge.topics import TopicDesk
+from studio.engine.messages.topics import GetTopicEnds, ListTopics, TopicEnds, TopicRow
+from studio.engine.wire.desk import WireDesk
+from studio.errors import RosNameError
+from studio.nodes.robot_state_publisher import LATCHED
+from studio.ros.messages import message
+from studio.ros.qos import qos_profile_sensor_data
+from studio.settings import WireChoice
+from tests.support.open_documents import until
+
+if TYPE_CHECKING:
+    from studio.ros.client import Node
+
+pytestmark = pytest.mark.network
+
+SCAN, STRING = "sensor_msgs/msg/LaserScan", "std_msgs/msg/String"
+
+
+def test_topics_are_told_with_their_ends_and_what_would_keep_those_apart(
+    endpoint: str, tester: Node
+):
+    tester.create_publisher(message(SCAN), "/scan", qos_profile_sensor_data)
+    tester.create_subscription(message(SCAN), "/scan", print, LATCHED)
+    tester.create_subscription(message(STRING), "/scan", print, 10)
+
+    async def run() -> tuple[TopicRow, TopicEnds]:
+        wire = WireDesk(WireChoice("off", (endpoint,)))
+        desk = TopicDesk(wire)
+        assert (await desk.table(ListTopics())).topics == ()
+        try:
+            link = await wire.link()
+            await until(lambda: len(link.graph.subscriptions("/scan")) == 2)
+            table = await desk.table(ListTopics(request=3))
+            return next(one for one in table.topics if one.name == "/scan"), desk.ends(
+                GetTopicEnds(topic="/scan")
+            )
+        finally:
+            await wire.close()
+
+    row, ends = asyncio.run(run())
+    assert (row.types, row.publishers, row.subscribers) == ((SCAN, STRING), 1, 2)
+    assert row.kind == "LaserScan"
+    (publisher,) = ends.publishers
+    assert (publisher.node, publisher.own, publisher.depth) == ("/tester", False, 5)
+    assert (publisher.reliability, publisher.durability) == ("best effort", "volatile")
+    assert publisher.deadline_s is None
+    by_heard = {one.heard: one.reasons for one in ends.misfits}
+    assert by_heard[True] == (
+        "the publisher is best effort, the subscription wants reliable",
+        "the publisher is volatile, the subscription wants transient local",
+    )
+    assert by_heard[False][0] == f"one sends {SCAN}, the other wants {STRING}"
+
+
+def test_what_is_no_topic_has_no_ends(endpoint: str):
+    async def run() -> None:
+        wire = WireDesk(WireChoice("off", (endpoint,)))
+        try:
+            await wire.link()
+            with pytest.raises(RosNameError):
+                TopicDesk(wire).ends(GetTopicEnds(topic="no topic"))
+        finally:
+            await wire.close()
+
+    asyncio.run(run())
