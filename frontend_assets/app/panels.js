@@ -58,6 +58,7 @@ export const PANELS = {
     load: async () => (await import("../panels/masses.js")).MassesPanel,
   },
   frames: { icon: "frames", load: async () => (await import("../panels/frames.js")).FramesPanel },
+  log: { icon: "log", load: async () => (await import("../panels/log.js")).LogPanel },
   urdf: { icon: "urdf", load: async () => (await import("../panels/urdf.js")).UrdfPanel },
 };
 

@@ -9,6 +9,8 @@ import { DISTROS, DOMAIN_MAX } from "../lib/wire-places.js";
 import { mayEdit } from "./state/connection.js";
 import { recentPlaces } from "./state/ros.js";
 
+const EXAMPLE = "robot.local:7447";
+
 /** @param {{place: Signal<Place>}} props */
 export function PlaceFields({ place }) {
   const off = !mayEdit.value;
@@ -19,7 +21,7 @@ export function PlaceFields({ place }) {
   return html`<div class="ros-fields">
     <label class="field ros-address"><span>${t("ros.place.address")}</span>
       <input type="text" class="box wide" data-first maxlength="300" spellcheck=${false} autocapitalize="off" list="ros-places" disabled=${off}
-        placeholder="robot.local:7447" value=${address} onInput=${(/** @type {any} */ event) => change({ address: event.currentTarget.value })} />
+        placeholder=${EXAMPLE} value=${address} onInput=${(/** @type {any} */ event) => change({ address: event.currentTarget.value })} />
       <datalist id="ros-places">${[...new Set(recentPlaces.value.map((one) => one.address))].map((one) => html`<option key=${one} value=${one}></option>`)}</datalist></label>
     <label class="field"><span>${t("ros.domain")}</span>
       <input type="number" class="box" min="0" max=${DOMAIN_MAX} step="1" disabled=${off} value=${Number.isNaN(domain) ? "" : domain}

@@ -16,6 +16,7 @@ from tests.support.browser import open_browser
 from tests.support.panel_pictures import PANEL_IDS, SHOW_PANEL, THEMES, Theme, tab_of
 from tests.support.readme_pictures import save_variant
 from tests.support.server import running_studio
+from tests.support.wire import free_endpoint
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -28,6 +29,8 @@ FOLDER = Path(__file__).resolve().parents[2] / "frontend_assets/help/pictures"
 PANELS_WINDOW = (1060, 940)
 """So narrow that a panel, cut to it, is nearly as wide as the help that shows it."""
 DIALOGS_WINDOW = (720, 640)
+ON_THE_WIRE = ("log",)
+"""Panels that show something only while a ROS 2 system is there."""
 _HIGHEST_PX = 380
 _STILL_MS = 1200
 _RUN = """async (id) => {
@@ -37,6 +40,10 @@ _RUN = """async (id) => {
 _SHOW_DIALOG = """async (kind) => {
   const script = document.querySelector('script[type="module"]').src;
   (await import(new URL("state/view.js", script))).dialog.value = { kind };
+}"""
+_CONNECT = """async () => {
+  const script = document.querySelector('script[type="module"]').src;
+  await (await import(new URL("ros.js", script))).connectRos();
 }"""
 _TO_WEBP = """async (png) => {
   const picture = new Image();
@@ -108,7 +115,7 @@ def take_panels(camera: Camera) -> None:
     """Each panel in front, cut to it."""
     camera.page.get_by_role("treeitem", name="upper_arm", exact=True).click()
     for panel in camera.page.evaluate(PANEL_IDS):
-        if wanted(panel) and panel != "problems":
+        if wanted(panel) and panel not in {"problems", *ON_THE_WIRE}:
             camera.page.evaluate(SHOW_PANEL, panel)
             camera.take(panel, camera.page.evaluate(_DOCK_OF, panel))
 
@@ -193,6 +200,20 @@ def take_demo(browser: Browser, data: Path) -> None:
                 take_windows(Camera(tab, theme))
 
 
+def take_wired(browser: Browser, data: Path) -> None:
+    """Panels about ROS 2, with the graph of the demo."""
+    place = ["--router", free_endpoint()]
+    with running_studio(["demo", *place], data, moving=True) as studio:
+        for theme in THEMES:
+            with tab_of(browser, studio, theme, PANELS_WINDOW) as tab:
+                camera = Camera(tab, theme)
+                tab.page.evaluate(_CONNECT)
+                for panel in filter(wanted, ON_THE_WIRE):
+                    tab.page.evaluate(SHOW_PANEL, panel)
+                    tab.page.wait_for_timeout(_STILL_MS)
+                    camera.take(panel, tab.page.evaluate(_DOCK_OF, panel))
+
+
 def take_broken(browser: Browser, data: Path) -> None:
     """The problems of a robot that has some."""
     path = data / "cart.urdf.xacro"
@@ -209,6 +230,9 @@ def main() -> None:
     for browser in open_browser():
         with tempfile.TemporaryDirectory() as data:
             take_demo(browser, Path(data))
+        if any(map(wanted, ON_THE_WIRE)):
+            with tempfile.TemporaryDirectory() as data:
+                take_wired(browser, Path(data))
         if wanted("problems"):
             with tempfile.TemporaryDirectory() as data:
                 take_broken(browser, Path(data))

@@ -1,0 +1,36 @@
+/** What a panel shows that needs ROS 2 while it is not connected: one click connects. */
+
+import { html, useSignal } from "vendor/preact.js";
+import { t } from "../lib/i18n.js";
+import { EmptyState, Icon } from "../lib/ui.js";
+import { connectRos } from "./ros.js";
+import { mayEdit } from "./state/connection.js";
+import { ros } from "./state/ros.js";
+import { dialog } from "./state/view.js";
+
+/** @returns {boolean} nothing of the wire can be told now */
+export const isUnconnected = () => ros.value.state !== "connected" && ros.value.state !== "lost";
+
+/** @param {{icon: string}} props */
+export function ConnectFirst({ icon }) {
+  const busy = useSignal(false);
+  const connect = async () => {
+    busy.value = true;
+    await connectRos();
+    busy.value = false;
+  };
+  const choose = () => {
+    dialog.value = { kind: "ros" };
+  };
+  const isUnderWay = busy.value || ros.value.state === "connecting";
+  return html`<${EmptyState} icon=${icon} title=${t("ros.first")}>
+    ${
+      mayEdit.value
+        ? html`<p class="connect-first">
+      <button type="button" class="button primary" disabled=${isUnderWay} onClick=${connect}>
+        ${isUnderWay ? html`<span class="spinner"></span>` : html`<${Icon} name="link" />`}${t("ros.connect")}</button>
+      <button type="button" class="button" onClick=${choose}>${t("ros.elsewhere")}…</button></p>`
+        : html`<p>${t("ros.viewer")}</p>`
+    }
+  <//>`;
+}

@@ -1,0 +1,65 @@
+/** What nodes said: levels, what is shown of it, and how it is copied. */
+
+/** @import { LogLine } from "../types/wire.d.ts" */
+
+/** From the least to the gravest, with the number from which a line counts as such. */
+export const LEVELS = /** @type {const} */ ({
+  debug: 10,
+  info: 20,
+  warn: 30,
+  error: 40,
+  fatal: 50,
+});
+
+/** @typedef {keyof typeof LEVELS} Level */
+/** @typedef {{level: Level, node: string, words: string}} Filter `node` empty: of all */
+
+const DESCENDING = /** @type {[Level, number][]} */ (Object.entries(LEVELS)).reverse();
+/** As many as the studio keeps; in pieces, so that not every line moves the others. */
+const KEPT = 10_000;
+const SPARE = 1_000;
+
+/** @param {number} number of the wire @returns {Level} */
+export const levelOf = (number) => DESCENDING.find(([, from]) => number >= from)?.[0] ?? "debug";
+
+/** @param {string} logger @returns {string} its node: what stands before the first dot */
+export const nodeOf = (logger) => logger.split(".", 1)[0] ?? logger;
+
+/** @param {readonly LogLine[]} lines @param {Filter} filter @returns {readonly LogLine[]} */
+export function matchingLines(lines, { level, node, words }) {
+  const least = LEVELS[level];
+  const wanted = words.toLowerCase().split(/\s+/).filter(Boolean);
+  // Severities below debug are shown with it.
+  return lines.filter(
+    (line) =>
+      (line.level >= least || level === "debug") &&
+      (node === "" || nodeOf(line.node) === node) &&
+      wanted.every((word) => `${line.node} ${line.text}`.toLowerCase().includes(word)),
+  );
+}
+
+/** @param {readonly LogLine[]} lines @param {readonly LogLine[]} news @returns {readonly LogLine[]} the newest of them */
+export function withNews(lines, news) {
+  const all = [...lines, ...news];
+  return all.length > KEPT + SPARE ? all.slice(-KEPT) : all;
+}
+
+/** @param {readonly LogLine[]} lines @returns {string[]} the nodes that said something, in order */
+export const nodesOf = (lines) => [...new Set(lines.map(({ node }) => nodeOf(node)))].sort();
+
+/** @param {number} seconds since 1970 @returns {string} the time of day here, to the millisecond */
+export function clockTime(seconds) {
+  const date = new Date(seconds * 1000);
+  const two = (/** @type {number} */ number) => String(number).padStart(2, "0");
+  const clock = [date.getHours(), date.getMinutes(), date.getSeconds()].map(two).join(":");
+  return `${clock}.${String(date.getMilliseconds()).padStart(3, "0")}`;
+}
+
+/** @param {readonly LogLine[]} lines @returns {string} as ROS writes them into a terminal */
+export const logText = (lines) =>
+  lines
+    .map(
+      ({ level, stamp_s, node, text }) =>
+        `[${levelOf(level).toUpperCase()}] [${stamp_s.toFixed(9)}] [${node}]: ${text}`,
+    )
+    .join("\n");
