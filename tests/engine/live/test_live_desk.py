@@ -10,7 +10,7 @@ import pytest
 
 from studio.engine.live import live_desk
 from studio.engine.messages import live as v
-from studio.engine.messages.wire import ConnectWire
+from studio.engine.messages.wire import ConnectWire, DisconnectWire
 from studio.errors import CommandError, DisplayError
 from studio.ros.messages import message
 from tests.support.open_documents import until
@@ -85,6 +85,18 @@ async def is_at(one: Studio, position: list[float]) -> None:
             await asyncio.sleep(0.02)
 
 
+async def draws(one: Studio, expected: bool) -> None:
+    """Wait until something, or nothing, of the first display stands in the scene."""
+
+    async def is_drawn() -> bool:
+        _, sent = await joined(one.document.scene)
+        return any(said.get("name", "").startswith("/live/d1/") for said in sent)
+
+    async with asyncio.timeout(60):
+        while await is_drawn() != expected:  # noqa: ASYNC110 - nothing tells us when
+            await asyncio.sleep(0.02)
+
+
 def test_a_pose_of_others_stands_where_their_transforms_put_its_frame_at_its_stamp(
     endpoint: str, tester: Node, tmp_path: Path
 ):
@@ -106,6 +118,23 @@ def test_a_pose_of_others_stands_where_their_transforms_put_its_frame_at_its_sta
             await until(lambda: said(one) == ["ok"] or said(one) == [""])
             await one.do(v.SetFixedFrame(frame="cart"))
             await is_at(one, [0.0, 0.0, 0.0])
+
+    asyncio.run(run())
+
+
+def test_what_was_drawn_leaves_the_screen_with_the_connection(
+    endpoint: str, tester: Node, tmp_path: Path
+):
+    async def run() -> None:
+        poses = tester.create_publisher(message(POSE), "/aim", 10)
+        async with studio(endpoint, tmp_path) as one:
+            await one.do(v.AddDisplay(kind="Pose", topic="/aim"))
+            await until(lambda: bool(poses.get_subscription_count()))
+            poses.publish(pose_at("base", 2.0))
+            await draws(one, True)
+            await one.do(DisconnectWire())
+            await draws(one, False)
+            await until(lambda: said(one) == ["not_connected"])
 
     asyncio.run(run())
 
