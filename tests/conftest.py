@@ -22,16 +22,20 @@ settings.load_profile("studio")
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Browser tests share one process of a parallel run: one Chromium, not one per core."""
-    for item in items:
-        if item.get_closest_marker("browser"):
-            item.add_marker(pytest.mark.xdist_group("browser"))
+    """Long files begin first, and browsers are spread over a parallel run."""
+    from tests.support.order import in_order
+
+    items[:] = in_order(items)
 
 
 def pytest_collection_finish() -> None:
-    """What was collected stays to the end: the search for garbage leaves it out."""
+    """What was collected stays to the end: the search for garbage leaves it out.
+
+    What Python compares a new search with is then small, so it would search all the time.
+    """
     gc.collect()
     gc.freeze()
+    gc.set_threshold(700, 10, 50)
 
 
 def pytest_runtest_setup(item: pytest.Item) -> None:

@@ -32,7 +32,7 @@ INSIDE = {
 NEVER = {"tools", "screenshots", "tests", "node_modules", "__pycache__", ".ci"}
 END_WITHIN_S = 2.0
 
-pytestmark = [pytest.mark.timeout(300), pytest.mark.xdist_group("packaging")]
+pytestmark = pytest.mark.timeout(300)
 
 
 @pytest.fixture(scope="module")
