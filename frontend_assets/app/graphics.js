@@ -9,6 +9,7 @@ import {
   graphicsChoice,
   graphicsSaid,
   meansLight,
+  pointsOneIn,
   provedSlow,
   slowHz,
 } from "./state/graphics.js";
@@ -19,16 +20,24 @@ import { viewport } from "./viewport.js";
 /** @import { Command } from "./commands.js" */
 /** @import { GraphicsChoice } from "./state/graphics.js" */
 
-/** Ask the 3D view what it draws with, and hear when it proves slow. */
+/** Ask the 3D view what it draws with, and hear when it proves slow, and what it leaves out. */
 export function followGraphics() {
   effect(() => {
     const view = viewport.value;
     graphics.value = view?.graphics() ?? null;
+    pointsOneIn.value = 1;
     if (!view) return undefined;
     const hear = (/** @type {Event} */ event) =>
       takeSlow(/** @type {CustomEvent<{hz: number}>} */ (event).detail.hz);
+    const hearDetail = (/** @type {Event} */ event) => {
+      pointsOneIn.value = /** @type {CustomEvent<{oneIn: number}>} */ (event).detail.oneIn;
+    };
     view.events.addEventListener("slow", hear);
-    return () => view.events.removeEventListener("slow", hear);
+    view.events.addEventListener("detail", hearDetail);
+    return () => {
+      view.events.removeEventListener("slow", hear);
+      view.events.removeEventListener("detail", hearDetail);
+    };
   });
 }
 
@@ -77,8 +86,16 @@ export function graphicsItems() {
   return [...choices, { label: `${t("graphics.details")}…`, icon: "info", run: showDetails }];
 }
 
-/** Over the 3D view, once: that it is drawn lightly, and the way back. */
+/** Over the 3D view: what of clouds is left out, as long as it is; else that it is drawn lightly. */
 export function GraphicsNotice() {
+  if (pointsOneIn.value > 1)
+    return html`<div class="graphics-notice" role="status"><${Icon} name="system" size=${15} />
+      <span>${t("graphics.points", { count: pointsOneIn.value })}</span></div>`;
+  return html`<${LightNotice} />`;
+}
+
+/** Once: that the 3D view is drawn lightly, and the way back. */
+function LightNotice() {
   if (graphicsSaid.value || graphicsChoice.value !== "automatic" || !graphics.value?.light)
     return null;
   return html`<div class="graphics-notice" role="status"><${Icon} name="system" size=${15} />

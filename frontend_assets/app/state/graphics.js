@@ -26,6 +26,9 @@ export const graphics = signal(null);
 /** Pictures a second when that was found too slow. @type {Signal<number | null>} */
 export const slowHz = signal(null);
 
+/** One in so many points of clouds is drawn here; 1: all are. @type {Signal<number>} */
+export const pointsOneIn = signal(1);
+
 /** @param {GraphicsChoice} choice @param {Graphics} now @returns {boolean} whether it means to draw lightly */
 export const meansLight = (choice, now) =>
   choice === "light" || (choice === "automatic" && now.software);
