@@ -468,22 +468,6 @@ export interface Effects {
   is_cut: boolean;
 }
 
-/** A publisher or a subscription. */
-export interface EndView {
-  node: string;
-  own: boolean;
-  type_name: string;
-  reliability: string;
-  durability: string;
-  history: string;
-  depth: number;
-  deadline_s: number | null;
-  lifespan_s: number | null;
-  liveliness: string;
-  lease_s: number | null;
-  hash: string;
-}
-
 /** Look what there is at a place; nothing is joined or started by it. */
 export interface ExamineWire {
   request?: number;
@@ -701,6 +685,14 @@ export interface GetFrames {
   type: "get_frames";
 }
 
+/** Ask who is there, unless that is known already. */
+export interface GetGraph {
+  request?: number;
+  document?: string;
+  type: "get_graph";
+  known?: number;
+}
+
 /** Ask what a type is made of, down to its numbers and texts. */
 export interface GetInterface {
   request?: number;
@@ -729,6 +721,14 @@ export interface GetMasses {
   request?: number;
   document?: string;
   type: "get_masses";
+}
+
+/** Ask what a node has. */
+export interface GetNode {
+  request?: number;
+  document?: string;
+  type: "get_node";
+  name: string;
 }
 
 /** Where a part of the last good run comes from; `part` is `link:<name>`, `joint:<name>` ... */
@@ -830,6 +830,33 @@ export interface GetUrdfChanges {
 export interface Gone {
   type: "gone";
   document: string;
+}
+
+/** Answer to `get_graph`. */
+export interface GraphAnswer {
+  type: "graph";
+  request: number;
+  version: number;
+  nodes: GraphNodeView[];
+  links: GraphLinkView[];
+  more: number;
+}
+
+/** What joins nodes: a topic, a service or an action. */
+export interface GraphLinkView {
+  kind: "topic" | "service" | "action";
+  name: string;
+  types: string[];
+  sources: number[];
+  targets: number[];
+  hidden: boolean;
+}
+
+/** The nodes of one name. */
+export interface GraphNodeView {
+  name: string;
+  count: number;
+  own: boolean;
 }
 
 /** First on every control lane: who you are here. */
@@ -1119,6 +1146,20 @@ export interface NewUntitled {
   document?: string;
   type: "new_untitled";
   text: string;
+}
+
+/** Answer to `get_node`: what it has, grouped as `ros2 node info` does. */
+export interface NodeAnswer {
+  type: "node";
+  request: number;
+  name: string;
+  count: number;
+  subscribers: studio__engine__messages__graph__EndView[];
+  publishers: studio__engine__messages__graph__EndView[];
+  service_servers: studio__engine__messages__graph__EndView[];
+  service_clients: studio__engine__messages__graph__EndView[];
+  action_servers: studio__engine__messages__graph__EndView[];
+  action_clients: studio__engine__messages__graph__EndView[];
 }
 
 /** A service or an action. */
@@ -1865,8 +1906,8 @@ export interface TfPose {
 export interface TopicEnds {
   type: "topic_ends";
   request: number;
-  publishers: EndView[];
-  subscribers: EndView[];
+  publishers: studio__engine__messages__topics__EndView[];
+  subscribers: studio__engine__messages__topics__EndView[];
   misfits: Misfit[];
 }
 
@@ -2092,6 +2133,28 @@ export interface ZeroJoints {
   type: "zero_joints";
 }
 
+/** A name and its type. */
+export interface studio__engine__messages__graph__EndView {
+  name: string;
+  type: string;
+}
+
+/** A publisher or a subscription. */
+export interface studio__engine__messages__topics__EndView {
+  node: string;
+  own: boolean;
+  type_name: string;
+  reliability: string;
+  durability: string;
+  history: string;
+  depth: number;
+  deadline_s: number | null;
+  lifespan_s: number | null;
+  liveliness: string;
+  lease_s: number | null;
+  hash: string;
+}
+
 export type Command =
   | Watch
   | OpenPath
@@ -2171,6 +2234,8 @@ export type Command =
   | CompareVariants
   | GetInterface
   | GetLog
+  | GetGraph
+  | GetNode
   | GetTopicRates
   | ListTopics
   | GetTopicEnds
@@ -2246,6 +2311,8 @@ export type Event =
   | Comparison
   | InterfaceAnswer
   | LogAnswer
+  | GraphAnswer
+  | NodeAnswer
   | TopicRates
   | TopicTable
   | TopicEnds

@@ -12,10 +12,14 @@ from studio.ros.names import is_hidden
 if TYPE_CHECKING:
     import argparse
 
-    from studio.ros.graph.endpoints import GraphEndpoint, GraphNode
-    from studio.ros.graph.graph import Graph
-
-_GOALS = "/_action/send_goal"
+_TITLES = (
+    "Subscribers",
+    "Publishers",
+    "Service Servers",
+    "Service Clients",
+    "Action Servers",
+    "Action Clients",
+)
 _DUPLICATES = (
     "WARNING: Be aware that there are nodes in the graph that share an exact name, "
     "which can have unintended side effects."
@@ -46,6 +50,8 @@ def _list(options: argparse.Namespace) -> None:
 
 
 def _info(options: argparse.Namespace) -> int:
+    from studio.ros.graph.node_parts import parts_of
+
     path = full_name(options.node_name)
     with looking(options) as graph:
         same = [node for node in graph.nodes() if node.path == path]
@@ -58,40 +64,9 @@ def _info(options: argparse.Namespace) -> int:
                 "You are seeing information about only one of them."
             )
         print(path)
-        for title, rows in _groups(graph, same[0], hidden=options.hidden):
+        for title, rows in zip(
+            _TITLES, parts_of(graph, same[0], hidden=options.hidden), strict=True
+        ):
             print(f"  {title}:")
             print("\n".join(f"    {name}: {type_name}" for name, type_name in rows))
     return 0
-
-
-def _groups(
-    graph: Graph, node: GraphNode, *, hidden: bool
-) -> list[tuple[str, list[tuple[str, str]]]]:
-    """What a node has, in the groups and the order of `ros2 node info`."""
-    from studio.ros.tokens import EndpointKind
-
-    ends = graph.endpoints_of(node)
-
-    def of(kind: EndpointKind) -> list[GraphEndpoint]:
-        return [end for end in ends if end.kind is kind]
-
-    return [
-        ("Subscribers", _plain(of(EndpointKind.SUBSCRIPTION), hidden=hidden)),
-        ("Publishers", _plain(of(EndpointKind.PUBLISHER), hidden=hidden)),
-        ("Service Servers", _plain(of(EndpointKind.SERVICE), hidden=hidden)),
-        ("Service Clients", _plain(of(EndpointKind.CLIENT), hidden=hidden)),
-        ("Action Servers", _actions(of(EndpointKind.SERVICE))),
-        ("Action Clients", _actions(of(EndpointKind.CLIENT))),
-    ]
-
-
-def _plain(ends: list[GraphEndpoint], *, hidden: bool) -> list[tuple[str, str]]:
-    return sorted({(end.name, end.type_name) for end in ends if hidden or not is_hidden(end.name)})
-
-
-def _actions(ends: list[GraphEndpoint]) -> list[tuple[str, str]]:
-    return sorted(
-        (end.name.removesuffix(_GOALS), end.type_name.removesuffix("_SendGoal"))
-        for end in ends
-        if end.name.endswith(_GOALS)
-    )

@@ -67,6 +67,8 @@ _LOOK: Final = frozenset(
         "follow_frame",
         "get_interface",
         "get_log",
+        "get_graph",
+        "get_node",
         "get_services",
         "get_actions",
         "read_values",

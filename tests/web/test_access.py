@@ -22,7 +22,7 @@ VIEWER_COMMANDS = {
     "follow_frame",
     "get_topic_rates",
     *("get_services", "get_actions", "read_values", "follow_deeds"),
-    *("find_texts", "get_urdf_changes", "get_interface", "get_log"),
+    *("find_texts", "get_urdf_changes", "get_interface", "get_log", "get_graph", "get_node"),
     *("list_topics", "get_topic_ends"),
 }
 CLIENT_MESSAGES = {

@@ -7,12 +7,14 @@ from inspect import isawaitable
 from typing import TYPE_CHECKING, Any, Final, TypeAlias, TypeVar
 
 from studio.engine.bridge.deeds import DeedDesk
+from studio.engine.bridge.graph import GraphDesk
 from studio.engine.bridge.hearing import HearingDesk
 from studio.engine.bridge.interfaces import InterfaceDesk
 from studio.engine.bridge.logs import LogDesk
 from studio.engine.bridge.rates import RateDesk
 from studio.engine.bridge.topics import TopicDesk
 from studio.engine.messages import calls as k
+from studio.engine.messages.graph import GetGraph, GetNode
 from studio.engine.messages.interfaces import GetInterface
 from studio.engine.messages.logs import GetLog
 from studio.engine.messages.message import CommandMessage
@@ -46,6 +48,7 @@ class BridgeDesk:
         self.topics = TopicDesk(wire)
         self.rates = RateDesk(wire)
         self.logs = LogDesk(wire)
+        self.graph = GraphDesk(wire)
         self.deeds = DeedDesk(wire, self.interfaces)
 
     async def carry_out(self, command: m.BridgeCommand, listener: Listener) -> m.BridgeEvent | None:
@@ -85,5 +88,9 @@ _TOPICS: Final = (
     _row(GetTopicEnds, lambda d, c, _: d.topics.ends(c)),
 )
 _LOGS: Final = (_row(GetLog, lambda d, c, _: d.logs.log(c)),)
-WORK: Final = dict((*_LOGS, *_INTERFACES, *_RATES, *_DEEDS, *_TOPICS))
+_GRAPH: Final = (
+    _row(GetGraph, lambda d, c, _: d.graph.graph(c)),
+    _row(GetNode, lambda d, c, _: d.graph.node(c)),
+)
+WORK: Final = dict((*_GRAPH, *_LOGS, *_INTERFACES, *_RATES, *_DEEDS, *_TOPICS))
 """What each command of the bridge does."""

@@ -5,13 +5,16 @@ from __future__ import annotations
 from typing import TypeAlias
 
 from studio.engine.messages.calls import CallCommand, CallEvent
+from studio.engine.messages.graph import GraphCommand, GraphEvent
 from studio.engine.messages.interfaces import InterfaceCommand, InterfaceEvent
 from studio.engine.messages.logs import LogCommand, LogEvent
 from studio.engine.messages.topic_rates import RatesCommand, RatesEvent
 from studio.engine.messages.topics import TopicsCommand, TopicsEvent
 
 BridgeCommand: TypeAlias = (
-    InterfaceCommand | LogCommand | RatesCommand | TopicsCommand | CallCommand
+    InterfaceCommand | LogCommand | GraphCommand | RatesCommand | TopicsCommand | CallCommand
 )
 """Each concerns the connection, and none a document: the bridge desk carries them out."""
-BridgeEvent: TypeAlias = InterfaceEvent | LogEvent | RatesEvent | TopicsEvent | CallEvent
+BridgeEvent: TypeAlias = (
+    InterfaceEvent | LogEvent | GraphEvent | RatesEvent | TopicsEvent | CallEvent
+)
