@@ -1,14 +1,11 @@
 /** @import { Door } from "./door.js" */
-/** @import { Message, Renderer } from "./viser.d.ts" */
+/** @import { Message, Object3D } from "./viser.d.ts" */
 
 /**
- * What three.js knows of a geometry beside what others here lean on.
- * @typedef {object} Ordered
- * @property {{ array: Uint32Array, count: number } | null} index
- * @property {{ position?: { count: number } }} attributes
- * @property {(index: number[] | null) => void} setIndex
- * @property {(start: number, count: number) => void} setDrawRange
- * @property {() => void} dispose
+ * The data of a cloud as it came: three numbers for each point, and three bytes, or three for all.
+ * @typedef {object} Whole
+ * @property {Uint16Array | Float32Array} points
+ * @property {Uint8Array} colors
  */
 
 /** A picture that takes longer than this is slow, two in a row are too many. */
@@ -24,8 +21,7 @@ const POLL_MS = 4;
 /** Multiples of the golden ratio modulo 1 fill a circle evenly, however many there are. */
 const GOLDEN = 2_654_435_769;
 const CIRCLE = 2 ** 32;
-/** A number that makes three.js take an index of 32 bits. */
-const WIDE = 65_536;
+const FIRST_ORDER = 65_536;
 
 /** Which part of all points is drawn, by how long pictures take. */
 export class Share {
@@ -84,7 +80,7 @@ export function orderOf(share, count) {
   const known = orders.get(share);
   const last = known?.at(-1) ?? -1;
   if (known && last + 1 / share >= count) return known;
-  const most = 2 ** Math.ceil(Math.log2(Math.max(count, WIDE)));
+  const most = 2 ** Math.ceil(Math.log2(Math.max(count, FIRST_ORDER)));
   const order = new Uint32Array(Math.ceil(most * share) + 1);
   const below = share * CIRCLE;
   let length = 0;
@@ -108,16 +104,45 @@ export function countBelow(order, count) {
 }
 
 /**
+ * That part of what a cloud holds: other arrays, or the same for all points.
+ * @param {Whole} whole @param {number} share @returns {Whole}
+ */
+export function partOf({ points, colors }, share) {
+  if (share >= 1) return { points, colors };
+  const count = points.length / 3;
+  const whole = orderOf(share, count);
+  const order = whole.subarray(0, countBelow(whole, count));
+  return {
+    points: gathered(points, order),
+    colors: colors.length > 3 ? gathered(colors, order) : colors,
+  };
+}
+
+/**
+ * @template {Uint16Array | Float32Array | Uint8Array} T
+ * @param {T} rows three numbers each @param {Uint32Array} order
+ */
+function gathered(rows, order) {
+  const part = /** @type {T} */ (rows.slice(0, 3 * order.length));
+  for (let at = 0; at < order.length; at += 1) {
+    const from = 3 * /** @type {number} */ (order[at]);
+    part[3 * at] = /** @type {number} */ (rows[from]);
+    part[3 * at + 1] = /** @type {number} */ (rows[from + 1]);
+    part[3 * at + 2] = /** @type {number} */ (rows[from + 2]);
+  }
+  return part;
+}
+
+/**
  * Where pictures with many points come too slowly, a part of each cloud is drawn: half, a quarter, ...
- * of its points, spread evenly. The data is there whole; another browser may draw all of it.
+ * of its points, spread evenly. All of it has come; another browser may draw all of it.
  */
 export class CloudDetail {
   #door;
   #tell;
   #share = new Share();
-  /** Nodes of points. @type {Set<string>} */
-  #clouds = new Set();
-  #points = 0;
+  /** By node. @type {Map<string, Whole>} */
+  #clouds = new Map();
   #told = 1;
   #began_ms = 0;
   /** @type {WebGL2RenderingContext | null} */
@@ -132,50 +157,52 @@ export class CloudDetail {
     if (document.documentElement.dataset.pixels === "fixed") return;
     door.onMessage((message) => this.#read(message));
     door.onPicture(
-      (renderer) => this.#begin(renderer),
-      () => this.#end(),
+      (renderer) => {
+        this.#began_ms = performance.now();
+        this.#gl ??= contextOf(renderer);
+      },
+      () => this.#measure(),
     );
   }
 
-  /** @param {Message} message */
-  #read({ type, name, props }) {
+  /** Take note of what a cloud holds, and leave viser a part of it. @param {Message} message */
+  #read(message) {
+    const { type, name, props, updates } = message;
     if (!name) return;
-    if (type === "PointCloudMessage") this.#clouds.add(name);
-    else if (props || type === "RemoveSceneNodeMessage") this.#clouds.delete(name);
+    if (props || type === "RemoveSceneNodeMessage") this.#clouds.delete(name);
+    if (type === "PointCloudMessage" && props) message.props = this.#taken(name, props);
+    else if (updates?.points && this.#clouds.has(name))
+      message.updates = this.#taken(name, updates);
+    this.#say();
   }
 
-  /** @param {Renderer} renderer */
-  #begin(renderer) {
-    this.#began_ms = performance.now();
-    this.#gl ??= contextOf(renderer);
-    this.#points = 0;
-    for (const geometry of this.#geometries()) this.#points += thin(geometry, this.#share.value);
-    this.#say(this.#points ? 1 / this.#share.value : 1);
+  /** @param {string} name @param {Record<string, unknown>} values */
+  #taken(name, values) {
+    const whole = /** @type {Whole} */ (/** @type {unknown} */ (values));
+    this.#clouds.set(name, { points: whole.points, colors: whole.colors });
+    return this.#share.value < 1 ? { ...values, ...partOf(whole, this.#share.value) } : values;
   }
 
-  /** Of the points that are seen. */
-  #geometries() {
-    /** @type {Ordered[]} */
-    const found = [];
-    for (const name of this.#clouds) {
-      this.#door.node(name)?.traverseVisible(({ isPoints, geometry }) => {
-        if (isPoints && geometry) found.push(/** @type {any} */ (geometry));
-      });
-    }
-    return found;
-  }
-
-  /** @param {number} oneIn */
-  #say(oneIn) {
+  #say() {
+    const oneIn = this.#clouds.size ? 1 / this.#share.value : 1;
     if (oneIn === this.#told) return;
     this.#told = oneIn;
     this.#tell(oneIn);
   }
 
+  /** Of all clouds that are seen. */
+  #points() {
+    let points = 0;
+    for (const [name, { points: rows }] of this.#clouds)
+      if (isSeen(this.#door.node(name))) points += rows.length / 3;
+    return points;
+  }
+
   /** What was asked of the graphics processor takes its time after all was asked. */
-  #end() {
+  #measure() {
     const gl = this.#gl;
-    if (!gl || this.#measures || this.#points <= ALWAYS) return;
+    const points = this.#points();
+    if (!gl || this.#measures || points <= ALWAYS) return;
     const done = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
     if (!done) return;
     gl.flush();
@@ -188,39 +215,33 @@ export class CloudDetail {
       }
       gl.deleteSync(done);
       this.#measures = false;
-      this.#took(performance.now() - began_ms);
+      const now_ms = performance.now();
+      if (!document.hidden && this.#share.took(now_ms - began_ms, now_ms, points)) this.#redraw();
     };
     setTimeout(look, POLL_MS);
   }
 
-  /** @param {number} picture_ms */
-  #took(picture_ms) {
-    if (document.hidden) return;
-    if (this.#share.took(picture_ms, performance.now(), this.#points)) this.#door.redraw();
+  /** Draw another part of each cloud from now on. */
+  #redraw() {
+    this.#door.inject(
+      ...[...this.#clouds].map(([name, whole]) => ({
+        type: "SceneNodeUpdateMessage",
+        name,
+        owner: "",
+        updates: { ...partOf(whole, this.#share.value) },
+      })),
+    );
+    this.#say();
   }
 }
 
 /** @param {any} renderer as three.js has it @returns {WebGL2RenderingContext | null} */
 const contextOf = (renderer) => renderer.getContext?.() ?? null;
 
-/**
- * Draw so large a part of a cloud; answers how many points it has.
- * @param {Ordered} geometry @param {number} share
- */
-function thin(geometry, share) {
-  const count = geometry.attributes.position?.count ?? 0;
-  if (share < 1) setOrder(geometry, orderOf(share, count), count);
-  else if (geometry.index) setOrder(geometry, null, Number.POSITIVE_INFINITY);
-  return count;
-}
-
-/** @param {Ordered} geometry @param {Uint32Array | null} order null: all as they come @param {number} count */
-function setOrder(geometry, order, count) {
-  if ((geometry.index?.array ?? null) !== order) {
-    // The memory of the index before is only given back with all of the geometry's.
-    geometry.dispose();
-    geometry.setIndex(order && [WIDE]);
-    Object.assign(geometry.index ?? {}, order && { array: order, count: order.length });
-  }
-  geometry.setDrawRange(0, order ? countBelow(order, count) : count);
+/** @param {Object3D | null | undefined} object */
+function isSeen(object) {
+  if (!object) return false;
+  let above = /** @type {Object3D | null} */ (object);
+  while (above?.visible) above = above.parent;
+  return above === null;
 }

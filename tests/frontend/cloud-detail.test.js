@@ -4,7 +4,7 @@ import { test } from "node:test";
 /** @type {Record<string, string>} */
 const dataset = {};
 Object.assign(globalThis, { document: { documentElement: { dataset }, hidden: false } });
-const { CloudDetail, countBelow, orderOf, Share } = await import(
+const { CloudDetail, countBelow, orderOf, partOf, Share } = await import(
   "../../frontend_assets/viser/cloud-detail.js"
 );
 
@@ -64,27 +64,28 @@ test("which points are drawn is spread evenly, and those of a smaller part are a
   assert.ok(Math.max(...gaps) <= 3);
 });
 
-/** A cloud as viser makes it, and what its geometry was told. @param {number} count */
+/** Points along x, one after the other, each in a colour of its own. @param {number} count */
 function cloudOf(count) {
-  const geometry = {
-    index: /** @type {any} */ (null),
-    attributes: { position: { count } },
-    range: [0, Number.POSITIVE_INFINITY],
-    disposed: 0,
-    setIndex(/** @type {any} */ index) {
-      geometry.index = index && { array: index, count: index.length };
-    },
-    setDrawRange(/** @type {number} */ start, /** @type {number} */ length) {
-      geometry.range = [start, length];
-    },
-    dispose() {
-      geometry.disposed += 1;
-    },
-  };
-  const object = { isPoints: true, geometry };
-  const node = { traverseVisible: (/** @type {(one: object) => void} */ visit) => visit(object) };
-  return { geometry, node };
+  const points = new Float32Array(3 * count);
+  const colors = new Uint8Array(3 * count);
+  for (let at = 0; at < count; at += 1) {
+    points[3 * at] = at;
+    colors[3 * at] = at % 256;
+  }
+  return { points, colors };
 }
+
+test("each point of a part keeps its colour, and one colour of all stays one", () => {
+  const whole = cloudOf(1000);
+  const part = partOf(whole, 0.25);
+  const drawn = countBelow(orderOf(0.25, 1000), 1000);
+  assert.deepEqual([part.points.length, part.colors.length], [3 * drawn, 3 * drawn]);
+  for (let at = 0; at < part.points.length; at += 3)
+    assert.equal(part.colors[at], /** @type {number} */ (part.points[at]) % 256);
+  const colors = new Uint8Array([1, 2, 3]);
+  assert.equal(partOf({ ...whole, colors }, 0.5).colors, colors);
+  assert.equal(partOf(whole, 1).points, whole.points);
+});
 
 /** A page whose pictures take so long. @param {Record<string, object>} nodes */
 function pageOf(nodes) {
@@ -102,26 +103,29 @@ function pageOf(nodes) {
     before: (/** @type {object} */ _) => {},
     after: () => {},
   };
+  /** @type {any[]} */
+  const injected = [];
   const door = {
     onMessage: (/** @type {any} */ read) => Object.assign(hooks, { read }),
     onPicture: (/** @type {any} */ before, /** @type {any} */ after) =>
       Object.assign(hooks, { before, after }),
     node: (/** @type {string} */ name) => nodes[name],
-    redraw: () => undefined,
+    inject: (/** @type {any[]} */ ...messages) => injected.push(...messages),
   };
-  return { door: /** @type {any} */ (door), hooks, renderer: { getContext: () => gl } };
+  return { door: /** @type {any} */ (door), hooks, renderer: { getContext: () => gl }, injected };
 }
 
 test("a slow page draws a part of each cloud and says so, and all again once it can", async (context) => {
   let now = 0;
   context.mock.method(performance, "now", () => now);
   const [large, small] = [cloudOf(MILLION), cloudOf(1000)];
-  const { door, hooks, renderer } = pageOf({ "/live/1/a": large.node, "/live/2/a": small.node });
+  const seen = { visible: true, parent: null };
+  const { door, hooks, renderer, injected } = pageOf({ "/live/1/a": seen, "/live/2/a": seen });
   /** @type {number[]} */
   const told = [];
   new CloudDetail(door, (oneIn) => told.push(oneIn));
-  hooks.read({ type: "PointCloudMessage", name: "/live/1/a", props: {} });
-  hooks.read({ type: "PointCloudMessage", name: "/live/2/a", props: {} });
+  hooks.read({ type: "PointCloudMessage", name: "/live/1/a", props: large });
+  hooks.read({ type: "PointCloudMessage", name: "/live/2/a", props: small });
   const picture = async (/** @type {number} */ took) => {
     hooks.before(renderer);
     hooks.after();
@@ -130,20 +134,37 @@ test("a slow page draws a part of each cloud and says so, and all again once it 
   };
   for (let count = 0; count < 5; count += 1) await picture(400);
   assert.deepEqual(told, [2, 4]);
-  for (const { geometry } of [large, small]) {
-    const { index, attributes, range } = geometry;
-    assert.equal(index.array, orderOf(1 / 4, attributes.position.count));
-    assert.equal(range[1], countBelow(index.array, attributes.position.count));
-  }
+  const drawn = injected.slice(-2).map(({ name, updates }) => [name, updates.points.length]);
+  assert.deepEqual(drawn, [
+    ["/live/1/a", 750_000],
+    ["/live/2/a", 750],
+  ]);
+  const message = { type: "SceneNodeUpdateMessage", name: "/live/2/a", updates: cloudOf(2000) };
+  hooks.read(message);
+  assert.deepEqual(message.updates, partOf(cloudOf(2000), 1 / 4));
+  const look = { type: "SceneNodeUpdateMessage", name: "/live/2/a", updates: { point_size: 1 } };
+  hooks.read(look);
+  assert.deepEqual(look.updates, { point_size: 1 });
   hooks.read({ type: "RemoveSceneNodeMessage", name: "/live/2/a" });
   for (let count = 0; count < 12; count += 1) {
     now += 1000;
     await picture(5);
   }
   assert.deepEqual(told, [2, 4, 2, 1]);
-  assert.equal(large.geometry.index, null);
-  assert.equal(large.geometry.range[1], Number.POSITIVE_INFINITY);
-  assert.equal(large.geometry.disposed, 4);
+  assert.deepEqual(injected.at(-1)?.name, "/live/1/a");
+  assert.equal(injected.at(-1)?.updates.points, large.points);
+});
+
+test("clouds that are hidden cost nothing, and without clouds nothing is left out", async () => {
+  const hidden = { visible: true, parent: { visible: false, parent: null } };
+  const { door, hooks, renderer } = pageOf({ "/live/1/a": hidden });
+  new CloudDetail(door, () => assert.fail());
+  hooks.read({ type: "PointCloudMessage", name: "/live/1/a", props: cloudOf(MILLION) });
+  for (let count = 0; count < 5; count += 1) {
+    hooks.before(renderer);
+    await new Promise((done) => setTimeout(done, 150));
+    hooks.after();
+  }
 });
 
 test("where pictures are compared, all points are drawn", () => {
