@@ -134,10 +134,10 @@ test("a slow page draws a part of each cloud and says so, and all again once it 
   };
   for (let count = 0; count < 5; count += 1) await picture(400);
   assert.deepEqual(told, [2, 4]);
-  const drawn = injected.slice(-2).map(({ name, updates }) => [name, updates.points.length]);
+  const drawn = injected.slice(-2).map(({ name, updates }) => [name, updates.points]);
   assert.deepEqual(drawn, [
-    ["/live/1/a", 750_000],
-    ["/live/2/a", 750],
+    ["/live/1/a", partOf(large, 1 / 4).points],
+    ["/live/2/a", partOf(small, 1 / 4).points],
   ]);
   const message = { type: "SceneNodeUpdateMessage", name: "/live/2/a", updates: cloudOf(2000) };
   hooks.read(message);
