@@ -3,6 +3,7 @@
 /** @import { FrameView, Remark, TopicView } from "../types/wire.d.ts" */
 /** @import { Asked } from "./wire.js" */
 /** @import { Command } from "../types/wire.d.ts" */
+/** @import { Move } from "../lib/live-drop.js" */
 
 import { latestSender } from "../lib/latest.js";
 import { groupNames, moveOfDisplay, moveOfGroup } from "../lib/live-displays.js";
@@ -48,12 +49,13 @@ export async function removeGroup(group) {
 
 /** @param {string} display @param {1 | -1} step */
 export const moveDisplay = (display, step) =>
-  moveAll(moveOfDisplay(liveDisplays.value, display, step));
+  placeDisplays(moveOfDisplay(liveDisplays.value, display, step));
 /** @param {string} group @param {1 | -1} step */
-export const moveGroup = (group, step) => moveAll(moveOfGroup(liveDisplays.value, group, step));
+export const moveGroup = (group, step) =>
+  placeDisplays(moveOfGroup(liveDisplays.value, group, step));
 
-/** @param {ReturnType<typeof moveOfDisplay>} moves */
-async function moveAll(moves) {
+/** @param {readonly Move[] | null} moves one after the other */
+export async function placeDisplays(moves) {
   for (const one of moves ?? []) if (!(await ask({ type: "arrange_display", ...one }))) return;
 }
 

@@ -34,6 +34,7 @@ import { Icon, LongName } from "../lib/ui.js";
  * @property {string} [hint] longer tooltip of its label
  * @property {() => ComponentChildren} [name] drawn in the place of the label
  * @property {() => ComponentChildren} [controls] drawn before its eye
+ * @property {Readonly<Record<string, unknown>>} [attributes] more of its element, as what makes it be dragged
  * @property {Readonly<Record<string, () => void>>} [keys] what keys do beside those of every row, as `Alt+ArrowUp`
  */
 
@@ -149,7 +150,7 @@ function TreeRow({ row, place, current, setOpen, onPick }) {
     onContextMenu=${(/** @type {Event} */ event) => openRowMenu(event, row)}
     onPointerEnter=${() => {
       hovered.value = row.link ?? null;
-    }}>
+    }} ...${row.attributes}>
     <${Twisty} row=${row} setOpen=${setOpen} />
     ${row.icon && html`<${Icon} name=${row.icon} size=${15} />`}
     ${row.name ? row.name() : html`<span class="tree-label" title=${row.hint ?? row.label}>${row.link ? html`<${LongName} text=${row.label} />` : row.label}</span>`}

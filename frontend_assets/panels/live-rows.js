@@ -12,6 +12,7 @@ import { dialog } from "../app/state/view.js";
 import { t } from "../lib/i18n.js";
 import { firstTrouble, iconOf, inGroups, rateWords } from "../lib/live-displays.js";
 import { Icon } from "../lib/ui.js";
+import { draggable, dropMark, droppable } from "./live-drag.js";
 import { displayKeys, groupKeys, NameBox, RowMenu, renaming } from "./live-menu.js";
 import { settingsOf } from "./live-settings.js";
 
@@ -89,7 +90,9 @@ function groupRow(group, count, open) {
     faded: !on,
     meta: open ? "" : String(count),
     ...renamable(id, group),
+    kind: dropMark(id),
     ...(mayEdit.value && {
+      attributes: renaming.value === id ? {} : draggable(id),
       keys: groupKeys(group),
       controls: () => html`<${RowMenu} row=${id} name=${group} />`,
     }),
@@ -112,11 +115,17 @@ function displayRows(display, level, words) {
   if (![name, kind, topic].some((text) => text.toLowerCase().includes(words))) return [];
   const state = displayStates.value.get(id);
   const open = isOpen(`display:${id}`);
-  return [
-    displayRow(display, level, state, open),
+  const below = [
     ...remarkRows(display, level + 1, state),
     ...(open ? settingsOf(display, level + 1, isOpen) : []),
   ];
+  return [displayRow(display, level, state, open), ...below.map(takingDrops)];
+}
+
+/** @param {Row} row @returns {Row} on which another display can be dropped */
+function takingDrops(row) {
+  const kind = `${row.kind ?? ""} ${dropMark(row.id)}`;
+  return { ...row, kind, ...(mayEdit.value && { attributes: droppable(row.id) }) };
 }
 
 /** @param {DisplayView} display @param {number} level @param {DisplayState | undefined} state @param {boolean} open @returns {Row} */
@@ -125,7 +134,7 @@ function displayRow(display, level, state, open) {
   const row = `display:${id}`;
   return {
     id: row,
-    kind: "display",
+    kind: `display ${dropMark(row)}`,
     level,
     label: name,
     hint: `${name}\n${kinds.value.get(kind)?.doc ?? kind}`,
@@ -136,6 +145,7 @@ function displayRow(display, level, state, open) {
     ...metaOf(display, state),
     ...renamable(row, name),
     ...(mayEdit.value && {
+      attributes: renaming.value === row ? {} : draggable(row),
       keys: displayKeys(id),
       controls: () => html`<${RowMenu} row=${row} name=${name} />`,
     }),
