@@ -126,6 +126,7 @@ const ICONS = {
   pause: "Pause",
   pencil: "Pencil",
   pin: "MapPin",
+  plot: "ChartLine",
   plus: "Plus",
   polygon: "Hexagon",
   pose: "Navigation",
@@ -150,6 +151,7 @@ const ICONS = {
   sun: "Sun",
   system: "Monitor",
   thermometer: "Thermometer",
+  topics: "Radio",
   trash: "Trash2",
   undo: "Undo2",
   up: "CornerLeftUp",
@@ -216,6 +218,11 @@ const FILES = {
   "dockview.css": {
     make: () => bundle(DOCKVIEW_CSS, "css"),
     from: ["dockview"],
+  },
+  "uplot.js": { make: () => bundle('export { default } from "uplot";'), from: ["uplot"] },
+  "uplot.css": {
+    make: () => bundle('@import "uplot/dist/uPlot.min.css";', "css"),
+    from: ["uplot"],
   },
   "icons.js": { make: () => bundle(iconsModule()), from: ["lucide"] },
 };

@@ -21,6 +21,13 @@ PLAIN_PAGE_POLICY: Final = (
 """For our pages without scripts: not found, not allowed."""
 
 
+WORKER_POLICY: Final = (
+    "default-src 'none'; script-src 'self'; connect-src 'self'; frame-ancestors 'self'; "
+    "base-uri 'none'"
+)
+"""For scripts that run as workers: theirs counts for what they fetch, not that of the page."""
+
+
 def page_policy(nonce: str) -> str:
     """The studio's page: its own files, and the one inline script that carries the nonce."""
     return "; ".join(

@@ -16,7 +16,7 @@ from studio.web.control import ControlLane
 from studio.web.data_lane import DataLane
 from studio.web.lane import Lane
 from studio.web.pages import studio_page
-from studio.web.policy import SCENE_POLICY
+from studio.web.policy import SCENE_POLICY, WORKER_POLICY
 from studio.web.surface import OpenDocuments
 from studio.web.viser_lane import serve_scene
 
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
 _FOREVER: Final = "public, max-age=31536000, immutable"
 _ICON: Final = "styles/logo.svg"
+_WORKERS: Final = "workers/"
 
 
 class Site:
@@ -83,7 +84,10 @@ class Site:
         if found is None:
             return Response(status_code=HTTPStatus.NOT_FOUND)
         asset, is_exact = found
-        return _send(asset, request, _FOREVER if is_exact else "no-store")
+        answer = _send(asset, request, _FOREVER if is_exact else "no-store")
+        if path.startswith(_WORKERS):
+            answer.headers["content-security-policy"] = WORKER_POLICY
+        return answer
 
     async def icon(self, request: Request) -> Response:
         """For browsers that ask without having been told."""

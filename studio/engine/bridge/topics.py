@@ -6,7 +6,7 @@ import asyncio
 from typing import TYPE_CHECKING, Final
 
 from studio.engine.messages.topics import (
-    EndView,
+    TopicEnd,
     GetTopicEnds,
     ListTopics,
     Misfit,
@@ -85,9 +85,9 @@ def _others(ends: Iterable[GraphEndpoint], own_zid: str) -> int:
     return sum(one.node.zid != own_zid for one in ends)
 
 
-def _end(endpoint: GraphEndpoint, own_zid: str) -> EndView:
+def _end(endpoint: GraphEndpoint, own_zid: str) -> TopicEnd:
     qos = endpoint.qos
-    return EndView(
+    return TopicEnd(
         node=endpoint.node.path,
         own=endpoint.node.zid == own_zid,
         type_name=endpoint.type_name,

@@ -40,7 +40,7 @@ class TopicTable(Message):
     topics: tuple[TopicRow, ...]
 
 
-class EndView(Message):
+class TopicEnd(Message):
     """A publisher or a subscription."""
 
     node: str
@@ -74,8 +74,8 @@ class TopicEnds(Message):
 
     type: Literal["topic_ends"] = "topic_ends"
     request: int
-    publishers: tuple[EndView, ...]
-    subscribers: tuple[EndView, ...]
+    publishers: tuple[TopicEnd, ...]
+    subscribers: tuple[TopicEnd, ...]
     misfits: tuple[Misfit, ...]
 
 

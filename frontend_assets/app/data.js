@@ -1,0 +1,173 @@
+/** The data lane as panels use it: topics are looked at, or traced as numbers, until they are left. */
+
+/** @import { MessageView } from "../types/wire.d.ts" */
+/** @import { FromPage } from "../workers/data.js" */
+/** @import { Heard, Looked, Points, ToPage } from "../workers/wishes.js" */
+
+import { effect, signal } from "vendor/preact.js";
+import { connection } from "./state/connection.js";
+import { RefusedError, send } from "./wire.js";
+
+/** @typedef {{reliable?: boolean | null, latched?: boolean | null, depth?: number | null, typeName?: string, mostHz?: number}} Ways null: as fits its publishers */
+/** @typedef {{onState: (heard: Heard) => void, onMessage: (message: Looked) => void}} Onlooker */
+/** @typedef {{onState: (heard: Heard) => void, onPoints: (points: Points) => void}} Tracer */
+
+/** What is looked at is read by people. */
+const LOOK_HZ = 10;
+
+/** Messages that this page was too slow for, since the lane was opened. */
+export const dropped = signal(0);
+/** Whether what is heard comes. */
+export const laneOpen = signal(true);
+
+/** @type {Worker | null} */
+let worker = null;
+let lastNumber = 0;
+/** @type {Map<number, Onlooker | Tracer>} */
+const listeners = new Map();
+/** @type {Map<number, (text: string) => void>} */
+const texts = new Map();
+
+/** @param {FromPage} message */
+function post(message) {
+  worker ??= begun();
+  worker.postMessage(message);
+}
+
+/** @returns {Worker} */
+function begun() {
+  const made = new Worker(new URL("../workers/data.js", import.meta.url), { type: "module" });
+  made.onmessage = ({ data }) => take(data);
+  effect(() => {
+    if (connection.value === "connected") made.postMessage({ kind: "retry" });
+  });
+  return made;
+}
+
+/** @param {ToPage} message */
+function take(message) {
+  if (message.kind === "need") tell(message.typeName);
+  else if (message.kind === "lane") takeLane(message);
+  else if (message.kind === "text") texts.get(message.request)?.(message.text);
+  else takeHeard(message);
+}
+
+/** @param {import("../workers/wishes.js").LaneState} message */
+function takeLane(message) {
+  laneOpen.value = message.open;
+  dropped.value = message.dropped;
+}
+
+/** @param {import("../workers/wishes.js").State | Looked | Points} message */
+function takeHeard(message) {
+  const listener = listeners.get(message.wish);
+  if (!listener) return;
+  if (message.kind === "state") listener.onState(message.heard);
+  else if (message.kind === "message" && "onMessage" in listener) listener.onMessage(message);
+  else if (message.kind === "points" && "onPoints" in listener) listener.onPoints(message);
+}
+
+/** @type {Map<string, Promise<{messages: readonly MessageView[] | null, reason: string}>>} */
+const types = new Map();
+
+/** @param {string} name @returns {Promise<{messages: readonly MessageView[] | null, reason: string}>} what a type is made of, or why that is not known */
+export function typeOf(name) {
+  const known = types.get(name) ?? askType(name);
+  types.set(name, known);
+  return known;
+}
+
+/** @param {string} name */
+async function askType(name) {
+  try {
+    const answer = await send({ type: "get_interface", name });
+    if (answer.type === "interface") return { messages: answer.messages, reason: "" };
+    return { messages: null, reason: "" };
+  } catch (error) {
+    types.delete(name); // somebody may tell it later
+    return { messages: null, reason: error instanceof RefusedError ? error.message : "…" };
+  }
+}
+
+/** @param {string} typeName tell the worker */
+async function tell(typeName) {
+  post({ kind: "learn", typeName, ...(await typeOf(typeName)) });
+}
+
+/** @param {string} topic @param {"every" | "newest"} mode @param {Ways} ways */
+function wishFor(
+  topic,
+  mode,
+  { reliable = null, latched = null, depth = null, typeName = "", mostHz = LOOK_HZ },
+) {
+  lastNumber += 1;
+  return {
+    wish: lastNumber,
+    topic,
+    type_name: typeName,
+    mode,
+    most_hz: mostHz,
+    reliable,
+    latched,
+    depth,
+  };
+}
+
+/** @param {number} wish */
+function leave(wish) {
+  listeners.delete(wish);
+  post({ kind: "leave", wish });
+}
+
+/**
+ * Look at the newest message of a topic, some times in a second.
+ *
+ * @param {string} topic
+ * @param {Ways} ways
+ * @param {Onlooker} onlooker
+ */
+export function lookAt(topic, ways, onlooker) {
+  const wish = wishFor(topic, "newest", ways);
+  const number = wish.wish;
+  listeners.set(number, onlooker);
+  post({ kind: "look", wish });
+  return {
+    /** @param {string} path @param {number} count show so many items of a list */
+    unfold: (path, count) => post({ kind: "unfold", wish: number, path, count }),
+    /** @param {string} path @returns {Promise<string>} the value there, all of it */
+    text: (path) => textOf(number, path),
+    leave: () => leave(number),
+  };
+}
+
+/** @param {number} wish @param {string} path @returns {Promise<string>} */
+function textOf(wish, path) {
+  lastNumber += 1;
+  const request = lastNumber;
+  return new Promise((resolve) => {
+    texts.set(request, (text) => {
+      texts.delete(request);
+      resolve(text);
+    });
+    post({ kind: "text", wish, path, request });
+  });
+}
+
+/**
+ * Have numbers of every message of a topic.
+ *
+ * @param {string} topic
+ * @param {readonly string[]} paths
+ * @param {Ways} ways
+ * @param {Tracer} tracer
+ */
+export function trace(topic, paths, ways, tracer) {
+  const wish = wishFor(topic, "every", { mostHz: 60, ...ways });
+  listeners.set(wish.wish, tracer);
+  post({ kind: "trace", wish, paths });
+  return {
+    /** @param {readonly string[]} chosen */
+    choose: (chosen) => post({ kind: "trace", wish, paths: chosen }),
+    leave: () => leave(wish.wish),
+  };
+}

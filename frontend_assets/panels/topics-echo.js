@@ -1,0 +1,132 @@
+/** What a topic says now, as a tree; who is at its ends, and how it is listened to. */
+
+/** @import { TopicRow } from "../types/wire.d.ts" */
+/** @import { Heard, Looked } from "../workers/wishes.js" */
+
+import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
+import { lookAt } from "../app/data.js";
+import { addDisplay } from "../app/live.js";
+import { mayEdit } from "../app/state/connection.js";
+import { chosenTopic, listening } from "../app/state/topics.js";
+import { notify } from "../app/state/view.js";
+import { copyText } from "../lib/clipboard.js";
+import { t } from "../lib/i18n.js";
+import { Icon, IconButton, MenuButton } from "../lib/ui.js";
+import { EchoTree } from "./topics-echo-tree.js";
+import { TopicEnds } from "./topics-ends.js";
+
+/** @typedef {ReturnType<typeof lookAt>} Look */
+
+/** @param {{topic: string, row: TopicRow | undefined}} props */
+export function TopicEcho({ topic, row }) {
+  const heard = useSignal(/** @type {Heard | null} */ (null));
+  const message = useSignal(/** @type {Looked | null} */ (null));
+  const paused = useSignal(false);
+  const showsEnds = useSignal(false);
+  const look = useRef(/** @type {Look | null} */ (null));
+  const { reliable, latched } = listening.value;
+  useEffect(() => {
+    const made = lookAt(
+      topic,
+      { reliable, latched },
+      {
+        onState: (told) => {
+          heard.value = told;
+        },
+        onMessage: (came) => {
+          if (!paused.value) message.value = came;
+        },
+      },
+    );
+    look.current = made;
+    return made.leave;
+  }, [topic, reliable, latched]);
+  return html`<section class="topics-echo" aria-label=${t("topics.echo.of", { topic })}>
+    <div class="panel-bar topics-head">
+      <strong title=${topic}>${topic}</strong>
+      <span class="push"></span>
+      <${IconButton} icon="info" label=${t("topics.connections")} pressed=${showsEnds.value} onClick=${() => {
+        showsEnds.value = !showsEnds.value;
+      }} />
+      <${ListeningMenu} heard=${heard.value} />
+      ${row?.kind && mayEdit.value && html`<${IconButton} icon="scene" label=${t("topics.show", { kind: row.kind })} onClick=${() => addDisplay(row.kind, topic)} />`}
+      <${IconButton} icon="copy" label=${t("topics.copy_message")} disabled=${!message.value} onClick=${() => copyAt(look.current, "")} />
+      <${IconButton} icon=${paused.value ? "animate" : "pause"} label=${t(paused.value ? "topics.go_on" : "topics.pause")} pressed=${paused.value} onClick=${() => {
+        paused.value = !paused.value;
+      }} />
+      <${IconButton} icon="close" label=${t("topics.echo.close")} onClick=${() => {
+        chosenTopic.value = null;
+      }} />
+    </div>
+    ${showsEnds.value && html`<${TopicEnds} topic=${topic} />`}
+    <${Said} heard=${heard.value} message=${message.value} />
+    ${
+      message.value?.value &&
+      html`<${EchoTree} topic=${topic} type=${heard.value?.type_name ?? ""} value=${message.value.value}
+      onMore=${(/** @type {string} */ path, /** @type {number} */ count) => look.current?.unfold(path, count)}
+      onCopy=${(/** @type {string} */ path) => copyAt(look.current, path)} />`
+    }
+    ${message.value?.hex && html`<pre class="topics-hex scroll" tabindex=${0}>${message.value.hex}</pre>`}
+  </section>`;
+}
+
+/** @param {Look | null} look @param {string} path */
+async function copyAt(look, path) {
+  const text = (await look?.text(path)) ?? "";
+  const done = await copyText(text);
+  notify(done ? t("topics.copied") : t("copy.failed"), { bad: !done });
+}
+
+/** @param {{heard: Heard | null}} props */
+function ListeningMenu({ heard }) {
+  const now = listening.value;
+  const ways = [
+    { label: t("topics.qos.auto"), reliable: null, latched: null },
+    { label: t("topics.qos.reliable"), reliable: true, latched: false },
+    { label: t("topics.qos.best_effort"), reliable: false, latched: false },
+    { label: t("topics.qos.latched"), reliable: true, latched: true },
+  ];
+  const items = () => [
+    { label: t("topics.qos"), heading: true },
+    ...ways.map(({ label, reliable, latched }) => ({
+      label,
+      checked: now.reliable === reliable && now.latched === latched,
+      run: () => {
+        listening.value = { reliable, latched };
+      },
+    })),
+  ];
+  const hint = heard ? qosWords(heard) : t("topics.qos");
+  return html`<${MenuButton} label=${t("topics.qos")} hint=${hint} items=${items}><${Icon} name="sliders" /><${Icon} name="chevronDown" size=${12} /><//>`;
+}
+
+/** @param {Heard} heard @returns {string} */
+const qosWords = ({ reliable, latched }) =>
+  [
+    t(reliable ? "topics.qos.reliable" : "topics.qos.best_effort"),
+    latched ? t("topics.qos.latched") : "",
+  ]
+    .filter(Boolean)
+    .join(", ");
+
+/** @param {{heard: Heard | null, message: Looked | null}} props what is heard, or what is in the way and what to do */
+function Said({ heard, message }) {
+  if (heard === null) return html`<p class="topics-said muted" role="status">${t("loading")}</p>`;
+  const trouble = troubleOf(heard, message);
+  const words = [
+    heard.type_name,
+    message ? t("topics.bytes", { count: message.bytes }) : "",
+    message && message.lost > 0 ? t("topics.lost", { count: message.lost }) : "",
+  ];
+  return html`<p class="topics-said" role="status"><span class="muted">${words.filter(Boolean).join(" · ")}</span>
+    ${trouble && html`<span class="topics-trouble"><${Icon} name="alert" size=${13} /><span>${trouble}</span></span>`}</p>`;
+}
+
+/** @param {Heard} heard @param {Looked | null} message @returns {string} empty: all is well */
+function troubleOf(heard, message) {
+  if (heard.state === "refused") return heard.reason;
+  if (heard.state !== "hearing")
+    return t(`topics.state.${heard.state}`, { types: heard.types.join(", ") });
+  if (message?.trouble) return t("topics.unread", { reason: message.trouble });
+  return message ? "" : t("topics.state.waiting");
+}

@@ -1,0 +1,68 @@
+/** Who publishes a topic and who subscribes to it, how, and what keeps them apart. */
+
+/** @import { TopicEnd, Misfit, TopicEnds as Ends } from "../types/wire.d.ts" */
+
+import { html, useEffect, useSignal } from "vendor/preact.js";
+import { topicEnds } from "../app/topics.js";
+import { t } from "../lib/i18n.js";
+import { Icon } from "../lib/ui.js";
+
+const LOOK_EVERY_MS = 2000;
+
+/** @param {{topic: string}} props */
+export function TopicEnds({ topic }) {
+  const ends = useSignal(/** @type {Ends | null} */ (null));
+  useEffect(() => {
+    let closed = false;
+    /** @type {ReturnType<typeof setTimeout> | undefined} */
+    let timer;
+    const look = async () => {
+      const found = await topicEnds(topic);
+      if (closed) return;
+      if (found) ends.value = found;
+      timer = setTimeout(look, LOOK_EVERY_MS);
+    };
+    look();
+    return () => {
+      closed = true;
+      clearTimeout(timer);
+    };
+  }, [topic]);
+  const told = ends.value;
+  if (!told) return html`<p class="note padded">${t("loading")}</p>`;
+  return html`<div class="topics-ends scroll">
+    <${Side} title=${t("topics.publishers", { count: told.publishers.length })} ends=${told.publishers} />
+    <${Side} title=${t("topics.subscribers", { count: told.subscribers.length })} ends=${told.subscribers} />
+    ${told.misfits.map((one) => html`<${Apart} key=${one.publisher + one.subscriber} misfit=${one} />`)}
+  </div>`;
+}
+
+/** @param {{title: string, ends: readonly TopicEnd[]}} props */
+function Side({ title, ends }) {
+  return html`<h3>${title}</h3><ul>${ends.map(
+    (end, n) =>
+      html`<li key=${n}><span>${end.node}${end.own && html` <small class="muted">${t("topics.own")}</small>`}</span><small class="muted">${qosOf(end)}</small></li>`,
+  )}</ul>`;
+}
+
+/** @param {TopicEnd} end @returns {string} */
+function qosOf(end) {
+  const words = [
+    end.reliability,
+    end.durability,
+    `${end.history} ${end.depth}`,
+    end.deadline_s === null ? "" : t("topics.deadline", { time: end.deadline_s }),
+    end.lifespan_s === null ? "" : t("topics.lifespan", { time: end.lifespan_s }),
+    end.liveliness === "automatic" ? "" : end.liveliness,
+  ];
+  return words.filter(Boolean).join(" · ");
+}
+
+/** @param {{misfit: Misfit}} props what DDS would do, and what Zenoh does */
+function Apart({ misfit }) {
+  const { publisher, subscriber, reasons, heard } = misfit;
+  return html`<p class="topics-apart"><${Icon} name="alert" size=${13} /><span>${t(
+    heard ? "topics.apart.dds" : "topics.apart.all",
+    { publisher, subscriber, reasons: reasons.join("; ") },
+  )}</span></p>`;
+}

@@ -1,0 +1,93 @@
+/** The table of topics: a click on a row looks at it, a drag takes it into the 3D view. */
+
+/** @import { TopicRate, TopicRow } from "../types/wire.d.ts" */
+/** @import { TopicOrder } from "../lib/topic-rows.js" */
+/** @import { Signal } from "vendor/preact.js" */
+
+import { html } from "vendor/preact.js";
+import { chosenTopic, listening } from "../app/state/topics.js";
+import { beginDrag, endDrag } from "../app/topic-drag.js";
+import { t } from "../lib/i18n.js";
+import { rateWords } from "../lib/live-displays.js";
+import { LongList } from "../lib/long-list.js";
+import { ageWords, bandWords } from "../lib/topic-rates.js";
+import { shortTypes } from "../lib/topic-rows.js";
+import { Icon, LongName } from "../lib/ui.js";
+
+const COLUMNS = 6;
+
+/** @param {string} name */
+const rowId = (name) => `topic-${name}`;
+
+/** @param {string} topic look at it; how it is listened to fits its publishers again */
+export function chooseTopic(topic) {
+  if (chosenTopic.value === topic) return;
+  listening.value = { reliable: null, latched: null };
+  chosenTopic.value = topic;
+}
+
+/** @param {{rows: readonly TopicRow[], rates: ReadonlyMap<string, TopicRate>, order: Signal<TopicOrder>}} props */
+export function TopicTable({ rows, rates, order }) {
+  const focusable = rows.some(({ name }) => name === chosenTopic.value)
+    ? chosenTopic.value
+    : rows[0]?.name;
+  /** @param {KeyboardEvent} event */
+  const onKeyDown = (event) => {
+    const at = rows.findIndex(({ name }) => rowId(name) === document.activeElement?.id);
+    const to = { ArrowDown: at + 1, ArrowUp: at - 1, Home: 0, End: rows.length - 1 }[event.key];
+    if (at < 0) return;
+    if (event.key === "Enter" || event.key === " ") chooseTopic(rows[at]?.name ?? "");
+    else if (to === undefined) return;
+    else document.getElementById(rowId(rows[to]?.name ?? ""))?.focus();
+    event.preventDefault();
+  };
+  return html`<div class="scroll" onKeyDown=${onKeyDown}><table class="topics-table" aria-label=${t("panel.topics")} aria-rowcount=${rows.length + 1}>
+    <thead><tr>
+      <${Head} order=${order} by="name" words=${t("topics.name")} />
+      <${Head} order=${order} by="type" words=${t("topics.type")} class="type" />
+      <th scope="col" class="number ends" title=${t("topics.ends.hint")}>${t("topics.ends")}</th>
+      <${Head} order=${order} by="rate" words="Hz" class="number" />
+      <${Head} order=${order} by="band" words=${t("topics.band")} class="number band" />
+      <th scope="col" class="number age">${t("topics.age")}</th>
+    </tr></thead>
+    <${LongList} items=${rows} keyOf=${(/** @type {TopicRow} */ { name }) => name} row="var(--row)" columns=${COLUMNS}
+      isKept=${(/** @type {TopicRow} */ { name }) => name === focusable}
+      draw=${(/** @type {TopicRow} */ row) =>
+        html`<${Row} key=${row.name} row=${row} rate=${rates.get(row.name)} focusable=${row.name === focusable} />`} />
+  </table></div>`;
+}
+
+/** @param {{order: Signal<TopicOrder>, by: TopicOrder, words: string, class?: string}} props */
+function Head({ order, by, words, class: names = "" }) {
+  const isChosen = order.value === by;
+  const sorted = by === "rate" || by === "band" ? "descending" : "ascending";
+  return html`<th scope="col" class=${names} aria-sort=${isChosen ? sorted : "none"}><button type="button" class="sort" onClick=${() => {
+    order.value = by;
+  }}>${words}${isChosen && html`<${Icon} name="chevronDown" size=${12} />`}</button></th>`;
+}
+
+/** @param {{row: TopicRow, rate: TopicRate | undefined, focusable: boolean}} props */
+function Row({ row, rate, focusable }) {
+  const { name, types, publishers, subscribers, kind } = row;
+  const isChosen = chosenTopic.value === name;
+  const what = { topic: name, type: types[0] ?? "", kind, path: "" };
+  return html`<tr id=${rowId(name)} class=${isChosen ? "chosen" : ""} tabindex=${focusable ? 0 : -1} aria-selected=${isChosen} draggable=${true}
+    title=${[name, ...types].join("\n")} onClick=${() => chooseTopic(name)}
+    onDragStart=${(/** @type {DragEvent} */ event) => beginDrag(event, what)} onDragEnd=${endDrag}>
+    <th scope="row"><${LongName} text=${name} /></th>
+    <td class="type"><${LongName} text=${shortTypes(types)} /></td>
+    <td class="number ends" title=${t("topics.ends.text", { publishers, subscribers })}>${publishers} → ${subscribers}</td>
+    <td class="number"><${Rate} publishers=${publishers} rate=${rate} /></td>
+    <td class="number band">${bandWords(rate?.bytes_per_s ?? 0) || "–"}</td>
+    <td class="number age">${ageWords(rate) || "–"}</td>
+  </tr>`;
+}
+
+/** @param {{publishers: number, rate: TopicRate | undefined}} props a word where nothing comes, for a dash alone tells nobody why */
+function Rate({ publishers, rate }) {
+  if (publishers === 0) return html`<span class="muted">${t("topics.unpublished")}</span>`;
+  if (rate?.state === "silent")
+    return html`<span class="topics-silent">${t("topics.silent")}</span>`;
+  if (rate?.state === "latched") return html`<span class="muted">${t("topics.latched")}</span>`;
+  return rateWords(rate?.rate_hz ?? 0) || "–";
+}

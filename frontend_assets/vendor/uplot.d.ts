@@ -1,0 +1,2 @@
+/** What vendor/uplot.js exports. */
+export { default } from "uplot";

@@ -1,0 +1,222 @@
+/** What the page wishes to hear, and what it is told of the messages that come. */
+
+/** @import { MessageView } from "../types/wire.d.ts" */
+/** @import { Came } from "./frames.js" */
+/** @import { Step } from "./message-paths.js" */
+
+import { CdrError, readerOf } from "./cdr.js";
+import { folded, hexRows, wholeText } from "./folding.js";
+import { numberAt, stepsOf, valueAt } from "./message-paths.js";
+
+/**
+ * @typedef {object} Wish what goes to the studio
+ * @property {number} wish
+ * @property {string} topic
+ * @property {string} type_name
+ * @property {"every" | "newest"} mode
+ * @property {number} most_hz
+ * @property {boolean | null} reliable
+ * @property {boolean | null} latched
+ * @property {number | null} depth
+ */
+
+/**
+ * @typedef {object} Heard how a wish stands, as the studio tells it
+ * @property {"heard"} type
+ * @property {number} wish
+ * @property {number} channel
+ * @property {"not_connected" | "no_publisher" | "other_type" | "refused" | "hearing"} state
+ * @property {string} type_name
+ * @property {string[]} types
+ * @property {number} publishers
+ * @property {boolean} reliable
+ * @property {boolean} latched
+ * @property {number} depth
+ * @property {string} reason
+ */
+
+/**
+ * @typedef {{kind: "message", wish: number, received_s: number, lost: number, bytes: number, value: any, hex: string, trouble: string}} Looked
+ * @typedef {{kind: "points", wish: number, times: Float64Array, values: Float64Array[], paths: readonly string[], lost: number, trouble: string}} Points
+ * @typedef {{kind: "state", wish: number, heard: Heard}} State
+ * @typedef {{kind: "need", typeName: string}} Need
+ * @typedef {{kind: "text", request: number, text: string}} TextAnswer
+ * @typedef {{kind: "lane", open: boolean, dropped: number}} LaneState
+ * @typedef {Looked | Points | State | Need | TextAnswer | LaneState} ToPage
+ */
+
+/** A sender's clock that jumps so far is set anew. */
+const JUMP_S = 0.5;
+
+/** How types are read, as far as the studio told them. */
+export class Types {
+  /** @param {(message: ToPage) => void} post */
+  constructor(post) {
+    this.post = post;
+    /** @type {Map<string, {read: ((cdr: Uint8Array) => any) | null, trouble: string} | null>} null: asked for */
+    this.known = new Map();
+  }
+
+  /** @param {string} name @returns {{read: ((cdr: Uint8Array) => any) | null, trouble: string} | null} null: not yet */
+  find(name) {
+    const found = this.known.get(name);
+    if (found !== undefined) return found;
+    this.known.set(name, null);
+    this.post({ kind: "need", typeName: name });
+    return null;
+  }
+
+  /** @param {string} name @param {readonly MessageView[] | null} messages @param {string} reason why there are none */
+  learn(name, messages, reason) {
+    try {
+      const read = messages && readerOf(messages, name);
+      this.known.set(name, { read, trouble: reason });
+    } catch (error) {
+      this.known.set(name, { read: null, trouble: String(/** @type {Error} */ (error).message) });
+    }
+  }
+
+  /** Ask again for those that were not known: somebody may have told them since. */
+  doubt() {
+    for (const [name, one] of this.known) if (one && !one.read) this.known.delete(name);
+  }
+}
+
+/** Times of a sender, by the studio's clock: those of its own are even, those of the arrival are not. */
+export class SteadyClock {
+  constructor() {
+    this.offset_s = Number.NaN;
+  }
+
+  /** @param {{sent_s: number, received_s: number}} came @returns {number} */
+  time({ sent_s, received_s }) {
+    if (sent_s <= 0) return received_s;
+    const time_s = sent_s + this.offset_s;
+    if (Math.abs(time_s - received_s) < JUMP_S) return time_s;
+    this.offset_s = received_s - sent_s;
+    return received_s;
+  }
+}
+
+/** A topic that is looked at: of what comes, the newest is shown. */
+export class Look {
+  /** @param {Wish} wish @param {Types} types @param {(message: ToPage) => void} post */
+  constructor(wish, types, post) {
+    this.wish = wish;
+    this.types = types;
+    this.post = post;
+    this.typeName = "";
+    /** @type {Map<string, number>} */
+    this.unfolded = new Map();
+    /** @type {Came | null} */
+    this.last = null;
+  }
+
+  /** @param {readonly Came[]} messages */
+  take(messages) {
+    this.last = messages.at(-1) ?? this.last;
+    this.show();
+  }
+
+  show() {
+    const last = this.last;
+    const type = this.typeName ? this.types.find(this.typeName) : null;
+    if (!last || !type) return;
+    const { value, trouble } = readWith(type, last.cdr);
+    const hex = value === undefined ? hexRows(last.cdr) : "";
+    const { wish } = this.wish;
+    const { received_s, lost } = last;
+    const bytes = last.cdr.length;
+    const shown = value === undefined ? null : folded(value, this.unfolded);
+    this.post({ kind: "message", wish, received_s, lost, bytes, value: shown, hex, trouble });
+  }
+
+  /** @param {string} path @param {number} count */
+  unfold(path, count) {
+    this.unfolded.set(path, count);
+    this.show();
+  }
+
+  /** @param {string} path @returns {string} the value there, all of it */
+  text(path) {
+    const type = this.types.find(this.typeName);
+    if (!type || !this.last) return "";
+    const { value } = readWith(type, this.last.cdr);
+    return value === undefined
+      ? hexRows(this.last.cdr)
+      : wholeText(valueAt(value, stepsOf(path) ?? []));
+  }
+}
+
+/** A topic of which numbers are drawn: every message counts. */
+export class Trace {
+  /** @param {Wish} wish @param {Types} types @param {(message: ToPage) => void} post @param {readonly string[]} paths */
+  constructor(wish, types, post, paths) {
+    this.wish = wish;
+    this.types = types;
+    this.post = post;
+    this.typeName = "";
+    this.clock = new SteadyClock();
+    /** @type {Came[]} until its type is known */
+    this.waiting = [];
+    this.choose(paths);
+  }
+
+  /** @param {readonly string[]} paths */
+  choose(paths) {
+    this.paths = paths;
+    /** @type {(readonly Step[] | null)[]} */
+    this.steps = paths.map(stepsOf);
+  }
+
+  /** @param {readonly Came[]} messages */
+  take(messages) {
+    this.waiting =
+      this.waiting.length > WAITING_MAX ? [...messages] : [...this.waiting, ...messages];
+    this.show();
+  }
+
+  show() {
+    const type = this.typeName ? this.types.find(this.typeName) : null;
+    if (!type || this.waiting.length === 0) return;
+    const messages = this.waiting;
+    this.waiting = [];
+    const times = new Float64Array(messages.length);
+    const values = (this.steps ?? []).map(() => new Float64Array(messages.length).fill(Number.NaN));
+    let said = "";
+    messages.forEach((came, n) => {
+      times[n] = this.clock.time(came);
+      const { value, trouble } = readWith(type, came.cdr);
+      said ||= trouble;
+      this.steps?.forEach((steps, at) => {
+        const column = values[at];
+        if (column && steps && value !== undefined) column[n] = numberAt(value, steps);
+      });
+    });
+    const lost = messages.at(-1)?.lost ?? 0;
+    const { wish } = this.wish;
+    this.post({
+      kind: "points",
+      wish,
+      times,
+      values,
+      paths: this.paths ?? [],
+      lost,
+      trouble: said,
+    });
+  }
+}
+
+/** Messages that wait for their type to be told. */
+const WAITING_MAX = 20_000;
+
+/** @param {{read: ((cdr: Uint8Array) => any) | null, trouble: string}} type @param {Uint8Array} cdr @returns {{value: any, trouble: string}} value undefined: it cannot be read */
+function readWith({ read, trouble }, cdr) {
+  if (!read) return { value: undefined, trouble };
+  try {
+    return { value: read(cdr), trouble: "" };
+  } catch (error) {
+    if (error instanceof CdrError) return { value: undefined, trouble: error.message };
+    throw error;
+  }
+}
