@@ -145,6 +145,14 @@ export interface CancelCall {
   deed: number;
 }
 
+/** Ask that a goal end; refused when its server says no. */
+export interface CancelGoal {
+  request?: number;
+  document?: string;
+  type: "cancel_goal";
+  deed: number;
+}
+
 /** Answer to `get_changes`. */
 export interface Changes {
   type: "changes";
@@ -416,6 +424,14 @@ export interface Done {
   request: number;
 }
 
+/** Ask for all parameters of a node as a file of them. */
+export interface DumpParameters {
+  request?: number;
+  document?: string;
+  type: "dump_parameters";
+  node: string;
+}
+
 /** Add one with the same settings, below it. */
 export interface DuplicateDisplay {
   request?: number;
@@ -468,6 +484,12 @@ export interface Effects {
   is_cut: boolean;
 }
 
+/** A name and its type. */
+export interface EndView {
+  name: string;
+  type: string;
+}
+
 /** Look what there is at a place; nothing is joined or started by it. */
 export interface ExamineWire {
   request?: number;
@@ -490,6 +512,13 @@ export interface Examples {
   type: "examples";
   request: number;
   examples: ExampleEntry[];
+}
+
+/** What a server said of a goal under way. */
+export interface FeedbackView {
+  number: number;
+  after_s: number;
+  values: string;
 }
 
 /** One field of a message. */
@@ -577,6 +606,14 @@ export interface FollowFrame {
   document?: string;
   type: "follow_frame";
   frame: string;
+}
+
+/** Be told when parameters of a node change. */
+export interface FollowParameters {
+  request?: number;
+  document?: string;
+  type: "follow_parameters";
+  node?: string;
 }
 
 /** Take a file out of that list; the file stays. */
@@ -685,6 +722,14 @@ export interface GetFrames {
   type: "get_frames";
 }
 
+/** Ask how all goals of an action stand, those of others too. */
+export interface GetGoalStatuses {
+  request?: number;
+  document?: string;
+  type: "get_goal_statuses";
+  name: string;
+}
+
 /** Ask who is there, unless that is known already. */
 export interface GetGraph {
   request?: number;
@@ -744,6 +789,21 @@ export interface GetOutline {
   request?: number;
   document?: string;
   type: "get_outline";
+}
+
+/** Ask which nodes have parameters. */
+export interface GetParameterNodes {
+  request?: number;
+  document?: string;
+  type: "get_parameter_nodes";
+}
+
+/** Ask for all parameters of a node, with what it says of them. */
+export interface GetParameters {
+  request?: number;
+  document?: string;
+  type: "get_parameters";
+  node: string;
 }
 
 /** All places that name what stands there. */
@@ -824,6 +884,45 @@ export interface GetUrdfChanges {
   request?: number;
   document?: string;
   type: "get_urdf_changes";
+}
+
+/** A goal as its server tells of it. */
+export interface GoalStatusView {
+  goal_id: string;
+  state: string;
+  stamp_s: number;
+  is_ours: boolean;
+}
+
+/** Answer to `get_goal_statuses`, the newest first. */
+export interface GoalStatuses {
+  type: "goal_statuses";
+  request: number;
+  name: string;
+  goals: GoalStatusView[];
+}
+
+/** A goal, and how far it is. */
+export interface GoalView {
+  deed: number;
+  name: string;
+  action_type: string;
+  text: string;
+  state: "sending" | "accepted" | "executing" | "canceling" | "succeeded" | "canceled" | "aborted" | "rejected" | "failed";
+  goal_id: string;
+  began_s: number;
+  took_s: number;
+  feedback_count: number;
+  feedback: FeedbackView[];
+  result: string;
+  trouble: string;
+}
+
+/** Goals, the oldest first; all that are kept, or those that changed. */
+export interface Goals {
+  type: "goals";
+  whole: boolean;
+  deeds: GoalView[];
 }
 
 /** The document was closed. */
@@ -1028,6 +1127,15 @@ export interface LiveDisplays {
   fixed_frame: string;
 }
 
+/** Have a node set what a file says of it, one after another. */
+export interface LoadParameters {
+  request?: number;
+  document?: string;
+  type: "load_parameters";
+  node: string;
+  text: string;
+}
+
 /** Answer to `get_log`: the oldest lines after that one, and how many there are in all. */
 export interface LogAnswer {
   type: "log";
@@ -1154,12 +1262,12 @@ export interface NodeAnswer {
   request: number;
   name: string;
   count: number;
-  subscribers: studio__engine__messages__graph__EndView[];
-  publishers: studio__engine__messages__graph__EndView[];
-  service_servers: studio__engine__messages__graph__EndView[];
-  service_clients: studio__engine__messages__graph__EndView[];
-  action_servers: studio__engine__messages__graph__EndView[];
-  action_clients: studio__engine__messages__graph__EndView[];
+  subscribers: EndView[];
+  publishers: EndView[];
+  service_servers: EndView[];
+  service_clients: EndView[];
+  action_servers: EndView[];
+  action_clients: EndView[];
 }
 
 /** A service or an action. */
@@ -1318,6 +1426,65 @@ export interface Parameter {
   forwards: boolean;
 }
 
+/** Answer to `dump_parameters`. */
+export interface ParameterDump {
+  type: "parameter_dump";
+  request: number;
+  node: string;
+  text: string;
+}
+
+/** Answer to `get_parameter_nodes`: full names, in order. */
+export interface ParameterNodes {
+  type: "parameter_nodes";
+  request: number;
+  nodes: string[];
+}
+
+/** A parameter that a node did not set, and why. */
+export interface ParameterRefusal {
+  name: string;
+  reason: string;
+}
+
+/** A parameter, and what its node says of it. */
+export interface ParameterView {
+  name: string;
+  value_type: string;
+  value: string;
+  description: string;
+  read_only: boolean;
+  constraints: string;
+  low: number | null;
+  high: number | null;
+  step: number;
+}
+
+/** Answer to `get_parameters`, in the order of the alphabet. */
+export interface Parameters {
+  type: "parameters";
+  request: number;
+  node: string;
+  parameters: ParameterView[];
+}
+
+/** Parameters of a node that is followed have new values. */
+export interface ParametersChanged {
+  type: "parameters_changed";
+  node: string;
+  parameters: ParameterView[];
+  gone: string[];
+}
+
+/** Answer to `load_parameters`. */
+export interface ParametersLoaded {
+  type: "parameters_loaded";
+  request: number;
+  node: string;
+  count: number;
+  refused: ParameterRefusal[];
+}
+
 /** What a text shapes about one part. */
 export interface PartEffect {
   part: string;
@@ -1419,6 +1586,44 @@ export interface PropertyView {
   choices: string[];
   when: string;
   when_values: (boolean | number | string)[];
+}
+
+/** What is or was published. */
+export interface PublicationView {
+  deed: number;
+  name: string;
+  message_type: string;
+  text: string;
+  rate_hz: number;
+  reliable: boolean;
+  latched: boolean;
+  depth: number;
+  state: "running" | "done" | "stopped" | "failed";
+  sent: number;
+  listeners: number;
+  began_s: number;
+  trouble: string;
+}
+
+/** Publications, the oldest first; all that are kept, or those that changed. */
+export interface Publications {
+  type: "publications";
+  whole: boolean;
+  deeds: PublicationView[];
+}
+
+/** Publish a message; how it fares is told to those who follow publications. */
+export interface Publish {
+  request?: number;
+  document?: string;
+  type: "publish";
+  name: string;
+  message_type: string;
+  text?: string;
+  rate_hz?: number;
+  reliable?: boolean;
+  latched?: boolean;
+  depth?: number;
 }
 
 /** Publish `/joint_states` as joint_state_publisher does, or stop. */
@@ -1698,6 +1903,17 @@ export interface Saved {
   files: string[];
 }
 
+/** Send a goal; what becomes of it is told to those who follow goals. */
+export interface SendGoal {
+  request?: number;
+  document?: string;
+  type: "send_goal";
+  name: string;
+  action_type: string;
+  text?: string;
+  timeout_s?: number;
+}
+
 /** Answer to `get_services`. */
 export interface Services {
   type: "services";
@@ -1778,6 +1994,17 @@ export interface SetJoints {
   positions: Record<string, number>;
 }
 
+/** Have a node set a parameter; refused with its reason when it does not. */
+export interface SetParameter {
+  request?: number;
+  document?: string;
+  type: "set_parameter";
+  node: string;
+  name: string;
+  text: string;
+  value_type?: string;
+}
+
 /**
  * How much a Problem hinders.
  *
@@ -1819,6 +2046,14 @@ export interface Sites {
   type: "sites";
   order: string[] | null;
   changed: SiteView[];
+}
+
+/** Publish it no more; those of that number, or all. */
+export interface StopPublishing {
+  request?: number;
+  document?: string;
+  type: "stop_publishing";
+  deed?: number;
 }
 
 /** What a word in a text stands for. */
@@ -1902,12 +2137,28 @@ export interface TfPose {
   chain: string[];
 }
 
+/** A publisher or a subscription. */
+export interface TopicEnd {
+  node: string;
+  own: boolean;
+  type_name: string;
+  reliability: string;
+  durability: string;
+  history: string;
+  depth: number;
+  deadline_s: number | null;
+  lifespan_s: number | null;
+  liveliness: string;
+  lease_s: number | null;
+  hash: string;
+}
+
 /** Answer to `get_topic_ends`. */
 export interface TopicEnds {
   type: "topic_ends";
   request: number;
-  publishers: studio__engine__messages__topics__EndView[];
-  subscribers: studio__engine__messages__topics__EndView[];
+  publishers: TopicEnd[];
+  subscribers: TopicEnd[];
   misfits: Misfit[];
 }
 
@@ -2133,28 +2384,6 @@ export interface ZeroJoints {
   type: "zero_joints";
 }
 
-/** A name and its type. */
-export interface studio__engine__messages__graph__EndView {
-  name: string;
-  type: string;
-}
-
-/** A publisher or a subscription. */
-export interface studio__engine__messages__topics__EndView {
-  node: string;
-  own: boolean;
-  type_name: string;
-  reliability: string;
-  durability: string;
-  history: string;
-  depth: number;
-  deadline_s: number | null;
-  lifespan_s: number | null;
-  liveliness: string;
-  lease_s: number | null;
-  hash: string;
-}
-
 export type Command =
   | Watch
   | OpenPath
@@ -2245,6 +2474,17 @@ export type Command =
   | FollowDeeds
   | CallService
   | CancelCall
+  | SendGoal
+  | CancelGoal
+  | GetGoalStatuses
+  | Publish
+  | StopPublishing
+  | GetParameterNodes
+  | GetParameters
+  | SetParameter
+  | DumpParameters
+  | LoadParameters
+  | FollowParameters
   | ListRecent
   | OpenRecent
   | ForgetRecent
@@ -2321,6 +2561,14 @@ export type Event =
   | ValuesRead
   | Begun
   | Calls
+  | Goals
+  | GoalStatuses
+  | Publications
+  | ParameterNodes
+  | Parameters
+  | ParameterDump
+  | ParametersLoaded
+  | ParametersChanged
   | Recent
   | Examples
   | Places

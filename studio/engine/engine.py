@@ -72,6 +72,7 @@ class Engine:
         tell(listener, self._list())
         self._left_work.attach(listener)
         self._services.wire.attach(listener)
+        self._bridge.attach(listener)
 
     def detach(self, listener: Listener) -> None:
         """A control lane was closed."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from contextlib import asynccontextmanager
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any, cast, get_args
 
 from studio.engine.bridge.desk import BridgeDesk
 from studio.engine.messages.calls import FollowDeeds
@@ -50,7 +50,7 @@ async def bridged(endpoint: str) -> AsyncGenerator[Bridged]:
     desk, ear = BridgeDesk(wire), Ear()
     try:
         await wire.link()
-        for kind in ("calls",):
+        for kind in get_args(FollowDeeds.model_fields["deeds"].annotation):
             await desk.carry_out(FollowDeeds(deeds=kind), ear)
         yield Bridged(desk, ear)
     finally:

@@ -87,6 +87,8 @@ FIELDS: dict[str, object] = {
     "topics": ["/x"],
     "service_type": "x/srv/X",
     "deed": 1,
+    "node": "/x",
+    **dict.fromkeys(("action_type", "message_type"), "x/msg/X"),
     "deeds": "calls",
 }
 """A value for each field that a command needs."""

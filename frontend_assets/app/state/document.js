@@ -14,6 +14,7 @@ import { movableJoints } from "../../lib/joints.js";
 import { isChanged } from "../../lib/sites.js";
 import { linkTree } from "../../lib/tree.js";
 import { role, session, version } from "./connection.js";
+import { takeCalls } from "./deeds.js";
 import { takeLeftWork, takeRestored } from "./keeping.js";
 import { takeDisplayStates, takeLiveDisplays } from "./live.js";
 import { takePoses } from "./poses.js";
@@ -206,6 +207,7 @@ const TAKERS = {
   texts_changed: takeTextNews,
   variants: takeVariants,
   poses: takePoses,
+  calls: takeCalls,
   wire_state: takeRos,
   wire_feed: takeFeed,
   live_displays: takeLiveDisplays,

@@ -6,7 +6,11 @@ import asyncio
 from typing import TYPE_CHECKING
 
 from studio.engine.bridge.calls import CallDesk
+from studio.engine.bridge.goal_statuses import GoalStatusDesk
+from studio.engine.bridge.goals import GoalDesk
 from studio.engine.bridge.offers import OfferDesk
+from studio.engine.bridge.parameters import ParameterDesk
+from studio.engine.bridge.publishing import PublishDesk
 
 if TYPE_CHECKING:
     from studio.engine.bridge.interfaces import InterfaceDesk
@@ -21,8 +25,15 @@ class DeedDesk:
     def __init__(self, wire: WireDesk, interfaces: InterfaceDesk) -> None:
         self.offers = OfferDesk(wire, interfaces)
         self.calls = CallDesk(wire)
-        self._ledgers = {"calls": self.calls.ledger}
-        self._desks = (self.calls,)
+        self.goals = GoalDesk(wire)
+        self.statuses = GoalStatusDesk(wire, self.goals.own_ids)
+        self.publishing = PublishDesk(wire)
+        self.parameters = ParameterDesk(wire)
+        self._ledgers = {
+            "calls": self.calls.ledger,
+            "goals": self.goals.ledger,
+            "publications": self.publishing.ledger,
+        }
 
     def follow(self, command: FollowDeeds, listener: Listener) -> None:
         """Tell a page of a kind of deeds, or no more."""
@@ -32,15 +43,27 @@ class DeedDesk:
         else:
             ledger.unfollow(listener)
 
+    def attach(self, listener: Listener) -> None:
+        """A page is there."""
+        self.publishing.attach(listener)
+
     def detach(self, listener: Listener) -> None:
-        """A page is gone: what it began goes on, and is shown to the others."""
+        """A page is gone: what it began goes on and is shown to the others.
+
+        Only what is published again and again ends when no page is left that could stop it.
+        """
         for ledger in self._ledgers.values():
             ledger.unfollow(listener)
+        self.parameters.detach(listener)
+        self.publishing.detach(listener)
 
     async def let_go(self) -> None:
         """End all: the connection is about to."""
-        await asyncio.gather(*(desk.let_go() for desk in self._desks))
+        parts = (self.calls, self.goals, self.statuses, self.publishing, self.parameters)
+        await asyncio.gather(*(one.let_go() for one in parts))
 
     async def close(self) -> None:
         """End all that runs, and tell nobody any more."""
-        await asyncio.gather(*(desk.close() for desk in self._desks))
+        await self.let_go()
+        parts = (self.calls, self.goals, self.publishing, self.parameters)
+        await asyncio.gather(*(one.close() for one in parts))

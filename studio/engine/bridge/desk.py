@@ -14,6 +14,9 @@ from studio.engine.bridge.logs import LogDesk
 from studio.engine.bridge.rates import RateDesk
 from studio.engine.bridge.topics import TopicDesk
 from studio.engine.messages import calls as k
+from studio.engine.messages import goals as g
+from studio.engine.messages import parameters as p
+from studio.engine.messages import publishing as pub
 from studio.engine.messages.graph import GetGraph, GetNode
 from studio.engine.messages.interfaces import GetInterface
 from studio.engine.messages.logs import GetLog
@@ -60,6 +63,10 @@ class BridgeDesk:
         answer = WORK[type(command)](self, command, listener)
         return await answer if isawaitable(answer) else answer
 
+    def attach(self, listener: Listener) -> None:
+        """A page is there."""
+        self.deeds.attach(listener)
+
     def detach(self, listener: Listener) -> None:
         """A page is gone: what ran for it alone ends."""
         self.deeds.detach(listener)
@@ -82,6 +89,19 @@ _DEEDS: Final = (
     _row(k.FollowDeeds, lambda d, c, who: d.deeds.follow(c, who)),
     _row(k.CallService, lambda d, c, _: d.deeds.calls.begin(c)),
     _row(k.CancelCall, lambda d, c, _: d.deeds.calls.cancel(c)),
+    _row(g.SendGoal, lambda d, c, _: d.deeds.goals.begin(c)),
+    _row(g.CancelGoal, lambda d, c, _: d.deeds.goals.cancel(c)),
+    _row(g.GetGoalStatuses, lambda d, c, _: d.deeds.statuses.statuses(c)),
+    _row(pub.Publish, lambda d, c, _: d.deeds.publishing.begin(c)),
+    _row(pub.StopPublishing, lambda d, c, _: d.deeds.publishing.stop(c)),
+)
+_PARAMETERS: Final = (
+    _row(p.GetParameterNodes, lambda d, c, _: d.deeds.parameters.nodes(c)),
+    _row(p.GetParameters, lambda d, c, _: d.deeds.parameters.parameters(c)),
+    _row(p.SetParameter, lambda d, c, _: d.deeds.parameters.set(c)),
+    _row(p.DumpParameters, lambda d, c, _: d.deeds.parameters.dump(c)),
+    _row(p.LoadParameters, lambda d, c, _: d.deeds.parameters.load(c)),
+    _row(p.FollowParameters, lambda d, c, who: d.deeds.parameters.follow(c, who)),
 )
 _TOPICS: Final = (
     _row(ListTopics, lambda d, c, _: d.topics.table(c)),
@@ -92,5 +112,5 @@ _GRAPH: Final = (
     _row(GetGraph, lambda d, c, _: d.graph.graph(c)),
     _row(GetNode, lambda d, c, _: d.graph.node(c)),
 )
-WORK: Final = dict((*_GRAPH, *_LOGS, *_INTERFACES, *_RATES, *_DEEDS, *_TOPICS))
+WORK: Final = dict((*_GRAPH, *_LOGS, *_INTERFACES, *_RATES, *_DEEDS, *_PARAMETERS, *_TOPICS))
 """What each command of the bridge does."""

@@ -84,6 +84,10 @@ class Ledger(Generic[DeedT]):
             raise CommandError(f"Nothing with the number {number} is known: it may be long over.")
         return found
 
+    def all(self) -> tuple[DeedT, ...]:
+        """Those that are kept, the oldest first."""
+        return tuple(self._deeds.values())
+
     def under_way(self) -> list[DeedT]:
         """Those that are not over."""
         return [one for one in self._deeds.values() if not one.is_over]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TypeAlias
 
-from studio.engine.messages.calls import CallCommand, CallEvent
+from studio.engine.messages.deeds import DeedCommand, DeedEvent
 from studio.engine.messages.graph import GraphCommand, GraphEvent
 from studio.engine.messages.interfaces import InterfaceCommand, InterfaceEvent
 from studio.engine.messages.logs import LogCommand, LogEvent
@@ -12,9 +12,9 @@ from studio.engine.messages.topic_rates import RatesCommand, RatesEvent
 from studio.engine.messages.topics import TopicsCommand, TopicsEvent
 
 BridgeCommand: TypeAlias = (
-    InterfaceCommand | LogCommand | GraphCommand | RatesCommand | TopicsCommand | CallCommand
+    InterfaceCommand | LogCommand | GraphCommand | RatesCommand | TopicsCommand | DeedCommand
 )
 """Each concerns the connection, and none a document: the bridge desk carries them out."""
 BridgeEvent: TypeAlias = (
-    InterfaceEvent | LogEvent | GraphEvent | RatesEvent | TopicsEvent | CallEvent
+    InterfaceEvent | LogEvent | GraphEvent | RatesEvent | TopicsEvent | DeedEvent
 )

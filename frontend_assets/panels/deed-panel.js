@@ -1,0 +1,122 @@
+/** What panels that do something in ROS 2 are made of: a list to choose from, a form, what became of it. */
+
+/** @import { ComponentChildren } from "vendor/preact.js" */
+/** @import { OfferView } from "../types/wire.d.ts" */
+/** @import { PastedLine } from "../lib/pasted-line.js" */
+/** @import { MessageForm } from "../app/state/message-forms.js" */
+
+import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
+import { ConnectFirst, isUnconnected } from "../app/connect-first.js";
+import { Refusal } from "../app/refusal.js";
+import { mayEdit } from "../app/state/connection.js";
+import { matchingOffers } from "../lib/deeds.js";
+import { t } from "../lib/i18n.js";
+import { readLine } from "../lib/pasted-line.js";
+import { useSeen } from "../lib/seen.js";
+import { EmptyState, Icon, IconButton, SearchBox } from "../lib/ui.js";
+import { FormOfMessage } from "./message-form.js";
+
+/**
+ * @typedef {object} DeedPanelProps
+ * @property {string} id of the panel
+ * @property {string} icon
+ * @property {PastedLine["kind"]} kind of command lines that it takes
+ * @property {(() => () => void)[]} follow what it needs while it is looked at
+ * @property {(line: PastedLine) => void} onLine
+ * @property {(paste: (text: string) => boolean) => ComponentChildren} children
+ */
+
+/** @param {DeedPanelProps} props the panel itself: a command line may be pasted anywhere into it */
+export function DeedPanel({ id, icon, kind, follow, onLine, children }) {
+  const panel = useRef(/** @type {HTMLElement | null} */ (null));
+  const seen = useSignal(false);
+  useSeen(panel, (is) => {
+    seen.value = is;
+  });
+  const looking = seen.value;
+  useEffect(() => {
+    const ends = looking ? follow.map((begin) => begin()) : [];
+    return () => {
+      for (const end of ends) end();
+    };
+  }, [looking]);
+  const take = (/** @type {string} */ text) => {
+    const line = readLine(text);
+    if (line?.kind !== kind) return false;
+    onLine(line);
+    return true;
+  };
+  const onPaste = (/** @type {ClipboardEvent} */ event) => {
+    if (mayEdit.value && take(event.clipboardData?.getData("text/plain") ?? ""))
+      event.preventDefault();
+  };
+  return html`<section ref=${panel} class="panel-body deeds" aria-label=${t(`panel.${id}`)} onPaste=${onPaste}>
+    ${isUnconnected() ? html`<${ConnectFirst} icon=${icon} />` : children(take)}
+  </section>`;
+}
+
+/**
+ * @typedef {object} OffersProps
+ * @property {string} id of the panel
+ * @property {string} icon
+ * @property {readonly OfferView[] | null} offers null: not told yet
+ * @property {string} refused why they are not told
+ * @property {() => void} again
+ * @property {MessageForm} form
+ * @property {(text: string) => boolean} paste takes a command line
+ * @property {boolean} [noisy] there are some that every node has
+ */
+
+/** @param {OffersProps} props */
+export function Offers({ id, icon, offers, refused, again, form, paste, noisy = false }) {
+  const filter = useSignal("");
+  const all = useSignal(false);
+  const onInput = (/** @type {string} */ text) => {
+    filter.value = mayEdit.value && paste(text) ? "" : text;
+  };
+  const toggle = () => {
+    all.value = !all.value;
+  };
+  const shown = matchingOffers(offers ?? [], filter.value, all.value);
+  return html`<div class="deeds-list">
+    <div class="panel-bar"><${SearchBox} label=${t(`${id}.filter`)} value=${filter.value} onInput=${onInput} />
+      ${noisy && html`<${IconButton} icon=${all.value ? "eye" : "eyeOff"} label=${t(`${id}.all`)} pressed=${all.value} onClick=${toggle} />`}</div>
+    ${refused && html`<${Refusal} sentence=${refused} again=${again} />`}
+    ${offers && shown.length === 0 && html`<${EmptyState} icon=${icon} title=${t(offers.length > 0 ? "deeds.filtered" : `${id}.none`)} />`}
+    ${shown.length > 0 && html`<ul class="scroll offers" aria-label=${t(`panel.${id}`)}>${shown.map((one) => html`<${OfferRow} key=${one.name} offer=${one} form=${form} />`)}</ul>`}
+  </div>`;
+}
+
+/** @param {{offer: OfferView, form: MessageForm}} props */
+function OfferRow({ offer: { name, types, nodes }, form }) {
+  const type = types[0] ?? "";
+  const isChosen = form.chosen.value?.name === name;
+  return html`<li><button type="button" class="offer" aria-pressed=${isChosen} title=${[name, ...types, ...nodes].join("\n")}
+    onClick=${() => isChosen || form.open({ name, type })}>
+    <span class="offer-name">${name}</span><span class="offer-type">${types.join(", ")}</span><span class="offer-node">${nodes.join(", ")}</span></button></li>`;
+}
+
+/** @param {{form: MessageForm, onSubmit: () => void, actions: ComponentChildren, children?: ComponentChildren}} props what is chosen, its form, and what can be done with it */
+export function DeedForm({ form, onSubmit, actions, children }) {
+  const { name = "", type = "" } = form.chosen.value ?? {};
+  const submit = (/** @type {Event} */ event) => {
+    event.preventDefault();
+    if (mayEdit.value && !form.wrong.value) onSubmit();
+  };
+  const onKeyDown = (/** @type {KeyboardEvent} */ event) => {
+    if (event.key === "Enter" && (event.ctrlKey || event.metaKey)) submit(event);
+  };
+  return html`<form class="deed-form" aria-label=${name} onSubmit=${submit} onKeyDown=${onKeyDown} novalidate>
+    <header class="deed-head"><${IconButton} icon="chevronRight" class="deed-back" label=${t("deeds.back")} onClick=${form.close} />
+      <h3 title=${name}>${name}</h3><span class="offer-type" title=${type}>${type}</span></header>
+    <${FormOfMessage} form=${form} disabled=${!mayEdit.value} />
+    <div class="deed-actions">${actions}</div>
+    ${children}
+  </form>`;
+}
+
+/** @param {{state: string, busy: boolean, bad: boolean, words: string}} props how a deed stands */
+export function DeedState({ state, busy, bad, words }) {
+  const icon = bad ? "error" : state === "cancelled" || state === "canceled" ? "stop" : "check";
+  return html`<span class=${`deed-state ${bad ? "bad" : ""}`} role="status">${busy ? html`<span class="spinner"></span>` : html`<${Icon} name=${icon} size=${13} />`}<span>${words}</span></span>`;
+}
