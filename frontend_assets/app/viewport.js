@@ -33,6 +33,7 @@ import {
  * @property {() => void} fit
  * @property {(name: string) => void} view
  * @property {(link: string) => void} focus
+ * @property {(frame: string) => void} setTarget the camera goes with a frame; empty: with none
  * @property {(scale: number, transparent: boolean) => Promise<Blob | null>} picture a PNG; null: too large
  * @property {(theme: "dark" | "light") => void} setTheme
  * @property {(mode: "rviz" | "trackpad") => void} setMouse

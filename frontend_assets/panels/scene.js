@@ -23,6 +23,7 @@ import { t } from "../lib/i18n.js";
 import { Icon, IconButton, MenuButton, ProgressBar } from "../lib/ui.js";
 import { FixedFrame } from "./fixed-frame.js";
 import { MeasureCard } from "./measure-card.js";
+import { TargetFrame } from "./target-frame.js";
 
 export function ScenePanel() {
   const frame = useRef(/** @type {HTMLIFrameElement | null} */ (null));
@@ -59,6 +60,7 @@ function Tools() {
       <${Icon} name="mouse" /><${Icon} name="chevronDown" size=${12} />
     <//>
     <${FixedFrame} />
+    <${TargetFrame} />
   </div>`;
 }
 

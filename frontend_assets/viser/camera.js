@@ -1,4 +1,5 @@
 /** @import { Door } from "./door.js" */
+/** @import { LiveExtent } from "./extent.js" */
 /** @import { RobotView } from "./robot.js" */
 /** @import { CameraPose, Matrix4, Vector3 } from "./viser.d.ts" */
 
@@ -28,6 +29,7 @@ const DIRECTIONS = {
 export class CameraView {
   #door;
   #robot;
+  #live;
   #untouched = true;
   /** Width by height of the picture. */
   #aspect = 0;
@@ -41,10 +43,11 @@ export class CameraView {
   /** @type {object | null} The control that has these buttons: viser may make another. */
   #mouseOf = null;
 
-  /** @param {Door} door @param {RobotView} robot */
-  constructor(door, robot) {
+  /** @param {Door} door @param {RobotView} robot @param {LiveExtent} live */
+  constructor(door, robot, live) {
     this.#door = door;
     this.#robot = robot;
+    this.#live = live;
     door.onPicture(() => {
       if (this.#control() !== this.#mouseOf) this.setMouse(this.#mouse);
       this.#keepInPicture();
@@ -64,17 +67,17 @@ export class CameraView {
     if (control && this.#usualSmoothTime) control.smoothTime = this.#usualSmoothTime;
   }
 
-  /** Show the whole robot from where we look. @param {boolean} [animate] */
+  /** Show all that is drawn from where we look. @param {boolean} [animate] */
   fit(animate = true) {
-    this.#look(this.#robot.corners(), this.#direction(), FILL, animate);
+    this.#look(this.#everything(), this.#direction(), FILL, animate);
   }
 
-  /** Show the whole robot from one side. @param {string} name @param {boolean} [animate] */
+  /** Show all that is drawn from one side. @param {string} name @param {boolean} [animate] */
   view(name, animate = true) {
     const direction = DIRECTIONS[name];
     if (!direction) throw new RangeError(`There is no view "${name}".`);
     this.#untouched = false;
-    this.#look(this.#robot.corners(), this.#inScene(direction), FILL, animate);
+    this.#look(this.#everything(), this.#inScene(direction), FILL, animate);
   }
 
   /** Bring one link to the middle. @param {string} link */
@@ -82,6 +85,30 @@ export class CameraView {
     const corners = this.#robot.corners([link]);
     this.#untouched = false;
     this.#look(corners.length ? corners : this.#around(link), this.#direction(), FOCUS_FILL, true);
+  }
+
+  /** Bring a place of the scene to the middle, from the same side and as far away.
+   * @param {Vector3} place */
+  lookAt(place) {
+    const control = this.#control();
+    if (!control) return;
+    this.#untouched = false;
+    const eye = control.getPosition(this.#vector()).sub(control.getTarget(this.#vector()));
+    this.#move(eye.add(place), place, true);
+  }
+
+  /** Move as something in the scene moved, in this very picture; what the camera is about to do it
+   * goes on doing. @param {Vector3} way */
+  carry(way) {
+    const [camera, control] = [this.#door.mutable?.camera, this.#control()];
+    if (!camera || !control) return;
+    const now = control.getTarget(this.#vector(), false).add(way);
+    const soon = control.getTarget(this.#vector()).add(way);
+    control.moveTo(now.x, now.y, now.z, false);
+    control.moveTo(soon.x, soon.y, soon.z, true);
+    camera.position.add(way);
+    camera.updateWorldMatrix(false, false);
+    this.#door.redraw();
   }
 
   /** @returns {CameraPose | null} */
@@ -160,6 +187,11 @@ export class CameraView {
     if (!this.#untouched || this.#meshes === 0) return this.#untouched;
     const rest_ms = performance.now() - this.#lastArrival_ms;
     return rest_ms < ARRIVED.ms || this.#picturesSince < ARRIVED.pictures;
+  }
+
+  /** Corners of all there is to see. */
+  #everything() {
+    return [...this.#robot.corners(), ...this.#live.corners()];
   }
 
   /** @param {Vector3} direction */

@@ -157,7 +157,7 @@ function localBox({ geometry }) {
 }
 
 /** @param {Object3D} mesh whose place in the scene is up to date @returns {Vector3[]} */
-function boxCorners(mesh) {
+export function boxCorners(mesh) {
   const box = localBox(mesh);
   return box ? cornersOf(box).map((corner) => corner.applyMatrix4(mesh.matrixWorld)) : [];
 }

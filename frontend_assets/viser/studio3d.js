@@ -3,6 +3,8 @@ import { Aim } from "./aim.js";
 import { CameraView } from "./camera.js";
 import { Door } from "./door.js";
 import { forwardKeys } from "./keys.js";
+import { LiveExtent } from "./extent.js";
+import { Follow } from "./follow.js";
 import { Light } from "./light.js";
 import { Live } from "./live.js";
 import { Looks } from "./looks.js";
@@ -28,7 +30,8 @@ class Studio3d {
   #door = new Door();
   #robot = new RobotView(this.#door);
   #quality = new Quality(this.#door, (hz) => this.#tell("slow", { hz }));
-  #camera = new CameraView(this.#door, this.#robot);
+  #camera = new CameraView(this.#door, this.#robot, new LiveExtent(this.#door));
+  #follow = new Follow(this.#door, this.#robot, this.#camera);
   #light = new Light(this.#door);
   #still = new Still(this.#door);
   #picture = new Picture(this.#door);
@@ -92,6 +95,11 @@ class Studio3d {
   graphics() {
     return this.#quality.state();
   }
+  /** Let the camera go with a frame. @param {string} frame empty: with none */
+  setTarget(frame) {
+    this.#follow.set(frame);
+  }
+
 
   /** Draw lightly from now on. */
   lighten() {

@@ -171,7 +171,9 @@ export interface CameraControl {
   mouseButtons: { left: number; middle: number; right: number; wheel: number };
   constructor: { ACTION: Record<string, number> };
   getPosition(target: Vector3): Vector3;
-  getTarget(target: Vector3): Vector3;
+  /** Where it looks, or is about to look (the default). */
+  getTarget(target: Vector3, isEnd?: boolean): Vector3;
+  moveTo(x: number, y: number, z: number, animate: boolean): Promise<void>;
   setPosition(x: number, y: number, z: number, animate: boolean): Promise<void>;
   setTarget(x: number, y: number, z: number, animate: boolean): Promise<void>;
   setLookAt(

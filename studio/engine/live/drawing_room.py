@@ -9,6 +9,7 @@ from studio.displays.display import Status, TopicRole
 from studio.displays.tf import TfDisplay
 from studio.engine.live.catalogue_views import property_view
 from studio.engine.live.ear import Hearing
+from studio.engine.live.followed_frames import FollowedFrames
 from studio.engine.live.frames_desk import STILL, FramesDesk, KnowsPublishers
 from studio.engine.live.reasons import remarks_on
 from studio.engine.live.running import RunningDisplay
@@ -75,6 +76,7 @@ class DrawingRoom:
         self._running: dict[str, RunningDisplay] = {}
         self._faults: dict[str, str] = {}
         self._seen: frozenset[str] = frozenset()
+        self._followed = FollowedFrames(model.scene.live)
         self._robot_at: Pose = STILL
         self._robot_trouble = ""
 
@@ -140,12 +142,17 @@ class DrawingRoom:
         for running in self._running.values():
             running.forget()
 
+    def follow(self, frame: str, now_ns: int) -> str:
+        """Have a frame stand in the scene for a while; answers why it does not, or nothing."""
+        return self._followed.ask(frame, now_ns) or self.frames.trouble_of(frame)
+
     def step(self, displays: DisplayList, now_ns: int) -> None:
         """Draw what came since the last step."""
         self.frames.step()
         shown = self._shown_of(displays)
         self._show_frames(running.display for running in shown.values())
         self._place_robot()
+        self._followed.step(self.frames.lookup, now_ns)
         for display, running in shown.items():
             self._draw(display, running, now_ns, _AT_ONCE_S / len(shown))
 

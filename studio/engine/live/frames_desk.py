@@ -171,6 +171,14 @@ class FramesDesk:
         except FrameError as error:
             return None, str(error)
 
+    def trouble_of(self, frame: str) -> str:
+        """Why it is not known where a frame is, in a sentence; empty: it is."""
+        try:
+            self.lookup(frame, 0)
+        except FrameError as error:
+            return str(error)
+        return ""
+
     def answer(self, asked: GetTf, fixed: str) -> TfFrames:
         """All frames, as the page lists them, and where one is in another; in any thread."""
         rows = self.buffer.report(fixed, most=_FRAMES_SHOWN)

@@ -215,6 +215,13 @@ class LiveDesk:
         # Thousands of frames in words take a while, and the loop has other work.
         return await asyncio.to_thread(frames.answer, command, frames.fixed)
 
+    def follow(self, command: m.FollowFrame) -> m.FrameFollowed:
+        """Have a frame stand in the scene, for a camera to go with it; TF is heard from now on."""
+        self._asked_until_s = time.monotonic() + _ASKED_FOR_S
+        self._go_on()
+        trouble = self._room.follow(command.frame.strip().removeprefix("/"), time.time_ns())
+        return m.FrameFollowed(request=command.request, trouble=trouble)
+
     async def let_go(self) -> None:
         """Let go of the connection; displays stay, and listen again when there is one."""
         async with self._listening:

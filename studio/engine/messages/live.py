@@ -105,9 +105,17 @@ class GetTf(CommandMessage):
     seen_from: RosName = ""
 
 
+class FollowFrame(CommandMessage):
+    """Have a frame that is no link stand in the scene for some seconds, for a camera to go with."""
+
+    type: Literal["follow_frame"] = "follow_frame"
+    frame: RosName
+
+
 LiveCommand: TypeAlias = (
     AddDisplay | RemoveDisplay | DuplicateDisplay | ArrangeDisplay | SwitchDisplays
     | SetDisplayTopic | SetDisplayProperty | SetFixedFrame | GetDisplayKinds | GetTopics | GetTf
+    | FollowFrame
 )  # fmt: skip
 
 
@@ -278,4 +286,15 @@ class TfFrames(Message):
     """Why there is no pose, in a sentence."""
 
 
-LiveEvent: TypeAlias = DisplayKinds | LiveDisplays | DisplayStates | Topics | TfFrames
+class FrameFollowed(Message):
+    """Answer to `follow_frame`."""
+
+    type: Literal["frame_followed"] = "frame_followed"
+    request: int
+    trouble: str
+    """Why it is not known where the frame is, in a sentence; empty: it is."""
+
+
+LiveEvent: TypeAlias = (
+    DisplayKinds | LiveDisplays | DisplayStates | Topics | TfFrames | FrameFollowed
+)
