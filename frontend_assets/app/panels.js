@@ -57,8 +57,15 @@ export const PANELS = {
     icon: "masses",
     load: async () => (await import("../panels/masses.js")).MassesPanel,
   },
+  plot: { icon: "plot", load: async () => (await import("../panels/plot.js")).PlotPanel },
+  topics: { icon: "topics", load: async () => (await import("../panels/topics.js")).TopicsPanel },
   frames: { icon: "frames", load: async () => (await import("../panels/frames.js")).FramesPanel },
+  graph: { icon: "graph", load: async () => (await import("../panels/graph.js")).GraphPanel },
   log: { icon: "log", load: async () => (await import("../panels/log.js")).LogPanel },
+  services: {
+    icon: "services",
+    load: async () => (await import("../panels/services.js")).ServicesPanel,
+  },
   urdf: { icon: "urdf", load: async () => (await import("../panels/urdf.js")).UrdfPanel },
 };
 

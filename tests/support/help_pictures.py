@@ -29,7 +29,7 @@ FOLDER = Path(__file__).resolve().parents[2] / "frontend_assets/help/pictures"
 PANELS_WINDOW = (1060, 940)
 """So narrow that a panel, cut to it, is nearly as wide as the help that shows it."""
 DIALOGS_WINDOW = (720, 640)
-ON_THE_WIRE = ("log",)
+ON_THE_WIRE = ("graph", "log")
 """Panels that show something only while a ROS 2 system is there."""
 _HIGHEST_PX = 380
 _STILL_MS = 1200
@@ -205,13 +205,15 @@ def take_wired(browser: Browser, data: Path) -> None:
     place = ["--router", free_endpoint()]
     with running_studio(["demo", *place], data, moving=True) as studio:
         for theme in THEMES:
-            with tab_of(browser, studio, theme, PANELS_WINDOW) as tab:
+            with tab_of(browser, studio, theme, DIALOGS_WINDOW) as tab:
                 camera = Camera(tab, theme)
                 tab.page.evaluate(_CONNECT)
                 for panel in filter(wanted, ON_THE_WIRE):
                     tab.page.evaluate(SHOW_PANEL, panel)
+                    tab.page.evaluate(_RUN, "maximize")
                     tab.page.wait_for_timeout(_STILL_MS)
                     camera.take(panel, tab.page.evaluate(_DOCK_OF, panel))
+                    tab.page.evaluate(_RUN, "maximize")
 
 
 def take_broken(browser: Browser, data: Path) -> None:

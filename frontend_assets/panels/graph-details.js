@@ -1,0 +1,102 @@
+/** What was chosen in the node graph: a node with all that it has, or a topic with its two ends. */
+
+/** @import { EndView, GraphLinkView, NodeAnswer, TopicRate } from "../types/wire.d.ts" */
+/** @import { Signal } from "vendor/preact.js" */
+
+import { html, useEffect, useSignal } from "vendor/preact.js";
+import { graph } from "../app/state/graph.js";
+import { askOrKeepWhy } from "../app/state/refusals.js";
+import { notify } from "../app/state/view.js";
+import { copyText } from "../lib/clipboard.js";
+import { t } from "../lib/i18n.js";
+import { Icon, IconButton } from "../lib/ui.js";
+
+const GROUPS = /** @type {const} */ ([
+  "publishers",
+  "subscribers",
+  "service_servers",
+  "service_clients",
+  "action_servers",
+  "action_clients",
+]);
+
+/** @typedef {{chosen: Signal<string>, focus: Signal<string>, rates: ReadonlyMap<string, TopicRate>}} Props */
+
+/** @param {Props} props */
+export function GraphDetails({ chosen, focus, rates }) {
+  const [, kind = "", name = ""] = /^(\w+):(.*)$/s.exec(chosen.value) ?? [];
+  const isFocus = focus.value === chosen.value;
+  const close = () => {
+    chosen.value = "";
+  };
+  const toggle = () => {
+    focus.value = isFocus ? "" : chosen.value;
+  };
+  const copy = async () => {
+    const done = await copyText(name);
+    notify(done ? t("copied") : t("copy.failed"), { bad: !done });
+  };
+  return html`<section class="graph-details scroll" aria-label=${t("graph.details", { name })}>
+    <header><${Icon} name=${kind === "node" ? "node" : "link"} size=${15} /><h3>${name}</h3>
+      <${IconButton} icon="copy" label=${t("graph.copy_name")} size=${14} onClick=${copy} />
+      <${IconButton} icon="fit" label=${t("graph.focus_on")} size=${14} pressed=${isFocus} onClick=${toggle} />
+      <${IconButton} icon="close" label=${t("close")} size=${14} onClick=${close} /></header>
+    ${kind === "node" ? html`<${NodeParts} name=${name} rates=${rates} />` : html`<${LinkParts} kind=${kind} name=${name} rates=${rates} chosen=${chosen} />`}
+  </section>`;
+}
+
+/** @param {{name: string, rates: ReadonlyMap<string, TopicRate>}} props */
+function NodeParts({ name, rates }) {
+  const told = useSignal(/** @type {NodeAnswer | null} */ (null));
+  const refused = useSignal("");
+  const { version } = graph.value;
+  useEffect(() => {
+    let over = false;
+    askOrKeepWhy({ type: "get_node", name }, refused).then((answer) => {
+      if (!over && answer?.type === "node") told.value = answer;
+    });
+    return () => {
+      over = true;
+    };
+  }, [name, version]);
+  const node = told.value;
+  if (refused.value) return html`<p class="note bad">${refused.value}</p>`;
+  if (node?.name !== name) return html`<p class="note">${t("loading")}</p>`;
+  if (node.count === 0) return html`<p class="note">${t("graph.gone")}</p>`;
+  return html`${node.count > 1 && html`<p class="note graph-warning">${t("graph.one_of", { count: node.count })}</p>`}
+    ${GROUPS.map((group) => html`<${Group} key=${group} title=${t(`graph.group.${group}`)} ends=${node[group]} rates=${rates} />`)}`;
+}
+
+/** @param {{title: string, ends: readonly EndView[], rates: ReadonlyMap<string, TopicRate>}} props */
+function Group({ title, ends, rates }) {
+  if (ends.length === 0) return null;
+  return html`<h4>${title} <span class="muted">${ends.length}</span></h4>
+    <ul>${ends.map(({ name, type }) => {
+      const rate = rates.get(name)?.rate_hz;
+      return html`<li key=${`${name} ${type}`}><span class="end-name">${name}</span><span class="end-type">${type}</span>${rate !== undefined && rate > 0 && html`<span class="muted">${t("graph.rate", { rate: rate.toFixed(1) })}</span>`}</li>`;
+    })}</ul>`;
+}
+
+/** @param {{kind: string, name: string, rates: ReadonlyMap<string, TopicRate>, chosen: Signal<string>}} props */
+function LinkParts({ kind, name, rates, chosen }) {
+  const link = graph.value.links.find((one) => one.kind === kind && one.name === name);
+  if (!link) return html`<p class="note">${t("graph.gone")}</p>`;
+  const rate = rates.get(name)?.rate_hz;
+  return html`<p class="end-type">${link.types.join(", ")}</p>
+    ${link.types.length > 1 && html`<p class="note graph-warning">${t("graph.types", { count: link.types.length })}</p>`}
+    ${rate !== undefined && html`<p class="note">${t("graph.rate", { rate: rate.toFixed(1) })}</p>`}
+    <${Ends} title=${t(`graph.sources.${link.kind}`)} places=${link.sources} chosen=${chosen} />
+    <${Ends} title=${t(`graph.targets.${link.kind}`)} places=${link.targets} chosen=${chosen} />`;
+}
+
+/** @param {{title: string, places: GraphLinkView["sources"], chosen: Signal<string>}} props nodes, each a way to it */
+function Ends({ title, places, chosen }) {
+  const names = places.map((at) => graph.value.nodes[at]?.name ?? "");
+  return html`<h4>${title} <span class="muted">${names.length}</span></h4>
+    <ul>${names.map(
+      (name) =>
+        html`<li key=${name}><button type="button" class="link-button" onClick=${() => {
+          chosen.value = `node:${name}`;
+        }}>${name}</button></li>`,
+    )}</ul>`;
+}

@@ -1,0 +1,184 @@
+/** The boxes and arrows of the node graph, which can be moved, scaled and chosen. */
+
+/** @import { TopicRate } from "../types/wire.d.ts" */
+/** @import { Arrow, Box } from "../lib/node-graph.js" */
+/** @import { Layout, Point } from "../lib/graph-layout.js" */
+/** @import { View } from "../lib/pan-zoom.js" */
+/** @import { Signal } from "vendor/preact.js" */
+
+import { html, useEffect, useMemo, useRef, useSignal } from "vendor/preact.js";
+import { BOX_HEIGHT_PX, boxWidth, boxWords } from "../lib/box-sizes.js";
+import { layOut } from "../lib/graph-layout.js";
+import { t } from "../lib/i18n.js";
+import { fitted, zoomed } from "../lib/pan-zoom.js";
+import { IconButton } from "../lib/ui.js";
+
+const STEP = 1.25;
+const WHEEL = 0.0016;
+
+/** @typedef {{boxes: readonly Box[], arrows: readonly Arrow[]}} Drawn */
+/** @typedef {{drawn: Drawn, rates: ReadonlyMap<string, TopicRate>, chosen: Signal<string>, onFocus: (box: Box) => void}} Props */
+
+/** @param {Props} props */
+export function GraphDrawing({ drawn, rates, chosen, onFocus }) {
+  const frame = useRef(/** @type {SVGSVGElement | null} */ (null));
+  const view = useSignal(/** @type {View} */ ({ x: 0, y: 0, scale: 1 }));
+  const shape = `${drawn.boxes.map(({ id }) => id).join(" ")}|${drawn.arrows.map(({ id }) => id).join(" ")}`;
+  const layout = useMemo(() => layOutDrawn(drawn), [shape]);
+  const fit = () => {
+    const place = frame.current?.getBoundingClientRect();
+    if (place && place.width > 0) view.value = fitted(layout, place);
+  };
+  useEffect(fit, [layout]);
+  useEffect(() => {
+    // Its panel may be behind another one at first, where it has no size.
+    const watcher = new ResizeObserver(fit);
+    if (frame.current) watcher.observe(frame.current);
+    return () => watcher.disconnect();
+  }, [layout]);
+  useWheel(frame, view);
+  const drag = useDrag(view);
+  const { x, y, scale } = view.value;
+  return html`<div class="graph-place">
+    <svg ref=${frame} class="graph-drawing" role="group" aria-label=${t("graph.drawing")} ...${drag}>
+      <defs><marker id="graph-tip" viewBox="0 0 8 8" refX="7" refY="4" markerWidth="7" markerHeight="7" orient="auto-start-reverse"><path d="M0 0.8 L8 4 L0 7.2 z" /></marker></defs>
+      <g transform=${`translate(${x} ${y}) scale(${scale})`}>
+        ${drawn.arrows.map((arrow) => html`<${ArrowLine} key=${arrow.id} arrow=${arrow} layout=${layout} rates=${rates} chosen=${chosen} />`)}
+        ${drawn.boxes.map((box) => html`<${BoxShape} key=${box.id} box=${box} at=${layout.boxes.get(box.id)} rates=${rates} chosen=${chosen} onFocus=${onFocus} />`)}
+      </g>
+    </svg>
+    <div class="graph-tools"><${IconButton} icon="plus" label=${t("graph.closer")} onClick=${() => step(view, frame.current, STEP)} />
+      <${IconButton} icon="minus" label=${t("graph.farther")} onClick=${() => step(view, frame.current, 1 / STEP)} />
+      <${IconButton} icon="fit" label=${t("graph.fit")} onClick=${fit} /></div>
+  </div>`;
+}
+
+/** @param {Drawn} drawn @returns {Layout} */
+function layOutDrawn({ boxes, arrows }) {
+  const sized = boxes.map(({ id, name }) => ({ id, width: boxWidth(name), height: BOX_HEIGHT_PX }));
+  return layOut(sized, arrows);
+}
+
+/** @param {Signal<View>} view @param {Element | null} frame @param {number} factor about its middle */
+function step(view, frame, factor) {
+  const place = frame?.getBoundingClientRect();
+  if (place) view.value = zoomed(view.value, factor, { x: place.width / 2, y: place.height / 2 });
+}
+
+/** @param {{current: Element | null}} frame @param {Signal<View>} view */
+function useWheel(frame, view) {
+  useEffect(() => {
+    const element = frame.current;
+    if (!element) return undefined;
+    const onWheel = (/** @type {Event} */ event) => {
+      const { deltaY, clientX, clientY } = /** @type {WheelEvent} */ (event);
+      event.preventDefault();
+      const { left, top } = element.getBoundingClientRect();
+      const at = { x: clientX - left, y: clientY - top };
+      view.value = zoomed(view.value, Math.exp(-deltaY * WHEEL), at);
+    };
+    element.addEventListener("wheel", onWheel, { passive: false });
+    return () => element.removeEventListener("wheel", onWheel);
+  }, []);
+}
+
+/** @param {Signal<View>} view @returns {Record<string, (event: PointerEvent) => void>} what moves the drawing with the pointer, unless a box is under it */
+function useDrag(view) {
+  const from = useRef(/** @type {{x: number, y: number} | null} */ (null));
+  return {
+    onPointerDown: (event) => {
+      const element = /** @type {Element} */ (event.target);
+      if (event.button !== 0 || element.closest(".graph-box")) return;
+      from.current = { x: event.clientX, y: event.clientY };
+      /** @type {Element} */ (event.currentTarget).setPointerCapture(event.pointerId);
+    },
+    onPointerMove: (event) => {
+      if (!from.current) return;
+      const { x, y, scale } = view.value;
+      view.value = {
+        x: x + event.clientX - from.current.x,
+        y: y + event.clientY - from.current.y,
+        scale,
+      };
+      from.current = { x: event.clientX, y: event.clientY };
+    },
+    onPointerUp: () => {
+      from.current = null;
+    },
+    onPointerCancel: () => {
+      from.current = null;
+    },
+  };
+}
+
+/** @param {{box: Box, at: Point | undefined, rates: ReadonlyMap<string, TopicRate>, chosen: Signal<string>, onFocus: (box: Box) => void}} props */
+function BoxShape({ box, at, rates, chosen, onFocus }) {
+  if (!at) return null;
+  const width = boxWidth(box.name);
+  const isChosen = chosen.value === box.id;
+  const rate = box.kind === "topic" ? rateWords(rates.get(box.name)) : "";
+  const choose = () => {
+    chosen.value = isChosen ? "" : box.id;
+  };
+  const onKeyDown = (/** @type {KeyboardEvent} */ event) => {
+    if (event.key !== "Enter" && event.key !== " ") return;
+    event.preventDefault();
+    choose();
+  };
+  const names = [box.kind, box.count > 1 && "doubled", isChosen && "chosen"].filter(Boolean);
+  return html`<g class=${`graph-box ${names.join(" ")}`} role="button" tabindex="0" aria-pressed=${isChosen} aria-label=${[t(`graph.kind.${box.kind}`), box.name, rate].filter(Boolean).join(" ")}
+    transform=${`translate(${at.x - width / 2} ${at.y - BOX_HEIGHT_PX / 2})`} onClick=${choose} onDblClick=${() => onFocus(box)} onKeyDown=${onKeyDown}>
+    <title>${box.name}</title>
+    <rect width=${width} height=${BOX_HEIGHT_PX} rx=${box.kind === "node" ? 6 : BOX_HEIGHT_PX / 2} />
+    <text x=${width / 2} y=${BOX_HEIGHT_PX / 2} dy="0.35em">${boxWords(box.name)}</text>
+    ${rate && html`<text class="graph-rate" x=${width / 2 + 6} y=${BOX_HEIGHT_PX + 11}>${rate}</text>`}
+  </g>`;
+}
+
+/** @param {{arrow: Arrow, layout: Layout, rates: ReadonlyMap<string, TopicRate>, chosen: Signal<string>}} props */
+function ArrowLine({ arrow, layout, rates, chosen }) {
+  const way = layout.arrows.get(arrow.id);
+  const [first, last] = [way?.[0], way?.at(-1)];
+  if (!way || !first || !last) return null;
+  const isNear = chosen.value === arrow.from || chosen.value === arrow.to;
+  const middle = way[Math.floor(way.length / 2)] ?? last;
+  const before = way[Math.floor(way.length / 2) - 1] ?? first;
+  const isBetweenNodes = arrow.from.startsWith("node:") && arrow.to.startsWith("node:");
+  return html`<g class=${`graph-arrow ${isNear ? "chosen" : ""}`}><path d=${pathOf(way)} marker-end="url(#graph-tip)" />
+    ${isBetweenNodes && html`<text x=${(before.x + middle.x) / 2 + 6} y=${(before.y + middle.y) / 2} dy="0.35em">${arrowWords(arrow, rates)}</text>`}</g>`;
+}
+
+/** @param {Arrow} arrow @param {ReadonlyMap<string, TopicRate>} rates @returns {string} */
+function arrowWords({ names }, rates) {
+  const [name] = names;
+  if (names.length > 1 || name === undefined) return t("graph.topics", { count: names.length });
+  return [boxWords(name), rateWords(rates.get(name))].filter(Boolean).join(" · ");
+}
+
+/** @param {TopicRate | undefined} rate @returns {string} */
+function rateWords(rate) {
+  if (!rate || rate.state === "waiting") return "";
+  if (rate.state === "silent") return t("graph.silent");
+  if (rate.state === "latched") return "";
+  return t("graph.rate", {
+    rate: rate.rate_hz >= 10 ? Math.round(rate.rate_hz) : rate.rate_hz.toFixed(1),
+  });
+}
+
+/** @param {readonly Point[]} way from box to box @returns {string} a line that leaves and enters upright */
+function pathOf(way) {
+  const [first, last] = [/** @type {Point} */ (way[0]), /** @type {Point} */ (way.at(-1))];
+  const half = BOX_HEIGHT_PX / 2;
+  const points = way.map((point) => ({ ...point }));
+  const down = Math.sign((way[1] ?? last).y - first.y) || 1;
+  points[0] = { x: first.x, y: first.y + down * half };
+  points[points.length - 1] = { x: last.x, y: last.y - down * half };
+  return points
+    .map(({ x, y }, at) => {
+      const before = points[at - 1];
+      if (!before) return `M${x} ${y}`;
+      const middle = (before.y + y) / 2;
+      return `C${before.x} ${middle} ${x} ${middle} ${x} ${y}`;
+    })
+    .join(" ");
+}

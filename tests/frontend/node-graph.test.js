@@ -1,0 +1,145 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { layOut } from "../../frontend_assets/lib/graph-layout.js";
+import { drawnGraph, USUAL } from "../../frontend_assets/lib/node-graph.js";
+
+/** @param {string} name @param {boolean} [own] */
+const node = (name, own = false) => ({ name, count: 1, own });
+/**
+ * @param {string} name @param {number[]} sources @param {number[]} targets
+ * @param {Partial<import("../../frontend_assets/types/wire.d.ts").GraphLinkView>} [news]
+ */
+const link = (name, sources, targets, news = {}) => ({
+  kind: /** @type {const} */ ("topic"),
+  name,
+  types: ["std_msgs/msg/String"],
+  sources,
+  targets,
+  hidden: false,
+  ...news,
+});
+const GRAPH = {
+  nodes: [node("/listener"), node("/talker"), node("/studio", true)],
+  links: [
+    link("/chatter", [1], [0]),
+    link("/rosout", [0, 1, 2], [2]),
+    link("/unheard", [1], []),
+    link("/turn/_action/status", [0], [1], { hidden: true }),
+    link("/add", [0], [1], { kind: "service" }),
+    link("/talker/get_parameters", [0], [1], { kind: "service" }),
+  ],
+};
+/** @param {Partial<import("../../frontend_assets/lib/node-graph.js").GraphOptions>} news */
+const drawn = (news) => drawnGraph(GRAPH, { ...USUAL, ...news });
+/** @param {{boxes: {id: string}[]}} graph */
+const ids = ({ boxes }) => boxes.map(({ id }) => id);
+
+test("N4: talker and listener are two nodes with one edge", () => {
+  const { boxes, arrows } = drawn({ form: "nodes" });
+  assert.deepEqual(ids({ boxes }), ["node:/listener", "node:/talker"]);
+  assert.deepEqual(arrows, [
+    {
+      id: "node:/talker node:/listener",
+      from: "node:/talker",
+      to: "node:/listener",
+      names: ["/chatter"],
+    },
+  ]);
+  assert.deepEqual(ids(drawn({})), ["node:/listener", "node:/talker", "topic:/chatter"]);
+});
+
+test("noise, dead ends and calls come when they are asked for", () => {
+  assert.ok(ids(drawn({ noise: true })).includes("topic:/rosout"));
+  assert.ok(ids(drawn({ noise: true })).includes("node:/studio"));
+  assert.ok(!ids(drawn({ noise: true })).includes("topic:/unheard"));
+  assert.ok(ids(drawn({ sinks: true })).includes("topic:/unheard"));
+  const called = ids(drawn({ services: true }));
+  assert.ok(called.includes("service:/add") && !called.includes("service:/talker/get_parameters"));
+});
+
+test("a search and a focus leave what is near", () => {
+  const graph = {
+    nodes: ["/a", "/b", "/c", "/d"].map((name) => node(name)),
+    links: [link("/ab", [0], [1]), link("/bc", [1], [2]), link("/cd", [2], [3])],
+  };
+  const near = drawnGraph(graph, { ...USUAL, focus: "node:/a" });
+  assert.deepEqual(ids(near).toSorted(), ["node:/a", "node:/b", "topic:/ab"]);
+  const found = drawnGraph(graph, { ...USUAL, words: "CD" });
+  assert.deepEqual(ids(found).toSorted(), ["node:/c", "node:/d", "topic:/cd"]);
+  assert.equal(drawnGraph(graph, { ...USUAL, focus: "node:/gone" }).boxes.length, 7);
+});
+
+/** @param {string} id */
+const box = (id) => ({ id, width: 80, height: 24 });
+/** @param {string} from @param {string} to */
+const arrow = (from, to) => ({ id: `${from}-${to}`, from, to });
+
+/** @param {ReturnType<typeof layOut>} layout @param {number} [count] */
+function checkBoxes(layout, count) {
+  const places = [...layout.boxes.values()];
+  assert.equal(places.length, count ?? places.length);
+  for (const [at, one] of places.entries()) {
+    assert.ok(Number.isFinite(one.x) && Number.isFinite(one.y));
+    assert.ok(one.x >= 0 && one.x <= layout.width && one.y >= 0 && one.y <= layout.height);
+    for (const other of places.slice(at + 1))
+      assert.ok(Math.abs(one.x - other.x) >= 79 || Math.abs(one.y - other.y) >= 23);
+  }
+}
+
+test("arrows point down where there is no loop", () => {
+  const layout = layOut("abcd".split("").map(box), [
+    arrow("a", "b"),
+    arrow("b", "c"),
+    arrow("a", "d"),
+    arrow("d", "c"),
+    arrow("a", "c"),
+  ]);
+  checkBoxes(layout, 4);
+  const y = (/** @type {string} */ id) => layout.boxes.get(id)?.y ?? 0;
+  assert.ok(y("a") < y("b") && y("b") < y("c") && y("d") < y("c"));
+  assert.equal(layout.arrows.get("a-c")?.length, 3, "it passes the layer between");
+});
+
+test("loops, an arrow to oneself and boxes without arrows are laid out, too", () => {
+  const boxes = "abcdefgh".split("").map(box);
+  const loops = [
+    arrow("a", "b"),
+    arrow("b", "c"),
+    arrow("c", "a"),
+    arrow("d", "d"),
+    arrow("b", "a"),
+  ];
+  checkBoxes(layOut(boxes, loops), 8);
+  checkBoxes(layOut([], []), 0);
+});
+
+test("no two boxes lie over one another, whatever the graph", () => {
+  let seed = 7;
+  const random = (/** @type {number} */ below) => {
+    seed = (seed * 1103515245 + 12345) % 2147483648;
+    return seed % below;
+  };
+  for (let turn = 0; turn < 30; turn += 1) {
+    const count = 1 + random(40);
+    const boxes = Array.from({ length: count }, (_, at) => box(`n${at}`));
+    const arrows = new Map();
+    for (let n = random(80); n > 0; n -= 1) {
+      const one = arrow(`n${random(count)}`, `n${random(count)}`);
+      arrows.set(one.id, one);
+    }
+    const layout = layOut(boxes, [...arrows.values()]);
+    checkBoxes(layout, count);
+    for (const way of layout.arrows.values())
+      assert.ok(way.every(({ x, y }) => Number.isFinite(x) && Number.isFinite(y)));
+  }
+});
+
+test("four hundred boxes are laid out in a moment", () => {
+  const boxes = Array.from({ length: 460 }, (_, at) => box(`n${at}`));
+  const arrows = Array.from({ length: 648 }, (_, at) =>
+    arrow(`n${(at * 7) % 200}`, `n${200 + ((at * 13) % 260)}`),
+  );
+  const began = performance.now();
+  checkBoxes(layOut(boxes, [...new Map(arrows.map((one) => [one.id, one])).values()]));
+  assert.ok(performance.now() - began < 20_000);
+});
