@@ -16,6 +16,8 @@ const OVER_ALL = 9;
 
 const VISER_POINT = "vec4(col, 1.0)";
 const OUR_POINT = "vec4(col, studioOpacity)";
+const VISER_POINT_SIZE = "(scale / -world_pos.z)";
+const OUR_POINT_SIZE = "(studioPixels > 0.0 ? studioPixels : scale / -world_pos.z)";
 
 /**
  * How a node of a display is to look, beyond what viser knows.
@@ -25,6 +27,7 @@ const OUR_POINT = "vec4(col, studioOpacity)";
  * @property {boolean} sharp pixels of a picture are squares
  * @property {boolean} behind drawn before all else
  * @property {"screen" | "scene" | null} words in colour, and what their size is measured in
+ * @property {number} point_px size of points on the screen; 0: they have one in the scene
  */
 
 /**
@@ -105,8 +108,7 @@ export class Live {
       if (!node) continue;
       if (look.words && camera) this.#turnToEye(node, camera, look.words);
       node.traverse((object) => {
-        for (const material of [object.material ?? []].flat())
-          this.#finish(object, material, look);
+        for (const material of [object.material ?? []].flat()) this.#finish(object, material, look);
       });
     }
     for (const name of this.#clouds)
@@ -129,7 +131,7 @@ export class Live {
 
   /** @param {Object3D} object @param {Material} material @param {Look} look */
   #finish(object, material, look) {
-    if (object.isPoints) fadePoints(material, look.opacity);
+    if (object.isPoints) dressPoints(material, look, this.#pixelRatio());
     else if (material.isLineMaterial) {
       if (look.kind !== "CameraFrustumMessage") fadeLines(object, material, look.opacity);
     } else {
@@ -166,6 +168,12 @@ export class Live {
     node.updateWorldMatrix(false, true);
   }
 
+  /** How many pixels of the picture one of the page is wide. */
+  #pixelRatio() {
+    const canvas = this.#door.mutable?.canvas;
+    return canvas?.clientWidth ? canvas.width / canvas.clientWidth : 1;
+  }
+
   /** How large a pixel is at a node. @param {Object3D} node @param {Camera} camera */
   #pixel_m(node, camera) {
     const height = this.#door.mutable?.canvas?.clientHeight || 1;
@@ -179,18 +187,20 @@ export class Live {
 
 /** @param {string} kind @param {Record<string, unknown>} props @returns {Look} */
 export function lookOf(kind, props) {
-  const { studio_opacity: opacity, studio_rgb: rgb } = props;
+  const { studio_opacity: opacity, studio_rgb: rgb, studio_point_px: px } = props;
   return {
     kind,
     opacity: typeof opacity === "number" ? Math.min(Math.max(opacity, 0), 1) : 1,
     sharp: props.studio_sharp === true,
     behind: props.studio_behind === true,
     words: Array.isArray(rgb) ? (props.font_size_mode === "screen" ? "screen" : "scene") : null,
+    point_px: typeof px === "number" ? px : 0,
   };
 }
 
 /** @param {Look} look */
-export const isPlain = (look) => look.opacity >= 1 && !look.sharp && !look.behind && !look.words;
+export const isPlain = ({ opacity, sharp, behind, words, point_px: px }) =>
+  opacity >= 1 && !sharp && !behind && !words && px <= 0;
 
 /** @param {string} name @returns {Message | undefined} */
 const messageOf = (name) => window.__viserSceneTree?.getState()[name]?.message;
@@ -210,15 +220,17 @@ function pictureOf(props) {
   };
 }
 
-/** @param {Material} material @param {number} opacity */
-function fadePoints(material, opacity) {
-  if (!material.uniforms.studioOpacity) {
-    material.uniforms.studioOpacity = { value: 1 };
-    const shader = material.fragmentShader.replace(VISER_POINT, OUR_POINT);
-    material.fragmentShader = `uniform float studioOpacity;\n${shader}`;
+/** @param {Material} material @param {Look} look @param {number} ratio of the picture's pixels to the page's */
+function dressPoints(material, { opacity, point_px: px }, ratio) {
+  const { uniforms } = material;
+  if (!uniforms.studioOpacity) {
+    const [points, sizes] = [material.fragmentShader, material.vertexShader];
+    material.fragmentShader = `uniform float studioOpacity;\n${points.replace(VISER_POINT, OUR_POINT)}`;
+    material.vertexShader = `uniform float studioPixels;\n${sizes.replace(VISER_POINT_SIZE, OUR_POINT_SIZE)}`;
     material.needsUpdate = true;
   }
-  material.uniforms.studioOpacity.value = opacity;
+  uniforms.studioOpacity = { value: opacity };
+  uniforms.studioPixels = { value: px * ratio };
   setTransparent(material, opacity < 1);
   material.depthWrite = opacity >= 1;
 }

@@ -85,6 +85,7 @@ export interface Material {
   emissive?: Color;
   emissiveIntensity: number;
   fragmentShader: string;
+  vertexShader: string;
   uniforms: Record<string, { value: unknown }>;
   clone(): Material;
   copy(other: Material): this;

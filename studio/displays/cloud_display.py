@@ -7,7 +7,13 @@ from collections import deque
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar, Final
 
-from studio.displays.cloud_look import LOOK, colours_of, needs_precision, points_of
+from studio.displays.cloud_look import (
+    LOOK,
+    colours_of,
+    needs_precision,
+    points_of,
+    too_many_bodies,
+)
 from studio.displays.display import Display, Status
 from studio.displays.drawing import NOTHING, Drawing, Placed
 from studio.displays.reading import reading
@@ -26,7 +32,7 @@ if TYPE_CHECKING:
 
 
 _SIZE: Final = "Size (m)"
-_WITHOUT_COLOUR: Final = {"Style", _SIZE, "Alpha", "Decay Time"}
+_WITHOUT_COLOUR: Final = {"Style", _SIZE, "Size (Pixels)", "Alpha", "Decay Time"}
 
 
 @dataclass(slots=True, eq=False)
@@ -107,7 +113,8 @@ class CloudDisplay(Display):
         if not self._kept:
             return ()
         newest = self._kept[-1]
-        found = [newest.cloud.nothing, newest.said, self._transparent(), *self._thinned()]
+        bodies = too_many_bodies(newest.cloud.count, self.values)
+        found = [newest.cloud.nothing, newest.said, self._transparent(), *self._thinned(), bodies]
         return tuple(one for one in found if one is not None)
 
     def _placed(self, one: _Kept) -> Placed | None:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final, Literal, cast
+from typing import TYPE_CHECKING, Final, cast
 
 import numpy as np
 
 from studio.displays.cloud_fields import said_names
 from studio.displays.colour_maps import COLOUR_MAPS, RAINBOW, mapped
 from studio.displays.display import Status
-from studio.displays.drawing import Points
+from studio.displays.drawing import BODIES_MAX, Points
 from studio.displays.properties import Property, rgb_of
 
 if TYPE_CHECKING:
@@ -18,11 +18,14 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from studio.displays.cloud import Cloud
+    from studio.displays.drawing import PointStyle
     from studio.displays.properties import Value
 
 AUTOMATIC: Final = "Automatic"
 FLAT, AXIS, INTENSITY, RGB8, RGBF32 = "FlatColor", "AxisColor", "Intensity", "RGB8", "RGBF32"
-_STYLES: Final = ("Points", "Squares", "Flat Squares", "Spheres", "Boxes", "Tiles")
+_POINTS: Final = "Points"
+_STYLES: Final = (_POINTS, "Squares", "Flat Squares", "Spheres", "Boxes", "Tiles")
+_BODIES: Final = ("Boxes", "Tiles")
 _WITH_MAP: Final = (AUTOMATIC, AXIS, INTENSITY)
 _WITH_CHANNEL: Final = (AUTOMATIC, INTENSITY)
 _CHANNEL: Final = "intensity"
@@ -30,7 +33,14 @@ _OTHER_NAME: Final = "intensities"
 
 LOOK: Final = (
     Property("Style", "choice", "Flat Squares", "How each point is drawn.", choices=_STYLES),
-    Property("Size (m)", "number", 0.01, "Size of each point.", low=0.0001, high=100.0, unit="m"),
+    Property(
+        "Size (m)", "number", 0.01, "Size of each point.", low=0.0001, high=100.0, unit="m",
+        when=("Style", _STYLES[1:]),
+    ),
+    Property(
+        "Size (Pixels)", "number", 3.0, "Size of each point on the screen, near or far.",
+        low=1.0, high=100.0, unit="px", when=("Style", (_POINTS,)),
+    ),
     Property("Alpha", "number", 1.0, "How opaque the points are.", low=0.0, high=1.0),
     Property(
         "Decay Time", "number", 0.0, "How long points stay; with 0 only the newest message does.",
@@ -101,21 +111,33 @@ LOOK: Final = (
 )  # fmt: skip
 
 _WHITE: Final = np.full(3, 255, dtype=np.uint8)
-Style = Literal["points", "squares", "flat squares", "spheres", "boxes", "tiles"]
 
 
 def points_of(
     cloud: Cloud, colours: NDArray[np.uint8], values: Mapping[str, Value], *, precise: bool
 ) -> Points:
     """The shape of a cloud in its colours."""
+    style = str(values["Style"])
     return Points(
         cloud.positions,
         colours,
         size_m=float(values["Size (m)"]),
-        style=cast("Style", str(values["Style"]).lower()),
+        style=cast("PointStyle", style.lower()),
         opacity=float(values["Alpha"]),
         precise=precise,
+        size_px=float(values["Size (Pixels)"]) if style == _POINTS else 0.0,
     )
+
+
+def too_many_bodies(count: int, values: Mapping[str, Value]) -> Status | None:
+    """What is to be said when so many points are not drawn in the style that was chosen."""
+    style = str(values["Style"])
+    if style not in _BODIES or count <= BODIES_MAX:
+        return None
+    sentence = (
+        f"{count:,} points are drawn as squares: as {style.lower()} there may be {BODIES_MAX:,}."
+    )
+    return Status("ok", "thinned", sentence, ("Style", "Flat Squares"))
 
 
 def needs_precision(positions: NDArray[np.float32], size_m: float) -> bool:

@@ -31,6 +31,13 @@ FIXED_FRAME: Final = "<Fixed Frame>"
 NO_TURN: Wxyz = (1.0, 0.0, 0.0, 0.0)
 ORIGIN: Xyz = (0.0, 0.0, 0.0)
 
+BODIES_MAX: Final = 20_000
+"""More points than this are no boxes or tiles: one costs a hundred times as much as a square."""
+
+
+PointStyle: TypeAlias = Literal["points", "squares", "flat squares", "spheres", "boxes", "tiles"]
+"""RViz's names."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Points:
@@ -40,17 +47,19 @@ class Points:
         positions: Shape (N, 3), float32, m.
         colors: Shape (N, 3), uint8; or (3,) when all have one.
         size_m: Edge of a square or diameter of a ball.
-        style: How each is drawn.
+        style: How each is drawn: squares face the eye, tiles lie in the xy plane.
         opacity: 1 is opaque.
         precise: Whether half precision would be seen: 8 mm at 8 m and more, 62 mm at 64 m.
+        size_px: Of "points", on the screen; 0: `size_m` counts.
     """
 
     positions: NDArray[np.float32]
     colors: NDArray[np.uint8]
     size_m: float = 0.01
-    style: Literal["points", "squares", "flat squares", "spheres", "boxes", "tiles"] = "squares"
+    style: PointStyle = "flat squares"
     opacity: float = 1.0
     precise: bool = False
+    size_px: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -177,12 +186,13 @@ class Picture:
     """A flat picture with sharp pixels in the xy plane; its least x and y are at the origin.
 
     Attributes:
-        pixels: Shape (H, W, 4), uint8, RGBA; row 0 is that of the smallest y, column 0 that of the
-            smallest x.
+        pixels: Shape (H, W, 4), uint8, RGBA; or (H, W), each the row of its colour in `palette`.
+            Row 0 is that of the smallest y, column 0 that of the smallest x.
         size_m: Along x and y.
         position: Of the corner.
         wxyz: How it is turned about the corner.
         behind: Whether everything else is drawn over it.
+        palette: Shape (256, 4), uint8, RGBA.
     """
 
     pixels: NDArray[np.uint8]
@@ -190,6 +200,12 @@ class Picture:
     position: Xyz = ORIGIN
     wxyz: Wxyz = NO_TURN
     behind: bool = False
+    palette: NDArray[np.uint8] | None = None
+
+    @property
+    def rgba(self) -> NDArray[np.uint8]:
+        """The colours of all pixels, shape (H, W, 4)."""
+        return self.pixels if self.palette is None else self.palette[self.pixels]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -14,9 +14,10 @@ from viser import _messages
 
 @dataclass
 class PointCloudProps(_messages.PointCloudProps):
-    """Points that may be see-through."""
+    """Points that may be see-through, and of one size on the screen: in pixels, if not 0."""
 
     studio_opacity: float = 1.0
+    studio_point_px: float = 0.0
 
 
 @dataclass

@@ -9,6 +9,7 @@ import numpy as np
 from viser import _messages
 
 from studio.displays.drawing import (
+    BODIES_MAX,
     Arrows,
     Axes,
     Frustum,
@@ -36,13 +37,13 @@ from studio.scene.surfaces import surface_of
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-BOXES_MAX: Final = 20_000
-"""More points than this are drawn as squares: a box costs a hundred times as much."""
 _MANY_MAX: Final = 200_000
 _POINTS_MAX: Final = 5_000_000
 _PIXELS_MAX: Final = 1 << 26
 _TEXT_MAX: Final = 500
 _HAIR_PX: Final = 1.3
+_THICKNESS: Final = {"boxes": 1.0, "tiles": 0.001}
+"""Of points that are solids: their height, as a share of their edge."""
 _CAP_SHARE: Final = 0.72
 """Of a font's size: how high a capital letter is."""
 _WHITE: Final = (255, 255, 255)
@@ -132,7 +133,8 @@ def _check_size(shape: Shape) -> None:
         case Triangles():
             count, most, what = len(shape.faces), _POINTS_MAX, "triangles"
         case Picture():
-            count, most, what = shape.pixels.size // 4, _PIXELS_MAX, "pixels"
+            rows, columns = shape.pixels.shape[:2]
+            count, most, what = rows * columns, _PIXELS_MAX, "pixels"
         case _:
             return
     if count > most:
@@ -145,14 +147,14 @@ def _check_size(shape: Shape) -> None:
 def _points(shape: Points, stream: str) -> dict[str, Node]:
     if len(shape.positions) == 0:
         return {}
-    if shape.style == "boxes" and len(shape.positions) <= BOXES_MAX:
-        return many_of(_as_boxes(shape), stream)
-    ball = shape.style == "spheres"
+    if shape.style in _THICKNESS and len(shape.positions) <= BODIES_MAX:
+        return many_of(_as_bodies(shape), stream)
     props: dict[str, Any] = {
         # viser draws a point of size 1 two metres wide.
         "point_size": shape.size_m / 2,
-        "point_shape": "circle" if ball else "square",
-        "point_shading": "gradient" if ball else "flat",
+        "point_shape": "circle" if shape.style == "spheres" else "square",
+        "point_shading": "gradient" if shape.style in {"spheres", "squares"} else "flat",
+        "studio_point_px": shape.size_px,
         "precision": "float32" if shape.precise else "float16",
         "scale": 1.0,
         "studio_opacity": shape.opacity,
@@ -172,11 +174,12 @@ def _positions(positions: NDArray[np.float32], *, precise: bool) -> NDArray[Any]
         return positions.astype(np.float16, order="C")
 
 
-def _as_boxes(shape: Points) -> Solids:
+def _as_bodies(shape: Points) -> Solids:
     count = len(shape.positions)
     upright = np.zeros((count, 4), np.float32)
     upright[:, 0] = 1
     sizes = np.full((count, 3), shape.size_m, np.float32)
+    sizes[:, 2] *= _THICKNESS[shape.style]
     return Solids("box", shape.positions, upright, sizes, shape.colors, shape.opacity)
 
 

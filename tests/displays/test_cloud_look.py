@@ -5,9 +5,9 @@ import pytest
 from numpy.testing import assert_array_equal
 from numpy.typing import NDArray
 
-from studio.displays.cloud_look import LOOK, needs_precision
+from studio.displays.cloud_look import LOOK, needs_precision, too_many_bodies
 from studio.displays.display import Status
-from studio.displays.drawing import Points
+from studio.displays.drawing import BODIES_MAX, Points
 from studio.displays.point_cloud2 import PointCloud2Display
 from tests.support.clouds import FLOATS, INTENSITY, RGB, Layout, cloud
 from tests.support.display_messages import NOW_NS, TYPES
@@ -145,6 +145,24 @@ def test_a_field_that_is_not_there_is_told_with_those_that_are_and_drawn_white(
 def test_a_shape_has_the_size_style_and_opacity_of_the_properties():
     shape, _ = drawn(FLOATS, PLAIN, Style="Boxes", Alpha=0.5, **{"Size (m)": 0.2})
     assert (shape.style, shape.opacity, shape.size_m) == ("boxes", 0.5, 0.2)
+
+
+def test_only_points_have_a_size_on_the_screen():
+    sizes = {"Size (Pixels)": 5}
+    assert drawn(FLOATS, PLAIN, Style="Points", **sizes)[0].size_px == 5.0
+    assert drawn(FLOATS, PLAIN, Style="Squares", **sizes)[0].size_px == 0.0
+
+
+@pytest.mark.parametrize("style", ["Boxes", "Tiles"])
+def test_more_boxes_or_tiles_than_can_be_drawn_are_told_of_with_what_is_drawn(style: str):
+    assert too_many_bodies(BODIES_MAX, {"Style": style}) is None
+    said = too_many_bodies(BODIES_MAX + 1, {"Style": style})
+    assert said is not None
+    assert said.sentence == (
+        f"20,001 points are drawn as squares: as {style.lower()} there may be 20,000."
+    )
+    assert said.mend == ("Style", "Flat Squares")
+    assert too_many_bodies(BODIES_MAX + 1, {"Style": "Spheres"}) is None
 
 
 @pytest.mark.parametrize(

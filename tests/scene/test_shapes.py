@@ -6,10 +6,18 @@ from typing import Any, cast
 import numpy as np
 import pytest
 
-from studio.displays.drawing import GridLines, Lines, MeshFile, Points, Shape, Text
+from studio.displays.drawing import (
+    BODIES_MAX,
+    GridLines,
+    Lines,
+    MeshFile,
+    Points,
+    Shape,
+    Text,
+)
 from studio.errors import SceneError
 from studio.scene.graph import kinds_of_nodes
-from studio.scene.shapes import BOXES_MAX, Shelves, nodes_of, same_arrays
+from studio.scene.shapes import Shelves, nodes_of, same_arrays
 from tests.support.live_shapes import MESH_URI, RED, every_shape, solids, upright
 from tests.support.watched_scene import triangle
 
@@ -58,9 +66,34 @@ def test_a_point_beyond_halves_is_no_error():
     assert np.isinf(drawn.flowing["points"]).all()
 
 
-def test_too_many_boxes_are_drawn_as_squares():
-    assert "many" in nodes_of(cloud(BOXES_MAX, "boxes"), "1", shelves())
-    assert "points" in nodes_of(cloud(BOXES_MAX + 1, "boxes"), "1", shelves())
+@pytest.mark.parametrize("style", ["boxes", "tiles"])
+def test_too_many_boxes_or_tiles_are_drawn_as_squares(style: str):
+    assert "many" in nodes_of(cloud(BODIES_MAX, style), "1", shelves())
+    assert "points" in nodes_of(cloud(BODIES_MAX + 1, style), "1", shelves())
+
+
+def test_tiles_are_flat_and_boxes_are_not():
+    (box,) = nodes_of(cloud(1, "boxes"), "1", shelves()).values()
+    (tile,) = nodes_of(cloud(1, "tiles"), "1", shelves()).values()
+    assert box.flowing["batched_scales"].tolist() == [pytest.approx([0.1, 0.1, 0.1])]
+    assert tile.flowing["batched_scales"].tolist() == [pytest.approx([0.1, 0.1, 0.0001])]
+
+
+@pytest.mark.parametrize(
+    ("style", "expected"),
+    [
+        ("points", ("square", "flat", 3.0)),
+        ("squares", ("square", "gradient", 0.0)),
+        ("flat squares", ("square", "flat", 0.0)),
+        ("spheres", ("circle", "gradient", 0.0)),
+    ],
+)
+def test_each_style_of_points_is_drawn_in_its_own_way(style: str, expected: tuple[str, str, float]):
+    size_px = 3.0 if style == "points" else 0.0
+    shape = dataclasses.replace(cloud(1, style), size_px=size_px)
+    (made,) = nodes_of(shape, "1", shelves()).values()
+    names = ("point_shape", "point_shading", "studio_point_px")
+    assert tuple(made.props[name] for name in names) == expected
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -67,6 +68,16 @@ def chequered(size: int = 4) -> NDArray[np.uint8]:
     return pixels
 
 
+def indexed(picture: Picture) -> Picture:
+    """The same of a palette, as maps are."""
+    rows = picture.pixels.reshape(-1, 4)
+    colours, numbers = np.unique(rows, axis=0, return_inverse=True)
+    palette = np.zeros((256, 4), np.uint8)
+    palette[: len(colours)] = colours
+    cells = numbers.reshape(picture.pixels.shape[:2]).astype(np.uint8)
+    return replace(picture, pixels=cells, palette=palette)
+
+
 def every_shape() -> dict[str, Shape]:
     """By name."""
     corners = np.array([[-0.3, -0.3, 0], [0.3, -0.3, 0], [0.3, 0.3, 0], [-0.3, 0.3, 0]])
@@ -100,10 +111,12 @@ def every_shape() -> dict[str, Shape]:
         "words": Text("Hello", height_m=0.25, rgb=(255, 160, 0)),
         "screen-words": Text("constant", rgb=(0, 200, 255)),
         "picture": Picture(chequered(), (0.8, 0.8), (-0.4, -0.4, 0)),
-        "behind": Picture(chequered(), (0.8, 0.8), (-0.4, -0.4, 0), behind=True),
+        "behind": indexed(Picture(chequered(), (0.8, 0.8), (-0.4, -0.4, 0), behind=True)),
         "frustum": Frustum(1.0, 4 / 3, 0.6, image),
         "faint-frustum": Frustum(1.0, 4 / 3, 0.6, image, opacity=0.4),
         "grid": GridLines("xy", 8, 0.1, rgb=(255, 0, 255)),
+        "pixels": Points(origin(), BLUE, 0.9, "points", size_px=40),
+        "tiles": Points(origin(), GREEN, 0.6, "tiles"),
     }
 
 
