@@ -1,10 +1,11 @@
 /** @import { CameraPose, JointView, RobotState } from "./viser.d.ts" */
 import { Aim } from "./aim.js";
 import { CameraView } from "./camera.js";
+import { CloudDetail } from "./cloud-detail.js";
 import { Door } from "./door.js";
-import { forwardKeys } from "./keys.js";
 import { LiveExtent } from "./extent.js";
 import { Follow } from "./follow.js";
+import { forwardKeys } from "./keys.js";
 import { Light } from "./light.js";
 import { Live } from "./live.js";
 import { Looks } from "./looks.js";
@@ -14,6 +15,7 @@ import { pick } from "./picking.js";
 import { Picture } from "./picture.js";
 import { Pointer } from "./pointer.js";
 import { Quality } from "./quality.js";
+import { Removed } from "./removed.js";
 import { RobotView } from "./robot.js";
 import { Still } from "./still.js";
 import { Theme } from "./theme.js";
@@ -56,6 +58,8 @@ class Studio3d {
     /** Settles when the scene can be drawn. @type {Promise<void>} */
     this.ready = this.#door.ready.then(() => undefined);
     new Live(this.#door);
+    new CloudDetail(this.#door, (oneIn) => this.#tell("detail", { oneIn }));
+    new Removed(this.#door);
     this.#door.onConnection((connected) => this.#tell("connection", { connected }));
     forwardKeys(
       (detail) => !this.#endsDrag(detail) && this.#tell("key", detail),
@@ -91,15 +95,15 @@ class Studio3d {
     this.#camera.focus(link);
   }
 
-  /** Whether this browser draws lightly, by software, and with what. */
-  graphics() {
-    return this.#quality.state();
-  }
   /** Let the camera go with a frame. @param {string} frame empty: with none */
   setTarget(frame) {
     this.#follow.set(frame);
   }
 
+  /** Whether this browser draws lightly, by software, and with what. */
+  graphics() {
+    return this.#quality.state();
+  }
 
   /** Draw lightly from now on. */
   lighten() {

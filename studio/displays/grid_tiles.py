@@ -42,9 +42,9 @@ class Sheet:
 
 @dataclass(frozen=True, slots=True)
 class Paint:
-    """What cells look like: a colour for each byte, shape (256,), and whether all is behind."""
+    """What cells look like: a colour for each byte, shape (256, 4), and whether all is behind."""
 
-    colours: NDArray[np.uint32]
+    colours: NDArray[np.uint8]
     behind: bool
 
 
@@ -52,7 +52,7 @@ def paint_of(palette: NDArray[np.uint8], alpha: float, *, behind: bool) -> Paint
     """A palette, shape (256, 4), as opaque as `alpha` says."""
     colours = palette.copy()
     colours[:, 3] = np.rint(colours[:, 3] * alpha)
-    return Paint(colours.view(np.uint32)[:, 0], behind)
+    return Paint(colours, behind)
 
 
 class Tiles:
@@ -115,9 +115,9 @@ def _picture(
     sheet: Sheet, cells: NDArray[np.int8], part: tuple[slice, slice], paint: Paint
 ) -> Picture:
     rows, columns = part
-    shown = cells[part].view(np.uint8)
-    pixels = paint.colours.take(shown).view(np.uint8).reshape(*shown.shape, 4)
+    shown = cells[part].view(np.uint8).copy()  # the cells are written over by updates
     at = np.array([columns.start * sheet.cell_m, rows.start * sheet.cell_m, 0.0])
     x, y, z = np.asarray(sheet.corner) + turned(np.array([sheet.wxyz]), at)[0]
     size_m = (shown.shape[1] * sheet.cell_m, shown.shape[0] * sheet.cell_m)
-    return Picture(pixels, size_m, (float(x), float(y), float(z)), sheet.wxyz, paint.behind)
+    at_xyz = float(x), float(y), float(z)
+    return Picture(shown, size_m, at_xyz, sheet.wxyz, paint.behind, paint.colours)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final, TypeAlias
 
 import numpy as np
 
+from studio.displays.drawing import Picture
 from studio.scene import node
 from studio.scene.naming import live_node
 from studio.scene.pose_writer import PoseWriter
@@ -28,9 +29,14 @@ Pose: TypeAlias = "tuple[Quaternion, Vector3]"
 Poses: TypeAlias = "Mapping[str, Pose | None]"
 """By path of the drawing; None: not connected to the fixed frame, so it is not seen."""
 
+_Waiting: TypeAlias = "dict[tuple[str, str], Picture]"
+"""By path and name: pictures that are to be encoded."""
+
 _STREAMS: Final = itertools.count(1)
 """Each set of arrays that was ever shown has a number of its own."""
 _SHORTEST_QUATERNION: Final = 1e-6
+PIXELS_AT_ONCE: Final = 1 << 20
+"""Of pictures that are encoded in one go: of a large map one tile after the other comes."""
 
 
 @dataclass(slots=True)
@@ -58,6 +64,7 @@ class LiveDisplay:
         self._groups: dict[str, _Group] = {}
         self._meshes: dict[tuple[str, str], frozenset[str]] = {}
         """By path and name of a shape, what it is drawn with."""
+        self._waiting: _Waiting = {}
         self._paths: tuple[str, ...] = ()
         self._writer = PoseWriter(graph, lambda path: live_node(display_id, path))
         self.show(visible=visible)
@@ -72,7 +79,7 @@ class LiveDisplay:
         Raises:
             SceneError: It is more than a browser can draw; then all is as before.
         """
-        changed = self._changed(drawing)
+        changed, self._waiting = self._changed(drawing)
         with self._graph.atomic():
             removed = sum(self._drop(path) for path in tuple(self._groups) if path not in drawing)
             for path in drawing:
@@ -111,16 +118,34 @@ class LiveDisplay:
                 nodes = nodes_of(drawn.shape, drawn.stream, self._shelves)
                 self._put(path, name, replace(drawn, nodes=nodes))
 
-    def _changed(self, drawing: Drawing) -> dict[str, dict[str, _Drawn]]:
-        """What is to be put, by path and name: nothing is touched yet."""
+    def draw_waiting(self) -> bool:
+        """Draw the next of the pictures that were too many to be drawn at once; False: none."""
+        if not self._waiting:
+            return False
+        path, name = next(iter(self._waiting))
+        shape = self._waiting.pop((path, name))
+        with self._graph.atomic():
+            self._put(path, name, self._draw(self._groups[path].shapes.get(name), shape))
+        return True
+
+    def _changed(self, drawing: Drawing) -> tuple[dict[str, dict[str, _Drawn]], _Waiting]:
+        """What is to be put now, by path and name, and what has to wait: nothing is touched yet."""
         changed: dict[str, dict[str, _Drawn]] = {}
+        waiting: _Waiting = {}
+        pixels = 0
         for path, placed in drawing.items():
             group = self._groups.get(path)
             for name, shape in placed.shapes.items():
                 old = group.shapes.get(name) if group else None
-                if old is None or old.shape is not shape:
-                    changed.setdefault(path, {})[name] = self._draw(old, shape)
-        return changed
+                if old is not None and old.shape is shape:
+                    continue
+                if isinstance(shape, Picture):
+                    before, pixels = pixels, pixels + _pixels_of(shape)
+                    if before and pixels > PIXELS_AT_ONCE:
+                        waiting[path, name] = shape
+                        continue
+                changed.setdefault(path, {})[name] = self._draw(old, shape)
+        return changed, waiting
 
     def _draw(self, old: _Drawn | None, shape: Shape) -> _Drawn:
         same = old is not None and same_arrays(old.shape, shape)
@@ -150,7 +175,7 @@ class LiveDisplay:
         removed = 0
         for path, placed in drawing.items():
             shapes = self._groups[path].shapes
-            if len(shapes) == len(placed.shapes):
+            if len(shapes) == len(placed.shapes) and not self._waiting:
                 continue  # all of those of the drawing were put
             for name in [name for name in shapes if name not in placed.shapes]:
                 removed += self._drop_shape(path, name)
@@ -184,6 +209,11 @@ class LiveDisplay:
             if path in poses and self._groups[path].visible is not seen:
                 self._groups[path].visible = seen
                 self._put_group(path)
+
+
+def _pixels_of(picture: Picture) -> int:
+    rows, columns = picture.pixels.shape[:2]
+    return rows * columns
 
 
 def _with_unit_quaternions(rows: NDArray[np.float64]) -> list[bool]:

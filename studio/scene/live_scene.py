@@ -72,6 +72,10 @@ class LiveScene:
         if display := self._displays.get(display_id):
             display.place(poses)
 
+    def draw_waiting(self) -> None:
+        """Draw one more of the pictures that were too many to be drawn at once; ask every tick."""
+        any(display.draw_waiting() for display in self._displays.values())
+
     def drop(self, display_id: str) -> None:
         """Remove a display; it need not be there."""
         self._hidden.discard(display_id)

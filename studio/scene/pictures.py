@@ -11,6 +11,7 @@ import xxhash
 from PIL import Image
 from viser import _messages
 
+from studio.scene.indexed_png import indexed_png
 from studio.scene.node import Node
 from studio.scene.pose import rotated
 
@@ -35,22 +36,31 @@ class EncodedShelf:
         self._encoded: OrderedDict[str, NDArray[np.uint8]] = OrderedDict()
         self.kept_bytes = 0
 
-    def png(self, pixels: NDArray[np.uint8], digest: str) -> NDArray[np.uint8]:
-        """A PNG of RGBA pixels, made if it is not there.
+    def png(
+        self, pixels: NDArray[np.uint8], digest: str, palette: NDArray[np.uint8] | None = None
+    ) -> NDArray[np.uint8]:
+        """A PNG, made if it is not there.
 
         Args:
-            pixels: Shape (H, W, 4).
-            digest: Of these very pixels and their shape.
+            pixels: Shape (H, W, 4), RGBA; or (H, W), rows of the palette.
+            digest: Of these very pixels, their shape and the palette.
+            palette: Shape (256, 4), RGBA.
         """
         found = self._encoded.get(digest)
         if found is None:
-            found = _encoded(pixels, "PNG", compress_level=1)
+            found = _png(pixels, palette)
             self._encoded[digest] = found
             self.kept_bytes += found.nbytes
         self._encoded.move_to_end(digest)
         while self.kept_bytes > _KEPT_BYTES and len(self._encoded) > 1:
             self.kept_bytes -= self._encoded.popitem(last=False)[1].nbytes
         return found
+
+
+def _png(pixels: NDArray[np.uint8], palette: NDArray[np.uint8] | None) -> NDArray[np.uint8]:
+    if palette is None:
+        return _encoded(pixels, "PNG", compress_level=1)
+    return np.frombuffer(indexed_png(pixels, palette), np.uint8)
 
 
 def _encoded(pixels: NDArray[np.uint8], kind: str, **options: int) -> NDArray[np.uint8]:
@@ -72,7 +82,10 @@ def tiles_of(shape: Picture, shelf: EncodedShelf) -> dict[str, Node]:
 def _tile(shape: Picture, row: int, column: int, shelf: EncodedShelf) -> Node:
     pixels = np.ascontiguousarray(shape.pixels[row : row + TILE_PX, column : column + TILE_PX])
     rows, columns = pixels.shape[:2]
-    digest = f"{xxhash.xxh3_128_hexdigest(pixels.data)}/{columns}"
+    colours = b"" if shape.palette is None else shape.palette.tobytes()
+    digest = (
+        f"{xxhash.xxh3_128_hexdigest(pixels.data)}/{columns}/{xxhash.xxh3_64_hexdigest(colours)}"
+    )
     x_m, y_m = (
         size_m / count
         for size_m, count in zip(shape.size_m, reversed(shape.pixels.shape[:2]), strict=True)
@@ -89,7 +102,7 @@ def _tile(shape: Picture, row: int, column: int, shelf: EncodedShelf) -> Node:
         "studio_sharp": True,
         "studio_behind": shape.behind,
     }
-    data: dict[str, NDArray[Any]] = {"_data": shelf.png(pixels, digest)}
+    data: dict[str, NDArray[Any]] = {"_data": shelf.png(pixels, digest, shape.palette)}
     return Node(
         _messages.ImageMessage,
         props,

@@ -27,7 +27,7 @@ def test_tiles_hold_every_cell_once_where_it_lies():
     pictures = laid().painted(RAW)
     assert set(pictures) == {f"{row}-{column}" for row in range(2) for column in range(3)}
     rows = [
-        np.concatenate([pictures[f"{row}-{column}"].pixels for column in range(3)], axis=1)
+        np.concatenate([pictures[f"{row}-{column}"].rgba for column in range(3)], axis=1)
         for row in range(2)
     ]
     assert_array_equal(np.concatenate(rows)[..., 0], numbered())
@@ -47,7 +47,7 @@ def test_only_tiles_whose_cells_changed_are_painted_anew():
     tiles.lay(SHEET, other)
     after = tiles.painted(RAW)
     assert [name for name in before if before[name] is not after[name]] == ["1-0"]
-    assert after["1-0"].pixels[-1, 0, 0] == other[-1, 0]
+    assert after["1-0"].rgba[-1, 0, 0] == other[-1, 0]
 
 
 def test_a_spoilt_part_is_painted_anew_in_all_tiles_that_it_touches():

@@ -54,8 +54,8 @@ def test_a_map_is_a_picture_from_its_origin_on(little: bool):
     display = MapDisplay(TYPES)
     display.take(grid(CELLS, little=little))
     found = picture(display)
-    assert_array_equal(found.pixels[0], [WHITE, BLACK, GREY])
-    assert_array_equal(found.pixels[1, 0], [128, 128, 128, 178])
+    assert_array_equal(found.rgba[0], [WHITE, BLACK, GREY])
+    assert_array_equal(found.rgba[1, 0], [128, 128, 128, 178])
     assert found.size_m == pytest.approx((0.3, 0.2))
     assert found.position == (1.0, 2.0, 0.0)
     assert found.wxyz == (1.0, 0.0, 0.0, 0.0)
@@ -84,11 +84,11 @@ def test_an_update_changes_its_cells_and_leaves_the_message_alone(little: bool):
     before = picture(display)
     display.take(update([[100], [100]], 2, 0, little=little), "updates")
     after = picture(display)
-    assert_array_equal(after.pixels[:, 2], [BLACK, BLACK])
-    assert_array_equal(after.pixels[:, :2], before.pixels[:, :2])
-    assert_array_equal(before.pixels[0, 2], GREY)
+    assert_array_equal(after.rgba[:, 2], [BLACK, BLACK])
+    assert_array_equal(after.rgba[:, :2], before.rgba[:, :2])
+    assert_array_equal(before.rgba[0, 2], GREY)
     display.take(message)
-    assert_array_equal(picture(display).pixels, before.pixels)
+    assert_array_equal(picture(display).rgba, before.rgba)
 
 
 def test_an_update_before_any_map_is_passed_over():
@@ -103,7 +103,7 @@ def test_an_update_from_before_the_map_is_passed_over(sec: int, taken: bool):
     display = shown(CELLS)
     header = {"stamp": {"sec": sec, "nanosec": 500 if sec else 0}}
     display.take(update([[100]], 0, 0, header=header), "updates")
-    assert_array_equal(picture(display).pixels[0, 0], BLACK if taken else WHITE)
+    assert_array_equal(picture(display).rgba[0, 0], BLACK if taken else WHITE)
 
 
 @pytest.mark.parametrize(("x", "y"), [(-1, 0), (0, -1), (2, 0), (0, 2), (2**31 - 1, 0)])
@@ -138,10 +138,10 @@ def test_a_change_paints_only_the_tiles_that_it_touches():
 )
 def test_properties_change_the_colours(values: dict[str, Any], first: list[int]):
     display = shown(CELLS)
-    assert_array_equal(picture(display).pixels[0, 0], WHITE)
+    assert_array_equal(picture(display).rgba[0, 0], WHITE)
     for name, value in values.items():
         display.set(name.replace("_", " "), value)
-    assert_array_equal(picture(display).pixels[0, 0], first)
+    assert_array_equal(picture(display).rgba[0, 0], first)
     assert picture(shown(CELLS, Draw_Behind=True)).behind
 
 
@@ -152,12 +152,12 @@ def test_of_too_many_cells_the_highest_of_each_square_is_shown():
     display.limit(Limits(cells=12))
     display.take(grid(cells))
     found = picture(display)
-    assert_array_equal(found.pixels[..., 0], [[100, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 255]])
+    assert_array_equal(found.rgba[..., 0], [[100, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 255]])
     assert found.size_m == pytest.approx((0.8, 0.6))
     sentence = "Showing the highest of every 2 x 2 cells of 7 x 5."
     assert display.statuses() == (Status("ok", "thinned", sentence),)
     display.take(update([[7, 7]], 5, 4), "updates")
-    assert_array_equal(picture(display).pixels[2, ..., 0], [0, 0, 7, 7])
+    assert_array_equal(picture(display).rgba[2, ..., 0], [0, 0, 7, 7])
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
-from studio.displays.drawing import MeshFile, Placed, Points, Shape, Text
+from studio.displays.drawing import MeshFile, Picture, Placed, Points, Shape, Text
 from studio.errors import SceneError
 from studio.scene.live_scene import GROUPS_MAX
 from studio.scene.naming import GRID
@@ -294,5 +294,39 @@ def test_the_ground_is_laid_under_a_robot_that_is_placed_and_does_not_climb_with
         assert heights() == []
         scene.place_robot(*UPRIGHT)
         assert heights() == [before]
+
+    watched(scenario)
+
+
+def map_of(**values: int) -> dict[str, Placed]:
+    """Pictures that are as large as may be encoded at once."""
+    palette = np.full((256, 4), 7, np.uint8)
+    cells = {name: np.full((1024, 1024), value, np.uint8) for name, value in values.items()}
+    tiles = {name: Picture(one, (1.0, 1.0), palette=palette) for name, one in cells.items()}
+    return {"map": Placed("map", 0, tiles)}
+
+
+def test_of_a_large_map_one_tile_after_the_other_is_drawn_and_none_that_is_outdated():
+    async def scenario(scene: DocumentScene, peer: Peer) -> None:
+        def tiles_told() -> set[str]:
+            told = told_of(sent_by(scene, peer))
+            return {name.rpartition("/")[2] for name in told if name.count("/") == 4}
+
+        scene.live.apply("1", map_of(a=1, b=1, c=1), {"map": UPRIGHT})
+        assert tiles_told() == {"a.0-0"}
+        scene.live.draw_waiting()
+        assert tiles_told() == {"b.0-0"}
+        # Of another map all are new, and what waited of the one before is not drawn any more.
+        scene.live.apply("1", map_of(b=2, d=2), {"map": UPRIGHT})
+        assert tiles_told() == {"a.0-0", "b.0-0"}
+        scene.live.draw_waiting()
+        assert tiles_told() == {"d.0-0"}
+        scene.live.draw_waiting()
+        assert tiles_told() == set()
+        scene.live.apply("1", map_of(e=3, f=3), {"map": UPRIGHT})
+        scene.live.drop("1")
+        tiles_told()
+        scene.live.draw_waiting()
+        assert tiles_told() == set()
 
     watched(scenario)

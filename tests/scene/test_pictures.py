@@ -79,3 +79,15 @@ def test_a_large_camera_picture_is_thinned_out():
     drawn = frustum_of(Frustum(1.0, 4 / 3, 1.0, image), "1")
     with Image.open(io.BytesIO(drawn.flowing["_image_data"].tobytes())) as small:
         assert small.size == (1000, 750)
+
+
+def test_the_same_cells_in_other_colours_are_another_picture():
+    cells = np.arange(12, dtype=np.uint8).reshape(3, 4)
+    colours = [np.full((256, 4), value, np.uint8) for value in (1, 2)]
+    tiles = [
+        next(iter(tiles_of(Picture(cells, (1, 1), palette=one), EncodedShelf()).values()))
+        for one in colours
+    ]
+    assert tiles[0].stream != tiles[1].stream
+    with Image.open(io.BytesIO(tiles[1].flowing["_data"].tobytes())) as image:
+        np.testing.assert_array_equal(np.asarray(image.convert("RGBA")), colours[1][cells])

@@ -28,6 +28,9 @@ def shapes_of(drawing: Drawing) -> dict[str, dict[str, Any]]:
     return {name: plain(shape) for name, shape in placed.shapes.items()}
 
 
+_BYTES = {"colors", "pixels", "image", "palette"}
+
+
 def only(display: Display) -> Placed:
     """The only group that a display draws."""
     (placed,) = display.draw(0).values()
@@ -52,8 +55,8 @@ def _check(name: str, value: Any) -> None:  # noqa: ANN401 - a field of a shape
         assert not isinstance(value, float) or np.isfinite(value), name
         return
     array = cast("NDArray[Any]", value)
-    kind = {"colors": np.uint8, "pixels": np.uint8, "image": np.uint8, "faces": np.uint32}
-    assert array.dtype == kind.get(name, np.float32), name
+    kind = np.uint32 if name == "faces" else np.float32
+    assert array.dtype == (np.uint8 if name in _BYTES else kind), name
     assert np.isfinite(array).all(), name
     if name == "wxyz":
         np.testing.assert_allclose(np.linalg.norm(array, axis=1), 1.0, atol=1e-5)

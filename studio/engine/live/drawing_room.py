@@ -155,6 +155,7 @@ class DrawingRoom:
         self._followed.step(self.frames.lookup, now_ns)
         for display, running in shown.items():
             self._draw(display, running, now_ns, _AT_ONCE_S / len(shown))
+        self._scene.live.draw_waiting()
 
     def view(self, spec: DisplaySpec) -> DisplayView:
         """One display as it is set."""
