@@ -17,6 +17,21 @@ export interface AddDisplay {
   topic?: string;
 }
 
+/** Take up texts of types: all or none, and usable at once; what needs others may come first. */
+export interface AddInterfaces {
+  request?: number;
+  document?: string;
+  type: "add_interfaces";
+  texts: Record<string, string>;
+}
+
+/** A type that was taken up. */
+export interface AddedInterface {
+  name: string;
+  hash: string;
+  trouble: string;
+}
+
 /** Swing the joints through their limits, or stop. */
 export interface AnimateJoints {
   request?: number;
@@ -1000,6 +1015,22 @@ export interface InterfaceAnswer {
   text: string;
 }
 
+/** Answer to `add_interfaces`. */
+export interface InterfacesAdded {
+  type: "interfaces_added";
+  request: number;
+  types: AddedInterface[];
+}
+
+/** Answer to `list_interfaces`: full names in order. */
+export interface InterfacesAnswer {
+  type: "interfaces";
+  request: number;
+  distro: string;
+  names: string[];
+  own: string[];
+}
+
 /** Positions of all movable joints by name, after a command; streams are binary frames. */
 export interface JointPositions {
   type: "joints";
@@ -1089,6 +1120,13 @@ export interface ListFolder {
   document?: string;
   type: "list_folder";
   path?: string;
+}
+
+/** Ask which types are known. */
+export interface ListInterfaces {
+  request?: number;
+  document?: string;
+  type: "list_interfaces";
 }
 
 /** The folders in which something new can be made. */
@@ -2462,6 +2500,8 @@ export type Command =
   | DeleteVariant
   | CompareVariants
   | GetInterface
+  | ListInterfaces
+  | AddInterfaces
   | GetLog
   | GetGraph
   | GetNode
@@ -2550,6 +2590,8 @@ export type Event =
   | VariantSaved
   | Comparison
   | InterfaceAnswer
+  | InterfacesAnswer
+  | InterfacesAdded
   | LogAnswer
   | GraphAnswer
   | NodeAnswer

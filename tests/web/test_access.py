@@ -23,7 +23,15 @@ VIEWER_COMMANDS = {
     "get_topic_rates",
     *("get_services", "get_actions", "read_values", "follow_deeds", "get_goal_statuses"),
     *("get_parameter_nodes", "get_parameters", "dump_parameters", "follow_parameters"),
-    *("find_texts", "get_urdf_changes", "get_interface", "get_log", "get_graph", "get_node"),
+    *(
+        "find_texts",
+        "get_urdf_changes",
+        "get_interface",
+        "list_interfaces",
+        "get_log",
+        "get_graph",
+        "get_node",
+    ),
     *("list_topics", "get_topic_ends"),
 }
 CLIENT_MESSAGES = {

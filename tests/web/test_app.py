@@ -84,6 +84,7 @@ FIELDS: dict[str, object] = {
     "source": "sliders",
     **dict.fromkeys(("kind", "topic", "frame"), "x"),
     "enabled": True,
+    "texts": {"x": "x"},
     "topics": ["/x"],
     "service_type": "x/srv/X",
     "deed": 1,

@@ -18,7 +18,7 @@ from studio.engine.messages import goals as g
 from studio.engine.messages import parameters as p
 from studio.engine.messages import publishing as pub
 from studio.engine.messages.graph import GetGraph, GetNode
-from studio.engine.messages.interfaces import GetInterface
+from studio.engine.messages.interfaces import AddInterfaces, GetInterface, ListInterfaces
 from studio.engine.messages.logs import GetLog
 from studio.engine.messages.message import CommandMessage
 from studio.engine.messages.topic_rates import GetTopicRates
@@ -80,7 +80,11 @@ class BridgeDesk:
         await asyncio.gather(self.hearing.close(), self.deeds.close())
 
 
-_INTERFACES: Final = (_row(GetInterface, lambda d, c, _: d.interfaces.interface(c)),)
+_INTERFACES: Final = (
+    _row(GetInterface, lambda d, c, _: d.interfaces.interface(c)),
+    _row(ListInterfaces, lambda d, c, _: d.interfaces.names(c)),
+    _row(AddInterfaces, lambda d, c, _: d.interfaces.add(c)),
+)
 _RATES: Final = (_row(GetTopicRates, lambda d, c, _: d.rates.rates(c)),)
 _DEEDS: Final = (
     _row(k.GetServices, lambda d, c, _: d.deeds.offers.services(c)),

@@ -6,12 +6,18 @@ import asyncio
 from typing import TYPE_CHECKING, Literal, cast
 
 from studio.engine.messages.interfaces import (
+    AddedInterface,
+    AddInterfaces,
     ConstantView,
     FieldView,
     GetInterface,
     InterfaceAnswer,
+    InterfacesAdded,
+    InterfacesAnswer,
+    ListInterfaces,
     MessageView,
 )
+from studio.errors import UnknownTypeError
 
 if TYPE_CHECKING:
     from studio.engine.wire.desk import WireDesk
@@ -34,12 +40,45 @@ class InterfaceDesk:
         """
         return await asyncio.to_thread(self._answer, command)
 
+    async def names(self, command: ListInterfaces) -> InterfacesAnswer:
+        """Tell which types are known."""
+        return await asyncio.to_thread(self._names, command.request)
+
+    async def add(self, command: AddInterfaces) -> InterfacesAdded:
+        """Take up texts, for this studio and as long as it runs; files stay where they are.
+
+        Raises:
+            InterfaceTextError: A text breaks a rule, or makes a type too large or part of itself.
+            RosNameError: A name does.
+        """
+        return await asyncio.to_thread(self._add, command)
+
     def library(self) -> TypeLibrary:
         """Give the types that are known; the first time in a thread, for it takes its time."""
         from studio.ros.messages.shared import shared_types  # noqa: PLC0415 - takes its time
 
         link = self._wire.current
         return shared_types() if link is None else link.types
+
+    def _names(self, request: int) -> InterfacesAnswer:
+        library = self.library()
+        return InterfacesAnswer(
+            request=request,
+            distro=library.distro,
+            names=tuple(library.names()),
+            own=tuple(library.own_names()),
+        )
+
+    def _add(self, command: AddInterfaces) -> InterfacesAdded:
+        library = self.library()
+        # Only what is new: whoever holds a class of a type that is taken again loses it.
+        news = {name: text for name, text in command.texts.items() if library.text_of(name) != text}
+        if news:
+            library.add_texts(news)
+        return InterfacesAdded(
+            request=command.request,
+            types=tuple(_added(library, name) for name in command.texts),
+        )
 
     def _answer(self, command: GetInterface) -> InterfaceAnswer:
         from studio.ros.names import split_type_name  # noqa: PLC0415
@@ -57,6 +96,13 @@ class InterfaceDesk:
             hash=library.hash_of(command.name),
             text=library.text_of(command.name) or "",
         )
+
+
+def _added(library: TypeLibrary, name: str) -> AddedInterface:
+    try:
+        return AddedInterface(name=name, hash=library.hash_of(name), trouble="")
+    except UnknownTypeError as error:
+        return AddedInterface(name=name, hash="", trouble=str(error))
 
 
 def _all_of(parts: tuple[Message, ...], library: TypeLibrary) -> list[Message]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal, TypeAlias
+from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Field
 
@@ -10,6 +10,7 @@ from studio.engine.messages.message import CommandMessage, Message
 
 Value: TypeAlias = bool | int | float | str
 NAME_MAX = 300
+TEXT_MAX = 500_000
 
 
 class GetInterface(CommandMessage):
@@ -70,5 +71,53 @@ class InterfaceAnswer(Message):
     """As it was written; empty where only the distribution has it."""
 
 
-InterfaceCommand: TypeAlias = GetInterface
-InterfaceEvent: TypeAlias = InterfaceAnswer
+class ListInterfaces(CommandMessage):
+    """Ask which types are known."""
+
+    type: Literal["list_interfaces"] = "list_interfaces"
+
+
+class InterfacesAnswer(Message):
+    """Answer to `list_interfaces`: full names in order."""
+
+    type: Literal["interfaces"] = "interfaces"
+    request: int
+    distro: str
+    names: tuple[str, ...]
+    own: tuple[str, ...]
+    """Those among them that a user gave: by a package, an option, or on the page."""
+
+
+class AddInterfaces(CommandMessage):
+    """Take up texts of types: all or none, and usable at once; what needs others may come first."""
+
+    type: Literal["add_interfaces"] = "add_interfaces"
+    texts: Annotated[
+        dict[
+            Annotated[str, Field(max_length=NAME_MAX)], Annotated[str, Field(max_length=TEXT_MAX)]
+        ],
+        Field(min_length=1, max_length=2_000),
+    ]
+    """By full names: `my_interfaces/msg/Telemetry`."""
+
+
+class AddedInterface(Message):
+    """A type that was taken up."""
+
+    name: str
+    hash: str
+    """RIHS01; empty while something that it is made of is not known."""
+    trouble: str
+    """What it needs yet, in a sentence."""
+
+
+class InterfacesAdded(Message):
+    """Answer to `add_interfaces`."""
+
+    type: Literal["interfaces_added"] = "interfaces_added"
+    request: int
+    types: tuple[AddedInterface, ...]
+
+
+InterfaceCommand: TypeAlias = GetInterface | ListInterfaces | AddInterfaces
+InterfaceEvent: TypeAlias = InterfaceAnswer | InterfacesAnswer | InterfacesAdded

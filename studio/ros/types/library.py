@@ -139,6 +139,10 @@ class TypeLibrary:
         names = {*self._carried.interfaces, *self._own.interfaces, *self._store.names()}
         return sorted(names)
 
+    def own_names(self) -> list[str]:
+        """Name the types that a user gave, in the order of the alphabet."""
+        return sorted(self._own.interfaces)
+
     def text_of(self, name: str) -> str | None:
         """Give the text of a type as it was written; None for those of the distribution."""
         return self._own.texts.get(name) or self._carried.texts.get(name)

@@ -6,13 +6,31 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.engine.bridge.interfaces import InterfaceDesk
-from studio.engine.messages.interfaces import GetInterface
+from studio.engine.messages.interfaces import AddInterfaces, GetInterface, ListInterfaces
 from studio.engine.wire.desk import WireDesk
-from studio.errors import StudioError
+from studio.errors import InterfaceTextError, StudioError
+from studio.ros.types.library import TypeLibrary
 from studio.settings import WireChoice
 
 if TYPE_CHECKING:
-    from studio.engine.messages.interfaces import InterfaceAnswer
+    from studio.engine.messages.interfaces import InterfaceAnswer, InterfacesAdded
+
+
+@pytest.fixture
+def library(monkeypatch: pytest.MonkeyPatch) -> TypeLibrary:
+    """Of this test alone: what is added is gone after it."""
+    made = TypeLibrary("jazzy")
+
+    def types_of(_: str) -> TypeLibrary:
+        return made
+
+    monkeypatch.setattr("studio.ros.messages.shared.types_of", types_of)
+    return made
+
+
+def added(texts: dict[str, str]) -> InterfacesAdded:
+    desk = InterfaceDesk(WireDesk(WireChoice()))
+    return asyncio.run(desk.add(AddInterfaces(request=2, texts=texts)))
 
 
 def asked(name: str) -> InterfaceAnswer:
@@ -63,3 +81,69 @@ def test_arrays_bounds_constants_and_comments_are_told():
 def test_what_is_not_known_is_refused_with_a_sentence(name: str):
     with pytest.raises(StudioError, match=r"."):
         asked(name)
+
+
+def test_t6_all_types_of_the_six_packages_are_listed():
+    desk = InterfaceDesk(WireDesk(WireChoice()))
+    told = asyncio.run(desk.names(ListInterfaces(request=3)))
+    packages = {name.split("/")[0] for name in told.names}
+    assert packages >= {
+        *("std_msgs", "sensor_msgs", "geometry_msgs", "nav_msgs"),
+        *("action_msgs", "builtin_interfaces"),
+    }
+    assert (told.request, list(told.names)) == (3, sorted(told.names))
+
+
+def test_t11_a_type_that_was_pasted_is_usable_at_once(library: TypeLibrary):
+    name = "my_robot_interfaces/msg/CustomTelemetry"
+    text = "# How it is.\nstring robot_name\nfloat32 battery_percent\nint32[3] counts\n"
+    (told,) = added({name: text}).types
+    assert (told.name, told.trouble) == (name, "")
+    assert told.hash == library.hash_of(name)
+    answer = asked(name)
+    assert (answer.text, answer.hash) == (text, told.hash)
+    assert [one.name for one in answer.messages[0].fields] == [
+        *("robot_name", "battery_percent", "counts"),
+    ]
+    assert library.own_names() == [name]
+    value = library.message(name)(robot_name="r2", battery_percent=99.5)
+    assert value.counts.tolist() == [0, 0, 0]
+
+
+@pytest.mark.usefixtures("library")
+def test_what_a_type_needs_may_come_after_it():
+    (first,) = added({"mine/msg/Outer": "mine/Inner inner\n"}).types
+    assert first.hash == ""
+    assert "mine/msg/Inner" in first.trouble
+    added({"mine/msg/Inner": "int32 x\n"})
+    (again,) = added({"mine/msg/Outer": "mine/Inner inner\n"}).types
+    assert again.hash.startswith("RIHS01_")
+
+
+@pytest.mark.parametrize(
+    "texts",
+    [
+        {"mine/msg/Bad": "this is no field at all !"},
+        {"mine/msg/bad": "int32 x"},
+        {"../msg/X": "int32 x"},
+        {"mine/msg/Loop": "mine/Loop again"},
+        {"mine/msg/Huge": "float64[4000000000] x"},
+        {"mine/msg/Good": "int32 x", "mine/srv/Bad": "int32 x\n---\n---\n---\n"},
+        {"builtin_interfaces/msg/Time": "int64 nanoseconds"},
+    ],
+)
+def test_texts_that_break_a_rule_are_refused_and_none_is_taken(
+    texts: dict[str, str], library: TypeLibrary
+):
+    with pytest.raises(StudioError, match=r"."):
+        added(texts)
+    assert library.own_names() == []
+
+
+def test_a_type_that_was_taken_already_keeps_its_class(library: TypeLibrary):
+    added({"mine/msg/Same": "int32 x\n"})
+    kind = library.message("mine/msg/Same")
+    added({"mine/msg/Same": "int32 x\n"})
+    assert library.message("mine/msg/Same") is kind
+    with pytest.raises(InterfaceTextError):
+        added({"mine/msg/Same": "int32 x y\n"})
