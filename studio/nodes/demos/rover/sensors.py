@@ -41,7 +41,7 @@ class Lidar:
         scan.header.stamp, scan.header.frame_id = stamp, _LASER_FRAME
         scan.angle_increment = math.tau / BEAMS
         scan.angle_max = math.pi - scan.angle_increment
-        scan.scan_time, scan.time_increment = SCAN_S, SCAN_S / BEAMS
+        scan.scan_time = SCAN_S  # and no time between beams: all of them are of this moment
         scan.ranges = distances + self._random.normal(0.0, _NOISE_M, BEAMS)
         self._scans.publish(scan)
 
