@@ -110,6 +110,7 @@ class TfDisplay(Display):
         self._seen: _Seen | None = None
         self._drawing: Drawing = NOTHING
         self._names: dict[str, Placed] = {}
+        self._checks: tuple[tuple[str, ...], Value, tuple[Property, ...]] = ((), True, ())
 
     def show(self, frames: FramesNow) -> None:
         """Draw these from now on."""
@@ -117,8 +118,11 @@ class TfDisplay(Display):
 
     def properties(self) -> tuple[Property, ...]:
         """Those of all frames, and a check for each frame that is there."""
-        names = () if self._frames is None else sorted(self._frames.names)
-        return (*self.PROPERTIES, *(self._property(f"{FRAMES}/{name}") for name in names))
+        names = () if self._frames is None else self._frames.names
+        if self._checks[0] is not names or self._checks[1] != self.values[FRAMES]:
+            checks = tuple(self._property(f"{FRAMES}/{name}") for name in sorted(names))
+            self._checks = names, self.values[FRAMES], checks
+        return (*self.PROPERTIES, *self._checks[2])
 
     def changed(self, name: str) -> None:
         """Draw anew; switching all is switching each, as in RViz."""
