@@ -1,5 +1,6 @@
 /** @import { Door } from "./door.js" */
 /** @import { Material, Message } from "./viser.d.ts" */
+import { Plates } from "./plates.js";
 import { isLight } from "./quality.js";
 
 /** @typedef {"dark" | "light"} ThemeName */
@@ -28,6 +29,7 @@ export class Theme {
   name = "dark";
   #door;
   #distance;
+  #plates;
   /** @type {WeakSet<Material>} */
   #calmed = new WeakSet();
   #shadowed = true;
@@ -36,6 +38,7 @@ export class Theme {
   constructor(door, distance) {
     this.#door = door;
     this.#distance = distance;
+    this.#plates = new Plates(door);
     door.onMessage((message) => this.#paintGrid(message));
     door.onPicture((renderer) => {
       renderer.toneMapping = NEUTRAL_TONES;
@@ -52,6 +55,7 @@ export class Theme {
   set(name) {
     this.name = name;
     document.documentElement.dataset.theme = name;
+    this.#plates.set(name);
     if (this.#door.node(GRID)) {
       const { cell: cell_color, section: section_color } = THEMES[name];
       const updates = { cell_color, section_color, ...this.#shadow() };

@@ -107,6 +107,10 @@ def test_every_kind_of_node_that_we_draw_is_one_of_visers(kind: type[_messages.M
         ("messageQueue.ts", ["queue.push(message)"]),
         ("ThreeAssets.tsx", ["gl_FragColor = vec4(col, 1.0);"]),
         ("patchLineMaterial.ts", ["VISER_LINE_FRINGE", "alpha = opacity *"]),
+        (
+            "label/LabelRenderer.tsx",
+            ["vec4(1.0, 1.0, 1.0, 0.85 * vAlpha)", "vec4(0.0, 0.0, 0.0, a)", "group.add(bg)"],
+        ),
         ("Grid.tsx", ["return 1.0 - min(line, 1.0);", "fadeDistance"]),
         ("ViewerContext.ts", ["nodeRefFromName", "cameraControl", "requestRender", "messageQueue"]),
     ],

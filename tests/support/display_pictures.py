@@ -19,7 +19,7 @@ from studio.ros.types.plain import from_dict
 from tests.support.browser import open_browser
 from tests.support.demos import node_at
 from tests.support.display_messages import pose
-from tests.support.display_samples import BASE, FRAMES, SAMPLES, about_z
+from tests.support.display_samples import BASE, FRAMES, SAMPLES
 from tests.support.panel_pictures import SHOW_PANEL, THEMES, WINDOWS, tab_of, wanted
 from tests.support.server import running_studio
 from tests.support.studio_page import wait_until
@@ -72,8 +72,8 @@ def _tell_frames(node: Node) -> None:
             "child_frame_id": child,
             "transform": {"translation": at["position"], "rotation": at["orientation"]},
         }
-        for parent, child, xyz, turn_rad in FRAMES
-        for at in (pose(xyz, about_z(turn_rad)),)
+        for parent, child, xyz, wxyz in FRAMES
+        for at in (pose(xyz, wxyz),)
     ]
     publisher = node.create_publisher(kind, "/tf_static", LATCHED)
     publisher.publish(from_dict(kind, {"transforms": rows}))

@@ -18,15 +18,25 @@ if TYPE_CHECKING:
 Fields = dict[str, Any]
 BASE = "base_link"
 _CAMERA = "camera"
-FRAMES: tuple[tuple[str, str, tuple[float, float, float], float], ...] = (
-    ("odom", "dock", (-0.8, -0.6, 0.0), 0.0),
-    ("odom", "base_footprint", (0.0, 0.0, 0.0), 0.0),
-    (BASE, "laser", (0.25, 0.0, 0.2), 0.4),
-    (BASE, "imu", (0.0, 0.0, 0.6), 0.0),
-    (BASE, "sensor", (-0.2, 0.3, 0.9), 1.2),
-    (BASE, _CAMERA, (0.3, 0.0, 0.9), 0.3),
+_LEVEL = (1.0, 0.0, 0.0, 0.0)
+
+
+def about_z(angle_rad: float) -> tuple[float, float, float, float]:
+    """A turn to the left."""
+    return (math.cos(angle_rad / 2), 0.0, 0.0, math.sin(angle_rad / 2))
+
+
+FRAMES: tuple[
+    tuple[str, str, tuple[float, float, float], tuple[float, float, float, float]], ...
+] = (
+    ("odom", "dock", (-0.8, -0.6, 0.0), _LEVEL),
+    ("odom", "base_footprint", (0.0, 0.0, 0.0), _LEVEL),
+    (BASE, "laser", (0.25, 0.0, 0.2), about_z(0.4)),
+    (BASE, "imu", (0.0, 0.0, 0.6), _LEVEL),
+    (BASE, "sensor", (-0.2, 0.3, 0.9), about_z(1.2)),
+    (BASE, _CAMERA, (0.3, 0.0, 0.5), (0.5, -0.5, 0.5, -0.5)),
 )
-"""Parent, child, place of the child and its turn about z."""
+"""Parent, child, and where the child is: x, y, z and w, x, y, z."""
 
 
 @dataclass(frozen=True)
@@ -55,11 +65,6 @@ class Sample:
     def topic(self) -> str:
         """Which nobody else uses."""
         return f"/{self.name}/told" if self.type_name else ""
-
-
-def about_z(angle_rad: float) -> tuple[float, float, float, float]:
-    """A turn to the left."""
-    return (math.cos(angle_rad / 2), 0.0, 0.0, math.sin(angle_rad / 2))
 
 
 def _rgba(r: float, g: float, b: float, a: float = 1.0) -> Fields:
