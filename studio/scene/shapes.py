@@ -41,7 +41,7 @@ _MANY_MAX: Final = 200_000
 _POINTS_MAX: Final = 5_000_000
 _PIXELS_MAX: Final = 1 << 26
 _TEXT_MAX: Final = 500
-_HAIR_PX: Final = 1.3
+_HAIR_PX: Final = 1.8
 _THICKNESS: Final = {"boxes": 1.0, "tiles": 0.001}
 """Of points that are solids: their height, as a share of their edge."""
 _CAP_SHARE: Final = 0.72
