@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections import deque
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, ClassVar, Final
 
 from studio.displays.cloud_look import (
     LOOK,
+    POINTS_AT_MOST,
+    POINTS_LIMIT,
     colours_of,
     needs_precision,
     points_of,
@@ -32,7 +34,7 @@ if TYPE_CHECKING:
 
 
 _SIZE: Final = "Size (m)"
-_WITHOUT_COLOUR: Final = {"Style", _SIZE, "Size (Pixels)", "Alpha", "Decay Time"}
+_WITHOUT_COLOUR: Final = {"Style", _SIZE, "Size (Pixels)", "Alpha", "Decay Time", POINTS_AT_MOST}
 
 
 @dataclass(slots=True, eq=False)
@@ -40,7 +42,7 @@ class _Kept:
     """A message that is seen, where it is drawn, and how it was drawn last."""
 
     path: str
-    received_ns: int
+    received: Received
     cloud: Cloud
     colours: NDArray[np.uint8] | None = None
     placed: Placed | None = None
@@ -75,7 +77,7 @@ class CloudDisplay(Display):
         if not self._decay_ns():
             self._kept.clear()
         self._decay(received.received_ns)
-        self._kept.append(_Kept(self._free_path(), received.received_ns, cloud))
+        self._kept.append(_Kept(self._free_path(), received, cloud))
         self._hold_limits()
         self._drawing = None
 
@@ -83,6 +85,8 @@ class CloudDisplay(Display):
         """Look different from now on."""
         if name == "Decay Time" and not self._decay_ns():
             self._keep_newest()
+        if name == POINTS_AT_MOST:
+            self._read_anew(int(self.values[name]))
         if name in ("", _SIZE):
             self._precise = False
         for one in self._kept:
@@ -136,7 +140,7 @@ class CloudDisplay(Display):
     def _decay(self, now_ns: int) -> None:
         """Drop what came longer ago than the decay time."""
         decay_ns = self._decay_ns()
-        while self._kept and now_ns - self._kept[0].received_ns > decay_ns:
+        while self._kept and now_ns - self._kept[0].received.received_ns > decay_ns:
             self._kept.popleft()
             self._drawing = None
 
@@ -159,6 +163,13 @@ class CloudDisplay(Display):
             count, size_bytes = count - dropped.count, size_bytes - dropped.channels.size_bytes
             self._left_out += 1
 
+    def _read_anew(self, points: int) -> None:
+        """Show another number of points, also of what came before: a map may come only once."""
+        self.limit(replace(self.limits, points=points))
+        for one in self._kept:
+            one.cloud, one.colours = self.read(one.received, self.limits), None
+        self._hold_limits()
+
     def _free_path(self) -> str:
         """A path is used again, so that what is there is changed and not made anew."""
         taken = {one.path for one in self._kept}
@@ -174,7 +185,8 @@ class CloudDisplay(Display):
         cloud = self._kept[-1].cloud
         if cloud.count < cloud.available:
             sentence = f"Showing {cloud.count:,} of {cloud.available:,} points."
-            found.append(Status("ok", "thinned", sentence))
+            mend = (POINTS_AT_MOST, min(cloud.available, POINTS_LIMIT))
+            found.append(Status("ok", "thinned", sentence, mend))
         if self._left_out:
             sentence = (
                 f"Showing the newest {len(self._kept):,} messages: with those before them there "

@@ -10,6 +10,7 @@ from studio.displays.cloud_fields import said_names
 from studio.displays.colour_maps import COLOUR_MAPS, RAINBOW, mapped
 from studio.displays.display import Status
 from studio.displays.drawing import BODIES_MAX, Points
+from studio.displays.limits import Limits
 from studio.displays.properties import Property, rgb_of
 
 if TYPE_CHECKING:
@@ -30,6 +31,9 @@ _WITH_MAP: Final = (AUTOMATIC, AXIS, INTENSITY)
 _WITH_CHANNEL: Final = (AUTOMATIC, INTENSITY)
 _CHANNEL: Final = "intensity"
 _OTHER_NAME: Final = "intensities"
+
+POINTS_AT_MOST: Final = "Points at most"
+POINTS_LIMIT: Final = 5_000_000
 
 LOOK: Final = (
     Property("Style", "choice", "Flat Squares", "How each point is drawn.", choices=_STYLES),
@@ -107,6 +111,11 @@ LOOK: Final = (
     Property(
         "Max Intensity", "number", 4096.0, "Where colours end.",
         when=("Autocompute Intensity Bounds", (False,)),
+    ),
+    Property(
+        POINTS_AT_MOST, "whole", Limits().points,
+        "Of more points as many are drawn, spread evenly, and older messages are left out.",
+        low=1000, high=POINTS_LIMIT,
     ),
 )  # fmt: skip
 

@@ -113,7 +113,22 @@ def test_one_cloud_of_too_many_points_is_thinned_and_that_is_told():
     display.limit(Limits(points=20))
     take(display, 1.0, 0.0, count=1000)
     assert len(points(display.draw(NOW_NS))["0"].positions) == 20
-    assert display.statuses() == (Status("ok", "thinned", "Showing 20 of 1,000 points."),)
+    mend = ("Points at most", 1000)
+    assert display.statuses() == (Status("ok", "thinned", "Showing 20 of 1,000 points.", mend),)
+    display.set(*mend)
+    assert len(points(display.draw(NOW_NS))["0"].positions) == 1000
+    assert display.statuses() == ()
+
+
+def test_fewer_points_at_most_thin_what_came_before_and_leave_out_the_oldest():
+    display = display_with(Decay_Time=10.0)
+    for number in range(3):
+        take(display, float(number), 0.0, count=2000)
+    display.set("Points at most", 1000)
+    drawn = points(display.draw(NOW_NS))
+    assert {path: len(one.positions) for path, one in drawn.items()} == {"2": 1000}
+    display.set("Points at most", 4000)
+    assert len(points(display.draw(NOW_NS))["2"].positions) == 2000
 
 
 def test_a_cloud_that_cannot_be_read_leaves_what_was_drawn():
