@@ -57,7 +57,9 @@ class PoseWriter:
             for row, pose, (turns, shifts) in zip(rows, poses[rows].tolist(), how, strict=True):
                 if self._names[row] in drawn:
                     self._send(self._nodes[row], pose, turns=turns, shifts=shifts)
-                    self._sent[row] = pose
+                    # What was not sent is not forgotten, or many small moves would be lost.
+                    part = slice(0 if turns else 4, 7 if shifts else 4)
+                    self._sent[row, part] = pose[part]
 
     def _send(self, node: str, pose: list[float], *, turns: bool, shifts: bool) -> None:
         w, qx, qy, qz, x, y, z = pose
