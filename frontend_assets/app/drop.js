@@ -6,6 +6,7 @@ import { t } from "../lib/i18n.js";
 import { takesText } from "../lib/keys.js";
 import { Icon, ProgressBar } from "../lib/ui.js";
 import { ask, goTo } from "./actions.js";
+import { takeDroppedTypes } from "./add-types.js";
 import { mayEdit } from "./state/connection.js";
 import { dropping, sending } from "./state/sending.js";
 import { dialog, notify } from "./state/view.js";
@@ -55,7 +56,12 @@ async function onDrop(event) {
   event.preventDefault();
   dropping.value = false;
   if (!mayEdit.value) return;
-  await uploadFiles(await droppedFiles(event.dataTransfer));
+  await takeFiles(await droppedFiles(event.dataTransfer));
+}
+
+/** @param {readonly import("../lib/dropped.js").DroppedFile[]} files a robot, or types of ROS */
+async function takeFiles(files) {
+  if (!(await takeDroppedTypes(files))) await uploadFiles(files);
 }
 
 /** @param {ClipboardEvent} event */
@@ -66,7 +72,7 @@ async function onPaste(event) {
   const text = event.clipboardData.getData("text/plain");
   if (files.length === 0 && text === "") return;
   event.preventDefault();
-  if (files.length > 0) await uploadFiles(chosenFiles(files));
+  if (files.length > 0) await takeFiles(chosenFiles(files));
   else await openText(text);
 }
 

@@ -61,11 +61,21 @@ export const PANELS = {
   topics: { icon: "topics", load: async () => (await import("../panels/topics.js")).TopicsPanel },
   frames: { icon: "frames", load: async () => (await import("../panels/frames.js")).FramesPanel },
   graph: { icon: "graph", load: async () => (await import("../panels/graph.js")).GraphPanel },
+  interfaces: {
+    icon: "interfaces",
+    load: async () => (await import("../panels/interfaces.js")).InterfacesPanel,
+  },
   log: { icon: "log", load: async () => (await import("../panels/log.js")).LogPanel },
   services: {
     icon: "services",
     load: async () => (await import("../panels/services.js")).ServicesPanel,
   },
+  actions: { icon: "goal", load: async () => (await import("../panels/actions.js")).ActionsPanel },
+  parameters: {
+    icon: "parameters",
+    load: async () => (await import("../panels/parameters.js")).ParametersPanel,
+  },
+  publish: { icon: "send", load: async () => (await import("../panels/publish.js")).PublishPanel },
   urdf: { icon: "urdf", load: async () => (await import("../panels/urdf.js")).UrdfPanel },
 };
 

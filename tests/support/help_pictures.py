@@ -29,7 +29,7 @@ FOLDER = Path(__file__).resolve().parents[2] / "frontend_assets/help/pictures"
 PANELS_WINDOW = (1060, 940)
 """So narrow that a panel, cut to it, is nearly as wide as the help that shows it."""
 DIALOGS_WINDOW = (720, 640)
-ON_THE_WIRE = ("graph", "log")
+ON_THE_WIRE = ("graph", "interfaces", "log", "topics", "plot")
 """Panels that show something only while a ROS 2 system is there."""
 _HIGHEST_PX = 380
 _STILL_MS = 1200
@@ -44,6 +44,25 @@ _SHOW_DIALOG = """async (kind) => {
 _CONNECT = """async () => {
   const script = document.querySelector('script[type="module"]').src;
   await (await import(new URL("ros.js", script))).connectRos();
+}"""
+_ADD_LIVE = """async () => {
+  const script = document.querySelector('script[type="module"]').src;
+  const { addDisplay, groupDisplay } = await import(new URL("live.js", script));
+  const { liveDisplays } = await import(new URL("state/live.js", script));
+  const kinds = [["LaserScan", "/scan"], ["Map", "/map", "Navigation"],
+    ["Path", "/plan", "Navigation"], ["Odometry", "/odom", "Navigation"], ["Range", "/sonar"]];
+  for (const [kind, topic, group] of kinds) {
+    await addDisplay(kind, topic);
+    if (group) await groupDisplay(liveDisplays.value.at(-1).id, group);
+  }
+}"""
+_LOOK_AT = """async () => {
+  const script = document.querySelector('script[type="module"]').src;
+  const { chosenTopic } = await import(new URL("state/topics.js", script));
+  const { series } = await import(new URL("state/plot.js", script));
+  chosenTopic.value = "/odom";
+  series.value = [".twist.twist.linear.x", ".twist.twist.angular.z", ".pose.pose.position.x"]
+    .map((path) => ({ topic: "/odom", path }));
 }"""
 _TO_WEBP = """async (png) => {
   const picture = new Image();
@@ -115,7 +134,7 @@ def take_panels(camera: Camera) -> None:
     """Each panel in front, cut to it."""
     camera.page.get_by_role("treeitem", name="upper_arm", exact=True).click()
     for panel in camera.page.evaluate(PANEL_IDS):
-        if wanted(panel) and panel not in {"problems", *ON_THE_WIRE}:
+        if wanted(panel) and panel not in {"problems", "displays", *ON_THE_WIRE}:
             camera.page.evaluate(SHOW_PANEL, panel)
             camera.take(panel, camera.page.evaluate(_DOCK_OF, panel))
 
@@ -208,12 +227,40 @@ def take_wired(browser: Browser, data: Path) -> None:
             with tab_of(browser, studio, theme, DIALOGS_WINDOW) as tab:
                 camera = Camera(tab, theme)
                 tab.page.evaluate(_CONNECT)
+                tab.page.evaluate(_LOOK_AT)
                 for panel in filter(wanted, ON_THE_WIRE):
                     tab.page.evaluate(SHOW_PANEL, panel)
                     tab.page.evaluate(_RUN, "maximize")
+                    if panel == "interfaces":
+                        show_type(tab.page)
                     tab.page.wait_for_timeout(_STILL_MS)
                     camera.take(panel, tab.page.evaluate(_DOCK_OF, panel))
                     tab.page.evaluate(_RUN, "maximize")
+                if wanted("live"):
+                    tab.page.evaluate(_SHOW_DIALOG, "add_display")
+                    # A rate is there once two messages came.
+                    tab.page.locator(".offer-flow.live", has_text="Hz").nth(2).wait_for()
+                    camera.take_part("live", tab.page.locator("dialog"))
+                    tab.page.keyboard.press("Escape")
+                if wanted("displays"):
+                    take_displays(camera)
+
+
+def show_type(page: Page) -> None:
+    page.get_by_label("Search types").fill("laser")
+    page.get_by_role("button", name="sensor_msgs/msg/LaserScan").click()
+
+
+def take_displays(camera: Camera) -> None:
+    """The panel with live displays, one of which says why nothing of it is seen."""
+    page = camera.page
+    page.evaluate(SHOW_PANEL, "displays")
+    page.evaluate(_RUN, "maximize")
+    if not page.locator("[id^='row-display:']").count():
+        page.evaluate(_ADD_LIVE)
+    page.get_by_role("treeitem", name="Robot model").click()
+    page.locator(".tree-meta", has_text="10 Hz").wait_for()
+    camera.take("displays", page.evaluate(_DOCK_OF, "displays"))
 
 
 def take_broken(browser: Browser, data: Path) -> None:
@@ -232,7 +279,7 @@ def main() -> None:
     for browser in open_browser():
         with tempfile.TemporaryDirectory() as data:
             take_demo(browser, Path(data))
-        if any(map(wanted, ON_THE_WIRE)):
+        if any(map(wanted, (*ON_THE_WIRE, "live", "displays"))):
             with tempfile.TemporaryDirectory() as data:
                 take_wired(browser, Path(data))
         if wanted("problems"):
