@@ -11,6 +11,7 @@ import { openMenu } from "../lib/ui.js";
 import { addCommands, replaceCommands } from "./commands.js";
 import { helpTitle, openHelp } from "./help.js";
 import { layoutDesk } from "./layouts.js";
+import { LIVE } from "./live-layout.js";
 import { PANELS, panelTitle } from "./panels.js";
 import { layoutInUse, ownLayouts } from "./state/own-layouts.js";
 import { dialog, isFree, size } from "./state/view.js";
@@ -111,10 +112,9 @@ function helpCommand(dock) {
   };
 }
 
-/** @returns {Command[]} the studio's own layout and each that was saved */
+/** @returns {Command[]} the studio's own layouts and each that was saved */
 function layoutCommands() {
-  const names = ["", ...ownLayouts.value.map(({ name }) => name)];
-  return names.map((name, at) => ({
+  return layoutNames().map((name, at) => ({
     id: `layout.${at}`,
     icon: "layout",
     label: () => t("layouts.use", { name: layoutName(name) }),
@@ -124,12 +124,16 @@ function layoutCommands() {
   }));
 }
 
+/** @returns {string[]} the studio's own, then those that were saved */
+const layoutNames = () => ["", LIVE, ...ownLayouts.value.map(({ name }) => name)];
+
 /** @param {string} name @returns {string} */
-export const layoutName = (name) => name || t("layouts.model");
+export const layoutName = (name) =>
+  name === LIVE ? t("layouts.live") : name || t("layouts.model");
 
 /** @returns {MenuItem[]} for a menu, with the one in use ticked */
 export function layoutItems() {
-  return ["", ...ownLayouts.value.map(({ name }) => name)].map((name) => ({
+  return layoutNames().map((name) => ({
     label: layoutName(name),
     checked: layoutInUse.value === name,
     run: () => layoutDesk.value?.use(name),

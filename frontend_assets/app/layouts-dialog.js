@@ -7,6 +7,7 @@ import { FILE_LARGEST, LayoutFileError, layoutFile, readLayoutFile } from "../li
 import { Dialog, Icon, IconButton } from "../lib/ui.js";
 import { layoutName } from "./layout-commands.js";
 import { isPanel, layoutDesk } from "./layouts.js";
+import { LIVE } from "./live-layout.js";
 import {
   addLayouts,
   deleteLayout,
@@ -27,7 +28,7 @@ export function LayoutsDialog({ onClose }) {
   return html`<${Dialog} title=${t("layouts.title")} closeLabel=${t("close")} class="layouts" onClose=${onClose}>
     <${SaveForm} />
     <ul class="layouts-list" aria-label=${t("layouts.title")}>
-      <${Row} name="" onClose=${onClose} />
+      <${Row} name="" onClose=${onClose} /><${Row} name=${LIVE} onClose=${onClose} />
       ${own.map((one) => html`<${Row} key=${one.name} name=${one.name} layout=${one} onClose=${onClose} />`)}
     </ul>
     <footer><${ImportButton} />

@@ -6,6 +6,7 @@
 import { effect, signal, untracked } from "vendor/preact.js";
 import { readArrangement } from "../lib/arrangement.js";
 import { recall, remember } from "../lib/remembered.js";
+import { LIVE, liveLayout } from "./live-layout.js";
 import { PANELS } from "./panels.js";
 import { layoutInUse, ownArrangement } from "./state/own-layouts.js";
 import { size } from "./state/view.js";
@@ -104,10 +105,17 @@ export function followSize(dock, element) {
 
 /** @param {"wide" | "medium" | "phone"} kind @param {HTMLElement} element @returns {Arrangement} */
 function arrangementFor(kind, element) {
-  const given = { parts: modelLayout(kind, element.clientWidth, element.clientHeight) };
+  const given = { parts: givenLayout(kind, element.clientWidth, element.clientHeight) };
   if (kind === "phone") return given;
   const chosen = recall(storeName(kind)) ?? ownArrangement(layoutInUse.value);
   return readArrangement(chosen, isPanel)?.arrangement ?? given;
+}
+
+/** @param {"wide" | "medium" | "phone"} kind @param {number} width px @param {number} height px */
+function givenLayout(kind, width, height) {
+  if (kind !== "phone" && layoutInUse.value === LIVE)
+    return liveLayout(kind, width, height, isPanel);
+  return modelLayout(kind, width, height);
 }
 
 /** @param {Dock} dock @param {() => void} arrange @returns {LayoutDesk} */

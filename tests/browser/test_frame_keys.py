@@ -7,16 +7,12 @@ from typing import TYPE_CHECKING
 import pytest
 
 from tests.support.panel_pictures import DIALOGS, PANEL_IDS, SHOW_PANEL
-from tests.support.server import running_studio
-from tests.support.studio_page import StudioPage, studio_page, wait_until
+from tests.support.studio_page import StudioPage, wait_until
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
-    from playwright.sync_api import Browser
-
-    from tests.support.server import RunningStudio
 
 pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(300)]
 
@@ -41,18 +37,11 @@ _NESTED = """() => [...document.querySelectorAll("button button, button a, a but
   .map((one) => one.outerHTML.slice(0, 120))"""
 
 
-@pytest.fixture(scope="module")
-def studio(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningStudio]:
-    with running_studio(["demo"], tmp_path_factory.mktemp("studio") / "data") as running:
-        yield running
-
-
 @pytest.fixture
-def tab(browser: Browser, studio: RunningStudio) -> Iterator[StudioPage]:
-    with studio_page(browser, studio) as page:
-        wait_until("the source", lambda: page.page.locator(".cm-line").count() > 0)
-        yield page
-        assert page.errors == []
+def tab(tab: StudioPage) -> Iterator[StudioPage]:
+    wait_until("the source", lambda: tab.page.locator(".cm-line").count() > 0)
+    yield tab
+    assert tab.errors == []
 
 
 def groups(tab: StudioPage) -> list[list[str]]:
@@ -112,7 +101,7 @@ def test_a_panel_moves_by_keys_and_the_layout_comes_back_by_its_name(tab: Studio
     mine = groups(tab)
     tab.page.keyboard.press("Control+1")
     wait_until("the studio's own layout", lambda: groups(tab) == first)
-    tab.page.keyboard.press("Control+2")
+    tab.page.keyboard.press("Control+3")
     wait_until("the saved layout", lambda: groups(tab) == mine)
     tab.page.reload()
     wait_until("the saved layout again", lambda: groups(tab) == mine)
@@ -131,11 +120,11 @@ def test_layouts_travel_as_a_file_and_what_is_no_such_file_is_refused(
     download.value.save_as(saved)
     tab.page.get_by_role("button", name="Delete Mine").click()
     chooser = tab.page.locator("dialog input[type=file]")
-    foreign = saved.read_text().replace('"urdf"', '"plot"')
+    foreign = saved.read_text().replace('"urdf"', '"teapot"')
     saved.write_text(foreign)
     chooser.set_input_files(saved)
     tab.page.get_by_role("button", name="Mine", exact=True).wait_for()
-    assert "were left out: plot" in tab.page.locator(".notices").inner_text()
+    assert "were left out: teapot" in tab.page.locator(".notices").inner_text()
     saved.write_text("[1, 2")
     chooser.set_input_files(saved)
     tab.page.get_by_text("mine.json is no JSON file").wait_for()

@@ -105,7 +105,8 @@ class Channel:
         return self._chunk(tuple(self._kept)) if self._kept else None
 
     def _chunk(self, samples: Sequence[RawSample]) -> Chunk:
-        lost = self._lost_before + (self._heard.lost if self._heard else 0)
+        # Where only the newest counts, the others are not lost but passed over.
+        lost = self._lost_before + self._heard.lost if self._heard and self.keeps_all else 0
         return chunk_of(self.number, samples, lost, keeps_all=self.keeps_all)
 
     def _keep(self, came: Sequence[RawSample]) -> None:

@@ -1,0 +1,167 @@
+/** Numbers over time: all of the last while, and as few of them as a picture can show. */
+
+const FIRST = 1024;
+/** Ten minutes at a thousand in a second: 10 MB. */
+const MOST = 600_000;
+/** Two that are further apart have nothing between them. */
+const GAP_S = 2;
+
+/** What came of one number, the oldest first; in a buffer that grows, and drops the oldest at last. */
+export class Samples {
+  constructor() {
+    this.times = new Float64Array(FIRST);
+    this.values = new Float64Array(FIRST);
+    this.begin = 0;
+    this.end = 0;
+    /** So many came, and were numbers. */
+    this.count = 0;
+    /** So many came that were none. */
+    this.others = 0;
+  }
+
+  /** @param {Float64Array} times s @param {Float64Array} values NaN is left out */
+  add(times, values) {
+    for (let n = 0; n < times.length; n += 1) {
+      const value = values[n] ?? Number.NaN;
+      if (Number.isNaN(value)) {
+        this.others += 1;
+        continue;
+      }
+      if (this.end === this.times.length) this.makeRoom();
+      this.times[this.end] = times[n] ?? 0;
+      this.values[this.end] = value;
+      this.end += 1;
+      this.count += 1;
+    }
+  }
+
+  makeRoom() {
+    const used = this.end - this.begin;
+    if (used >= MOST) this.begin += MOST >> 2;
+    if (this.begin > 0) {
+      this.times.copyWithin(0, this.begin, this.end);
+      this.values.copyWithin(0, this.begin, this.end);
+      this.end -= this.begin;
+      this.begin = 0;
+      return;
+    }
+    this.times = grown(this.times);
+    this.values = grown(this.values);
+  }
+
+  /** @param {number} time_s @returns {number} where the first stands that is not older */
+  at(time_s) {
+    let low = this.begin;
+    let high = this.end;
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if ((this.times[middle] ?? 0) < time_s) low = middle + 1;
+      else high = middle;
+    }
+    return low;
+  }
+
+  /** @param {number} time_s @returns {number | null} the value then; null: there was none within a while */
+  valueAt(time_s) {
+    const after = this.at(time_s);
+    const before = after - 1;
+    const apart = (/** @type {number} */ n) =>
+      n >= this.begin && n < this.end
+        ? Math.abs((this.times[n] ?? 0) - time_s)
+        : Number.POSITIVE_INFINITY;
+    const nearest = apart(after) < apart(before) ? after : before;
+    return apart(nearest) <= GAP_S ? (this.values[nearest] ?? null) : null;
+  }
+
+  /** @returns {number | null} the newest value */
+  newest() {
+    return this.end > this.begin ? (this.values[this.end - 1] ?? null) : null;
+  }
+
+  /** @returns {number} s; 0: none came */
+  newestTime() {
+    return this.end > this.begin ? (this.times[this.end - 1] ?? 0) : 0;
+  }
+}
+
+/** @param {Float64Array<ArrayBuffer>} array */
+function grown(array) {
+  const larger = new Float64Array(array.length * 2);
+  larger.set(array);
+  return larger;
+}
+
+/**
+ * The least and the largest value of every column of pixels, in the order in which they came.
+ *
+ * @param {Samples} samples
+ * @param {number} from_s @param {number} to_s what is seen
+ * @param {number} columns
+ * @returns {(number | null | undefined)[]} two for each column; undefined: none came, null: a gap is before it
+ */
+export function columnsOf(samples, from_s, to_s, columns) {
+  /** @type {(number | null | undefined)[]} */
+  const drawn = new Array(columns * 2).fill(undefined);
+  const { times, values } = samples;
+  const width_s = (to_s - from_s) / columns;
+  const first = Math.max(samples.begin, samples.at(from_s) - 1);
+  let last_s = times[first] ?? 0;
+  for (let n = first; n < samples.end; n += 1) {
+    const time_s = times[n] ?? 0;
+    if (time_s > to_s) break;
+    const column = Math.min(columns - 1, Math.max(0, Math.floor((time_s - from_s) / width_s)));
+    if (time_s - last_s > GAP_S && column > 0) drawn[column * 2 - 1] ??= null;
+    last_s = time_s;
+    put(drawn, column * 2, values[n] ?? 0);
+  }
+  return drawn;
+}
+
+/** @param {(number | null | undefined)[]} drawn @param {number} at of the column @param {number} value */
+function put(drawn, at, value) {
+  const first = drawn[at];
+  const other = drawn[at + 1];
+  if (first === undefined || first === null) drawn[at] = value;
+  else if (other === undefined || other === null) drawn[at + 1] = value;
+  else widen(drawn, at, first, other, value);
+}
+
+/** @param {(number | null | undefined)[]} drawn @param {number} at @param {number} first @param {number} other @param {number} value */
+function widen(drawn, at, first, other, value) {
+  const least = Math.min(first, other);
+  const largest = Math.max(first, other);
+  if (value >= least && value <= largest) return;
+  // What came last stands behind: the line goes on from there.
+  drawn[at] = value > largest ? least : largest;
+  drawn[at + 1] = value;
+}
+
+/** @param {number} columns @param {number} span_s @returns {number[]} the times of `columnsOf`, up to 0 */
+export function columnTimes(columns, span_s) {
+  const width_s = span_s / columns;
+  return Array.from(
+    { length: columns * 2 },
+    (_, n) => (n >> 1) * width_s + (n % 2 ? 0.75 : 0.25) * width_s - span_s,
+  );
+}
+
+/**
+ * @param {readonly {topic: string, path: string, samples: Samples}[]} all
+ * @param {number} from_s @param {number} to_s
+ * @returns {string} a table of what is seen, one line for each number
+ */
+export function csvOf(all, from_s, to_s) {
+  const lines = ["topic,path,time_s,value"];
+  for (const { topic, path, samples } of all)
+    for (let n = samples.at(from_s); n < samples.end && (samples.times[n] ?? 0) <= to_s; n += 1)
+      lines.push(
+        `${quoted(topic)},${quoted(path)},${samples.times[n]?.toFixed(6)},${samples.values[n]}`,
+      );
+  return `${lines.join("\n")}\n`;
+}
+
+/** @param {string} text as it stands in a cell; what begins as a formula does is none */
+function quoted(text) {
+  const safe = /^[=+\-@\t\r]/.test(text) ? `'${text}` : text;
+  return /[",\n]/.test(safe) ? `"${safe.replaceAll('"', '""')}"` : safe;
+}
