@@ -15,6 +15,7 @@ from tests.benchmarks import (
     evaluator,
     fan_out,
     live_scene,
+    loop,
     memory,
     meshes_to_websocket,
     page,
@@ -40,6 +41,7 @@ BENCHMARKS: dict[str, Callable[[], None]] = {
     "tf": tf.run,
     "wire": wire.run,
     "displays": displays.run,
+    "loop": loop.run,
     "memory": memory.run,
 }
 

@@ -35,17 +35,17 @@ def run() -> None:
     """Measure each display in turn."""
     say(f"{'decode and draw':<44}{'median':>10}{'p95':>10}{'decode':>10}{'share':>8}")
     scan = _measure("LaserScan, 1,080 beams", LaserScanDisplay, _scan(1080))
-    cloud = _cloud(300_000, "intensity")
+    cloud = cloud_message(300_000, "intensity")
     intensity = _measure("PointCloud2, 300,000, intensity", PointCloud2Display, cloud)
     flat: dict[str, Value] = {"Color Transformer": "FlatColor"}
     _measure("PointCloud2, 300,000, one colour", PointCloud2Display, cloud, values=flat)
-    _measure("PointCloud2, 300,000, RGB8", PointCloud2Display, _cloud(300_000, "rgb"))
-    holes = _cloud(300_000, "intensity", share_of_nan=0.3)
+    _measure("PointCloud2, 300,000, RGB8", PointCloud2Display, cloud_message(300_000, "rgb"))
+    holes = cloud_message(300_000, "intensity", share_of_nan=0.3)
     broken = _measure("PointCloud2, 300,000, a third NaN", PointCloud2Display, holes)
-    large = _cloud(1_000_000, "intensity")
+    large = cloud_message(1_000_000, "intensity")
     _measure("PointCloud2, 1,000,000, all shown", PointCloud2Display, large, limits=_MILLION)
     _measure("PointCloud2, 1,000,000, 300,000 shown", PointCloud2Display, large)
-    _measure("OccupancyGrid, 2,000 x 2,000, all new", MapDisplay, _map(2000), fresh=True)
+    _measure("OccupancyGrid, 2,000 x 2,000, all new", MapDisplay, map_message(2000), fresh=True)
     _measure("Image, 1,920 x 1,080, rgb8", ImageDisplay, _image(1920, 1080))
     _measure("CompressedImage, 1,920 x 1,080, jpeg", ImageDisplay, _jpeg(1920, 1080))
     judge("LaserScan(1080): decode and draw", scan, at_most=0.5)
@@ -90,7 +90,8 @@ def _scan(count: int) -> Received:
     return received("sensor_msgs/msg/LaserScan", fields)
 
 
-def _cloud(count: int, last: str, share_of_nan: float = 0.0) -> Received:
+def cloud_message(count: int, last: str, share_of_nan: float = 0.0) -> Received:
+    """Points anywhere, each of four floats, of which the last has this name."""
     rng = np.random.default_rng(1)
     points = np.zeros(count, dtype=_POINT)
     for name in _POINT.names or ():
@@ -107,7 +108,8 @@ def _cloud(count: int, last: str, share_of_nan: float = 0.0) -> Received:
     return received("sensor_msgs/msg/PointCloud2", whole)
 
 
-def _map(edge: int) -> Received:
+def map_message(edge: int) -> Received:
+    """A square of cells, each of any value."""
     cells = np.random.default_rng(1).integers(-1, 101, edge * edge).astype(np.int8)
     info = {"width": edge, "height": edge, "resolution": 0.05}
     return received("nav_msgs/msg/OccupancyGrid", {"info": info, "data": cells})
