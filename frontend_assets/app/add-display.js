@@ -229,7 +229,7 @@ function topicsInView(list) {
 /** @param {{offer: Offer, chosen: boolean, rate: TopicRate | undefined, onPoint: () => void, onAdd: () => void}} props */
 function OfferRow({ offer, chosen, rate, onPoint, onAdd }) {
   const { icon, label, note, aside, off, topic } = offer;
-  return html`<div role="option" class="offer" aria-selected=${chosen} aria-disabled=${off === "" ? null : "true"} data-topic=${topic || null}
+  return html`<div role="option" class="display-offer" aria-selected=${chosen} aria-disabled=${off === "" ? null : "true"} data-topic=${topic || null}
     title=${off || note} onClick=${onPoint} onDblClick=${onAdd}>
     <${Icon} name=${icon} size=${18} />
     <span class="offer-words"><span>${label}</span><small>${note}</small></span>

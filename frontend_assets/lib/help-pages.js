@@ -10,6 +10,7 @@ const OTHERS = {
     measuring: "measure",
     search: "search",
     ros: "link",
+    live: "radar",
     keys: "keyboard",
     layouts: "layout",
     graphics: "system",
@@ -35,5 +36,5 @@ export const OF_DIALOG = {
   layouts: "layouts",
   graphics: "graphics",
   ros: "ros",
-  add_display: "displays",
+  add_display: "live",
 };

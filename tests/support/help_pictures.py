@@ -243,6 +243,8 @@ def take_wired(browser: Browser, data: Path) -> None:
                     camera.take_part("live", tab.page.locator("dialog"))
                     tab.page.keyboard.press("Escape")
                 if wanted("displays"):
+                    if theme == THEMES[0]:
+                        tab.page.evaluate(_ADD_LIVE)
                     take_displays(camera)
 
 
@@ -256,8 +258,6 @@ def take_displays(camera: Camera) -> None:
     page = camera.page
     page.evaluate(SHOW_PANEL, "displays")
     page.evaluate(_RUN, "maximize")
-    if not page.locator("[id^='row-display:']").count():
-        page.evaluate(_ADD_LIVE)
     page.get_by_role("treeitem", name="Robot model").click()
     page.locator(".tree-meta", has_text="10 Hz").wait_for()
     camera.take("displays", page.evaluate(_DOCK_OF, "displays"))
