@@ -57,3 +57,21 @@ export function tookText(seconds) {
 
 /** @param {string} json @returns {unknown} undefined: there is none */
 export const plainOf = (json) => (json ? JSON.parse(json) : undefined);
+
+const GOAL_OVER = new Set(["succeeded", "canceled", "aborted", "rejected", "failed"]);
+
+/** @param {{state: string}} goal */
+export const isGoalOver = ({ state }) => GOAL_OVER.has(state);
+
+/** @param {unknown} value @returns {string} plain values on one line */
+export function shortOf(value) {
+  if (typeof value !== "object" || value === null) return String(value);
+  if (Array.isArray(value)) return `[${value.map(shortOf).join(", ")}]`;
+  const inner = Object.entries(value).map(([key, one]) => {
+    const text = shortOf(one);
+    return typeof one === "object" && one !== null && !Array.isArray(one)
+      ? `${key}: {${text}}`
+      : `${key}: ${text}`;
+  });
+  return inner.join(", ");
+}

@@ -16,6 +16,9 @@ import { useSeen } from "../lib/seen.js";
 import { EmptyState, Icon, IconButton, SearchBox } from "../lib/ui.js";
 import { FormOfMessage } from "./message-form.js";
 
+/** @type {Record<string, string>} */
+const ICONS = { bad: "error", cancelled: "stop", canceled: "stop", stopped: "stop" };
+
 /**
  * @typedef {object} DeedPanelProps
  * @property {string} id of the panel
@@ -25,6 +28,12 @@ import { FormOfMessage } from "./message-form.js";
  * @property {(line: PastedLine) => void} onLine
  * @property {(paste: (text: string) => boolean) => ComponentChildren} children
  */
+
+/** @param {MessageForm} form @returns {(line: PastedLine) => void} takes a command line into a form */
+export const openLine =
+  (form) =>
+  ({ name, type, text }) =>
+    void form.open({ name: name.startsWith("/") ? name : `/${name}`, type }, text);
 
 /** @param {DeedPanelProps} props the panel itself: a command line may be pasted anywhere into it */
 export function DeedPanel({ id, icon, kind, follow, onLine, children }) {
@@ -65,10 +74,11 @@ export function DeedPanel({ id, icon, kind, follow, onLine, children }) {
  * @property {MessageForm} form
  * @property {(text: string) => boolean} paste takes a command line
  * @property {boolean} [noisy] there are some that every node has
+ * @property {ComponentChildren} [children] what stands below the list
  */
 
 /** @param {OffersProps} props */
-export function Offers({ id, icon, offers, refused, again, form, paste, noisy = false }) {
+export function Offers({ id, icon, offers, refused, again, form, paste, noisy = false, children }) {
   const filter = useSignal("");
   const all = useSignal(false);
   const onInput = (/** @type {string} */ text) => {
@@ -84,6 +94,7 @@ export function Offers({ id, icon, offers, refused, again, form, paste, noisy = 
     ${refused && html`<${Refusal} sentence=${refused} again=${again} />`}
     ${offers && shown.length === 0 && html`<${EmptyState} icon=${icon} title=${t(offers.length > 0 ? "deeds.filtered" : `${id}.none`)} />`}
     ${shown.length > 0 && html`<ul class="scroll offers" aria-label=${t(`panel.${id}`)}>${shown.map((one) => html`<${OfferRow} key=${one.name} offer=${one} form=${form} />`)}</ul>`}
+    ${children}
   </div>`;
 }
 
@@ -117,6 +128,7 @@ export function DeedForm({ form, onSubmit, actions, children }) {
 
 /** @param {{state: string, busy: boolean, bad: boolean, words: string}} props how a deed stands */
 export function DeedState({ state, busy, bad, words }) {
-  const icon = bad ? "error" : state === "cancelled" || state === "canceled" ? "stop" : "check";
-  return html`<span class=${`deed-state ${bad ? "bad" : ""}`} role="status">${busy ? html`<span class="spinner"></span>` : html`<${Icon} name=${icon} size=${13} />`}<span>${words}</span></span>`;
+  const isGivenUp = /^(cancell?ed|stopped)$/.test(state);
+  const icon = ICONS[bad ? "bad" : state] ?? "check";
+  return html`<span class=${`deed-state ${bad ? "bad" : ""} ${isGivenUp ? "given-up" : ""}`} role="status">${busy ? html`<span class="spinner"></span>` : html`<${Icon} name=${icon} size=${13} />`}<span>${words}</span></span>`;
 }

@@ -1,7 +1,6 @@
 /** The services that somebody serves: each called by a form or YAML, with the reply, its time and those before. */
 
 /** @import { CallView } from "../types/wire.d.ts" */
-/** @import { PastedLine } from "../lib/pasted-line.js" */
 
 import { html, useSignal } from "vendor/preact.js";
 import { callService, cancelCall } from "../app/deeds.js";
@@ -15,18 +14,17 @@ import { t } from "../lib/i18n.js";
 import { parseNumber } from "../lib/numbers.js";
 import { TextBox } from "../lib/slider.js";
 import { Icon } from "../lib/ui.js";
-import { DeedForm, DeedPanel, DeedState, Offers } from "./deed-panel.js";
+import { DeedForm, DeedPanel, DeedState, Offers, openLine } from "./deed-panel.js";
 import { ValueTree } from "./value-tree.js";
 
 const LONGEST_S = 3600;
 const FOLLOW = [followServices, () => followDeeds("calls")];
 
-/** @param {PastedLine} line */
-const open = ({ name, type, text }) =>
-  serviceForm.open({ name: name.startsWith("/") ? name : `/${name}`, type }, text);
+/** @param {CallView} call its request, into the form */
+const again = ({ name, service_type: type, text }) => void serviceForm.open({ name, type }, text);
 
 export function ServicesPanel() {
-  return html`<${DeedPanel} id="services" icon="services" kind="service" follow=${FOLLOW} onLine=${open}>
+  return html`<${DeedPanel} id="services" icon="services" kind="service" follow=${FOLLOW} onLine=${openLine(serviceForm)}>
     ${(
       /** @type {(text: string) => boolean} */ paste,
     ) => html`<div class=${`deeds-parts ${serviceForm.chosen.value ? "chosen" : ""}`}>
@@ -94,7 +92,7 @@ function Before({ calls: own, shown, onShow }) {
       ) => html`<li key=${call.deed}><button type="button" class="offer" aria-pressed=${call.deed === shown} onClick=${() => onShow(call.deed)}>
       <span class="offer-name">${call.text.trim().replace(/\s+/g, " ") || "{}"}</span>
       <${DeedState} state=${call.state} busy=${call.state === "calling"} bad=${call.state === "failed"} words=${stateWords(call)} /></button>
-      <button type="button" class="text-button" onClick=${() => open({ kind: "service", name: call.name, type: call.service_type, text: call.text, rate_hz: 0, qos: {} })}>${t("deeds.again")}</button></li>`,
+      <button type="button" class="text-button" onClick=${() => again(call)}>${t("deeds.again")}</button></li>`,
     )}</ul>
   </details>`;
 }

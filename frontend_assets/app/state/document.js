@@ -14,9 +14,10 @@ import { movableJoints } from "../../lib/joints.js";
 import { isChanged } from "../../lib/sites.js";
 import { linkTree } from "../../lib/tree.js";
 import { role, session, version } from "./connection.js";
-import { takeCalls } from "./deeds.js";
+import { takeCalls, takeGoals, takePublications } from "./deeds.js";
 import { takeLeftWork, takeRestored } from "./keeping.js";
 import { takeDisplayStates, takeLiveDisplays } from "./live.js";
+import { takeParameterNews } from "./parameter-values.js";
 import { takePoses } from "./poses.js";
 import { takeFeed, takeRos } from "./ros.js";
 import { takeTextNews } from "./source.js";
@@ -208,6 +209,9 @@ const TAKERS = {
   variants: takeVariants,
   poses: takePoses,
   calls: takeCalls,
+  goals: takeGoals,
+  publications: takePublications,
+  parameters_changed: takeParameterNews,
   wire_state: takeRos,
   wire_feed: takeFeed,
   live_displays: takeLiveDisplays,

@@ -76,5 +76,9 @@ export function messageForm() {
 }
 
 export const serviceForm = messageForm();
+export const goalForm = messageForm();
+export const publishForm = messageForm();
 /** Seconds that a service has for its answer. */
 export const callTimeout = signal(10);
+/** How a message is published: so often a second, and with which quality of service. */
+export const publishing = signal({ rate_hz: 1, reliable: true, latched: false, depth: 10 });

@@ -1,0 +1,74 @@
+/** Which nodes have parameters, and those of one of them: followed while somebody looks. */
+
+/** @import { Signal } from "vendor/preact.js" */
+
+import { effect, signal, untracked } from "vendor/preact.js";
+import { send } from "../wire.js";
+import { connection } from "./connection.js";
+import { sharedLook } from "./frames.js";
+import { chosenNode, parameters, setRefused } from "./parameter-values.js";
+import { polled } from "./polling.js";
+import { askOrKeepWhy } from "./refusals.js";
+
+const EVERY_MS = 1500;
+
+/** Null: not told yet. @type {Signal<readonly string[] | null>} */
+export const parameterNodes = signal(null);
+export const nodesRefused = signal("");
+/** Why the parameters of the node were not told at last. */
+export const parametersRefused = signal("");
+
+/** Ask now. */
+export async function askNodes() {
+  const told = await askOrKeepWhy({ type: "get_parameter_nodes" }, nodesRefused);
+  if (told?.type === "parameter_nodes") parameterNodes.value = told.nodes;
+}
+export const followNodes = polled(askNodes, EVERY_MS);
+
+/** Ask now for all of the node. */
+export async function askParameters() {
+  const node = chosenNode.peek();
+  if (node === "") return;
+  const told = await askOrKeepWhy({ type: "get_parameters", node }, parametersRefused);
+  if (told?.type === "parameters" && node === chosenNode.peek()) parameters.value = told.parameters;
+}
+
+/** Be told of the node that is chosen, and of what changes in it; gives the end of it. */
+export const followParameters = sharedLook(() => {
+  const tell = (/** @type {string} */ node) =>
+    // What is in the way is seen by the page itself: a new lane begins anew.
+    void send({ type: "follow_parameters", node }).catch(() => {});
+  const end = effect(() => {
+    if (connection.value !== "connected") return;
+    tell(chosenNode.value);
+    untracked(askParameters);
+  });
+  return () => {
+    end();
+    tell("");
+  };
+});
+
+/** @param {string} node full name; empty: none */
+export function chooseNode(node) {
+  parameters.value = null;
+  [setRefused.value, parametersRefused.value] = [new Map(), ""];
+  chosenNode.value = node;
+}
+
+/**
+ * @param {string} name
+ * @param {string} text of the value
+ * @param {string} valueType as it is now
+ */
+export async function setParameter(name, text, valueType) {
+  const node = chosenNode.peek();
+  const refused = signal("");
+  await askOrKeepWhy({ type: "set_parameter", node, name, text, value_type: valueType }, refused);
+  if (node !== chosenNode.peek()) return;
+  const left = new Map(setRefused.value);
+  if (refused.value) left.set(name, refused.value);
+  else left.delete(name);
+  setRefused.value = left;
+  await askParameters();
+}

@@ -1,0 +1,107 @@
+/** The actions that somebody serves: goals sent by a form, several at once, with progress, feedback, cancel and result. */
+
+/** @import { GoalView } from "../types/wire.d.ts" */
+
+import { html, useEffect } from "vendor/preact.js";
+import { cancelGoal, sendGoal } from "../app/deeds.js";
+import { mayEdit } from "../app/state/connection.js";
+import { followDeeds } from "../app/state/deed-following.js";
+import { goals } from "../app/state/deeds.js";
+import { followStatuses, goalStatuses } from "../app/state/goal-statuses.js";
+import { goalForm } from "../app/state/message-forms.js";
+import { actions, askActions, followActions, offersRefused } from "../app/state/offers.js";
+import { isGoalOver, plainOf, shortOf, tookText } from "../lib/deeds.js";
+import { progressOf } from "../lib/goal-progress.js";
+import { t } from "../lib/i18n.js";
+import { Icon, ProgressBar } from "../lib/ui.js";
+import { DeedForm, DeedPanel, DeedState, Offers, openLine } from "./deed-panel.js";
+import { ValueTree } from "./value-tree.js";
+
+const FOLLOW = [followActions, () => followDeeds("goals")];
+const LOG_SHOWN = 50;
+
+export function ActionsPanel() {
+  return html`<${DeedPanel} id="actions" icon="goal" kind="action" follow=${FOLLOW} onLine=${openLine(goalForm)}>
+    ${(
+      /** @type {(text: string) => boolean} */ paste,
+    ) => html`<div class=${`deeds-parts ${goalForm.chosen.value ? "chosen" : ""}`}>
+      <${Offers} id="actions" icon="goal" offers=${actions.value} refused=${offersRefused.value} again=${askActions} form=${goalForm} paste=${paste}>
+        <${UnderWay} /><//>
+      ${goalForm.chosen.value && html`<${Chosen} name=${goalForm.chosen.value.name} />`}
+    </div>`}
+  <//>`;
+}
+
+/** Goals of all actions that are under way, whoever sent them from a page. */
+function UnderWay() {
+  const running = goals.value.filter((one) => !isGoalOver(one));
+  if (running.length === 0) return null;
+  return html`<section class="goals-running" aria-label=${t("actions.running")}><h4>${t("actions.running")}</h4>
+    ${running.map((goal) => html`<div class="goal-line" key=${goal.deed}><span class="offer-name" title=${goal.name}>${goal.name}</span><${Stand} goal=${goal} /><${Progress} goal=${goal} /></div>`)}</section>`;
+}
+
+/** @param {{name: string}} props the action that is chosen, and its goals */
+function Chosen({ name }) {
+  useEffect(() => followStatuses(name), [name]);
+  const own = goals.value.filter((one) => one.name === name).reverse();
+  return html`<div class="deeds-chosen scroll">
+    <${DeedForm} form=${goalForm} onSubmit=${sendGoal} actions=${html`
+      <button type="submit" class="button primary" disabled=${!mayEdit.value || goalForm.wrong.value}><${Icon} name="send" />${t("actions.send")}</button>`} />
+    ${own.map((goal) => html`<${Goal} key=${goal.deed} goal=${goal} />`)}
+    <${Others} />
+  </div>`;
+}
+
+/** @param {{goal: GoalView}} props */
+function Goal({ goal }) {
+  const last = plainOf(goal.feedback.at(-1)?.values ?? "");
+  const result = plainOf(goal.result);
+  const over = isGoalOver(goal);
+  return html`<section class="deed-reply" aria-label=${t("actions.goal", { number: goal.deed })}>
+    <header class="goal-head"><${Stand} goal=${goal} />${!over && html`<${Cancel} goal=${goal} />`}</header>
+    <p class="goal-asked" title=${goal.text}>${goal.text.trim().replace(/\s+/g, " ") || "{}"}</p>
+    <${Progress} goal=${goal} />
+    ${goal.trouble && html`<p class="note bad" role="alert">${goal.trouble}</p>`}
+    ${!over && last !== undefined && html`<${ValueTree} value=${last} label=${t("actions.feedback")} />`}
+    ${result !== undefined && html`<${ValueTree} value=${result} label=${t("actions.result")} />`}
+    ${goal.feedback_count > 0 && html`<${Log} goal=${goal} />`}
+  </section>`;
+}
+
+/** @param {{goal: GoalView}} props how it stands, in words */
+function Stand({ goal }) {
+  const bad = goal.state === "failed" || goal.state === "rejected" || goal.state === "aborted";
+  const words = t(`actions.${goal.state}`, { time: tookText(goal.took_s) });
+  return html`<${DeedState} state=${goal.state} busy=${!isGoalOver(goal)} bad=${bad} words=${words} />`;
+}
+
+/** @param {{goal: GoalView}} props */
+function Cancel({ goal }) {
+  const asked = goal.state === "canceling";
+  return html`<button type="button" class="button small" disabled=${asked || !mayEdit.value} onClick=${() => cancelGoal(goal.deed)}>
+    ${t(asked ? "actions.cancelling" : "cancel")}</button>`;
+}
+
+/** @param {{goal: GoalView}} props a bar while it is under way, as far as its feedback tells */
+function Progress({ goal }) {
+  if (isGoalOver(goal)) return null;
+  const told = progressOf(goal.feedback.map(({ values }) => plainOf(values)));
+  const percent = told && Math.round(told.share * 100);
+  return html`<div class="goal-progress"><${ProgressBar} label=${t("actions.progress")} done=${told?.share ?? 0} total=${told ? 1 : 0} />
+    ${percent !== null && html`<span class="goal-percent">${percent} %</span>`}</div>`;
+}
+
+/** @param {{goal: GoalView}} props the newest first */
+function Log({ goal }) {
+  const shown = goal.feedback.slice(-LOG_SHOWN).reverse();
+  return html`<details class="deed-history"><summary>${t("actions.log", { count: goal.feedback_count })}</summary>
+    <ol class="deed-log">${shown.map((one) => html`<li key=${one.number}><span class="goal-time">${one.after_s.toFixed(1)} s</span><span>${shortOf(plainOf(one.values))}</span></li>`)}</ol></details>`;
+}
+
+/** Goals of this action that somebody else sent, as its server tells. */
+function Others() {
+  const others = goalStatuses.value.filter((one) => !one.is_ours);
+  if (others.length === 0) return null;
+  return html`<section class="goals-others" aria-label=${t("actions.others")}><h4>${t("actions.others")}</h4>
+    <ul>${others.map((one) => html`<li key=${one.goal_id}><code>${one.goal_id.slice(0, 8)}</code> ${t(`actions.${one.state}`, { time: "" })}</li>`)}</ul></section>`;
+}
