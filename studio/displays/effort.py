@@ -10,6 +10,7 @@ from studio.displays.colour_maps import RAINBOW, mapped
 from studio.displays.display import Status, TopicRole
 from studio.displays.drawing import NO_TURN, Arrows, Lines, Placed
 from studio.displays.history import Entry, HistoryDisplay, frame_and_stamp
+from studio.displays.link_parts import frame_of
 from studio.displays.pose_look import length, switch
 from studio.displays.properties import Property
 from studio.displays.reading import reading
@@ -172,8 +173,7 @@ class EffortDisplay(HistoryDisplay[Efforts]):
             return None
         most = joint.limit.effort if joint.limit is not None else 0.0
         share = min(abs(effort) / most, 1.0) if 0 < most <= FAR else abs(effort)
-        prefix = str(self.values["TF Prefix"])
-        frame = f"{prefix}/{joint.child}" if prefix else joint.child
+        frame = frame_of(joint.child, str(self.values["TF Prefix"]))
         return Ring(frame, axis / size, effort, share + _LEAST)
 
     def _ring(self, ring: Ring) -> dict[str, Shape]:

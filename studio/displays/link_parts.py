@@ -37,3 +37,9 @@ class LinkParts:
         """Of the files that it is drawn with."""
         drawn = self.link if self.visual else replace(self.link, visuals=())
         return frozenset(mesh_uris(drawn, collisions=self.collision))
+
+
+def frame_of(link: str, tf_prefix: str) -> str:
+    """The frame of a link on /tf; as in RViz a slash stands between it and a prefix."""
+    prefix = tf_prefix.strip("/")
+    return f"{prefix}/{link}" if prefix else link

@@ -10,7 +10,7 @@ import numpy as np
 
 from studio.displays.display import Received, Status, StillDisplay, TopicRole
 from studio.displays.drawing import NO_TURN, Axes, Placed
-from studio.displays.link_parts import LinkParts
+from studio.displays.link_parts import LinkParts, frame_of
 from studio.displays.properties import Property
 from studio.displays.reading import reading
 from studio.errors import DisplayMessageError
@@ -167,7 +167,7 @@ class RobotModelDisplay(StillDisplay):
 
     def frame_of(self, link: str) -> str:
         """The frame of a link on /tf."""
-        return prefixed(link, str(self.values["TF Prefix"]))
+        return frame_of(link, str(self.values["TF Prefix"]))
 
     def statuses(self) -> tuple[Status, ...]:
         """What is wrong with the description, and why nothing of the robot is seen."""
@@ -237,9 +237,3 @@ class RobotModelDisplay(StillDisplay):
                 doc = "Shows the axes of this link."
                 return Property(name, "switch", default=False, doc=doc)
         return Property(name, "switch", default=True, doc="Shows this link.")
-
-
-def prefixed(link: str, prefix: str) -> str:
-    """The frame of a link on /tf, with RViz's prefix: a slash stands between."""
-    prefix = prefix.strip("/")
-    return f"{prefix}/{link}" if prefix else link

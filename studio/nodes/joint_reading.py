@@ -37,9 +37,14 @@ class _Reading(NamedTuple):
 
 
 class JointReading:
-    """Reads revolute, continuous and prismatic joints; what does not fit their axis is left out."""
+    """Reads revolute, continuous and prismatic joints; what does not fit their axis is left out.
+
+    Frames may have a prefix, as `r1/wheel`. Of several robots the first that is heard is read, but
+    frames without a prefix are the robot's own before all others.
+    """
 
     def __init__(self, robot: Robot, kinematics: Kinematics) -> None:
+        self._prefix: str | None = None
         self._by_child: dict[str, _Reading] = {}
         for column, name in enumerate(kinematics.movable):
             joint = robot.joints[name]
@@ -60,13 +65,26 @@ class JointReading:
         """Position of each joint whose transform is among these, rad or m, by name."""
         found: dict[str, float] = {}
         for one in transforms:
-            reading = self._by_child.get(one.child)
-            if reading is None or reading.parent != one.parent or not _is_sound(one):
+            reading = self._reading_of(one)
+            if reading is None or not _is_sound(one):
                 continue
             value = _distance_m(reading, one) if reading.slides else _angle_rad(reading, one)
             if math.isfinite(value):
                 found[reading.name] = value
         return found
+
+    def _reading_of(self, one: LinkTransform) -> _Reading | None:
+        """Of the joint between the two links, if they are those of the robot that is read."""
+        link = one.child if one.child in self._by_child else one.child.rpartition("/")[2]
+        reading = self._by_child.get(link)
+        if reading is None:
+            return None
+        prefix = one.child.removesuffix(link)
+        if one.parent != prefix + reading.parent:
+            return None
+        if self._prefix is None or not prefix:
+            self._prefix = prefix
+        return reading if prefix == self._prefix else None
 
 
 def _is_sound(one: LinkTransform) -> bool:

@@ -49,3 +49,23 @@ def test_what_is_no_number_or_no_rotation_moves_nothing():
     no_rotation = LinkTransform("lift", "arm", (0, 0, 0), (0, 0, 0, 0))
     no_turn = LinkTransform("lift", "arm", (0, 0, 0), (math.inf, 0, 0, math.nan))
     assert READING.positions([no_number, no_rotation, no_turn]) == {}
+
+
+def test_of_robots_with_prefixes_the_first_is_read_until_one_without_comes():
+    reading = JointReading(ROBOT, KINEMATICS)
+
+    def told(prefix: str, lift: float) -> dict[str, float]:
+        writing = LinkTransforms(ROBOT, prefix, KINEMATICS)
+        return reading.positions(writing.moved({"lift": lift}))
+
+    assert told("r1/", 1.0) == pytest.approx({"lift": 1.0})
+    assert told("r2/", 2.0) == {}
+    assert told("r1/", 1.5) == pytest.approx({"lift": 1.5})
+    assert told("", 3.0) == pytest.approx({"lift": 3.0})
+    assert told("r1/", 1.0) == {}
+
+
+def test_two_links_of_different_prefixes_are_those_of_no_robot():
+    reading = JointReading(ROBOT, KINEMATICS)
+    mixed = LinkTransform("r1/base", "r2/lift", (1, 0, 0), (1, 0, 0, 0))
+    assert reading.positions([mixed]) == {}

@@ -145,7 +145,7 @@ class RobotModels:
         try:
             is_file = source.kind == "File"
             second = await (self._of_file(text) if is_file else self._reader.read_text(text))
-            fault = _told(second)
+            fault = second.fault or ("" if second.robot.links else "It describes no link.")
         except StudioError as error:
             second, fault = None, str(error)
         if source != model.source or model.is_gone:
@@ -210,10 +210,3 @@ class RobotModels:
         self._tasks.discard(task)
         if not task.cancelled() and (error := task.exception()):
             _log.error("The robot of a display could not be read.", exc_info=error)
-
-
-def _told(second: SecondRobot) -> str:
-    """What is wrong with a robot, without the folder that its text does not lie in."""
-    if second.fault or second.robot.links:
-        return second.fault
-    return "It describes no link."

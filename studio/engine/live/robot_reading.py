@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import asyncio
+import os
+from dataclasses import replace
 from typing import TYPE_CHECKING, Final
 
 from studio.description.values import ReadPolicy
@@ -38,7 +40,8 @@ class RobotReader:
         """The robot that a text describes; what is wrong with it is in the answer."""
         entry = str(self._nowhere / _NAME)
         target = Target(entry, ReadPolicy((str(self._nowhere),), {}, {}))
-        return await self._read(target, {entry: text.encode("utf-8", "replace")})
+        second = await self._read(target, {entry: text.encode("utf-8", "replace")})
+        return replace(second, fault=second.fault.replace(f"{self._nowhere}{os.sep}", ""))
 
     async def read_file(self, target: Target) -> SecondRobot:
         """The robot of a file, read under the rules of its target."""
