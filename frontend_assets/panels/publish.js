@@ -24,6 +24,8 @@ import { DeedForm, DeedPanel, DeedState, Offers, openLine } from "./deed-panel.j
 const FOLLOW = [followPublishable, () => followDeeds("publications")];
 const RATE_MAX_HZ = 1000;
 const SHOWN = 8;
+const EXAMPLE = "geometry_msgs/msg/Twist";
+const UNIT = "Hz";
 
 /** @param {PastedLine} line */
 function onLine(line) {
@@ -65,7 +67,7 @@ function AnotherTopic() {
     ) => {
       name.value = event.currentTarget.value.trim();
     }} />
-    <input class="box wide" aria-label=${t("publish.type")} placeholder="geometry_msgs/msg/Twist" value=${type.value} disabled=${!mayEdit.value} spellcheck=${false} autocomplete="off" onInput=${(
+    <input class="box wide" aria-label=${t("publish.type")} placeholder=${EXAMPLE} value=${type.value} disabled=${!mayEdit.value} spellcheck=${false} autocomplete="off" onInput=${(
       /** @type {any} */ event,
     ) => {
       type.value = event.currentTarget.value.trim();
@@ -94,7 +96,7 @@ function Rate({ rate }) {
       publishing.value = { ...publishing.value, rate_hz: Math.min(hz, RATE_MAX_HZ) };
   };
   return html`<label class="deed-timeout">${t("publish.rate")}<${TextBox} label=${t("publish.rate.hz")} class="number narrow" text=${String(rate)} disabled=${!mayEdit.value}
-    number=${rate} step=${1} onWrite=${write} />Hz</label>`;
+    number=${rate} step=${1} onWrite=${write} />${UNIT}</label>`;
 }
 
 /** Quality of service. */
