@@ -9,7 +9,7 @@ from pydantic import Field, StringConstraints
 from studio.engine.messages.message import CommandMessage, Message
 
 RosName: TypeAlias = Annotated[str, StringConstraints(max_length=300, pattern=r"^[^\x00]*$")]
-"""Of a topic or frame; what it may be is checked where it is used."""
+"""Of a topic, a frame or a property with its link; what it may be is checked where it is used."""
 ShortName: TypeAlias = Annotated[str, StringConstraints(max_length=80, pattern=r"^[^\x00-\x1f]*$")]
 DisplayId: TypeAlias = Annotated[str, StringConstraints(max_length=20)]
 PropertyValue: TypeAlias = bool | int | float | str
@@ -74,7 +74,7 @@ class SetDisplayProperty(CommandMessage):
 
     type: Literal["set_display_property"] = "set_display_property"
     display: DisplayId
-    name: ShortName
+    name: RosName
     value: PropertyValue
 
 
