@@ -7,7 +7,7 @@ import { robot } from "../app/state/document.js";
 import { fixedFrame, frameTrouble } from "../app/state/live.js";
 import { t } from "../lib/i18n.js";
 import { PickBox } from "../lib/pick-box.js";
-import { Icon } from "../lib/ui.js";
+import { Icon, IconButton } from "../lib/ui.js";
 
 export function FixedFrame() {
   if (!robot.value) return null;
@@ -17,7 +17,15 @@ export function FixedFrame() {
     ...(await framesNow()).map(({ name }) => name),
   ];
   return html`<span class="divider"></span>
-    ${trouble && html`<span class="frame-trouble" role="img" aria-label=${trouble} title=${trouble}><${Icon} name="alert" size=${15} /></span>`}
+    ${trouble && html`<${Trouble} trouble=${trouble} />`}
     <${PickBox} class="fixed-frame" label=${t("live.fixed_frame")} text=${fixedFrame.value} placeholder=${t("live.fixed_frame.placeholder")}
       disabled=${!mayEdit.value} choices=${choices} onWrite=${(/** @type {string} */ frame) => void setFixedFrame(frame)} />`;
+}
+
+/** Why nothing can be drawn there; one click goes back. @param {{trouble: string}} props */
+function Trouble({ trouble }) {
+  if (!mayEdit.value)
+    return html`<span class="frame-trouble" role="img" aria-label=${trouble} title=${trouble}><${Icon} name="alert" size=${15} /></span>`;
+  return html`<${IconButton} class="frame-trouble" icon="alert" size=${15} label=${`${trouble} ${t("live.fixed_frame.mend")}`}
+    onClick=${() => void setFixedFrame("")} />`;
 }

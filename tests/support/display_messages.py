@@ -22,10 +22,16 @@ _CODECS: dict[str, Codec] = {}
 
 def received(type_name: str, fields: Mapping[str, Any], *, little: bool = True) -> Received:
     """A message of these fields; its header is of the frame `map` unless they say otherwise."""
+    return Received(
+        type_name, encoded(type_name, {"header": HEADER, **fields}, little=little), NOW_NS
+    )
+
+
+def encoded(type_name: str, fields: Mapping[str, Any], *, little: bool = True) -> bytes:
+    """The bytes of a message of these fields."""
     kind = TYPES.message(type_name)
     codec = _CODECS.setdefault(type_name, Codec(kind))
-    message = from_dict(kind, {"header": HEADER, **fields})
-    return Received(type_name, bytes(codec.encode(message, little_endian=little)), NOW_NS)
+    return bytes(codec.encode(from_dict(kind, fields), little_endian=little))
 
 
 def point(x: float, y: float, z: float) -> dict[str, float]:

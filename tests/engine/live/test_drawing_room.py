@@ -10,7 +10,7 @@ from studio.errors import RosNameError
 from studio.ros.fast.transforms import TransformCodec
 from studio.scene import DocumentScene
 from studio.tf.columns import TransformColumns
-from tests.support.display_messages import NOW_NS, pose, received
+from tests.support.display_messages import NOW_NS, encoded, pose, received
 from tests.support.heard_topics import HeardTopics, publisher
 from tests.support.transforms import S, Told, columns
 
@@ -142,6 +142,26 @@ def test_a_router_that_is_gone_is_said_of_each_display():
         made.link.is_connected = False
         made.listen()
         assert made.reasons() == [["connection_lost"], ["connection_lost"]]
+
+    inside_a_loop(story)
+
+
+def test_when_clock_goes_back_what_was_drawn_is_gone_and_what_comes_then_is_drawn():
+    def clock(sec: int) -> bytes:
+        return encoded("rosgraph_msgs/msg/Clock", {"clock": {"sec": sec}})
+
+    def story() -> None:
+        made = Room("/goal")
+        made.link.say("/clock", clock(100))
+        made.link.say("/goal", GOAL)
+        assert made.reasons() == [[""]]
+        made.link.say("/clock", clock(1))
+        made.reasons()
+        placing = made.room.get(made.ids[0]).placing
+        assert not placing.shown.drawing
+        made.link.say("/goal", GOAL)
+        assert made.reasons() == [[""]]
+        assert placing.shown.drawing
 
     inside_a_loop(story)
 

@@ -8,11 +8,9 @@ from studio.displays.drawing import FIXED_FRAME
 from studio.engine.live.frames_desk import FramesDesk
 from studio.engine.messages.live import GetTf
 from studio.errors import UnknownFrameError
-from studio.ros.cdr import Codec
 from studio.ros.fast.transforms import TransformCodec
-from studio.ros.types.plain import from_dict
 from studio.tf.columns import TransformColumns
-from tests.support.display_messages import TYPES
+from tests.support.display_messages import encoded
 from tests.support.heard_topics import HeardTopics, publisher
 from tests.support.posed import Posed, arm
 from tests.support.transforms import S, Told, columns
@@ -125,8 +123,7 @@ def test_a_jump_of_time_is_told_once():
 
 
 def clock(sec: int, nanosec: int = 0) -> bytes:
-    kind = TYPES.message("rosgraph_msgs/msg/Clock")
-    return bytes(Codec(kind).encode(from_dict(kind, {"clock": {"sec": sec, "nanosec": nanosec}})))
+    return encoded("rosgraph_msgs/msg/Clock", {"clock": {"sec": sec, "nanosec": nanosec}})
 
 
 def test_when_clock_goes_back_what_was_told_of_later_times_is_forgotten():
