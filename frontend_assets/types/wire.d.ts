@@ -168,6 +168,15 @@ export interface CancelGoal {
   deed: number;
 }
 
+/** Have a managed node take a transition; done when it has, refused with what became of it. */
+export interface ChangeState {
+  request?: number;
+  document?: string;
+  type: "change_state";
+  node: string;
+  transition: number;
+}
+
 /** Answer to `get_changes`. */
 export interface Changes {
   type: "changes";
@@ -301,6 +310,31 @@ export interface DeleteVariant {
   document?: string;
   type: "delete_variant";
   name: string;
+}
+
+/** One thing that a part tells of itself. */
+export interface DiagnosticValue {
+  key: string;
+  value: string;
+}
+
+/** How a part said it was when it said so last. */
+export interface DiagnosticView {
+  name: string;
+  hardware: string;
+  level: number;
+  message: string;
+  values: DiagnosticValue[];
+  age_s: number;
+}
+
+/** Answer to `get_diagnostics`. */
+export interface DiagnosticsAnswer {
+  type: "diagnostics";
+  request: number;
+  connected: boolean;
+  parts: DiagnosticView[];
+  more: number;
 }
 
 /** A line with its numbers from 1 in the text before and after, where it is in them. */
@@ -715,6 +749,13 @@ export interface GetCollisions {
   file: string;
 }
 
+/** Ask how all parts are; they are heard from the first such question on. */
+export interface GetDiagnostics {
+  request?: number;
+  document?: string;
+  type: "get_diagnostics";
+}
+
 /** Which displays there are. */
 export interface GetDisplayKinds {
   request?: number;
@@ -774,6 +815,13 @@ export interface GetLog {
   document?: string;
   type: "get_log";
   after?: number;
+}
+
+/** Ask in which state the managed nodes are; each of them is asked. */
+export interface GetManaged {
+  request?: number;
+  document?: string;
+  type: "get_managed";
 }
 
 /** What the links of the last good robot weigh, and what room their shapes take. */
@@ -1209,6 +1257,23 @@ export interface LookUp {
 export interface MacroCall {
   macro: string;
   called_at: Place;
+}
+
+/** A managed node. */
+export interface ManagedNodeView {
+  name: string;
+  state_id: number;
+  state: string;
+  transitions: TransitionView[];
+  trouble: string;
+}
+
+/** Answer to `get_managed`. */
+export interface ManagedNodes {
+  type: "managed_nodes";
+  request: number;
+  nodes: ManagedNodeView[];
+  more: number;
 }
 
 /** Answer to `get_masses`, true of the robot now: ask again when something was built. */
@@ -2247,6 +2312,13 @@ export interface Topics {
   topics: TopicView[];
 }
 
+/** What a node can be asked to do. */
+export interface TransitionView {
+  id: number;
+  label: string;
+  goal: string;
+}
+
 /** Take back the last step. */
 export interface Undo {
   request?: number;
@@ -2505,6 +2577,9 @@ export type Command =
   | GetLog
   | GetGraph
   | GetNode
+  | GetManaged
+  | ChangeState
+  | GetDiagnostics
   | GetTopicRates
   | ListTopics
   | GetTopicEnds
@@ -2595,6 +2670,8 @@ export type Event =
   | LogAnswer
   | GraphAnswer
   | NodeAnswer
+  | ManagedNodes
+  | DiagnosticsAnswer
   | TopicRates
   | TopicTable
   | TopicEnds

@@ -89,6 +89,7 @@ FIELDS: dict[str, object] = {
     "service_type": "x/srv/X",
     "deed": 1,
     "node": "/x",
+    "transition": 1,
     **dict.fromkeys(("action_type", "message_type"), "x/msg/X"),
     "deeds": "calls",
 }

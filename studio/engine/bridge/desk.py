@@ -7,9 +7,11 @@ from inspect import isawaitable
 from typing import TYPE_CHECKING, Any, Final, TypeAlias, TypeVar
 
 from studio.engine.bridge.deeds import DeedDesk
+from studio.engine.bridge.diagnostics import DiagnosticsDesk
 from studio.engine.bridge.graph import GraphDesk
 from studio.engine.bridge.hearing import HearingDesk
 from studio.engine.bridge.interfaces import InterfaceDesk
+from studio.engine.bridge.lifecycle import LifecycleDesk
 from studio.engine.bridge.logs import LogDesk
 from studio.engine.bridge.rates import RateDesk
 from studio.engine.bridge.topics import TopicDesk
@@ -17,8 +19,10 @@ from studio.engine.messages import calls as k
 from studio.engine.messages import goals as g
 from studio.engine.messages import parameters as p
 from studio.engine.messages import publishing as pub
+from studio.engine.messages.diagnostics import GetDiagnostics
 from studio.engine.messages.graph import GetGraph, GetNode
 from studio.engine.messages.interfaces import AddInterfaces, GetInterface, ListInterfaces
+from studio.engine.messages.lifecycle import ChangeState, GetManaged
 from studio.engine.messages.logs import GetLog
 from studio.engine.messages.message import CommandMessage
 from studio.engine.messages.topic_rates import GetTopicRates
@@ -52,6 +56,8 @@ class BridgeDesk:
         self.rates = RateDesk(wire)
         self.logs = LogDesk(wire)
         self.graph = GraphDesk(wire)
+        self.lifecycle = LifecycleDesk(wire)
+        self.diagnostics = DiagnosticsDesk(wire)
         self.deeds = DeedDesk(wire, self.interfaces)
 
     async def carry_out(self, command: m.BridgeCommand, listener: Listener) -> m.BridgeEvent | None:
@@ -73,11 +79,17 @@ class BridgeDesk:
 
     async def let_go(self) -> None:
         """Let go of the connection, which is about to end."""
-        await asyncio.gather(self.hearing.let_go(), self.deeds.let_go(), self.logs.let_go())
+        await asyncio.gather(
+            self.hearing.let_go(),
+            self.deeds.let_go(),
+            self.logs.let_go(),
+            self.lifecycle.let_go(),
+            self.diagnostics.let_go(),
+        )
 
     async def close(self) -> None:
         """End all that runs."""
-        await asyncio.gather(self.hearing.close(), self.deeds.close())
+        await asyncio.gather(self.hearing.close(), self.deeds.close(), self.lifecycle.let_go())
 
 
 _INTERFACES: Final = (
@@ -115,6 +127,9 @@ _LOGS: Final = (_row(GetLog, lambda d, c, _: d.logs.log(c)),)
 _GRAPH: Final = (
     _row(GetGraph, lambda d, c, _: d.graph.graph(c)),
     _row(GetNode, lambda d, c, _: d.graph.node(c)),
+    _row(GetManaged, lambda d, c, _: d.lifecycle.managed(c)),
+    _row(ChangeState, lambda d, c, _: d.lifecycle.change(c)),
+    _row(GetDiagnostics, lambda d, c, _: d.diagnostics.diagnostics(c)),
 )
 WORK: Final = dict((*_GRAPH, *_LOGS, *_INTERFACES, *_RATES, *_DEEDS, *_PARAMETERS, *_TOPICS))
 """What each command of the bridge does."""

@@ -5,16 +5,32 @@ from __future__ import annotations
 from typing import TypeAlias
 
 from studio.engine.messages.deeds import DeedCommand, DeedEvent
+from studio.engine.messages.diagnostics import DiagnosticsCommand, DiagnosticsEvent
 from studio.engine.messages.graph import GraphCommand, GraphEvent
 from studio.engine.messages.interfaces import InterfaceCommand, InterfaceEvent
+from studio.engine.messages.lifecycle import LifecycleCommand, LifecycleEvent
 from studio.engine.messages.logs import LogCommand, LogEvent
 from studio.engine.messages.topic_rates import RatesCommand, RatesEvent
 from studio.engine.messages.topics import TopicsCommand, TopicsEvent
 
 BridgeCommand: TypeAlias = (
-    InterfaceCommand | LogCommand | GraphCommand | RatesCommand | TopicsCommand | DeedCommand
+    InterfaceCommand
+    | LogCommand
+    | GraphCommand
+    | LifecycleCommand
+    | DiagnosticsCommand
+    | RatesCommand
+    | TopicsCommand
+    | DeedCommand
 )
 """Each concerns the connection, and none a document: the bridge desk carries them out."""
 BridgeEvent: TypeAlias = (
-    InterfaceEvent | LogEvent | GraphEvent | RatesEvent | TopicsEvent | DeedEvent
+    InterfaceEvent
+    | LogEvent
+    | GraphEvent
+    | LifecycleEvent
+    | DiagnosticsEvent
+    | RatesEvent
+    | TopicsEvent
+    | DeedEvent
 )
