@@ -10,6 +10,7 @@ const BELOW = ["plot", "log", "image", "diagnostics"];
 const UPPER = ["graph", "interfaces", "lifecycle"];
 const LOWER = ["topics", "services", "actions", "parameters", "publish", "teleop"];
 const LOW_SHARE = 0.36;
+const UPPER_SHARE = 0.4;
 
 /**
  * @param {"wide" | "medium"} kind
@@ -30,11 +31,11 @@ export function liveLayout(kind, width, height, isPanel) {
   }
   const side = Math.round(Math.min(270, width * 0.2));
   const right = Math.round(Math.min(470, width * 0.32));
-  const half = Math.round(height / 2);
+  const upperHeight = Math.round(height * UPPER_SHARE);
   return [
     ...tabs(left, side),
     { split: middle, size: width - side - right },
-    { split: [...tabs(upper, height - half), ...tabs(lower, half)], size: right },
+    { split: [...tabs(upper, upperHeight), ...tabs(lower, height - upperHeight)], size: right },
   ];
 }
 

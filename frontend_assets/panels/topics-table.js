@@ -4,7 +4,7 @@
 /** @import { TopicOrder } from "../lib/topic-rows.js" */
 /** @import { Signal } from "vendor/preact.js" */
 
-import { html } from "vendor/preact.js";
+import { html, useEffect } from "vendor/preact.js";
 import { chosenTopic, listening } from "../app/state/topics.js";
 import { beginDrag, endDrag } from "../app/topic-drag.js";
 import { t } from "../lib/i18n.js";
@@ -28,9 +28,15 @@ export function chooseTopic(topic) {
 
 /** @param {{rows: readonly TopicRow[], rates: ReadonlyMap<string, TopicRate>, order: Signal<TopicOrder>}} props */
 export function TopicTable({ rows, rates, order }) {
-  const focusable = rows.some(({ name }) => name === chosenTopic.value)
-    ? chosenTopic.value
-    : rows[0]?.name;
+  const chosen = chosenTopic.value;
+  // What it says now takes the half of the room in which its row may have been.
+  useEffect(() => {
+    const frame = requestAnimationFrame(() =>
+      document.getElementById(rowId(chosen ?? ""))?.scrollIntoView({ block: "nearest" }),
+    );
+    return () => cancelAnimationFrame(frame);
+  }, [chosen]);
+  const focusable = rows.some(({ name }) => name === chosen) ? chosen : rows[0]?.name;
   /** @param {KeyboardEvent} event */
   const onKeyDown = (event) => {
     const at = rows.findIndex(({ name }) => rowId(name) === document.activeElement?.id);

@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 _KEPT_BYTES: Final = 16 << 20
 """Of a latched topic, for those who come later."""
+_EVERY_DEPTH: Final = 4_096
+"""So long may the loop be busy with other work: four seconds of a thousand messages each."""
 _TICK_SLACK_S: Final = 0.004
 """A tick that comes a little early is the one that was meant."""
 
@@ -192,6 +194,6 @@ def _depth_of(wish: Hear, fitting: Sequence[GraphEndpoint]) -> int:
     if wish.depth is not None:
         return wish.depth
     if wish.mode == "every":
-        return DEPTH_MAX
+        return _EVERY_DEPTH
     latched = [one for one in fitting if one.qos.durability is DurabilityPolicy.TRANSIENT_LOCAL]
     return 1 if not latched else min(DEPTH_MAX, max(1, len(latched)))

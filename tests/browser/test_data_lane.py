@@ -1,0 +1,117 @@
+"""Topics on the page: one is echoed by a click, its numbers are drawn by a drag, none is lost."""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+from studio.ros.messages import message
+from tests.support.demos import node_at, running_demo
+from tests.support.server import running_studio
+from tests.support.studio_page import StudioPage, studio_page, wait_until
+from tests.support.wire import free_endpoint, router_at
+
+if TYPE_CHECKING:
+    from collections.abc import Generator
+    from pathlib import Path
+
+    from playwright.sync_api import Browser, Locator
+
+    from studio.ros.client import Publisher
+    from tests.support.server import RunningStudio
+
+pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(400)]
+
+NUMBERS = "std_msgs/msg/Float64MultiArray"
+SERIES, MESSAGES = 8, 5_000
+_COUNTS = """async () => {
+  const script = document.querySelector('script[type="module"]').src;
+  const { samplesOf } = await import(new URL("plotting.js", script));
+  const { series } = await import(new URL("state/plot.js", script));
+  return series.value.map((one) => [samplesOf(one).count, samplesOf(one).newest()]);
+}"""
+
+
+@pytest.fixture
+def endpoint() -> Generator[str]:
+    with router_at(free_endpoint()) as router:
+        yield router.endpoint.text
+
+
+@pytest.fixture
+def studio(endpoint: str, tmp_path: Path) -> Generator[RunningStudio]:
+    words = ["demo", "--connect", endpoint, "--router", "off"]
+    with running_studio(words, tmp_path / "data") as running:
+        yield running
+
+
+def topic(tab: StudioPage, name: str) -> Locator:
+    return tab.page.locator(f"[id='topic-{name}']")
+
+
+def field(tab: StudioPage, path: str) -> Locator:
+    """A row of the message that is looked at."""
+    return tab.page.locator(f"[id='echo-{path}']")
+
+
+def see_topics(tab: StudioPage) -> None:
+    """The layout for what is live, with a connection."""
+    tab.page.keyboard.press("Control+2")
+    panel = tab.page.get_by_role("region", name="Topics")
+    panel.get_by_role("button", name="Connect", exact=True).click()
+
+
+def numbers(first: int) -> Any:  # noqa: ANN401
+    return message(NUMBERS)(data=[float(first + at) for at in range(SERIES)])
+
+
+def publish_at_1_khz(publisher: Publisher) -> None:
+    began_s = time.monotonic()
+    for number in range(1, MESSAGES + 1):
+        publisher.publish(numbers(number))
+        time.sleep(max(0.0, began_s + number / 1000 - time.monotonic()))
+
+
+def draw_all(tab: StudioPage) -> None:
+    """One number by a drag, the others by their buttons."""
+    field(tab, ".data").click()
+    field(tab, ".data[0]").drag_to(tab.page.locator(".panel-body.plot"))
+    for at in range(1, SERIES):
+        row = field(tab, f".data[{at}]")
+        row.hover()
+        row.get_by_role("button", name=f"Draw .data[{at}] over time").click()
+    lines = tab.page.get_by_role("list", name="Lines").get_by_role("listitem")
+    wait_until("all lines", lambda: lines.count() == SERIES)
+
+
+def test_t1_t3_a_click_echoes_a_topic_and_a_drag_draws_every_number_that_comes(
+    browser: Browser, studio: RunningStudio, endpoint: str
+):
+    with (
+        running_demo(endpoint, "talker") as talker,
+        node_at(endpoint, "teller") as teller,
+        studio_page(browser, studio) as tab,
+    ):
+        out = teller.create_publisher(message(NUMBERS), "/eight", 10)
+        see_topics(tab)
+        topic(tab, "/chatter").click()
+        said = field(tab, ".data").locator(".echo-value")
+        wait_until("what the talker said", lambda: said.count() == 1)
+        wait_until("that", lambda: said.inner_text() in talker.printed)
+        wait_until("its rate", lambda: "Hz" in topic(tab, "/chatter").inner_text())
+
+        topic(tab, "/eight").click()
+        wait_until("the studio to listen", lambda: out.get_subscription_count() == 1)
+        out.publish(numbers(0))
+        draw_all(tab)
+        wait_until("the plot to listen", lambda: out.get_subscription_count() == 2)
+        publish_at_1_khz(out)
+        expected = [[MESSAGES, MESSAGES + at] for at in range(SERIES)]
+        wait_until("every number", lambda: tab.page.evaluate(_COUNTS) == expected)
+
+        teller.destroy_publisher(out)
+        silence = tab.page.get_by_text("Nobody publishes it now.")
+        wait_until("that to be said", lambda: silence.count() == 1)
+        assert tab.errors == []
