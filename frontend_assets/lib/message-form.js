@@ -25,6 +25,8 @@ const RANGES = Object.fromEntries(
 RANGES.byte = RANGES.char = [0n, 255n];
 const FLOATS = new Set(["float32", "float64"]);
 const STRINGS = new Set(["string", "wstring"]);
+/** What YAML takes for a truth value or nothing, also as the name of a field. */
+const RESERVED = /^(yes|no|on|off|true|false|null)$/i;
 const NUMBER = /^[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?$/;
 const WHOLE = /^[+-]?(\d+|0x[\da-fA-F]+)$/;
 const NOT_FINITE = /^[+-]?\.?(inf|nan)$/i;
@@ -203,7 +205,7 @@ function messageLines(types, name, value) {
 
 /** @param {Types} types @param {FieldView} field @param {FormValue} value @returns {string[]} */
 function fieldLines(types, field, value) {
-  const key = `${field.name}:`;
+  const key = `${RESERVED.test(field.name) ? quoted(field.name) : field.name}:`;
   if (!Array.isArray(value)) return under(key, valueLines(types, field, value), "  ");
   if (value.length === 0) return [`${key} []`];
   const items = value.flatMap((item) => under("-", valueLines(types, field, item), "  ", true));
@@ -213,7 +215,7 @@ function fieldLines(types, field, value) {
 /** @param {string} head @param {string[]} lines @param {string} indent @param {boolean} [beside] the first line stands beside the head */
 function under(head, lines, indent, beside = false) {
   const [first = "", ...rest] = lines;
-  const isSingle = rest.length === 0 && !/^\w+:( |$)/.test(first);
+  const isSingle = rest.length === 0 && !/^(\w+|"\w+"):( |$)/.test(first);
   if (isSingle || beside) return [`${head} ${first}`, ...rest.map((line) => indent + line)];
   return [head, ...lines.map((line) => indent + line)];
 }

@@ -70,7 +70,7 @@ test("a form is written as YAML with a line for each field", () => {
   assert.equal(
     yamlOf(TYPES, "t/msg/All", value),
     [
-      "on: true",
+      '"on": true',
       "count: 0",
       "big: 0",
       'label: "a\\"b"',

@@ -1,0 +1,153 @@
+"""What a person does in ROS 2 from the page: calls, goals, parameters, messages; clicks counted."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+
+from tests.support.demos import call, heard, node_at, running_demo
+from tests.support.panel_pictures import SHOW_PANEL
+from tests.support.server import running_studio
+from tests.support.studio_page import studio_page, wait_until
+from tests.support.wire import running_router
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+    from playwright.sync_api import Browser, Locator
+
+    from studio.ros.client import Node
+    from tests.support.server import RunningStudio
+    from tests.support.studio_page import StudioPage
+
+pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(300)]
+
+CALL = 'ros2 service call /add_two_ints example_interfaces/srv/AddTwoInts "{a: 41, b: 1}"'
+PUB = (
+    "ros2 topic pub --rate 20 /turtle1/cmd_vel geometry_msgs/msg/Twist "
+    '"{linear: {x: 2.0, y: 0.0, z: 0.0}, angular: {x: 0.0, y: 0.0, z: 1.8}}"'
+)
+STEPS = ("--ros-args", "-p", "step_seconds:=0.4")
+
+
+@pytest.fixture
+def router() -> Iterator[str]:
+    with running_router() as endpoint:
+        yield endpoint
+
+
+@pytest.fixture
+def studio(router: str, tmp_path: Path) -> Iterator[RunningStudio]:
+    place = ["--connect", router, "--router", "off"]
+    with running_studio(["demo", *place], tmp_path / "data") as running:
+        yield running
+
+
+class Hand:
+    """A person's hand in one panel, which counts clicks and keys."""
+
+    def __init__(self, tab: StudioPage, panel: str, title: str) -> None:
+        self.page, self.count = tab.page, 0
+        self.page.evaluate(SHOW_PANEL, panel)
+        self.panel = self.page.locator(f"section.deeds[aria-label='{title}']")
+
+    def click(self, at: Locator) -> None:
+        at.click()
+        self.count += 1
+
+    def press(self, name: str) -> None:
+        self.click(self.panel.get_by_role("button", name=name, exact=True).last)
+
+    def paste(self, text: str) -> None:
+        """Into the box over the list, which has the focus after a click."""
+        self.click(self.panel.get_by_role("searchbox"))
+        self.page.evaluate("(text) => navigator.clipboard.writeText(text)", text)
+        self.page.keyboard.press("Control+V")
+        self.count += 1
+
+    def see(self, text: str) -> None:
+        self.panel.locator(".deeds-chosen").get_by_text(text).first.wait_for()
+
+
+def call_a_service(tab: StudioPage) -> None:
+    hand = Hand(tab, "services", "Services")
+    hand.paste(CALL)
+    hand.press("Call")
+    hand.see("Answered in")
+    assert hand.count <= 3
+    assert hand.panel.locator(".value-row").all_inner_texts() == ["sum\n42"]
+
+
+def send_and_cancel_a_goal(tab: StudioPage) -> None:
+    hand = Hand(tab, "actions", "Actions")
+    hand.click(hand.panel.get_by_role("button", name="/choose_song"))
+    hand.panel.get_by_role("textbox", name="song_name").fill("Clocks")
+    hand.press("Send goal")
+    hand.see("10 %")
+    hand.press("Cancel")
+    hand.see("Cancelled after")
+    assert hand.count <= 4
+    hand.see("Stopped Clocks")
+    hand.panel.get_by_role("textbox", name="song_name").fill("")
+    hand.press("Send goal")
+    hand.see("Rejected by its server")
+
+
+def set_parameters(tab: StudioPage, node: Node) -> None:
+    def red() -> int:
+        kind = "rcl_interfaces/srv/GetParameters"
+        answer = call(node, kind, "/turtlesim/get_parameters", names=["background_r"])
+        return answer.values[0].integer_value
+
+    hand = Hand(tab, "parameters", "Parameters")
+    hand.press("/turtlesim")
+    box = hand.panel.get_by_role("textbox", name="background_r")
+    box.fill("200")
+    box.press("Enter")
+    wait_until("turtlesim has it", lambda: red() == 200)
+    box.fill("900")
+    box.press("Enter")
+    hand.see("900 is not from 0 to 255")
+    wait_until("the box shows what is", lambda: box.input_value() == "200")
+
+
+def publish_as_pasted(tab: StudioPage, node: Node) -> None:
+    twists = heard(node, "geometry_msgs/msg/Twist", "/turtle1/cmd_vel")
+    hand = Hand(tab, "publish", "Publish")
+    hand.paste(PUB)
+    hand.press("20 times a second")
+    wait_until("twists", lambda: len(twists) > 3)
+    hand.press("Stop")
+    hand.see("stopped after")
+    assert {(one.linear.x, one.angular.z) for one in twists} == {(2.0, 1.8)}
+
+
+def send_a_goal(tab: StudioPage) -> None:
+    hand = Hand(tab, "actions", "Actions")
+    hand.panel.get_by_role("textbox", name="song_name").fill("Yellow")
+    hand.press("Send goal")
+    hand.see("Playing Yellow")
+
+
+def test_calls_goals_parameters_and_messages_go_out_and_what_is_in_the_way_is_said(
+    browser: Browser, studio: RunningStudio, router: str
+):
+    with (
+        running_demo(router, "service_server_node"),
+        running_demo(router, "turtlesim_node"),
+        node_at(router) as node,
+        studio_page(browser, studio) as tab,
+    ):
+        tab.page.context.grant_permissions(["clipboard-read", "clipboard-write"])
+        tab.page.evaluate(SHOW_PANEL, "services")
+        tab.page.get_by_role("button", name="Connect", exact=True).click()
+        with running_demo(router, "radio_dj", *STEPS):
+            call_a_service(tab)
+            send_and_cancel_a_goal(tab)
+            set_parameters(tab, node)
+            publish_as_pasted(tab, node)
+            send_a_goal(tab)
+        Hand(tab, "actions", "Actions").see("ended before the goal did")
+        assert tab.errors == []
