@@ -13,13 +13,18 @@ from studio.displays.drawing import NO_TURN, Axes, Placed
 from studio.displays.link_parts import LinkParts, frame_of
 from studio.displays.properties import Property
 from studio.displays.reading import reading
-from studio.errors import DisplayMessageError
+from studio.errors import DisplayError, DisplayMessageError
 from studio.robot.values import Robot
 
 if TYPE_CHECKING:
     from studio.displays.drawing import Drawing, Shape
 
 LINKS_MAX: Final = 2000
+PARTS_MAX: Final = 10_000
+"""Shapes of all links."""
+_NAME_MAX: Final = 300
+_SENTENCE_MAX: Final = 600
+"""Whoever describes a robot may write texts of any length into it."""
 DESCRIPTION_MAX: Final = 16_000_000
 """Letters of a description."""
 _LINKS: Final = "Links/"
@@ -133,7 +138,12 @@ class RobotModelDisplay(StillDisplay):
         return round(float(self.values["Update Interval"]) * 1e9)
 
     def show(self, robot: Robot) -> None:
-        """This is the robot from now on; of a very large one the first links are shown."""
+        """This is the robot from now on; of a very large one the first links are shown.
+
+        Raises:
+            DisplayError: It is more than can be drawn; then the one before stays.
+        """
+        _check(robot)
         self._left_out = max(0, len(robot.links) - LINKS_MAX)
         if self._left_out:
             links = dict(islice(robot.links.items(), LINKS_MAX))
@@ -143,7 +153,7 @@ class RobotModelDisplay(StillDisplay):
 
     def fail(self, sentence: str) -> None:
         """Why the newest description is not shown, or not as it is; empty when it is."""
-        self._fault = sentence
+        self._fault = sentence[:_SENTENCE_MAX]
 
     def take(self, received: Received, role: str = "") -> None:
         """Keep a description.
@@ -237,3 +247,17 @@ class RobotModelDisplay(StillDisplay):
                 doc = "Shows the axes of this link."
                 return Property(name, "switch", default=False, doc=doc)
         return Property(name, "switch", default=True, doc="Shows this link.")
+
+
+def _check(robot: Robot) -> None:
+    parts = sum(len(one.visuals) + len(one.collisions) for one in robot.links.values())
+    if parts > PARTS_MAX:
+        raise DisplayError(
+            f"The robot has {parts:,} shapes, and {PARTS_MAX:,} are drawn at most: describe it "
+            "with meshes instead."
+        )
+    longest = max(map(len, robot.links), default=0)
+    if longest > _NAME_MAX:
+        raise DisplayError(
+            f"A link has a name of {longest:,} letters: give it one of at most {_NAME_MAX}."
+        )

@@ -7,13 +7,14 @@ from studio.displays.display import Received
 from studio.displays.drawing import NOTHING, Axes
 from studio.displays.link_parts import LinkParts
 from studio.displays.robot_model import RobotModelDisplay
-from studio.errors import CdrError, DisplayMessageError, DisplayPropertyError
+from studio.errors import CdrError, DisplayError, DisplayMessageError, DisplayPropertyError
 from studio.robot.urdf_text import robot_from_urdf
-from studio.robot.values import Link, Robot
+from studio.robot.values import Link, Origin, Robot, Sphere, Visual
 from studio.ros.cdr import Codec
 from tests.support.display_messages import TYPES
 
 STRING = "std_msgs/msg/String"
+BALL = Visual(Origin(), Sphere(0.1))
 BOTH_ORDERS = pytest.mark.parametrize("little", [True, False], ids=["little", "big"])
 
 
@@ -197,6 +198,22 @@ def test_a_description_that_is_being_read_is_told_to_be_on_its_way():
     display.take(described("<robot name='r'/>"))
     [status] = display.statuses()
     assert status.sentence == "The description of the robot is on its way."
+
+
+@pytest.mark.parametrize(
+    ("links", "said"),
+    [
+        ({"x" * 301: Link("x" * 301)}, "a name of 301 letters"),
+        ({"l": Link("l", (BALL,) * (robot_model.PARTS_MAX + 1))}, "10,001 shapes"),
+    ],
+)
+def test_what_is_more_than_can_be_drawn_is_refused_and_what_was_there_stays(
+    links: dict[str, Link], said: str
+):
+    display = rover()
+    with pytest.raises(DisplayError, match=said):
+        display.show(Robot("large", links))
+    assert display.robot is ROVER
 
 
 @pytest.mark.parametrize(

@@ -38,6 +38,8 @@ _MORE_MAX: Final = 500
 _AT_ONCE_S: Final = 0.03
 """All displays together take messages for so long in one step: the loop has other work, too."""
 
+_SENTENCE_MAX: Final = 600
+"""Addresses of meshes come from others."""
 _NO_TOPIC: Final = TopicRole("", (), depth=1)
 
 
@@ -206,7 +208,7 @@ class DrawingRoom:
         words = self._meshes.trouble_of(failed[0])
         if len(failed) > 1:
             words = f"{len(failed)} meshes cannot be shown. The first: {words}"
-        return (Status("warn", "no_mesh", words),)
+        return (Status("warn", "no_mesh", words[:_SENTENCE_MAX]),)
 
     def _shown_of(self, displays: DisplayList) -> dict[str, RunningDisplay]:
         """Those that are seen; what came before time jumped, or before one was hidden, is not."""

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from studio.engine.services import Services
     from studio.engine.states.second_robot import SecondRobot
     from studio.engine.wire.hearing import DescriptionIn
+    from studio.robot.values import Robot
 
 _PAUSE_S: Final = 0.5
 """Between two readings of one description: whoever publishes it may do so all the time."""
@@ -49,6 +50,8 @@ class _Model:
         self.source = display.source
         self.wanted = self.done = ""
         """Texts, or the file, as it is to be read and as it was."""
+        self.own: Robot | None = None
+        """The document's robot as it was taken last."""
         self.working: asyncio.Task[None] | None = None
         self.hearing: DescriptionIn | None = None
         self.asking = False
@@ -108,8 +111,7 @@ class RobotModels:
             self._begin_anew(model, source)
         match source.kind:
             case "Document":
-                if display.robot is not self._document.model.robot:
-                    display.show(self._document.model.robot)
+                self._show_own(model)
             case "Topic":
                 self._want(model, display.description)
             case "File":
@@ -117,9 +119,21 @@ class RobotModels:
             case "Parameter":
                 self._hear(model)
 
+    def _show_own(self, model: _Model) -> None:
+        robot = self._document.model.robot
+        if model.own is robot:
+            return
+        model.own = robot
+        try:
+            model.display.show(robot)
+            model.display.fail("")
+        except StudioError as error:
+            model.display.fail(str(error))
+
     def _begin_anew(self, model: _Model, source: DescriptionSource) -> None:
         """Another source was chosen: what was heard of the one before does not count."""
         model.source, model.wanted, model.done, model.ask_after_s = source, "", "", 0.0
+        model.own = None
         model.display.fail("")
         if model.hearing is not None:
             self._spawn(self._deafen(model))
@@ -127,7 +141,9 @@ class RobotModels:
     def _want(self, model: _Model, text: str) -> None:
         """Have a text or file read, if it was not; the newest counts."""
         model.wanted = text
-        if text != model.done and model.working is None:
+        if text == model.done:
+            model.done = text  # this very object, for it is long: no need to compare it again
+        elif model.working is None:
             model.working = self._spawn(self._work(model))
 
     async def _work(self, model: _Model) -> None:
@@ -146,13 +162,12 @@ class RobotModels:
             is_file = source.kind == "File"
             second = await (self._of_file(text) if is_file else self._reader.read_text(text))
             fault = second.fault or ("" if second.robot.links else "It describes no link.")
+            if not fault and source == model.source and not model.is_gone:
+                model.display.show(second.robot)
         except StudioError as error:
-            second, fault = None, str(error)
-        if source != model.source or model.is_gone:
-            return
-        if second is not None and not fault:
-            model.display.show(second.robot)
-        model.display.fail(fault and f"The description cannot be shown: {fault}")
+            fault = str(error)
+        if source == model.source:
+            model.display.fail(fault and f"The description cannot be shown: {fault}")
 
     async def _of_file(self, uri: str) -> SecondRobot:
         document = self._document
