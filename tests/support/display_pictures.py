@@ -16,11 +16,17 @@ from typing import TYPE_CHECKING, Any
 from studio.nodes.robot_state_publisher import LATCHED
 from studio.ros.messages import message
 from studio.ros.types.plain import from_dict
-from tests.support.browser import open_browser
 from tests.support.demos import node_at
 from tests.support.display_messages import pose
 from tests.support.display_samples import BASE, FRAMES, SAMPLES
-from tests.support.panel_pictures import SHOW_PANEL, THEMES, WINDOWS, tab_of, wanted
+from tests.support.panel_pictures import (
+    SHOW_PANEL,
+    THEMES,
+    WINDOWS,
+    pictures_into_folder,
+    tab_of,
+    wanted,
+)
 from tests.support.server import running_studio
 from tests.support.studio_page import wait_until
 from tests.support.wire import running_router
@@ -173,17 +179,5 @@ def take_all(browser: Browser, folder: Path) -> None:
             desk.clear()
 
 
-def main() -> int:
-    """Take them all anew; answers the exit code."""
-    if len(sys.argv) < 2:
-        sys.stderr.write(f"{__doc__}\n")
-        return 2
-    folder = Path(sys.argv[1])
-    folder.mkdir(parents=True, exist_ok=True)
-    for browser in open_browser():
-        take_all(browser, folder)
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(pictures_into_folder(__doc__, take_all))

@@ -18,7 +18,7 @@ from tests.support.server import running_studio
 from tests.support.studio_page import StudioPage, wait_until
 
 if TYPE_CHECKING:
-    from collections.abc import Generator, Iterable
+    from collections.abc import Callable, Generator, Iterable
 
     from playwright.sync_api import Browser, Page
 
@@ -118,17 +118,17 @@ def sizes() -> Iterable[tuple[Theme, tuple[int, int]]]:
     return [(theme, size) for theme in THEMES for size in (*WINDOWS, PHONE)]
 
 
-def main() -> int:
-    """Take them all anew; answers the exit code."""
+def pictures_into_folder(usage: str | None, take: Callable[[Browser, Path], None]) -> int:
+    """Take all pictures anew, into the folder of the command line; answers the exit code."""
     if len(sys.argv) < 2:
-        sys.stderr.write(f"{__doc__}\n")
+        sys.stderr.write(f"{usage}\n")
         return 2
     folder = Path(sys.argv[1])
     folder.mkdir(parents=True, exist_ok=True)
     for browser in open_browser():
-        take_all(browser, folder)
+        take(browser, folder)
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(pictures_into_folder(__doc__, take_all))
