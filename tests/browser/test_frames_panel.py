@@ -17,7 +17,6 @@ from tests.support.wire import free_endpoint, router_at
 from tests.support.yourdfpy_poses import poses_by_yourdfpy
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
     from pathlib import Path
 
     from numpy.typing import NDArray
@@ -38,16 +37,9 @@ _JOINTS = """() => [...document.querySelectorAll(".joint")].map((row) => [
 
 
 @pytest.fixture
-def studio(tmp_path: Path) -> Iterator[RunningStudio]:
-    with running_studio(["demo"], tmp_path / "data") as running:
-        yield running
-
-
-@pytest.fixture
-def tab(browser: Browser, studio: RunningStudio) -> Iterator[StudioPage]:
-    with studio_page(browser, studio) as page:
-        page.page.context.grant_permissions(["clipboard-read", "clipboard-write"])
-        yield page
+def tab(tab: StudioPage) -> StudioPage:
+    tab.page.context.grant_permissions(["clipboard-read", "clipboard-write"])
+    return tab
 
 
 class Hand:

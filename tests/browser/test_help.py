@@ -7,15 +7,13 @@ from typing import TYPE_CHECKING
 import pytest
 
 from tests.support.panel_pictures import PANEL_IDS, SHOW_PANEL
-from tests.support.server import running_studio
-from tests.support.studio_page import StudioPage, studio_page, wait_until
+from tests.support.studio_page import StudioPage, wait_until
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from playwright.sync_api import Browser, Locator
+    from playwright.sync_api import Locator
 
-    from tests.support.server import RunningStudio
 
 pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(300)]
 
@@ -25,17 +23,10 @@ _FOCUSED = "() => document.activeElement?.closest('.dv-tab, button')?.textConten
 _HAS_PICTURE = "one => one.complete && one.naturalWidth > 0"
 
 
-@pytest.fixture(scope="module")
-def studio(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningStudio]:
-    with running_studio(["demo"], tmp_path_factory.mktemp("studio") / "data") as running:
-        yield running
-
-
 @pytest.fixture
-def tab(browser: Browser, studio: RunningStudio) -> Iterator[StudioPage]:
-    with studio_page(browser, studio) as page:
-        yield page
-        assert page.errors == []
+def tab(tab: StudioPage) -> Iterator[StudioPage]:
+    yield tab
+    assert tab.errors == []
 
 
 def sheet(tab: StudioPage, title: str) -> Locator:

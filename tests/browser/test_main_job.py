@@ -11,7 +11,6 @@ from tests.support.studio_page import StudioPage, changed_bytes, studio_page, wa
 from tests.support.wire import free_port
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
     from pathlib import Path
 
     from playwright.sync_api import Browser
@@ -23,22 +22,10 @@ pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(240)
 ROVER = "rover_description/urdf/rover.urdf.xacro"
 
 
-@pytest.fixture
-def studio(tmp_path: Path) -> Iterator[RunningStudio]:
-    with running_studio(["demo"], tmp_path / "data") as running:
-        yield running
-
-
-@pytest.fixture
-def tab(browser: Browser, studio: RunningStudio) -> Iterator[StudioPage]:
-    with studio_page(browser, studio) as page:
-        yield page
-
-
 def test_a_dragged_property_changes_the_pixels_is_undone_and_saved_byte_by_byte(
-    tab: StudioPage, models: Path, tmp_path: Path
+    tab: StudioPage, models: Path, data: Path
 ):
-    working_copy = tmp_path / "data" / "models" / ROVER
+    working_copy = data / "models" / ROVER
     as_shipped = tab.settle()
     assert tab.drag_slider("wheel_radius", 0.8) != "0.105"
     tab.show_other_than(as_shipped)
@@ -85,9 +72,9 @@ def test_a_broken_expression_says_where_and_the_last_good_model_stays(tab: Studi
 
 
 def test_two_documents_in_two_tabs_are_independent(
-    tab: StudioPage, studio: RunningStudio, tmp_path: Path
+    tab: StudioPage, studio: RunningStudio, data: Path
 ):
-    other = tmp_path / "data" / "models" / "r2d2_description" / "urdf"
+    other = data / "models" / "r2d2_description" / "urdf"
     entry = next(other.glob("*.urdf.xacro"))
     with studio.client() as client:
         command = {"type": "open_path", "path": str(entry)}

@@ -6,13 +6,9 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.support.server import running_studio
-from tests.support.studio_page import StudioPage, studio_context, studio_page, wait_until
+from tests.support.studio_page import StudioPage, studio_context, wait_until
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
-
     from playwright.sync_api import Browser, Locator
 
     from tests.support.server import RunningStudio
@@ -26,18 +22,6 @@ _WHEEL_AT = """() => {
       if (studio3d.linkAt(x, y)?.endsWith("_wheel")) return [x, y];
   return null;
 }"""
-
-
-@pytest.fixture
-def studio(tmp_path: Path) -> Iterator[RunningStudio]:
-    with running_studio(["demo", "--viewer-link"], tmp_path / "data") as running:
-        yield running
-
-
-@pytest.fixture
-def tab(browser: Browser, studio: RunningStudio) -> Iterator[StudioPage]:
-    with studio_page(browser, studio) as page:
-        yield page
 
 
 def panel(tab: StudioPage) -> Locator:

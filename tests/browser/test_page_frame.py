@@ -6,16 +6,11 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.support.server import running_studio
-from tests.support.studio_page import StudioPage, studio_page, wait_until
+from tests.support.studio_page import StudioPage, wait_until
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
+    from playwright.sync_api import Locator
 
-    from playwright.sync_api import Browser, Locator
-
-    from tests.support.server import RunningStudio
 
 pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(240)]
 
@@ -27,16 +22,9 @@ _CUT_TABS = """() => [...document.querySelectorAll(".dv-tabs-container")]
 
 
 @pytest.fixture
-def studio(tmp_path: Path) -> Iterator[RunningStudio]:
-    with running_studio(["demo"], tmp_path / "data") as running:
-        yield running
-
-
-@pytest.fixture
-def tab(browser: Browser, studio: RunningStudio) -> Iterator[StudioPage]:
-    with studio_page(browser, studio) as page:
-        wait_until("the source", lambda: page.page.locator(".cm-line").count() > 0)
-        yield page
+def tab(tab: StudioPage) -> StudioPage:
+    wait_until("the source", lambda: tab.page.locator(".cm-line").count() > 0)
+    return tab
 
 
 def panel_tab(tab: StudioPage, name: str) -> Locator:

@@ -8,13 +8,9 @@ from typing import TYPE_CHECKING
 import pytest
 
 from tests.browser.test_source_panel import line_of, text_of
-from tests.support.server import running_studio
-from tests.support.studio_page import StudioPage, studio_page, wait_until
+from tests.support.studio_page import StudioPage, wait_until
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
-
     from playwright.sync_api import Browser
 
     from tests.support.server import RunningStudio
@@ -39,17 +35,10 @@ pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(240)
 
 
 @pytest.fixture
-def studio(tmp_path: Path) -> Iterator[RunningStudio]:
-    with running_studio(["demo", "--viewer-link"], tmp_path / "data") as running:
-        yield running
-
-
-@pytest.fixture
-def tab(browser: Browser, studio: RunningStudio) -> Iterator[StudioPage]:
-    with studio_page(browser, studio) as page:
-        wait_until("the source", lambda: "<robot" in text_of(page))
-        open_file(page, "wheel.xacro")
-        yield page
+def tab(tab: StudioPage) -> StudioPage:
+    wait_until("the source", lambda: "<robot" in text_of(tab))
+    open_file(tab, "wheel.xacro")
+    return tab
 
 
 def open_file(tab: StudioPage, name: str) -> None:

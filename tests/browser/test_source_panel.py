@@ -11,7 +11,6 @@ from tests.support.studio_page import StudioPage, studio_page, wait_until
 from tests.support.wire import free_port
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
     from pathlib import Path
 
     from playwright.sync_api import Browser, Locator
@@ -22,16 +21,9 @@ pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(240)
 
 
 @pytest.fixture
-def studio(tmp_path: Path) -> Iterator[RunningStudio]:
-    with running_studio(["demo", "--viewer-link"], tmp_path / "data") as running:
-        yield running
-
-
-@pytest.fixture
-def tab(browser: Browser, studio: RunningStudio) -> Iterator[StudioPage]:
-    with studio_page(browser, studio) as page:
-        wait_until("the source", lambda: "<robot" in text_of(page))
-        yield page
+def tab(tab: StudioPage) -> StudioPage:
+    wait_until("the source", lambda: "<robot" in text_of(tab))
+    return tab
 
 
 def text_of(tab: StudioPage) -> str:
@@ -66,7 +58,7 @@ def notice(tab: StudioPage) -> Locator:
 
 
 def test_a_typed_number_moves_the_pixels_and_its_slider_and_is_undone_as_one_step(
-    tab: StudioPage, tmp_path: Path
+    tab: StudioPage, data: Path
 ):
     go_to(tab, "wheel_radius")
     before = tab.settle()
@@ -89,7 +81,7 @@ def test_a_typed_number_moves_the_pixels_and_its_slider_and_is_undone_as_one_ste
     tab.page.keyboard.type("2")
     tab.page.keyboard.press("Control+s")
     tab.agree_to_save()
-    saved = tmp_path / "data" / "models" / "rover_description/urdf/rover.urdf.xacro"
+    saved = data / "models" / "rover_description/urdf/rover.urdf.xacro"
     wait_until("the file", lambda: b'"wheel_radius" value="0.1025"' in saved.read_bytes())
     assert tab.errors == []
 

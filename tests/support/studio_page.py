@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from playwright.sync_api import Error
 
@@ -21,11 +21,13 @@ if TYPE_CHECKING:
         FloatRect,
         Locator,
         Page,
+        ViewportSize,
     )
 
     from tests.support.server import RunningStudio
 
 PATIENCE_S = 60.0
+VIEWPORT: Final[ViewportSize] = {"width": 1280, "height": 720}
 ACTION_PATIENCE_MS = 90_000
 """For a click or a word: Playwright's own is half a minute, too little where all cores are busy."""
 _PICTURE_PATIENCE_S = 120.0
@@ -209,7 +211,7 @@ class StudioPage:
 
 def studio_context(browser: Browser) -> BrowserContext:
     """A browser's session, in which pictures of the 3D view can be compared."""
-    context = browser.new_context(viewport={"width": 1280, "height": 720}, reduced_motion="reduce")
+    context = browser.new_context(viewport=VIEWPORT, reduced_motion="reduce")
     context.add_init_script(_AS_A_TEST)
     return context
 

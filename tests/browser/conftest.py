@@ -1,0 +1,42 @@
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+
+from tests.support.shared_tab import SharedTab, shared_tab
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+    from playwright.sync_api import Browser
+
+    from tests.support.server import RunningStudio
+    from tests.support.studio_page import StudioPage
+
+
+@pytest.fixture(scope="module")
+def shared(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator[SharedTab]:
+    """One studio and one tab for a file of tests."""
+    with shared_tab(browser, tmp_path_factory.mktemp("studio") / "data") as made:
+        yield made
+
+
+@pytest.fixture
+def studio(shared: SharedTab) -> RunningStudio:
+    """A running demo as at first; a file whose studio is another has a fixture of its own."""
+    return shared.anew()
+
+
+@pytest.fixture
+def data(shared: SharedTab) -> Path:
+    """The data folder of that studio."""
+    return shared.data
+
+
+@pytest.fixture
+def tab(shared: SharedTab, studio: RunningStudio) -> StudioPage:
+    """A tab that shows the demo."""
+    del studio  # as at first, before the tab opens it
+    return shared.opened()

@@ -1,0 +1,90 @@
+"""One studio and one tab for all tests of a file: each finds the demo as if it were the first.
+
+To start a studio and a tab takes twelve seconds of a processor, to open the demo again four.
+"""
+
+from __future__ import annotations
+
+import shutil
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+from tests.support.server import running_studio
+from tests.support.studio_page import VIEWPORT, StudioPage, studio_context
+
+if TYPE_CHECKING:
+    from collections.abc import Generator
+
+    from playwright.sync_api import Browser
+
+    from tests.support.server import RunningStudio
+
+MODELS: Final = Path(__file__).resolve().parents[2] / "models"
+PACKAGE: Final = "rover_description"
+ENTRY: Final = "urdf/rover.urdf.xacro"
+
+
+class SharedTab:
+    """A running demo, and a tab that may be opened at it; `data` is the studio's folder."""
+
+    def __init__(self, browser: Browser, studio: RunningStudio, data: Path) -> None:
+        self.data = data
+        self._studio = studio
+        self._context = studio_context(browser)
+        self._page = self._context.new_page()
+
+    def anew(self) -> RunningStudio:
+        """The studio, in which nobody has done anything yet."""
+        self._leave()
+        with self._studio.client() as client:
+
+            def do(**command: str | bool) -> None:
+                client.post("/api/commands", json=command).raise_for_status()
+
+            for document in client.get("/api/documents").json()["documents"]:
+                do(type="close_document", document=document["id"], discard=True)
+            self._restore()
+            do(type="open_path", path=str(self.data / "models" / PACKAGE / ENTRY))
+        return self._studio
+
+    def opened(self) -> StudioPage:
+        """The tab, in which the robot is drawn."""
+        tab = StudioPage(self._page)
+        tab.open(self._studio.url)
+        return tab
+
+    def close(self) -> None:
+        self._context.close()
+
+    def _leave(self) -> None:
+        """The browser forgets everything but what programs and pictures of the page it has."""
+        for other in self._context.pages:
+            if other is not self._page:
+                other.close()
+        self._page.goto("about:blank")
+        self._page.set_viewport_size(VIEWPORT)
+        self._context.clear_cookies()
+        kept = {"origin": self._studio.origin, "storageTypes": "all"}
+        session: Any = self._context.new_cdp_session(self._page)
+        session.send("Storage.clearDataForOrigin", kept)
+        session.detach()
+
+    def _restore(self) -> None:
+        """The files of the robot, as they are shipped."""
+        shipped, copy = MODELS / PACKAGE, self.data / "models" / PACKAGE
+        for path in shipped.rglob("*"):
+            there = copy / path.relative_to(shipped)
+            if path.is_file() and there.read_bytes() != path.read_bytes():
+                shutil.copyfile(path, there)
+
+
+@contextmanager
+def shared_tab(browser: Browser, data: Path) -> Generator[SharedTab]:
+    """A demo with a tab, both closed with the block; it prints an address for viewers, too."""
+    with running_studio(["demo", "--viewer-link"], data) as studio:
+        shared = SharedTab(browser, studio, data)
+        try:
+            yield shared
+        finally:
+            shared.close()
