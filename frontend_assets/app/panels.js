@@ -65,6 +65,14 @@ export const PANELS = {
     icon: "interfaces",
     load: async () => (await import("../panels/interfaces.js")).InterfacesPanel,
   },
+  lifecycle: {
+    icon: "lifecycle",
+    load: async () => (await import("../panels/lifecycle.js")).LifecyclePanel,
+  },
+  diagnostics: {
+    icon: "diagnostics",
+    load: async () => (await import("../panels/diagnostics.js")).DiagnosticsPanel,
+  },
   log: { icon: "log", load: async () => (await import("../panels/log.js")).LogPanel },
   services: {
     icon: "services",

@@ -6,12 +6,12 @@
 
 import { html, useEffect, useMemo, useRef, useSignal } from "vendor/preact.js";
 import { ConnectFirst, isUnconnected } from "../app/connect-first.js";
+import { useLooking } from "../app/looking.js";
 import { followGraph, graph, graphRefused } from "../app/state/graph.js";
 import { useTopicRates } from "../app/topic-rates.js";
 import { t } from "../lib/i18n.js";
 import { drawnGraph, USUAL } from "../lib/node-graph.js";
 import { remembered } from "../lib/remembered.js";
-import { useSeen } from "../lib/seen.js";
 import { EmptyState, Icon, SearchBox } from "../lib/ui.js";
 import { GraphDetails } from "./graph-details.js";
 import { GraphDrawing } from "./graph-drawing.js";
@@ -22,13 +22,7 @@ const FILTERS = /** @type {const} */ (["services", "sinks", "noise"]);
 const kept = remembered("graph.options", /** @type {Partial<GraphOptions>} */ ({}));
 
 export function GraphPanel() {
-  const panel = useRef(/** @type {HTMLElement | null} */ (null));
-  const seen = useSignal(false);
-  useSeen(panel, (is) => {
-    seen.value = is;
-  });
-  const looking = seen.value;
-  useEffect(() => (looking ? followGraph() : undefined), [looking]);
+  const { panel, looking } = useLooking(followGraph);
   return html`<section ref=${panel} class="panel-body graph" aria-label=${t("panel.graph")}>
     ${isUnconnected() ? html`<${ConnectFirst} icon="graph" />` : html`<${Content} looking=${looking} />`}
   </section>`;

@@ -6,13 +6,13 @@
 
 import { html, useEffect, useLayoutEffect, useRef, useSignal } from "vendor/preact.js";
 import { ConnectFirst, isUnconnected } from "../app/connect-first.js";
+import { useLooking } from "../app/looking.js";
 import { clearLog, followLog, logLines, logRefused, missed } from "../app/state/log.js";
 import { notify } from "../app/state/view.js";
 import { copyText } from "../lib/clipboard.js";
 import { t } from "../lib/i18n.js";
 import { rowsNear } from "../lib/line-window.js";
 import { clockTime, LEVELS, levelOf, logText, matchingLines, nodesOf } from "../lib/log-lines.js";
-import { useSeen } from "../lib/seen.js";
 import { EmptyState, Icon, IconButton, SearchBox } from "../lib/ui.js";
 
 const ICONS = { debug: "info", info: "info", warn: "alert", error: "error", fatal: "error" };
@@ -20,16 +20,10 @@ const ICONS = { debug: "info", info: "info", warn: "alert", error: "error", fata
 const END_PX = 4;
 
 export function LogPanel() {
-  const panel = useRef(/** @type {HTMLElement | null} */ (null));
-  const seen = useSignal(false);
+  const { panel } = useLooking(followLog);
   const filter = useSignal(/** @type {Filter} */ ({ level: "info", node: "", words: "" }));
   /** What is shown while the log stands still; null: it goes on. */
   const frozen = useSignal(/** @type {readonly LogLine[] | null} */ (null));
-  useSeen(panel, (is) => {
-    seen.value = is;
-  });
-  const looking = seen.value;
-  useEffect(() => (looking ? followLog() : undefined), [looking]);
   const lines = frozen.value ?? logLines.value;
   return html`<section ref=${panel} class="panel-body log" aria-label=${t("panel.log")}>
     ${lines.length === 0 && isUnconnected() ? html`<${ConnectFirst} icon="log" />` : html`<${Content} lines=${lines} filter=${filter} frozen=${frozen} />`}

@@ -13,10 +13,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tests.support.browser import open_browser
+from tests.support.managed_arm import managed_arm
 from tests.support.panel_pictures import PANEL_IDS, SHOW_PANEL, THEMES, Theme, tab_of
 from tests.support.readme_pictures import save_variant
 from tests.support.server import running_studio
-from tests.support.wire import free_endpoint
+from tests.support.wire import running_router
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -29,7 +30,7 @@ FOLDER = Path(__file__).resolve().parents[2] / "frontend_assets/help/pictures"
 PANELS_WINDOW = (1060, 940)
 """So narrow that a panel, cut to it, is nearly as wide as the help that shows it."""
 DIALOGS_WINDOW = (720, 640)
-ON_THE_WIRE = ("graph", "interfaces", "log", "topics", "plot")
+ON_THE_WIRE = ("graph", "interfaces", "log", "lifecycle", "diagnostics", "topics", "plot")
 """Panels that show something only while a ROS 2 system is there."""
 _HIGHEST_PX = 380
 _STILL_MS = 1200
@@ -221,8 +222,14 @@ def take_demo(browser: Browser, data: Path) -> None:
 
 def take_wired(browser: Browser, data: Path) -> None:
     """Panels about ROS 2, with the graph of the demo."""
-    place = ["--router", free_endpoint()]
-    with running_studio(["demo", *place], data, moving=True) as studio:
+    with (
+        running_router() as endpoint,
+        running_studio(
+            ["demo", "--connect", endpoint, "--router", "off"], data, moving=True
+        ) as studio,
+        managed_arm(endpoint) as arm,
+    ):
+        arm.tell_parts()
         for theme in THEMES:
             with tab_of(browser, studio, theme, DIALOGS_WINDOW) as tab:
                 camera = Camera(tab, theme)

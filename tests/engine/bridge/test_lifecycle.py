@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-import threading
-from contextlib import asynccontextmanager, contextmanager, suppress
+from contextlib import asynccontextmanager
 from typing import TYPE_CHECKING
 
 import pytest
@@ -14,48 +13,14 @@ from studio.engine.bridge.lifecycle import LifecycleDesk
 from studio.engine.messages.lifecycle import ChangeState, GetManaged, ManagedNodeView
 from studio.engine.wire.desk import WireDesk
 from studio.errors import CommandError, NotServedError
-from studio.ros.client import ExternalShutdownException, SingleThreadedExecutor
-from studio.ros.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
 from studio.settings import WireChoice
-from tests.support.node_pair import context_at
+from tests.support.managed_arm import managed_arm
 from tests.support.wire import PATIENCE_S
 
 if TYPE_CHECKING:
-    from collections.abc import AsyncGenerator, Callable, Generator
+    from collections.abc import AsyncGenerator, Callable
 
 pytestmark = pytest.mark.network
-
-
-class Arm(LifecycleNode):
-    """Does what it is asked, but to become active when it is stubborn."""
-
-    stubborn = False
-
-    def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
-        if self.stubborn:
-            return TransitionCallbackReturn.FAILURE
-        return super().on_activate(state)
-
-
-def spin(executor: SingleThreadedExecutor) -> None:
-    with suppress(ExternalShutdownException):
-        executor.spin()
-
-
-@contextmanager
-def arm_at(endpoint: str) -> Generator[Arm]:
-    """A managed node that is spun by a thread of its own."""
-    with context_at(endpoint) as context:
-        arm = Arm("arm", context=context)
-        executor = SingleThreadedExecutor(context=context)
-        executor.add_node(arm)
-        spinning = threading.Thread(target=spin, args=(executor,))
-        spinning.start()
-        try:
-            yield arm
-        finally:
-            context.shutdown()
-            spinning.join()
 
 
 @asynccontextmanager
@@ -81,7 +46,7 @@ async def seen(desk: LifecycleDesk, holds: Callable[[ManagedNodeView], bool]) ->
 
 def test_l1_a_node_walks_the_four_primary_states(endpoint: str):
     async def run() -> None:
-        with arm_at(endpoint):
+        with managed_arm(endpoint):
             async with desk_at(endpoint) as desk:
                 now = await seen(desk, lambda one: one.state == "unconfigured")
                 assert (now.name, now.state_id, now.trouble) == ("/arm", 1, "")
@@ -99,7 +64,7 @@ def test_l1_a_node_walks_the_four_primary_states(endpoint: str):
 
 def test_a_node_that_does_not_get_there_is_told_with_where_it_is(endpoint: str):
     async def run() -> None:
-        with arm_at(endpoint) as arm:
+        with managed_arm(endpoint) as arm:
             async with desk_at(endpoint) as desk:
                 await seen(desk, lambda one: one.state == "unconfigured")
                 await desk.change(ChangeState(node="/arm", transition=1))
@@ -133,7 +98,7 @@ def test_clients_are_taken_back_when_nobody_looks_any_more(
     monkeypatch.setattr(lifecycle, "_KEPT_S", 0.01)
 
     async def run() -> None:
-        with arm_at(endpoint) as arm:
+        with managed_arm(endpoint) as arm:
             async with desk_at(endpoint) as desk:
                 await seen(desk, lambda one: one.state_id == 1)
                 async with asyncio.timeout(PATIENCE_S):
