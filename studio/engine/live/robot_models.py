@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import logging
+from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Final, Protocol
@@ -58,6 +59,11 @@ class _Model:
         self.ask_after_s = 0.0
         self.is_gone = False
 
+    def taken_hearing(self) -> DescriptionIn | None:
+        """What hears its parameter, to be closed: from now on it is not asked."""
+        hearing, self.hearing = self.hearing, None
+        return hearing
+
 
 class RobotModels:
     """Steps on the loop with the displays; what takes its time is done beside.
@@ -93,7 +99,8 @@ class RobotModels:
     async def let_go(self) -> None:
         """Hear nothing more: the connection is about to end."""
         self._link = None
-        await asyncio.gather(*(self._deafen(model) for model in self._models.values()))
+        heard = [model.taken_hearing() for model in self._models.values()]
+        await asyncio.gather(*(_close(one) for one in heard if one is not None))
 
     async def close(self) -> None:
         """End the worker, and all that is under way."""
@@ -135,8 +142,7 @@ class RobotModels:
         model.source, model.wanted, model.done, model.ask_after_s = source, "", "", 0.0
         model.own = None
         model.display.fail("")
-        if model.hearing is not None:
-            self._spawn(self._deafen(model))
+        self._deafen(model)
 
     def _want(self, model: _Model, text: str) -> None:
         """Have a text or file read, if it was not; the newest counts."""
@@ -203,17 +209,15 @@ class RobotModels:
             model.hearing = hearing
             model.display.fail("")
         else:
-            await asyncio.to_thread(hearing.close)
+            await _close(hearing)
 
     def _forget(self, model: _Model) -> None:
         model.is_gone = True
-        if model.hearing is not None:
-            self._spawn(self._deafen(model))
+        self._deafen(model)
 
-    async def _deafen(self, model: _Model) -> None:
-        hearing, model.hearing = model.hearing, None
-        if hearing is not None:
-            await asyncio.to_thread(hearing.close)
+    def _deafen(self, model: _Model) -> None:
+        if (hearing := model.taken_hearing()) is not None:
+            self._spawn(_close(hearing))
 
     def _spawn(self, work: Coroutine[None, None, None]) -> asyncio.Task[None]:
         task = asyncio.create_task(work)
@@ -225,3 +229,8 @@ class RobotModels:
         self._tasks.discard(task)
         if not task.cancelled() and (error := task.exception()):
             _log.error("The robot of a display could not be read.", exc_info=error)
+
+
+async def _close(hearing: DescriptionIn) -> None:
+    with suppress(StudioError):  # the connection has ended meanwhile
+        await asyncio.to_thread(hearing.close)
