@@ -69,15 +69,16 @@ export class CameraView {
 
   /** Show all that is drawn from where we look. @param {boolean} [animate] */
   fit(animate = true) {
-    this.#look(this.#everything(), this.#direction(), FILL, animate);
+    const corners = [...this.#robot.corners(), ...this.#live.corners()];
+    this.#look(corners, this.#direction(), FILL, animate);
   }
 
-  /** Show all that is drawn from one side. @param {string} name @param {boolean} [animate] */
+  /** Show the whole robot from one side. @param {string} name @param {boolean} [animate] */
   view(name, animate = true) {
     const direction = DIRECTIONS[name];
     if (!direction) throw new RangeError(`There is no view "${name}".`);
     this.#untouched = false;
-    this.#look(this.#everything(), this.#inScene(direction), FILL, animate);
+    this.#look(this.#robot.corners(), this.#inScene(direction), FILL, animate);
   }
 
   /** Bring one link to the middle. @param {string} link */
@@ -187,11 +188,6 @@ export class CameraView {
     if (!this.#untouched || this.#meshes === 0) return this.#untouched;
     const rest_ms = performance.now() - this.#lastArrival_ms;
     return rest_ms < ARRIVED.ms || this.#picturesSince < ARRIVED.pictures;
-  }
-
-  /** Corners of all there is to see. */
-  #everything() {
-    return [...this.#robot.corners(), ...this.#live.corners()];
   }
 
   /** @param {Vector3} direction */
