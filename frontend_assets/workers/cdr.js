@@ -57,45 +57,27 @@ class Cursor {
   }
 }
 
-/** @type {Record<string, {size: number, read: (view: DataView, at: number, little: boolean) => number | bigint | boolean, list: NumberArray}>} */
+/** @typedef {(view: DataView, at: number, little: boolean) => number | bigint | boolean} ReadNumber */
+
+/** @param {NumberArray & {BYTES_PER_ELEMENT: number}} list @param {ReadNumber} read */
+const number = (list, read) => ({ size: list.BYTES_PER_ELEMENT, list, read });
+const byte = number(Uint8Array, (view, at) => view.getUint8(at));
+
+/** @type {Record<string, {size: number, read: ReadNumber, list: NumberArray}>} */
 const NUMBERS = {
-  bool: { size: 1, read: (view, at) => view.getUint8(at) !== 0, list: Uint8Array },
-  byte: { size: 1, read: (view, at) => view.getUint8(at), list: Uint8Array },
-  char: { size: 1, read: (view, at) => view.getUint8(at), list: Uint8Array },
-  uint8: { size: 1, read: (view, at) => view.getUint8(at), list: Uint8Array },
-  int8: { size: 1, read: (view, at) => view.getInt8(at), list: Int8Array },
-  uint16: {
-    size: 2,
-    read: (view, at, little) => view.getUint16(at, little),
-    list: Uint16Array,
-  },
-  int16: { size: 2, read: (view, at, little) => view.getInt16(at, little), list: Int16Array },
-  uint32: {
-    size: 4,
-    read: (view, at, little) => view.getUint32(at, little),
-    list: Uint32Array,
-  },
-  int32: { size: 4, read: (view, at, little) => view.getInt32(at, little), list: Int32Array },
-  uint64: {
-    size: 8,
-    read: (view, at, little) => view.getBigUint64(at, little),
-    list: BigUint64Array,
-  },
-  int64: {
-    size: 8,
-    read: (view, at, little) => view.getBigInt64(at, little),
-    list: BigInt64Array,
-  },
-  float32: {
-    size: 4,
-    read: (view, at, little) => view.getFloat32(at, little),
-    list: Float32Array,
-  },
-  float64: {
-    size: 8,
-    read: (view, at, little) => view.getFloat64(at, little),
-    list: Float64Array,
-  },
+  bool: number(Uint8Array, (view, at) => view.getUint8(at) !== 0),
+  byte,
+  char: byte,
+  uint8: byte,
+  int8: number(Int8Array, (view, at) => view.getInt8(at)),
+  uint16: number(Uint16Array, (view, at, little) => view.getUint16(at, little)),
+  int16: number(Int16Array, (view, at, little) => view.getInt16(at, little)),
+  uint32: number(Uint32Array, (view, at, little) => view.getUint32(at, little)),
+  int32: number(Int32Array, (view, at, little) => view.getInt32(at, little)),
+  uint64: number(BigUint64Array, (view, at, little) => view.getBigUint64(at, little)),
+  int64: number(BigInt64Array, (view, at, little) => view.getBigInt64(at, little)),
+  float32: number(Float32Array, (view, at, little) => view.getFloat32(at, little)),
+  float64: number(Float64Array, (view, at, little) => view.getFloat64(at, little)),
 };
 
 /**
@@ -156,9 +138,9 @@ function valuePart(known, base, depth) {
   if (base === "string") return { least: 4, read: readText };
   if (base === "wstring")
     throw new CdrError("it has a text of wide letters, which no two systems write alike");
-  const number = Object.hasOwn(NUMBERS, base) ? NUMBERS[base] : undefined;
-  if (!number) return messagePart(known, base, depth + 1);
-  const { size, read } = number;
+  const kind = Object.hasOwn(NUMBERS, base) ? NUMBERS[base] : undefined;
+  if (!kind) return messagePart(known, base, depth + 1);
+  const { size, read } = kind;
   return { least: size, read: (cursor) => read(cursor.view, cursor.step(size), cursor.little) };
 }
 

@@ -8,6 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from tests.benchmarks import (
+    data_lane,
     displays,
     drag,
     edit_to_pixels,
@@ -44,6 +45,7 @@ BENCHMARKS: dict[str, Callable[[], None]] = {
     "wire": wire.run,
     "displays": displays.run,
     "loop": loop.run,
+    "data": data_lane.run,
     "memory": memory.run,
 }
 

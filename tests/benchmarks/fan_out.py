@@ -133,7 +133,7 @@ async def _watch(server: Server, viewers: int) -> Seen:
         await asyncio.sleep(_SETTLE_S)
         begin_s, cpu_s, seen, size = (
             time.perf_counter(),
-            _cpu_s(server.pid),
+            cpu_s_of(server.pid),
             list(counts),
             sum(sizes),
         )
@@ -142,7 +142,7 @@ async def _watch(server: Server, viewers: int) -> Seen:
         frames = sorted(after - before for after, before in zip(counts, seen, strict=True))
         result = Seen(
             frames[viewers // 2] / took_s,
-            (_cpu_s(server.pid) - cpu_s) / took_s,
+            (cpu_s_of(server.pid) - cpu_s) / took_s,
             (sum(sizes) - size) / took_s / 1e6,
         )
         for task in tasks:
@@ -163,7 +163,7 @@ def _connect(server: Server) -> connect:
     )
 
 
-def _cpu_s(pid: int) -> float:
+def cpu_s_of(pid: int) -> float:
     """Seconds of all threads of a process so far (Linux)."""
     fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from starlette.requests import ClientDisconnect
 
+from studio.engine.bridge.hearing_frames import Tick, chunk_of
 from studio.engine.keeping.exports import Download
 from studio.engine.listeners import tell
 from studio.engine.messages import (
@@ -25,8 +26,10 @@ from studio.engine.messages import (
     Urdf,
     ZeroJoints,
 )
-from studio.engine.messages.hearing import NotHeard
+from studio.engine.messages.hearing import Hear, NotHeard
 from studio.errors import ExportError, SaveConflictError, UnknownDocumentError, UploadError
+from studio.ros.attachment import Attachment
+from studio.ros.node.inbox import RawSample
 from studio.scene.connection import SUBPROTOCOL
 
 if TYPE_CHECKING:
@@ -100,7 +103,7 @@ class SmallUploads:
 
 
 class SmallHearing:
-    """Says that nothing is heard, and remembers who wished what."""
+    """Says that nothing is heard, but for `/flood`, and remembers who wished what."""
 
     def __init__(self) -> None:
         self.hearers: list[Hearer] = []
@@ -114,6 +117,11 @@ class SmallHearing:
 
     def wish(self, hearer: Hearer, wish: Wish, /) -> None:
         self.wishes.append(wish)
+        if isinstance(wish, Hear) and wish.topic == "/flood":
+            for number in range(FLOOD):
+                sample = RawSample(b"%d" % number + bytes(1 << 20), Attachment(1, 1, b""), 1)
+                both = (chunk_of(at, [sample], 0, keeps_all=at == 1) for at in (1, 2))
+                hearer.take(Tick(tuple(both)))
         hearer.say(NotHeard(wish=wish.wish, reason="there is nothing to hear"))
 
 

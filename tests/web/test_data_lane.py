@@ -6,10 +6,17 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from studio.engine.roles import Role
+from studio.web.assets import Assets
+from tests.support.hearers import read_frame
+from tests.support.small_engine import FLOOD
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
     from websockets.sync.connection import Connection
 
+    from tests.support.hearers import Came
     from tests.support.web_server import RunningWeb
 
 
@@ -28,6 +35,27 @@ def test_whoever_may_look_may_hear(web: RunningWeb, role: Role):
         lane.send(json.dumps({"type": "leave", "wish": 7}))
         assert hear(lane)["wish"] == 7
     assert [one.type for one in web.engine.hearing.wishes[before:]] == ["hear", "leave"]
+
+
+def frames_until_words(lane: Connection) -> Iterator[tuple[int, list[Came]]]:
+    while isinstance(message := lane.recv(timeout=60), bytes):
+        yield read_frame(message)
+
+
+def test_a_slow_browser_gets_the_newest_is_told_what_it_missed_and_the_lane_goes_on(
+    web: RunningWeb,
+):
+    with web.websocket("/data") as lane:
+        lane.send(json.dumps({"type": "hear", "wish": 1, "topic": "/flood", "mode": "every"}))
+        frames = list(frames_until_words(lane))
+    came = [one for _, messages in frames for one in messages]
+    dropped = max(count for count, _ in frames)
+    newest = [one.payload.rstrip(b"\0") for one in came if one.channel == 2]
+    every = [int(one.payload.rstrip(b"\0")) for one in came if one.channel == 1]
+    assert newest[-1] == b"%d" % (FLOOD - 1)
+    assert every == sorted(every)
+    assert len(every) + dropped == FLOOD
+    assert dropped > 0
 
 
 @pytest.mark.parametrize(
@@ -57,3 +85,17 @@ def test_a_malformed_wish_is_refused_in_a_sentence_and_the_lane_goes_on(
             "wish": 3,
             "reason": "there is nothing to hear",
         }
+
+
+def test_a_worker_may_open_the_lane_and_load_its_scripts_and_nothing_else(
+    web: RunningWeb, assets_folder: Path
+):
+    base = Assets(assets_folder).current().base
+    with web.client(Role.VIEWER) as client:
+        policies = [
+            client.get(base + path).headers["content-security-policy"]
+            for path in ("workers/data.js", "app/main.js")
+        ]
+    assert "connect-src 'self'" in policies[0]
+    assert policies[0].startswith("default-src 'none'; script-src 'self'")
+    assert "connect-src" not in policies[1]
