@@ -34,6 +34,7 @@ TOPICS = {
     "Imu": "/imu",
     "MarkerArray": "/markers",
     "Image": "/camera/image_raw",
+    "RobotModel": "/robot_description",
     "TF": "",
     "Axes": "",
     "Grid": "",

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from studio.errors import FrameError
 
 _SHOWN_MAX: Final = 6
+_FRAMES_MAX: Final = 3
+"""A robot has many links: what else is wrong is said, too."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,8 +103,10 @@ def _remarks(facts: Facts) -> Iterator[Remark]:
         yield silence
         if facts.heard == 0:
             return
-    for error in facts.frames:
+    for error in facts.frames[:_FRAMES_MAX]:
         yield _remark_on_frame(error, facts.frame)
+    if (more := len(facts.frames) - _FRAMES_MAX) > 0:
+        yield _error("no_frame", f"{more:,} more of its frames have no place in the fixed frame.")
     if facts.stamp_zero:
         yield _warn(
             "stamp_zero",

@@ -121,3 +121,11 @@ def test_of_a_display_that_somebody_switched_off_nothing_is_said():
 def test_one_that_was_heard_before_and_is_not_any_more_says_what_else_is_in_the_way():
     facts = replace(WELL, wire=OnWire(True), statuses=(EMPTY,))
     assert [one.reason for one in remarks_on(facts)] == ["no_publisher", "transparent"]
+
+
+def test_of_a_robot_without_any_frame_the_first_are_told_and_how_many_more_there_are():
+    links = tuple(UnknownFrameError(f"link{number}") for number in range(40))
+    remarks = remarks_on(replace(WELL, draws=False, frames=links, statuses=(EMPTY,)))
+    assert [one.sentence for one in remarks[:3]] == [str(error) for error in links[:3]]
+    assert remarks[3].sentence == "37 more of its frames have no place in the fixed frame."
+    assert remarks[4].reason == "transparent"

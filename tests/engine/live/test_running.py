@@ -5,9 +5,11 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from studio.displays.robot_model import RobotModelDisplay
 from studio.engine.live.display_list import DisplaySpec
 from studio.engine.live.running import RunningDisplay
 from studio.errors import DisplayError, RosNameError
+from studio.robot.values import Link, Robot
 from tests.support.display_messages import NOW_NS, TYPES, pose, received
 from tests.support.heard_topics import HeardTopics, publisher
 
@@ -164,3 +166,37 @@ def test_settings_of_another_studio_that_do_not_fit_are_left_out():
     assert RunningDisplay(spec, TYPES).display.values["Alpha"] == 0.5
     with pytest.raises(DisplayError):
         RunningDisplay(DisplaySpec("d1", "Moon", "Moon"), TYPES)
+
+
+def test_links_of_a_robot_stay_where_they_are_for_as_long_as_is_chosen():
+    running = RunningDisplay(DisplaySpec("d1", "RobotModel", "Robot"), TYPES)
+    running.set("Update Interval", 0.5)
+    display = running.display
+    assert isinstance(display, RobotModelDisplay)
+    display.show(Robot("r", {"base": Link("base")}))
+    at_m = 0.0
+
+    def moving(_frame: str, _stamp_ns: int) -> Pose:
+        return (1.0, 0.0, 0.0, 0.0), (at_m, 0.0, 0.0)
+
+    assert running.step(moving, NOW_NS) is not None
+    at_m = 1.0
+    assert running.step(moving, NOW_NS + 400_000_000) is None
+    running.placing.renew()
+    assert running.step(moving, NOW_NS + 450_000_000) is not None
+    at_m = 2.0
+    assert running.step(moving, NOW_NS + 900_000_000) is None
+    shown = running.step(moving, NOW_NS + 960_000_000)
+    assert shown is not None
+    assert shown.poses["base"] == ((1.0, 0.0, 0.0, 0.0), (2.0, 0.0, 0.0))
+
+
+def test_a_robot_that_is_described_elsewhere_listens_to_no_topic(heard: HeardTopics):
+    spec = DisplaySpec("d1", "RobotModel", "Robot", "/robot_description")
+    running = RunningDisplay(spec, TYPES)
+    running.listen(heard, nobody)
+    assert running.wish() is not None
+    running.set("Description Source", "Document")
+    running.listen(heard, nobody)
+    assert running.wish() is None
+    assert running.facts(NOW_NS, shown=True).types == ()
