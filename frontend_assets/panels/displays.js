@@ -15,6 +15,7 @@ import { ancestorsOf, linkRows } from "../lib/tree.js";
 import { EmptyState, SearchBox } from "../lib/ui.js";
 import { rowId, Tree } from "./display-tree.js";
 import { LinkDetails } from "./link-details.js";
+import { dropTopic, takeTopic } from "./live-drag.js";
 import { AddDisplayButton, liveRows, setLiveOpen } from "./live-rows.js";
 
 /** Settings from 0 to 1. */
@@ -35,7 +36,7 @@ export function DisplaysPanel() {
     else now.add(id);
     closed.value = now;
   };
-  return html`<section ref=${panel} class="panel-body" aria-label=${t("panel.displays")}>
+  return html`<section ref=${panel} class="panel-body" aria-label=${t("panel.displays")} onDragOver=${takeTopic} onDrop=${dropTopic}>
     <div class="panel-bar">
       <${SearchBox} label=${t("displays.filter")} value=${filter.value} onInput=${(
         /** @type {string} */ text,

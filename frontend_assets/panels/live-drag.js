@@ -3,8 +3,10 @@
 /** @import { Drop } from "../lib/live-drop.js" */
 
 import { signal } from "vendor/preact.js";
-import { placeDisplays } from "../app/live.js";
+import { addDisplay, placeDisplays } from "../app/live.js";
+import { mayEdit } from "../app/state/connection.js";
 import { liveDisplays } from "../app/state/live.js";
+import { endDrag, takesDrop, dragged as topic } from "../app/topic-drag.js";
 import { dropOn } from "../lib/live-drop.js";
 
 /** Id of the row that is dragged; empty: none. */
@@ -51,6 +53,20 @@ export const droppable = (row) => ({
     placeDisplays(drop.moves);
   },
 });
+
+/** A topic of which there is a display may be dropped on the panel. @param {DragEvent} event */
+export function takeTopic(event) {
+  if (topic.peek()?.kind && mayEdit.peek()) takesDrop(event);
+}
+
+/** @param {DragEvent} event the display that shows the topic listens as the topic is published */
+export function dropTopic(event) {
+  const what = topic.peek();
+  if (!what?.kind || !mayEdit.peek()) return;
+  event.preventDefault();
+  endDrag();
+  addDisplay(what.kind, what.topic);
+}
 
 function end() {
   dragged.value = "";

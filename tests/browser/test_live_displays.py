@@ -31,6 +31,10 @@ TF = "tf2_msgs/msg/TFMessage"
 POSE = "geometry_msgs/msg/PoseStamped"
 SCAN = "sensor_msgs/msg/LaserScan"
 SCANS = re.compile(r"LaserScan, .scan · .+ Hz")
+DISCONNECT = """async () => {
+  const script = document.querySelector('script[type="module"]').src;
+  await (await import(new URL("ros.js", script))).disconnectRos();
+}"""
 
 
 def goal() -> Any:  # noqa: ANN401
@@ -99,7 +103,7 @@ def add(tab: StudioPage, topic: str) -> None:
     wait_until("topics, or a way to them", lambda: connect.count() + offer.count() > 0)
     if connect.count():
         connect.click()
-    offer.wait_for()
+    offer.filter(has_text="Hz").wait_for()
     window.get_by_role("searchbox").fill(topic)
     wait_until("one offer", lambda: window.get_by_role("option").count() == 1)
     window.get_by_role("searchbox").press("Enter")
@@ -133,6 +137,10 @@ def test_topics_are_added_mended_by_a_click_set_in_the_tree_and_seen_in_3d(
         tab.page.locator(".frame-trouble").wait_for()  # the robot has no place in it
         wait_until("the pose is drawn", lambda: row(tab, "Pose, /goal").count() == 1)
         tab.show_other_than(thick)
+        row(tab, "LaserScan").click()  # its settings would stand between the two
+        wait_until("settings are folded", lambda: style.count() == 0)
+        drag_to_the_top(tab, "Pose, /goal")
+        wait_until("the pose stands first", lambda: first_display(tab).startswith("Pose"))
         row(tab, "Pose, /goal").focus()
         tab.page.keyboard.press("Delete")
         wait_until("the row is gone", lambda: row(tab, "Pose").count() == 0)
@@ -140,8 +148,40 @@ def test_topics_are_added_mended_by_a_click_set_in_the_tree_and_seen_in_3d(
         frame.press("Enter")
         row(tab, "LaserScan, /scan").get_by_role("button", name="Show LaserScan").click()
         tab.show_again(plain)
+        row(tab, "LaserScan").get_by_role("button", name="Show LaserScan").click()
+        tab.show_other_than(plain)
+        disconnected_and_back(tab, plain)
         assert tab.errors == []
         viewer_sees(browser, studio)
+
+
+def drag_to_the_top(tab: StudioPage, name: str) -> None:
+    """Drag a row by the mouse, as slowly as a hand does, above the first display."""
+    mouse, first = tab.page.mouse, tab.page.locator("[id^='row-display:']").first
+    first.scroll_into_view_if_needed()
+    grip, goal = row(tab, name).bounding_box(), first.bounding_box()
+    assert grip is not None
+    assert goal is not None
+    mouse.move(grip["x"] + 60, grip["y"] + grip["height"] / 2)
+    mouse.down()
+    for step in range(4, -1, -1):
+        mouse.move(goal["x"] + 60 - step, goal["y"] + 3 + step)
+    tab.page.locator(".drop-before").wait_for()
+    mouse.up()
+
+
+def first_display(tab: StudioPage) -> str:
+    """What the first row of a live display says."""
+    return tab.page.locator("[id^='row-display:']").first.get_attribute("aria-label") or ""
+
+
+def disconnected_and_back(tab: StudioPage, plain: bytes) -> None:
+    """What was drawn leaves the screen, and comes back by the one click that the row offers."""
+    tab.page.evaluate(DISCONNECT)
+    tab.show_again(plain)
+    wait_until("the row says so", lambda: row(tab, "LaserScan, no connection").count() == 1)
+    tab.page.locator(".live-remark").get_by_role("button", name="Connect", exact=True).click()
+    tab.show_other_than(plain)
 
 
 def viewer_sees(browser: Browser, studio: RunningStudio) -> None:
