@@ -2,13 +2,14 @@
 
 /** @import { Signal } from "vendor/preact.js" */
 
-import { effect, signal, untracked } from "vendor/preact.js";
+import { computed, effect, signal, untracked } from "vendor/preact.js";
 import { send } from "../wire.js";
 import { connection } from "./connection.js";
 import { sharedLook } from "./frames.js";
 import { chosenNode, parameters, setRefused } from "./parameter-values.js";
 import { polled } from "./polling.js";
 import { askOrKeepWhy } from "./refusals.js";
+import { ros } from "./ros.js";
 
 const EVERY_MS = 1500;
 
@@ -33,13 +34,16 @@ export async function askParameters() {
   if (told?.type === "parameters" && node === chosenNode.peek()) parameters.value = told.parameters;
 }
 
+const isJoined = computed(() => ros.value.state === "connected");
+
 /** Be told of the node that is chosen, and of what changes in it; gives the end of it. */
 export const followParameters = sharedLook(() => {
   const tell = (/** @type {string} */ node) =>
     // What is in the way is seen by the page itself: a new lane begins anew.
     void send({ type: "follow_parameters", node }).catch(() => {});
   const end = effect(() => {
-    if (connection.value !== "connected") return;
+    // Whoever is connected anew hears nothing of what was asked for before.
+    if (connection.value !== "connected" || !isJoined.value) return;
     tell(chosenNode.value);
     untracked(askParameters);
   });

@@ -37,6 +37,10 @@ _State: TypeAlias = Literal["running", "done", "stopped", "failed"]
 _STATES: Final[dict[str, _State]] = {"done": "done", "failed": "failed", "cancelled": "stopped"}
 
 
+_AS_ASKED: Final = {"text", "rate_hz", "reliable", "latched", "depth"}
+_OWN: Final = tuple(name for name in PublicationView.model_fields if name not in _AS_ASKED)
+
+
 @dataclass
 class Publication:
     """What is published, and how often it was; counted in the thread of the link."""
@@ -44,11 +48,7 @@ class Publication:
     deed: int
     name: str
     message_type: str
-    text: str
-    rate_hz: float
-    reliable: bool
-    latched: bool
-    depth: int
+    asked: Publish
     state: _State = "running"
     sent: int = 0
     listeners: int = 0
@@ -66,9 +66,8 @@ class Publication:
 
     def view(self) -> PublicationView:
         """As the page is told."""
-        return PublicationView(
-            **{name: getattr(self, name) for name in PublicationView.model_fields}
-        )
+        own = {name: getattr(self, name) for name in _OWN}
+        return PublicationView(**own, **self.asked.model_dump(include=_AS_ASKED))
 
 
 def _told(is_whole: bool, found: tuple[Publication, ...]) -> Publications:  # noqa: FBT001
@@ -96,16 +95,7 @@ class PublishDesk:
         number = self.ledger.next_number()
         link = await self._wire.link()
         saying = await asyncio.to_thread(Saying, link, command)
-        publication = Publication(
-            number,
-            saying.name,
-            saying.type_name,
-            command.text,
-            command.rate_hz,
-            command.reliable,
-            command.latched,
-            command.depth,
-        )
+        publication = Publication(number, saying.name, saying.type_name, command)
         self.ledger.add(publication)
         self._running.start(
             number,
@@ -163,8 +153,9 @@ class PublishDesk:
     async def _say(self, publication: Publication, saying: Saying) -> None:
         from studio.engine.bridge.requests import came_true  # noqa: PLC0415 - imports zenoh
 
-        if publication.rate_hz > 0:
-            await asyncio.to_thread(saying.repeat, publication.rate_hz, publication.said)
+        rate_hz = publication.asked.rate_hz
+        if rate_hz > 0:
+            await asyncio.to_thread(saying.repeat, rate_hz, publication.said)
             while True:
                 publication.listeners = saying.listeners()
                 self.ledger.changed(publication)

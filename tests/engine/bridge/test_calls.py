@@ -103,23 +103,21 @@ def test_what_cannot_be_asked_is_refused_and_not_begun(
     asyncio.run(run())
 
 
-def test_a_service_that_nobody_serves_is_said_to_be_so(endpoint: str):
-    async def run() -> None:
-        async with bridged(endpoint) as page:
-            number = await page.begin(call("/nobody", timeout_s=0.2))
-            told = await page.deed_in("calls", number, "failed")
-            assert told["trouble"].startswith("No node serves the service /nobody")
-
-    asyncio.run(run())
-
-
 @pytest.mark.usefixtures("slow")
-def test_a_server_that_is_silent_is_given_up_in_time(endpoint: str):
+@pytest.mark.parametrize(
+    ("name", "timeout_s", "words"),
+    [
+        ("/nobody", 0.2, "No node serves the service /nobody"),
+        ("/slow", 0.5, "gave no answer within 0.5 s"),
+    ],
+)
+def test_nobody_and_who_is_silent_are_given_up_in_time(
+    endpoint: str, name: str, timeout_s: float, words: str
+):
     async def run() -> None:
         async with bridged(endpoint) as page:
-            number = await page.begin(call("/slow", timeout_s=0.5))
-            told = await page.deed_in("calls", number, "failed")
-            assert "no answer within 0.5 s" in told["trouble"]
+            number = await page.begin(call(name, timeout_s=timeout_s))
+            assert words in (await page.deed_in("calls", number, "failed"))["trouble"]
 
     asyncio.run(run())
 
