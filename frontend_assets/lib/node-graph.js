@@ -105,8 +105,14 @@ function keptIds({ boxes, arrows }, { words, focus }) {
   if (focus !== "" && all.has(focus)) return near(new Set([focus]), arrows, NEAR_STEPS);
   const wanted = words.toLowerCase().split(/\s+/).filter(Boolean);
   if (wanted.length === 0) return all;
-  const found = boxes.filter(({ name }) => wanted.every((one) => name.toLowerCase().includes(one)));
-  return near(new Set(found.map(({ id }) => id)), arrows, 1);
+  const isMeant = (/** @type {string} */ name) =>
+    wanted.every((one) => name.toLowerCase().includes(one));
+  const found = boxes.filter(({ name }) => isMeant(name)).map(({ id }) => id);
+  const carrying = arrows.filter(({ names }) => names.some(isMeant));
+  return new Set([
+    ...near(new Set(found), arrows, 1),
+    ...carrying.flatMap(({ from, to }) => [from, to]),
+  ]);
 }
 
 /** @param {Set<string>} ids @param {readonly Arrow[]} arrows @param {number} steps @returns {Set<string>} they and what is so many arrows away at most */

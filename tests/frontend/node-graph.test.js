@@ -66,6 +66,8 @@ test("a search and a focus leave what is near", () => {
   assert.deepEqual(ids(near).toSorted(), ["node:/a", "node:/b", "topic:/ab"]);
   const found = drawnGraph(graph, { ...USUAL, words: "CD" });
   assert.deepEqual(ids(found).toSorted(), ["node:/c", "node:/d", "topic:/cd"]);
+  const carried = drawnGraph(graph, { ...USUAL, form: "nodes", words: "CD" });
+  assert.deepEqual(ids(carried), ["node:/c", "node:/d"]);
   assert.equal(drawnGraph(graph, { ...USUAL, focus: "node:/gone" }).boxes.length, 7);
 });
 

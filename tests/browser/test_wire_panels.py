@@ -1,0 +1,119 @@
+"""The panels about a ROS 2 system: joined in another domain, read, drawn, and given a new type."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+
+from studio.ros.messages import message
+from tests.support.demos import node_at
+from tests.support.managed_arm import managed_arm
+from tests.support.panel_pictures import SHOW_PANEL
+from tests.support.server import running_studio
+from tests.support.studio_page import studio_page, wait_until
+from tests.support.wire import running_router
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from playwright.sync_api import Browser, Locator
+
+    from tests.support.studio_page import StudioPage
+
+pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(600)]
+STRING = message("std_msgs/msg/String")
+
+
+def panel(tab: StudioPage, name: str) -> Locator:
+    """Bring a panel to the front; what it shows."""
+    tab.page.evaluate(SHOW_PANEL, name)
+    found = tab.page.locator(f"section.panel-body.{name}")
+    found.wait_for()
+    return found
+
+
+def join_where_nodes_are(tab: StudioPage) -> None:
+    tab.page.locator(".ros-status").click()
+    window = tab.page.get_by_role("dialog", name="ROS 2")
+    window.get_by_text("No node is in domain 41").wait_for()
+    window.get_by_role("button", name="3 nodes in domain 0: switch").click()
+    window.get_by_text("3 nodes are there, in domain 0").wait_for()
+    assert window.get_by_role("spinbutton", name="Domain").input_value() == "0"
+    tab.page.keyboard.press("Escape")
+
+
+def read_the_log(tab: StudioPage) -> None:
+    log = panel(tab, "log")
+    log.get_by_role("button", name="a word of warning").wait_for()
+    log.get_by_label("Least level").select_option("error")
+    log.get_by_text("does not fit the filter").wait_for()
+    log.get_by_label("Least level").select_option("info")
+    log.get_by_role("searchbox").fill("warning")
+    log.get_by_role("button", name="a word of warning").click()
+    assert "a word of warning" in log.get_by_role("region", name="The whole line").inner_text()
+
+
+def see_who_speaks_with_whom(tab: StudioPage) -> None:
+    graph = panel(tab, "graph")
+    graph.get_by_role("searchbox").fill("chatter")
+    boxes = graph.locator(".graph-box")
+    wait_until("two nodes and their topic", lambda: boxes.count() == 3)
+    graph.get_by_role("button", name="Node /talker").click()
+    details = graph.get_by_role("region", name="About /talker")
+    details.get_by_role("heading", name="Publishes").wait_for()
+    assert "std_msgs/msg/String" in details.inner_text()
+    graph.get_by_label("Drawn as").select_option("nodes")
+    wait_until("one edge between two", lambda: boxes.count() == 2)
+    assert graph.locator(".graph-arrow").count() == 1
+
+
+def give_a_type(tab: StudioPage) -> None:
+    types = panel(tab, "interfaces")
+    types.get_by_role("searchbox").fill("geometry pose")
+    types.get_by_role("button", name="geometry_msgs/msg/Pose", exact=True).click()
+    types.get_by_role("button", name="Unfold position").click()
+    types.get_by_role("button", name="Add a type").click()
+    types.get_by_label("Name").fill("my_robot_interfaces/msg/CustomTelemetry")
+    types.get_by_label("Text").fill("this is no type !")
+    types.get_by_role("button", name="Take it").click()
+    types.get_by_role("alert").wait_for()
+    types.get_by_label("Text").fill("string robot_name\nfloat32 battery_percent\n")
+    types.get_by_role("button", name="Take it").click()
+    types.get_by_role("heading", name="my_robot_interfaces/msg/CustomTelemetry").wait_for()
+    assert "RIHS01_" in types.inner_text()
+
+
+def change_a_state(tab: StudioPage) -> None:
+    arm = panel(tab, "lifecycle").get_by_role("region", name="/arm")
+    arm.get_by_role("button", name="configure", exact=True).click()
+    arm.get_by_role("button", name="activate", exact=True).wait_for()
+    assert arm.locator("[aria-current=step]").inner_text() == "inactive"
+    parts = panel(tab, "diagnostics")
+    parts.get_by_role("button", name="arm: motor").click()
+    parts.get_by_text("81 °C").wait_for()
+
+
+def test_a_system_is_joined_read_drawn_and_given_a_type(browser: Browser, tmp_path: Path):
+    with (
+        running_router() as endpoint,
+        node_at(endpoint, "talker") as talker,
+        node_at(endpoint, "listener") as listener,
+        managed_arm(endpoint) as arm,
+    ):
+        talker.create_publisher(STRING, "/chatter", 10)
+        heard: list[object] = []
+        listener.create_subscription(STRING, "/chatter", heard.append, 10)
+        talker.get_logger().warning("a word of warning")
+        arm.tell_parts()
+        place = ["--connect", endpoint, "--router", "off", "--domain", "41"]
+        with (
+            running_studio(["demo", *place], tmp_path / "data") as studio,
+            studio_page(browser, studio) as tab,
+        ):
+            join_where_nodes_are(tab)
+            read_the_log(tab)
+            see_who_speaks_with_whom(tab)
+            give_a_type(tab)
+            change_a_state(tab)
+            assert tab.errors == []
