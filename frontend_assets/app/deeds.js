@@ -17,9 +17,6 @@ import { askOrKeepWhy } from "./state/refusals.js";
 /** @param {MessageForm} form @param {Asked<Command>} command @returns {Promise<number>} the deed's number; 0: it was refused */
 async function begin(form, command) {
   const told = await askOrKeepWhy(command, form.trouble);
-  const choice = form.chosen.peek();
-  // A type that was not known here was asked of the node that has it.
-  if (told && choice && !form.isKnown.peek()) void form.open(choice, form.text.peek());
   return told?.type === "begun" ? told.deed : 0;
 }
 

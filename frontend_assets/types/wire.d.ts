@@ -1101,6 +1101,16 @@ export interface JointView {
   line: number;
 }
 
+/** Have a type that is not known here be told by the nodes that use it; refused with why not. */
+export interface LearnType {
+  request?: number;
+  document?: string;
+  type: "learn_type";
+  used_by: "service" | "action" | "topic";
+  name: string;
+  type_name: string;
+}
+
 /** Files below the served folders that are not open, and have unsaved work of an earlier run. */
 export interface LeftWork {
   type: "left_work";
@@ -2586,6 +2596,7 @@ export type Command =
   | GetServices
   | GetActions
   | ReadValues
+  | LearnType
   | FollowDeeds
   | CallService
   | CancelCall

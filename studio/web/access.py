@@ -149,6 +149,7 @@ _CONTROL: Final = frozenset(
         "publish_joints",
         "find_wire_robots",
         "open_from_wire",
+        "learn_type",
         "call_service",
         "cancel_call",
         "send_goal",

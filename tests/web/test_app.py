@@ -90,7 +90,8 @@ FIELDS: dict[str, object] = {
     "deed": 1,
     "node": "/x",
     "transition": 1,
-    **dict.fromkeys(("action_type", "message_type"), "x/msg/X"),
+    **dict.fromkeys(("action_type", "message_type", "type_name"), "x/msg/X"),
+    "used_by": "topic",
     "deeds": "calls",
 }
 """A value for each field that a command needs."""

@@ -102,6 +102,7 @@ _DEEDS: Final = (
     _row(k.GetServices, lambda d, c, _: d.deeds.offers.services(c)),
     _row(k.GetActions, lambda d, c, _: d.deeds.offers.actions(c)),
     _row(k.ReadValues, lambda d, c, _: d.deeds.offers.read(c)),
+    _row(k.LearnType, lambda d, c, _: d.deeds.offers.learn(c)),
     _row(k.FollowDeeds, lambda d, c, who: d.deeds.follow(c, who)),
     _row(k.CallService, lambda d, c, _: d.deeds.calls.begin(c)),
     _row(k.CancelCall, lambda d, c, _: d.deeds.calls.cancel(c)),
