@@ -36,7 +36,7 @@ async def kept(folder: Path, *, connected: bool) -> None:
     """Wait until the file says whether it was connected."""
 
     def says() -> bool:
-        written = list((folder / "data" / FOLDER).glob("*.json"))
+        written = list((folder / "data" / FOLDER).glob("[!.]*.json"))
         return any((b"connected_to" in one.read_bytes()) == connected for one in written)
 
     await until(says)

@@ -107,6 +107,7 @@ def test_the_heaviest_rests_with_what_was_measured_and_the_others_go_on(
 ):
     monkeypatch.setattr(topic_rates, "BYTES_MAX", 1)
     monkeypatch.setattr(topic_rates, "_MEASURED_S", 0.0)
+    monkeypatch.setattr(topic_rates, "_REST_S", 600.0)
     heavy = publishers(tester, "/heavy")
     rates = TopicRates(context)
     wait_until("the topic", lambda: "/heavy" in rates.look(["/heavy"]))
