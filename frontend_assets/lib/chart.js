@@ -55,11 +55,11 @@ export function createChart(parent, lines, look, events) {
   const reset = () => events.onReset();
   chart.over.addEventListener("dblclick", reset);
   return {
-    /** @param {readonly number[]} times @param {readonly (readonly (number | null | undefined)[])[]} values @param {number} span_s */
-    draw(times, values, span_s) {
+    /** @param {readonly number[]} times @param {readonly (readonly (number | null | undefined)[])[]} values @param {number} from_s @param {number} to_s */
+    draw(times, values, from_s, to_s) {
       chart.batch(() => {
         chart.setData(/** @type {any} */ ([times, ...values]), false);
-        chart.setScale("x", { min: -span_s, max: 0 });
+        chart.setScale("x", { min: from_s, max: to_s });
       });
     },
     resize() {

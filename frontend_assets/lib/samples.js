@@ -136,12 +136,12 @@ function widen(drawn, at, first, other, value) {
   drawn[at + 1] = value;
 }
 
-/** @param {number} columns @param {number} span_s @returns {number[]} the times of `columnsOf`, up to 0 */
-export function columnTimes(columns, span_s) {
-  const width_s = span_s / columns;
+/** @param {number} columns @param {number} from_s @param {number} to_s @returns {number[]} the times of `columnsOf` */
+export function columnTimes(columns, from_s, to_s) {
+  const width_s = (to_s - from_s) / columns;
   return Array.from(
     { length: columns * 2 },
-    (_, n) => (n >> 1) * width_s + (n % 2 ? 0.75 : 0.25) * width_s - span_s,
+    (_, n) => from_s + ((n >> 1) + (n % 2 ? 0.75 : 0.25)) * width_s,
   );
 }
 

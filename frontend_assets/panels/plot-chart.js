@@ -20,7 +20,7 @@ export const colorOf = (at) => `var(--plot-${(at % COLORS) + 1})`;
 /** @param {{hidden: ReadonlySet<string>, held: Signal<Span | null>, pointed_s: Signal<number | null>}} props */
 export function PlotChart({ hidden, held, pointed_s }) {
   const element = useRef(/** @type {HTMLElement | null} */ (null));
-  const drawn = useRef({ from_s: 0, to_s: 0 });
+  const drawn = useRef({ from_s: 0, to_s: 0, now_s: 0 });
   const all = series.value;
   useEffect(() => {
     const parent = element.current;
@@ -36,13 +36,13 @@ export function PlotChart({ hidden, held, pointed_s }) {
       text: style.getPropertyValue("--muted"),
       font: `11px ${style.fontFamily}`,
     };
-    const time = (/** @type {number} */ axis_s) => drawn.current.to_s + axis_s;
+    const time = (/** @type {number} */ axis_s) => drawn.current.now_s + axis_s;
     const chart = createChart(parent, lines, look, {
       onPoint: (axis_s) => {
         pointed_s.value = axis_s === null ? null : time(axis_s);
       },
       onZoom: (from_s, to_s) => {
-        held.value = { from_s: time(from_s), to_s: time(to_s) };
+        held.value = { from_s: time(from_s), to_s: time(to_s), now_s: drawn.current.now_s };
       },
       onReset: () => {
         held.value = null;
@@ -52,9 +52,10 @@ export function PlotChart({ hidden, held, pointed_s }) {
       const span = held.peek() ?? running();
       drawn.current = span;
       const columns = chart.width();
-      const seen_s = span.to_s - span.from_s;
+      const from_s = span.from_s - span.now_s;
+      const to_s = span.to_s - span.now_s;
       const values = all.map((one) => columnsOf(samplesOf(one), span.from_s, span.to_s, columns));
-      chart.draw(columnTimes(columns, seen_s), values, seen_s);
+      chart.draw(columnTimes(columns, from_s, to_s), values, from_s, to_s);
     };
     const stop = whileSeen(draw);
     const watcher = new ResizeObserver(() => chart.resize());
@@ -72,7 +73,7 @@ export function PlotChart({ hidden, held, pointed_s }) {
 function running() {
   const now_s = nowOfSamples();
   const to_s = Number.isNaN(now_s) ? 0 : now_s;
-  return { from_s: to_s - span_s.peek(), to_s };
+  return { from_s: to_s - span_s.peek(), to_s, now_s: to_s };
 }
 
 /** @param {() => void} draw as often as it can be seen @returns {() => void} the end of it */

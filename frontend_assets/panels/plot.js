@@ -2,6 +2,7 @@
 
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { ConnectFirst, isUnconnected } from "../app/connect-first.js";
+import { dropped } from "../app/data.js";
 import { followSeries, forgetOthers, nowOfSamples, samplesOf } from "../app/plotting.js";
 import { addSeries, series, span_s } from "../app/state/plot.js";
 import { dragged, endDrag, takesDrop } from "../app/topic-drag.js";
@@ -16,7 +17,7 @@ import { PlotPicker } from "./plot-picker.js";
 
 /** @import { Signal } from "vendor/preact.js" */
 
-/** @typedef {{from_s: number, to_s: number}} Span of time that is seen */
+/** @typedef {{from_s: number, to_s: number, now_s: number}} Span of time that is seen, and the moment from which its axis counts */
 
 const SPANS_S = [5, 10, 30, 60, 120, 300];
 
@@ -88,6 +89,7 @@ function Bar({ picking, held }) {
     <${MenuButton} label=${t("plot.span")} class="button" items=${items}>${t("plot.seconds", { count: span_s.value })}<${Icon} name="chevronDown" size=${12} /><//>
     <${IconButton} icon=${held.value ? "animate" : "pause"} label=${t(held.value ? "topics.go_on" : "topics.pause")} pressed=${held.value !== null} disabled=${isEmpty} onClick=${toggle} />
     <span class="push"></span>
+    ${dropped.value > 0 && html`<span class="plot-trouble" role="status">${t("plot.dropped", { count: dropped.value })}</span>`}
     <${IconButton} icon="download" label=${t("plot.csv")} disabled=${isEmpty} onClick=${() => download(held.value ?? spanNow())} />
     <${IconButton} icon="trash" label=${t("plot.clear")} disabled=${isEmpty} onClick=${() => {
       series.value = [];
@@ -98,7 +100,7 @@ function Bar({ picking, held }) {
 /** @returns {Span} */
 function spanNow() {
   const to_s = nowOfSamples();
-  return { from_s: to_s - span_s.value, to_s };
+  return { from_s: to_s - span_s.value, to_s, now_s: to_s };
 }
 
 /** @param {Span} span */

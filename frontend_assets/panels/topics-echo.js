@@ -4,7 +4,7 @@
 /** @import { Heard, Looked } from "../workers/wishes.js" */
 
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
-import { lookAt } from "../app/data.js";
+import { laneOpen, lookAt } from "../app/data.js";
 import { addDisplay } from "../app/live.js";
 import { mayEdit } from "../app/state/connection.js";
 import { chosenTopic, listening } from "../app/state/topics.js";
@@ -124,6 +124,7 @@ function Said({ heard, message }) {
 
 /** @param {Heard} heard @param {Looked | null} message @returns {string} empty: all is well */
 function troubleOf(heard, message) {
+  if (!laneOpen.value) return t("topics.state.lane");
   if (heard.state === "refused") return heard.reason;
   if (heard.state !== "hearing")
     return t(`topics.state.${heard.state}`, { types: heard.types.join(", ") });

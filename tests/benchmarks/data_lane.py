@@ -24,15 +24,22 @@ from typing import TYPE_CHECKING, Final
 
 from tests.benchmarks import data_server
 from tests.benchmarks.fan_out import cpu_s_of
-from tests.benchmarks.report import judge_ratio, say
+from tests.benchmarks.report import judge, say
 from tests.support.server import running_studio
 from tests.support.wire import running_router
 
 if TYPE_CHECKING:
     from collections.abc import Generator
 
-CELLS: Final = ((500, 1_000, 10), (500, 1_000, 30), (5_000, 50, 10), (500, 5_000, 10))
-"""Bytes of a message, how many in a second, and how many browsers."""
+CELLS: Final = (
+    (500, 1_000, 10, 0.6),
+    (500, 1_000, 30, 0.6),
+    (5_000, 50, 50, 0.85),
+    (500, 5_000, 10, 0.3),
+)
+"""Bytes of a message, how many in a second, how many browsers, and what part of the others' CPU."""
+OVER_EMPTY: Final = 1.5
+"""Of a callback that does nothing, with 5,000 messages in a second."""
 RUNS: Final = 3
 WINDOW_S: Final = 3.0
 _SETTLE_S: Final = 1.0
@@ -120,10 +127,11 @@ def run() -> None:
                 say("  foxglove-sdk is not installed: beside a plain FastAPI loop alone")
             servers += [stack.enter_context(_other(kind, zenoh_port)) for kind in kinds]
             for cell in CELLS:
-                _cell(servers, zenoh_port, *cell)
+                _cell(servers, zenoh_port, cell)
 
 
-def _cell(servers: list[Server], zenoh_port: int, size: int, rate_hz: int, browsers: int) -> None:
+def _cell(servers: list[Server], zenoh_port: int, cell: tuple[int, int, int, float]) -> None:
+    size, rate_hz, browsers, share = cell
     say(f"  {size} bytes at {rate_hz} Hz to {browsers} browsers")
     found: dict[str, list[Seen]] = {server.name: [] for server in servers}
     with _process("publish", zenoh_port, rate_hz, size):
@@ -137,7 +145,10 @@ def _cell(servers: list[Server], zenoh_port: int, size: int, rate_hz: int, brows
             f"    {name:<10}{seen.cpu:7.1%} of a core   {seen.messages_per_s:8.0f} of "
             f"{rate_hz} Hz   load {seen.load:5.0%}"
         )
-    _judge(middle, f"{size} B at {rate_hz} Hz to {browsers}")
+    _judge(middle, f"{size} B at {rate_hz} Hz to {browsers}", share)
+    if rate_hz == CELLS[-1][1]:
+        over = middle["studio"].cpu / middle["empty"].cpu
+        judge("CPU over that of an empty callback", over, at_most=OVER_EMPTY, unit="times")
 
 
 def _middle(runs: list[Seen]) -> Seen:
@@ -148,7 +159,7 @@ def _middle(runs: list[Seen]) -> Seen:
     )
 
 
-def _judge(middle: dict[str, Seen], cell: str) -> None:
+def _judge(middle: dict[str, Seen], cell: str, share: float) -> None:
     ours = middle["studio"]
     for name in ("foxglove", "naive"):
         other = middle.get(name)
@@ -157,7 +168,8 @@ def _judge(middle: dict[str, Seen], cell: str) -> None:
         if max(other.load, ours.load) > _BUSY:
             say(f"    against {name}: not measurable here")
         else:
-            judge_ratio(f"{cell}: CPU of {name} over ours", other.cpu / ours.cpu, at_least=1 / 0.6)
+            what = f"{cell}: CPU of ours over {name}"
+            judge(what, ours.cpu / other.cpu, at_most=share, unit="times")
 
 
 async def _watch(server: Server, browsers: int, size: int) -> Seen:

@@ -65,11 +65,13 @@ def naive(zenoh_port: int) -> None:
         await socket.accept()
         queue: asyncio.Queue[bytes] = asyncio.Queue(1000)
         queues.add(queue)
+        sending = asyncio.create_task(_send_all(socket, queue))
         try:
             while True:
-                await socket.send_bytes(await queue.get())
+                await socket.receive_text()
         except WebSocketDisconnect:
             queues.discard(queue)
+            sending.cancel()
 
     def give(payload: bytes) -> None:
         for queue in queues:
@@ -89,6 +91,11 @@ def naive(zenoh_port: int) -> None:
         del kept
 
     asyncio.run(serve())
+
+
+async def _send_all(socket: WebSocket, queue: asyncio.Queue[bytes]) -> None:
+    while True:
+        await socket.send_bytes(await queue.get())
 
 
 def foxglove(zenoh_port: int) -> None:
