@@ -178,7 +178,6 @@ WINDOWS: dict[str, Callable[[Camera], None]] = {
     "keys": run("keys"),
     "layouts": run("layouts"),
     "graphics": show_graphics,
-    "ros": run("ros"),
     "saving": show_changes,
 }
 
@@ -243,6 +242,11 @@ def take_wired(browser: Browser, data: Path) -> None:
                     tab.page.wait_for_timeout(_STILL_MS)
                     camera.take(panel, tab.page.evaluate(_DOCK_OF, panel))
                     tab.page.evaluate(_RUN, "maximize")
+                if wanted("ros"):
+                    tab.page.evaluate(_RUN, "ros")
+                    tab.page.locator(".ros-report").wait_for()
+                    camera.take_part("ros", tab.page.locator("dialog"))
+                    tab.page.keyboard.press("Escape")
                 if wanted("live"):
                     tab.page.evaluate(_SHOW_DIALOG, "add_display")
                     # A rate is there once two messages came.
@@ -286,7 +290,7 @@ def main() -> None:
     for browser in open_browser():
         with tempfile.TemporaryDirectory() as data:
             take_demo(browser, Path(data))
-        if any(map(wanted, (*ON_THE_WIRE, "live", "displays"))):
+        if any(map(wanted, (*ON_THE_WIRE, "live", "displays", "ros"))):
             with tempfile.TemporaryDirectory() as data:
                 take_wired(browser, Path(data))
         if wanted("problems"):
