@@ -55,6 +55,7 @@ class Channel:
         self.number, self.wish = number, wish
         self.keeps_all = wish.mode == "every"
         self.state = self._told("not_connected")
+        self._link: WireLink | None = None
         self._way: Way | None = None
         self._heard: Overheard | None = None
         self._waiting: list[RawSample] = []
@@ -69,6 +70,9 @@ class Channel:
             self.close()
             self.state = self._told("not_connected")
             return
+        if link is not self._link:  # what was heard by another connection comes no more
+            self.close()
+            self._link = link
         publishers = _publishers(link, self.wish.topic)
         way = _way_of(self.wish, publishers, self._way)
         if way != self._way or (way is not None and self._heard is None):

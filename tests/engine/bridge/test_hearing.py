@@ -183,3 +183,49 @@ def test_a_browser_has_a_bound_of_wishes_and_what_is_no_topic_is_refused(endpoin
             assert [one.wish for one in hearer.refused] == [WISHES_MAX]
 
     asyncio.run(run())
+
+
+def test_another_connection_is_heard_where_the_one_before_was(endpoint: str, tester: Node):
+    out = tester.create_publisher(message(STRING), "/again", 10)
+
+    async def run() -> None:
+        wire = WireDesk(WireChoice("off", (endpoint,)))
+        desk = HearingDesk(wire)
+        hearer = browser(desk)
+
+        async def hears(text: str) -> None:
+            await wire.link()
+            await heard(hearer)
+            await until(lambda: out.get_subscription_count() == 1)
+            out.publish(said(text))
+            await until(lambda: text in texts(hearer))
+            await wire.disconnect()
+            await until(lambda: hearer.state(1) == "not_connected")
+
+        try:
+            desk.wish(hearer, Hear(wish=1, topic="/again", mode="every"))
+            await hears("before")
+            await hears("after")
+        finally:
+            await desk.close()
+            await wire.close()
+
+    asyncio.run(run())
+
+
+def test_a_topic_is_subscribed_once_and_not_at_every_look(endpoint: str, tester: Node):
+    out = tester.create_publisher(message(STRING), "/steady", 10)
+
+    async def run() -> None:
+        async with hearing(endpoint) as desk:
+            hearer = browser(desk)
+            desk.wish(hearer, Hear(wish=1, topic="/steady", mode="every"))
+            await heard(hearer)
+            await until(lambda: out.get_subscription_count() == 1)
+            (first,) = tester.graph.subscriptions("/steady")
+            other = tester.create_publisher(message(STRING), "/steady", 10)
+            await until(lambda: hearer.told[-1].publishers == 2)
+            assert [one.token for one in tester.graph.subscriptions("/steady")] == [first.token]
+            tester.destroy_publisher(other)
+
+    asyncio.run(run())
