@@ -109,7 +109,7 @@ def _scan() -> Fields:
 
 def _cloud(*, coloured: bool) -> Fields:
     """A hilly floor; with colours or with intensities."""
-    x, y = (axis.ravel() for axis in np.meshgrid(*[np.linspace(-1.5, 1.5, 160)] * 2))
+    x, y = (axis.ravel() for axis in np.meshgrid(*[np.linspace(-1.5, 1.5, 130)] * 2))
     z = 0.2 * np.sin(3 * x) * np.cos(2 * y) - 0.1
     rows = np.stack([x, y, z, np.hypot(x, y)], axis=1).astype("<f4")
     if coloured:
@@ -209,6 +209,11 @@ def _markers() -> Fields:
 _ARM = """<robot name="arm"><link name="base_link"/><link name="sensor"/>
   <joint name="turn" type="revolute"><parent link="base_link"/><child link="sensor"/>
     <axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="10" velocity="1"/></joint></robot>"""
+_CRANE = """<robot name="crane"><material name="orange"><color rgba="0.95 0.5 0.1 1"/></material>
+  <link name="laser"><visual><geometry><box size="0.3 0.3 0.1"/></geometry></visual></link>
+  <link name="sensor"><visual><geometry><sphere radius="0.12"/></geometry>
+    <material name="orange"/></visual></link>
+  <joint name="jib" type="fixed"><parent link="laser"/><child link="sensor"/></joint></robot>"""
 _IMU: Fields = {
     "orientation": {"x": 0.1, "y": 0.15, "z": 0.25, "w": 0.95},
     "angular_velocity": point(0.3, 0.2, 0.8),
@@ -225,6 +230,13 @@ SAMPLES: tuple[Sample, ...] = (
     Sample("cloud_rgb", "PointCloud2", "sensor_msgs/msg/PointCloud2", _cloud(coloured=True)),
     Sample("cloud_intensity", "PointCloud2", "sensor_msgs/msg/PointCloud2",
            _cloud(coloured=False), {"Size (m)": 0.02}),
+    Sample("cloud_boxes", "PointCloud2", "sensor_msgs/msg/PointCloud2", _cloud(coloured=True),
+           {"Style": "Boxes", "Size (m)": 0.015}),
+    Sample("cloud_spheres", "PointCloud2", "sensor_msgs/msg/PointCloud2", _cloud(coloured=True),
+           {"Style": "Spheres", "Size (m)": 0.015}),
+    Sample("cloud_pixels", "PointCloud2", "sensor_msgs/msg/PointCloud2", _cloud(coloured=True),
+           {"Style": "Points"}),
+    Sample("robot_model", "RobotModel", "std_msgs/msg/String", {"data": _CRANE}),
     Sample("cloud_flat", "PointCloud2", "sensor_msgs/msg/PointCloud2", _cloud(coloured=False),
            {"Color Transformer": "FlatColor", "Alpha": 0.4}),
     Sample("imu", "Imu", "sensor_msgs/msg/Imu", _IMU,
