@@ -108,11 +108,6 @@ class Placing:
         """Whether a drawing waits for its transforms."""
         return bool(self._waiting)
 
-    @property
-    def rests(self) -> bool:
-        """Whether all that is shown has been placed, and nothing waits."""
-        return not self._waiting and bool(self._shown.poses)
-
     def _try(self, drawing: Drawing, lookup: Lookup) -> _Tried:
         tried = _Tried()
         for path, placed in drawing.items():
