@@ -14,7 +14,7 @@ from studio.engine.messages.wire import PublishJoints, PublishRobot, SetJointSou
 from studio.errors import CommandError
 from studio.nodes.robot_state_publisher import LATCHED
 from studio.ros.messages import message
-from tests.support.demos import RunningDemo, heard, running
+from tests.support.demos import RunningDemo, call, heard, running
 from tests.support.open_documents import opened, until
 from tests.support.wired_studio import (
     STATES,
@@ -55,6 +55,33 @@ def test_d8_a_subscriber_in_another_process_gets_the_latched_description_and_tf(
             await hears("/tf", "child_frame_id: upper")
 
     asyncio.run(run())
+
+
+def test_a_prefix_that_is_set_stands_before_all_frames_that_are_told(
+    endpoint: str, tester: Node, tmp_path: Path
+):
+    async def run() -> None:
+        moving, still = heard(tester, TF, "/tf"), heard(tester, TF, "/tf_static", LATCHED)
+        async with studio(endpoint, tmp_path) as one:
+            await one.do(PublishRobot(running=True))
+            await until(lambda: ("base", "upper") in edges(moving))
+            kind = message("rcl_interfaces/msg/Parameter")
+            prefix = kind(name="frame_prefix")
+            prefix.value.type, prefix.value.string_value = 4, "r1/"
+            service = "/robot_state_publisher/set_parameters"
+            await asyncio.to_thread(
+                call, tester, "rcl_interfaces/srv/SetParameters", service, parameters=[prefix]
+            )
+            await until(lambda: ("r1/upper", "r1/tip") in edges(still))
+            await until(lambda: ("r1/base", "r1/upper") in edges(moving))
+
+    asyncio.run(run())
+
+
+def edges(told: list[Any]) -> set[tuple[str, str]]:
+    """Parents and children of all transforms that came."""
+    every = (each for one in tuple(told) for each in one.transforms)
+    return {(each.header.frame_id, each.child_frame_id) for each in every}
 
 
 def has_ended(process: RunningDemo) -> bool:
