@@ -112,15 +112,22 @@ def node_at(
     with open_test_session(endpoint, types=types or shared_types()) as wire:
         context = Context.over(wire)
         node = Node(name, context=context)
-        executor = SingleThreadedExecutor(context=context)
-        executor.add_node(node)
-        spinning = threading.Thread(target=_spin, args=(executor,))
-        spinning.start()
-        try:
+        with spun(context, node):
             yield node
-        finally:
-            context.shutdown()
-            spinning.join()
+
+
+@contextmanager
+def spun(context: Context, node: Node) -> Generator[None]:
+    """Carry out a node's work in a thread of its own; at the end its context is shut down."""
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(node)
+    spinning = threading.Thread(target=_spin, args=(executor,))
+    spinning.start()
+    try:
+        yield
+    finally:
+        context.shutdown()
+        spinning.join()
 
 
 def heard(node: Node, type_name: str, topic: str, qos: QoSProfile | int = 100) -> list[Any]:

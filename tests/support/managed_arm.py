@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import threading
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from studio.errors import DestroyedError
-from studio.ros.client import ExternalShutdownException, SingleThreadedExecutor
 from studio.ros.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
 from studio.ros.messages import message
+from tests.support.demos import spun
 from tests.support.node_pair import context_at
 
 if TYPE_CHECKING:
@@ -47,20 +45,8 @@ class Arm(LifecycleNode):
 
 @contextmanager
 def managed_arm(endpoint: str) -> Generator[Arm]:
-    """The node, spun by a thread of its own."""
+    """The node, in a session of its own."""
     with context_at(endpoint) as context:
         arm = Arm("arm", context=context)
-        executor = SingleThreadedExecutor(context=context)
-        executor.add_node(arm)
-        spinning = threading.Thread(target=_spin, args=(executor,))
-        spinning.start()
-        try:
+        with spun(context, arm):
             yield arm
-        finally:
-            context.shutdown()
-            spinning.join()
-
-
-def _spin(executor: SingleThreadedExecutor) -> None:
-    with suppress(ExternalShutdownException, DestroyedError):
-        executor.spin()

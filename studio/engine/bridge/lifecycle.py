@@ -30,6 +30,7 @@ _CHANGE_S: Final = 30.0
 _KEPT_S: Final = 20.0
 """Clients stay so long after the last question: whoever looks asks every second."""
 _AT_ONCE: Final = 8
+_LEFT: Final = "Not connected with ROS 2: connect first."
 
 
 class LifecycleDesk:
@@ -39,6 +40,7 @@ class LifecycleDesk:
         self._wire = wire
         self._clients: dict[str, LifecycleClient] = {}
         self._asking = asyncio.Lock()
+        self._leaves = False
         self._ending: asyncio.TimerHandle | None = None
         self._end: asyncio.Task[None] | None = None
 
@@ -68,19 +70,24 @@ class LifecycleDesk:
         """
         link = self._wire.current
         if link is None:
-            raise CommandError("Not connected with ROS 2: connect first.")
+            raise CommandError(_LEFT)
         await asyncio.to_thread(_change, link, command)
 
     async def let_go(self) -> None:
         """Take all clients back."""
         if self._ending is not None:
             self._ending.cancel()
+        # Of many nodes that are silent, those that were not asked yet are not waited for.
+        self._leaves = True
         async with self._asking:
             await self._close_clients(set(self._clients))
+            self._leaves = False
 
     async def _view(self, few: asyncio.Semaphore, link: WireLink, name: str) -> ManagedNodeView:
         async with few:
             try:
+                if self._leaves:
+                    raise CommandError(_LEFT)
                 client = self._clients.get(name)
                 if client is None:
                     client = self._clients[name] = await asyncio.to_thread(_client, link, name)

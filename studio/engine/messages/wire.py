@@ -146,6 +146,21 @@ class WireRobots(Message):
     """Full names of nodes that may have one as a parameter."""
 
 
+Verdict: TypeAlias = Literal[
+    "fine",
+    "no_router",
+    "foreign",
+    "not_admitted",
+    "alone",
+    "other_domain",
+    "other_distro",
+    "bridge",
+]
+"""`foreign`: something else holds the place; `not_admitted`: the router wants another name or
+certificate; `alone`: a router without nodes; `bridge`: only one for DDS, which speaks other
+keys; `other_distro`: nodes are there, and types of theirs have another form."""
+
+
 class DomainView(Message):
     """How many nodes of others a domain has."""
 
@@ -162,19 +177,7 @@ class WireReport(Message):
     domain: int
     distro: str
     """That is spoken here."""
-    verdict: Literal[
-        "fine",
-        "no_router",
-        "foreign",
-        "not_admitted",
-        "alone",
-        "other_domain",
-        "other_distro",
-        "bridge",
-    ]
-    """`foreign`: something else holds the place; `not_admitted`: the router wants another name or
-    certificate; `alone`: a router without nodes; `bridge`: only one for DDS, which speaks other
-    keys; `other_distro`: nodes are there, and types of theirs have another form."""
+    verdict: Verdict
     starts_router: bool
     """Connecting would start a router here."""
     nodes: int

@@ -7,9 +7,9 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Final, Literal, TypeAlias
+from typing import TYPE_CHECKING, Final
 
-from studio.engine.messages.wire import DomainView, WireReport
+from studio.engine.messages.wire import DomainView, Verdict, WireReport
 from studio.engine.wire.plan import planned_wire
 from studio.errors import NoRouterError, TokenError
 from studio.ros.graph.diagnosis import DistroHashes, foreign_hashes
@@ -35,17 +35,6 @@ _BRIDGES: Final = "@/*/@ros2_lv/**"
 _SHOWN_MAX: Final = 20
 _TYPES_MAX: Final = 400
 """So many types are compared with every distribution: that is slow, and fewer tell as much."""
-
-Verdict: TypeAlias = Literal[
-    "fine",
-    "no_router",
-    "foreign",
-    "not_admitted",
-    "alone",
-    "other_domain",
-    "other_distro",
-    "bridge",
-]
 
 
 @dataclass(slots=True)

@@ -88,8 +88,9 @@ class WireRobotDesk:
     async def _connect(self, command: ConnectWire) -> None:
         chosen = chosen_wire(self._wire.choice, command)
         if chosen != self._wire.choice:
-            await self._disconnect()
+            # First, so that whoever asks for a connection meanwhile gets the new one.
             self._wire.choose(chosen)
+            await self._disconnect()
         await self._wire.link()
 
     def _examine(self, command: ExamineWire) -> WireReport:
