@@ -82,7 +82,7 @@ function Chosen() {
   return html`<div class="deeds-chosen scroll">
     <${DeedForm} form=${publishForm} onSubmit=${() => publish({ once: true })} actions=${html`
       <button type="submit" class="button primary" disabled=${blocked}><${Icon} name="send" />${t("publish.once")}</button>
-      <button type="button" class="button" disabled=${blocked} onClick=${() => publish({ once: false })}><${Icon} name="animate" />${t("publish.at", { rate })}</button>
+      <button type="button" class="button" disabled=${blocked} onClick=${() => publish({ once: false })}><${Icon} name="animate" />${t("publish.at", { rate, count: rate })}</button>
       <${Rate} rate=${rate} />`}><${Quality} /><//>
     <${Publications} all=${false} />
   </div>`;

@@ -1,0 +1,57 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { matchingOffers, shortOf, tookText, withDeeds } from "../../frontend_assets/lib/deeds.js";
+
+test("what changed takes the place of what was known, and new ones come last", () => {
+  const known = [
+    { deed: 1, state: "calling" },
+    { deed: 2, state: "answered" },
+  ];
+  const news = [
+    { deed: 3, state: "calling" },
+    { deed: 1, state: "failed" },
+  ];
+  assert.deepEqual(
+    withDeeds(known, { whole: false, deeds: news }).map(({ deed, state }) => [deed, state]),
+    [
+      [1, "failed"],
+      [2, "answered"],
+      [3, "calling"],
+    ],
+  );
+  assert.equal(withDeeds(known, { whole: true, deeds: [] }).length, 0);
+});
+
+test("feedback is put together in its order, each once, the last ones kept", () => {
+  const goal = (/** @type {number[]} */ ...numbers) => ({
+    deed: 1,
+    feedback: numbers.map((number) => ({ number })),
+  });
+  const told = withDeeds([goal(1, 2, 3)], { whole: false, deeds: [goal(3, 4)] });
+  assert.deepEqual(
+    told[0]?.feedback?.map(({ number }) => number),
+    [1, 2, 3, 4],
+  );
+  const quiet = withDeeds(told, { whole: false, deeds: [goal()] });
+  assert.equal(quiet[0]?.feedback?.length, 4);
+  const many = goal(...Array.from({ length: 60 }, (_, n) => n + 5));
+  const last = withDeeds(quiet, { whole: false, deeds: [many] })[0]?.feedback ?? [];
+  assert.deepEqual([last.length, last.at(-1)?.number], [50, 64]);
+});
+
+test("what every node serves is left out until it is asked for", () => {
+  const offer = (/** @type {string} */ name) => ({ name, types: ["a/srv/B"], nodes: ["/n"] });
+  const offers = ["/add", "/n/get_parameters", "/x/_action/send_goal"].map(offer);
+  assert.deepEqual(
+    matchingOffers(offers, "", false).map(({ name }) => name),
+    ["/add"],
+  );
+  assert.equal(matchingOffers(offers, "", true).length, 3);
+  assert.equal(matchingOffers(offers, "ADD srv/b /n", false).length, 1);
+  assert.equal(matchingOffers(offers, "nothing", true).length, 0);
+});
+
+test("plain values are told on a line, times in the unit that fits", () => {
+  assert.equal(shortOf({ a: 1, b: { c: [1, "x"] } }), "a: 1, b: {c: [1, x]}");
+  assert.deepEqual([0.0104, 1.25, 250].map(tookText), ["10 ms", "1.3 s", "250 s"]);
+});
