@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 VISER_VERSION = "1.1.1"
 """The one version whose insides this room knows."""
@@ -28,6 +31,10 @@ class Connection(Protocol):
 
     def pending_bytes(self) -> int:
         """Bytes written and not yet handed to the system."""
+        ...
+
+    def on_drain(self, resume: Callable[[], object], /) -> None:
+        """Call `resume` on the loop's thread whenever a full buffer has emptied."""
         ...
 
     def close(self, code: int, /) -> None:

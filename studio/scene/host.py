@@ -163,6 +163,7 @@ class HostedServer(viser.infra.WebsockServer):
         client = _infra.WebsockClientConnection(client_id, state)
         self._client_state_from_id[client_id] = state
         seat = Seat(client_id, connection, self._catch_up)
+        connection.on_drain(partial(self._go_on, seat))
         private = self._loop.create_task(
             _infra._message_producer(cast("Any", seat), state.message_buffer, client_id)
         )
@@ -182,6 +183,11 @@ class HostedServer(viser.infra.WebsockServer):
         if self._broadcast_buffer.atomic_counter == 0:
             seat.resync()
         self._broadcast_buffer.message_event.set()
+
+    def _go_on(self, seat: Seat) -> None:
+        """There is room again: large clouds would else lose a third of their time to waiting."""
+        if self._broadcast_buffer.atomic_counter == 0:
+            seat.outlet.resume()
 
     def _leave(self, seat: Seat) -> None:
         self._seats.pop(seat.id, None)

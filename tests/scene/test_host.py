@@ -176,6 +176,25 @@ def test_a_stalled_page_costs_nothing_and_gets_the_state_of_now_when_it_reads_ag
     in_scene(scenario)
 
 
+def test_a_page_that_has_room_again_gets_the_state_of_now_at_once():
+    async def scenario(scene: DocumentScene) -> None:
+        scene.show(rover(), None)
+        slow, _ = await joined(scene)
+        slow.stall()
+        for x in (1.0, 2.0):
+            scene.set_poses(("mast",), np.array([[1.0, 0, 0, 0, x, 0, 0]]))
+            scene.flush()
+        with scene.viser.atomic():
+            slow.drain()
+            assert slow.frames == []
+        slow.drain()
+        assert [m["position"] for m in slow.read() if m["type"] == "SetPositionMessage"] == [
+            [2.0, 0.0, 0.0]
+        ]
+
+    in_scene(scenario)
+
+
 def test_a_stalled_page_hears_of_what_was_removed_meanwhile():
     async def scenario(scene: DocumentScene) -> None:
         slow, _ = await joined(scene)

@@ -48,6 +48,9 @@ class Socket:
     def pending_bytes(self) -> int:
         return self._connection.transport.get_write_buffer_size()
 
+    def on_drain(self, resume: Callable[[], object], /) -> None:
+        """It is looked at again and again."""
+
     def close(self, code: int, /) -> None:
         self._closing = asyncio.ensure_future(self._connection.close(code))
 

@@ -52,6 +52,9 @@ class Peer:
     def pending_bytes(self) -> int:
         return self.unread_bytes
 
+    def on_drain(self, resume: Callable[[], object], /) -> None:
+        self._resume = resume
+
     def close(self, code: int, /) -> None:
         self.closed_with = code
         self._inbox.put_nowait(None)
@@ -73,6 +76,11 @@ class Peer:
     def go_on(self) -> None:
         """Read again, all at once."""
         self.reads, self.unread_bytes = True, 0
+
+    def drain(self) -> None:
+        """Read again, and say at once that there is room."""
+        self.go_on()
+        self._resume()
 
     def read(self) -> list[Sent]:
         """The messages that came since the last time, in order."""
