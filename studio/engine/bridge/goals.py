@@ -36,7 +36,7 @@ _OVER: Final = frozenset({"succeeded", "canceled", "aborted", "rejected", "faile
 
 @dataclass
 class Goal:
-    """A goal, from the sending to its end; feedback comes from the thread of the link."""
+    """A goal, from the sending to its end; of the loop."""
 
     deed: int
     name: str
@@ -170,10 +170,13 @@ class GoalDesk:
         """Give how it ended, and its result."""
         loop = asyncio.get_running_loop()
 
-        def on_feedback(feedback: object) -> None:  # in the thread of the link
+        def take(feedback: object) -> None:
             goal.heard(feedback)
+            self.ledger.changed(goal)
+
+        def on_feedback(feedback: object) -> None:  # in the thread of the link
             if not loop.is_closed():
-                loop.call_soon_threadsafe(self.ledger.changed, goal)
+                loop.call_soon_threadsafe(take, feedback)
 
         if not await request.accepted(timeout_s, on_feedback):
             return "rejected", ""

@@ -52,6 +52,7 @@ class Ledger(Generic[DeedT]):
         self._audience = Audience()
         self._lookout = Lookout(self._tell, pause_s=_PAUSE_S)
         self._numbers = itertools.count(1)
+        self._closed = False
 
     def next_number(self) -> int:
         """Give a number for one that is about to begin.
@@ -94,8 +95,9 @@ class Ledger(Generic[DeedT]):
 
     def changed(self, deed: DeedT) -> None:
         """Have its news be told, soon."""
-        self._changed.add(deed.deed)
-        self._lookout.doubt()
+        if not self._closed:
+            self._changed.add(deed.deed)
+            self._lookout.doubt()
 
     def follow(self, listener: Listener) -> None:
         """Tell all that are kept, and what changes from now on."""
@@ -113,6 +115,7 @@ class Ledger(Generic[DeedT]):
 
     async def close(self) -> None:
         """Tell nobody any more."""
+        self._closed = True
         await self._lookout.close()
 
     async def _tell(self) -> None:

@@ -20,7 +20,8 @@ _LENGTHS: Final = (10_000, 1_000, 100, 10)
 def to_json(message: MessageValue, characters_max: int) -> str:
     """Write a message in about so many characters at most; long arrays and texts end with `...`."""
     written = ""
-    for length in _LENGTHS:
+    # Two letters are the least that an item takes: what cannot fit is not even tried.
+    for length in [one for one in _LENGTHS if 2 * one <= characters_max] or _LENGTHS[-1:]:
         written = plain_json(to_dict(message, Brevity(length_max=length)))
         if len(written) <= characters_max:
             break
