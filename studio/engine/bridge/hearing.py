@@ -45,6 +45,8 @@ class _Browser:
     def __init__(self, hearer: Hearer) -> None:
         self.hearer = hearer
         self.wishes: dict[int, Channel] = {}
+        self.numbers: tuple[int, ...] = ()
+        """Of its channels, each once and in their order: looked at in every tick."""
         self._told: dict[int, Heard] = {}
 
     def tell(self) -> None:
@@ -55,9 +57,17 @@ class _Browser:
                 self._told[wish] = news
                 self.hearer.say(news)
 
+    def hear(self, wish: int, channel: Channel) -> None:
+        self.wishes[wish] = channel
+        self._number()
+
     def forget(self, wish: int) -> None:
         self.wishes.pop(wish, None)
         self._told.pop(wish, None)
+        self._number()
+
+    def _number(self) -> None:
+        self.numbers = tuple(sorted({one.number for one in self.wishes.values()}))
 
 
 class HearingDesk:
@@ -123,7 +133,7 @@ class HearingDesk:
         channel = self._channels.get(key)
         if channel is None:
             channel = self._channels[key] = Channel(next(self._numbers), wish)
-        browser.wishes[wish.wish] = channel
+        browser.hear(wish.wish, channel)
         browser.tell()
         if kept := channel.kept():
             browser.hearer.take(Tick((kept,)))
@@ -146,9 +156,7 @@ class HearingDesk:
     async def _look(self) -> None:
         """Hear what is wished as fits who publishes now, and nothing else."""
         async with self._listening:
-            wished = {
-                one.number for each in self._browsers.values() for one in each.wishes.values()
-            }
+            wished = {number for each in self._browsers.values() for number in each.numbers}
             for key, channel in tuple(self._channels.items()):
                 if channel.number not in wished:
                     del self._channels[key]
@@ -170,9 +178,8 @@ class HearingDesk:
             return
         groups: dict[tuple[int, ...], list[Hearer]] = {}
         for hearer, browser in self._browsers.items():
-            heard = sorted({one.number for one in browser.wishes.values()} & chunks.keys())
-            if heard:
-                groups.setdefault(tuple(heard), []).append(hearer)
+            if heard := tuple(number for number in browser.numbers if number in chunks):
+                groups.setdefault(heard, []).append(hearer)
         for numbers, hearers in groups.items():
             tick = Tick(tuple(chunks[number] for number in numbers))
             for hearer in hearers:
