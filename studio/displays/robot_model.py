@@ -185,8 +185,7 @@ class RobotModelDisplay(StillDisplay):
 
     def _of_description(self) -> tuple[Status, ...]:
         if self._fault:
-            kept = " What was there before stays." if self.robot.links else ""
-            return (Status("error", "bad_message", self._fault + kept),)
+            return (Status("error", "bad_message", self._fault),)
         if not self.robot.links and (self.description or self.source.kind != "Topic"):
             return (Status("warn", "empty", "The description of the robot is on its way."),)
         if self._left_out:

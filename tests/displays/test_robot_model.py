@@ -184,9 +184,7 @@ def test_a_fault_of_the_description_is_told_and_what_was_there_stays():
     display = rover()
     display.fail("The description cannot be shown: it ends too early.")
     [status] = display.statuses()
-    assert status.sentence == (
-        "The description cannot be shown: it ends too early. What was there before stays."
-    )
+    assert status.sentence == "The description cannot be shown: it ends too early."
     assert len(display.draw(0)) == 3
     display.fail("")
     assert display.statuses() == ()

@@ -51,6 +51,8 @@ class _Model:
         self.source = display.source
         self.wanted = self.done = ""
         """Texts, or the file, as it is to be read and as it was."""
+        self.is_partial = False
+        """Whether the description that is shown could be read in part only."""
         self.own: Robot | None = None
         """The document's robot as it was taken last."""
         self.working: asyncio.Task[None] | None = None
@@ -167,13 +169,11 @@ class RobotModels:
         try:
             is_file = source.kind == "File"
             second = await (self._of_file(text) if is_file else self._reader.read_text(text))
-            fault = second.fault or ("" if second.robot.links else "It describes no link.")
-            if not fault and source == model.source and not model.is_gone:
-                model.display.show(second.robot)
+            if source == model.source and not model.is_gone:
+                model.display.fail(_shown(model, second))
         except StudioError as error:
-            fault = str(error)
-        if source == model.source:
-            model.display.fail(fault and f"The description cannot be shown: {fault}")
+            if source == model.source:
+                model.display.fail(_kept(model.display, str(error)))
 
     async def _of_file(self, uri: str) -> SecondRobot:
         document = self._document
@@ -234,3 +234,25 @@ class RobotModels:
 async def _close(hearing: DescriptionIn) -> None:
     with suppress(StudioError):  # the connection has ended meanwhile
         await asyncio.to_thread(hearing.close)
+
+
+def _shown(model: _Model, second: SecondRobot) -> str:
+    """Show a robot, and give what is to be said of it.
+
+    What is broken comes after a good one only if that is none; else the good one stays.
+
+    Raises:
+        DisplayError: It is more than can be drawn.
+    """
+    display, robot = model.display, second.robot
+    fault = second.fault or ("" if robot.links else "It describes no link.")
+    if fault and (not robot.links or (display.robot.links and not model.is_partial)):
+        return _kept(display, fault)
+    display.show(robot)
+    model.is_partial = bool(fault)
+    return fault and f"The description is shown as far as it can be read: {fault}"
+
+
+def _kept(display: RobotModelDisplay, fault: str) -> str:
+    stays = " What was there before stays." if display.robot.links else ""
+    return f"The description cannot be shown: {fault}{stays}"

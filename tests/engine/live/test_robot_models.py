@@ -131,6 +131,24 @@ def test_a_description_that_comes_anew_is_drawn_and_a_broken_one_leaves_the_one_
     asyncio.run(run())
 
 
+def test_a_description_that_can_be_read_in_part_is_shown_in_part_until_a_good_one_comes(
+    endpoint: str, tester: Node, tmp_path: Path
+):
+    async def run() -> None:
+        told(tester)
+        out = tester.create_publisher(message(STRING), "/other", LATCHED)
+        out.publish(message(STRING)(data=f'<!-- late --><?xml version="1.0"?>{cart()}'))
+        async with studio(endpoint, tmp_path) as one:
+            display = await add(one, topic="/other")
+            await one.do(v.SetFixedFrame(frame="hull"))
+            await until(lambda: poses(one, display).get("arm") is not None)
+            await until(lambda: any("can be read" in said for said in remarks(one, display)))
+            out.publish(message(STRING)(data=cart()))
+            await until(lambda: remarks(one, display) == ["Shown."])
+
+    asyncio.run(run())
+
+
 def test_a_description_of_the_wire_reads_no_file(endpoint: str, tester: Node, tmp_path: Path):
     async def run() -> None:
         secret = tmp_path / "secret.xacro"
