@@ -44,6 +44,13 @@ export function withNews(lines, news) {
   return all.length > KEPT + SPARE ? all.slice(-KEPT) : all;
 }
 
+/** @param {readonly LogLine[]} before @param {readonly LogLine[]} now @returns {number} lines that stood above the first one and are gone */
+export function goneBefore(before, now) {
+  const first = now[0]?.number;
+  const at = first === undefined ? -1 : before.findIndex(({ number }) => number >= first);
+  return Math.max(0, at);
+}
+
 /** @param {readonly LogLine[]} lines @returns {string[]} the nodes that said something, in order */
 export const nodesOf = (lines) => [...new Set(lines.map(({ node }) => nodeOf(node)))].sort();
 

@@ -7,7 +7,7 @@ const SCALE_MIN = 0.12;
 const SCALE_MAX = 3;
 /** Below it no name can be read: a large drawing begins at its corner rather. */
 const FIT_MIN = 0.55;
-const MARGIN = 16;
+const MARGIN = 34;
 
 /** @param {View} view @param {number} factor @param {{x: number, y: number}} at stays where it is @returns {View} */
 export function zoomed(view, factor, at) {

@@ -4,7 +4,9 @@
 /** @import { Signal } from "vendor/preact.js" */
 
 import { html, useEffect, useSignal } from "vendor/preact.js";
+import { commandById } from "../app/commands.js";
 import { graph } from "../app/state/graph.js";
+import { showInterface } from "../app/state/interfaces.js";
 import { askOrKeepWhy } from "../app/state/refusals.js";
 import { notify } from "../app/state/view.js";
 import { copyText } from "../lib/clipboard.js";
@@ -73,7 +75,7 @@ function Group({ title, ends, rates }) {
   return html`<h4>${title} <span class="muted">${ends.length}</span></h4>
     <ul>${ends.map(({ name, type }) => {
       const rate = rates.get(name)?.rate_hz;
-      return html`<li key=${`${name} ${type}`}><span class="end-name">${name}</span><span class="end-type">${type}</span>${rate !== undefined && rate > 0 && html`<span class="muted">${t("graph.rate", { rate: rate.toFixed(1) })}</span>`}</li>`;
+      return html`<li key=${`${name} ${type}`}><span class="end-name">${name}</span><${TypeLink} name=${type} />${rate !== undefined && rate > 0 && html`<span class="muted">${t("graph.rate", { rate: rate.toFixed(1) })}</span>`}</li>`;
     })}</ul>`;
 }
 
@@ -82,7 +84,7 @@ function LinkParts({ kind, name, rates, chosen }) {
   const link = graph.value.links.find((one) => one.kind === kind && one.name === name);
   if (!link) return html`<p class="note">${t("graph.gone")}</p>`;
   const rate = rates.get(name)?.rate_hz;
-  return html`<p class="end-type">${link.types.join(", ")}</p>
+  return html`<p>${link.types.map((type) => html`<${TypeLink} key=${type} name=${type} />`)}</p>
     ${link.types.length > 1 && html`<p class="note graph-warning">${t("graph.types", { count: link.types.length })}</p>`}
     ${rate !== undefined && html`<p class="note">${t("graph.rate", { rate: rate.toFixed(1) })}</p>`}
     <${Ends} title=${t(`graph.sources.${link.kind}`)} places=${link.sources} chosen=${chosen} />
@@ -99,4 +101,13 @@ function Ends({ title, places, chosen }) {
           chosen.value = `node:${name}`;
         }}>${name}</button></li>`,
     )}</ul>`;
+}
+
+/** @param {{name: string}} props of a type: the way to what it is made of */
+function TypeLink({ name }) {
+  const show = () => {
+    commandById("panel.interfaces")?.run();
+    showInterface(name);
+  };
+  return html`<button type="button" class="link-button end-type" title=${t("interfaces.go", { name })} onClick=${show}>${name}</button>`;
 }

@@ -12,7 +12,15 @@ import { notify } from "../app/state/view.js";
 import { copyText } from "../lib/clipboard.js";
 import { t } from "../lib/i18n.js";
 import { rowsNear } from "../lib/line-window.js";
-import { clockTime, LEVELS, levelOf, logText, matchingLines, nodesOf } from "../lib/log-lines.js";
+import {
+  clockTime,
+  goneBefore,
+  LEVELS,
+  levelOf,
+  logText,
+  matchingLines,
+  nodesOf,
+} from "../lib/log-lines.js";
 import { EmptyState, Icon, IconButton, SearchBox } from "../lib/ui.js";
 
 const ICONS = { debug: "info", info: "info", warn: "alert", error: "error", fatal: "error" };
@@ -103,8 +111,13 @@ function Lines({ shown, chosen, nothing }) {
     if (list.current) watcher.observe(list.current);
     return () => watcher.disconnect();
   }, []);
+  const before = useRef(shown);
   useLayoutEffect(() => {
+    const gone = goneBefore(before.current, shown);
+    before.current = shown;
     if (follows.peek()) toEnd();
+    // What is read stays where it is when the oldest lines go.
+    else list.current?.scrollBy({ top: -gone * view.peek().row_px });
   }, [shown]);
   const { row_px } = view.value;
   const { from, to } = rowsNear({ count: shown.length, ...view.value });

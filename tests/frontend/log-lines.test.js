@@ -2,6 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { rowsNear } from "../../frontend_assets/lib/line-window.js";
 import {
+  goneBefore,
   levelOf,
   logText,
   matchingLines,
@@ -55,6 +56,14 @@ test("ten thousand lines are kept, and the oldest go together", () => {
     );
   assert.ok(lines.length >= 10_000 && lines.length <= 11_000);
   assert.equal(lines.at(-1)?.number, 14_999);
+});
+
+test("how many of the oldest lines are gone is known, so that what is read can stay in place", () => {
+  const lines = [1, 2, 3, 4].map((number) => line(number));
+  assert.equal(goneBefore(lines, lines.slice(2)), 2);
+  assert.equal(goneBefore(lines, [...lines, line(5)]), 0);
+  assert.equal(goneBefore(lines, []), 0);
+  assert.equal(goneBefore([], lines), 0);
 });
 
 test("lines are copied as ROS writes them", () => {
