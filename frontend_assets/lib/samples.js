@@ -77,11 +77,6 @@ export class Samples {
   newest() {
     return this.end > this.begin ? (this.values[this.end - 1] ?? null) : null;
   }
-
-  /** @returns {number} s; 0: none came */
-  newestTime() {
-    return this.end > this.begin ? (this.times[this.end - 1] ?? 0) : 0;
-  }
 }
 
 /** @param {Float64Array<ArrayBuffer>} array */
