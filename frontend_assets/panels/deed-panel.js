@@ -128,7 +128,7 @@ export function DeedForm({ form, onSubmit, actions, children }) {
 
 /** @param {{state: string, busy: boolean, bad: boolean, words: string}} props how a deed stands */
 export function DeedState({ state, busy, bad, words }) {
-  const isGivenUp = /^(cancell?ed|stopped)$/.test(state);
+  const isGivenUp = ICONS[state] === "stop";
   const icon = ICONS[bad ? "bad" : state] ?? "check";
   return html`<span class=${`deed-state ${bad ? "bad" : ""} ${isGivenUp ? "given-up" : ""}`} role="status">${busy ? html`<span class="spinner"></span>` : html`<${Icon} name=${icon} size=${13} />`}<span>${words}</span></span>`;
 }
