@@ -3,6 +3,7 @@
 /** @import { DisplayKindView, TopicRate, TopicView } from "../types/wire.d.ts" */
 
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
+import { keepAsking } from "../lib/asking.js";
 import { t } from "../lib/i18n.js";
 import { foundTopics, iconOf, includesAll } from "../lib/live-displays.js";
 import { LongList } from "../lib/long-list.js";
@@ -100,22 +101,10 @@ function showNewest() {
 /** @returns {import("vendor/preact.js").Signal<readonly TopicView[] | null>} kept up to date; null: not known yet */
 function useTopics() {
   const topics = useSignal(/** @type {readonly TopicView[] | null} */ (null));
-  useEffect(() => {
-    let closed = false;
-    /** @type {ReturnType<typeof setTimeout> | undefined} */
-    let timer;
-    const look = async () => {
-      const found = await topicsNow();
-      if (closed) return;
-      if (found) topics.value = found;
-      timer = setTimeout(look, LOOK_EVERY_MS);
-    };
-    look();
-    return () => {
-      closed = true;
-      clearTimeout(timer);
-    };
-  }, []);
+  const take = (/** @type {readonly TopicView[] | null} */ found) => {
+    if (found) topics.value = found;
+  };
+  useEffect(() => keepAsking(topicsNow, take, LOOK_EVERY_MS), []);
   return topics;
 }
 

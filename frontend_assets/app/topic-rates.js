@@ -3,6 +3,7 @@
 /** @import { TopicRate } from "../types/wire.d.ts" */
 
 import { useEffect, useSignal } from "vendor/preact.js";
+import { keepAsking } from "../lib/asking.js";
 import { send } from "./wire.js";
 
 const LOOK_EVERY_MS = 1000;
@@ -29,21 +30,9 @@ export async function topicRates(topics) {
  */
 export function useTopicRates(seen) {
   const rates = useSignal(/** @type {ReadonlyMap<string, TopicRate>} */ (new Map()));
-  useEffect(() => {
-    let closed = false;
-    /** @type {ReturnType<typeof setTimeout> | undefined} */
-    let timer;
-    const look = async () => {
-      const found = await topicRates(seen());
-      if (closed) return;
-      rates.value = new Map(found.map((one) => [one.name, one]));
-      timer = setTimeout(look, LOOK_EVERY_MS);
-    };
-    look();
-    return () => {
-      closed = true;
-      clearTimeout(timer);
-    };
-  }, []);
+  const take = (/** @type {readonly TopicRate[]} */ found) => {
+    rates.value = new Map(found.map((one) => [one.name, one]));
+  };
+  useEffect(() => keepAsking(() => topicRates(seen()), take, LOOK_EVERY_MS), []);
   return rates;
 }
