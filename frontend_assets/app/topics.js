@@ -3,6 +3,7 @@
 /** @import { TopicEnds } from "../types/wire.d.ts" */
 
 import { effect } from "vendor/preact.js";
+import { keepAsking } from "../lib/asking.js";
 import { ros } from "./state/ros.js";
 import { topics } from "./state/topics.js";
 import { send } from "./wire.js";
@@ -11,23 +12,19 @@ const LOOK_EVERY_MS = 1000;
 
 /** Keep the list up to date. @returns {() => void} the end of it */
 export function followTopics() {
-  let closed = false;
-  /** @type {ReturnType<typeof setTimeout> | undefined} */
-  let timer;
-  const look = async () => {
-    const found = await topicTable();
-    if (closed) return;
-    if (found) topics.value = found;
-    timer = setTimeout(look, LOOK_EVERY_MS);
-  };
-  const stop = effect(() => {
+  const forget = effect(() => {
     if (ros.value.state === "off") topics.value = null;
   });
-  look();
+  const stop = keepAsking(
+    topicTable,
+    (found) => {
+      if (found) topics.value = found;
+    },
+    LOOK_EVERY_MS,
+  );
   return () => {
-    closed = true;
-    clearTimeout(timer);
     stop();
+    forget();
   };
 }
 

@@ -4,6 +4,7 @@
 
 import { html, useEffect, useSignal } from "vendor/preact.js";
 import { topicEnds } from "../app/topics.js";
+import { keepAsking } from "../lib/asking.js";
 import { t } from "../lib/i18n.js";
 import { Icon } from "../lib/ui.js";
 
@@ -12,22 +13,10 @@ const LOOK_EVERY_MS = 2000;
 /** @param {{topic: string}} props */
 export function TopicEnds({ topic }) {
   const ends = useSignal(/** @type {Ends | null} */ (null));
-  useEffect(() => {
-    let closed = false;
-    /** @type {ReturnType<typeof setTimeout> | undefined} */
-    let timer;
-    const look = async () => {
-      const found = await topicEnds(topic);
-      if (closed) return;
-      if (found) ends.value = found;
-      timer = setTimeout(look, LOOK_EVERY_MS);
-    };
-    look();
-    return () => {
-      closed = true;
-      clearTimeout(timer);
-    };
-  }, [topic]);
+  const take = (/** @type {Ends | null} */ found) => {
+    if (found) ends.value = found;
+  };
+  useEffect(() => keepAsking(() => topicEnds(topic), take, LOOK_EVERY_MS), [topic]);
   const told = ends.value;
   if (!told) return html`<p class="note padded">${t("loading")}</p>`;
   return html`<div class="topics-ends scroll">
