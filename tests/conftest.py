@@ -69,6 +69,15 @@ def models() -> Path:
 
 
 @pytest.fixture(scope="module")
+def endpoint() -> Iterator[str]:
+    """The address of a router for one file of tests."""
+    from tests.support.wire import running_router
+
+    with running_router() as found:
+        yield found
+
+
+@pytest.fixture(scope="module")
 def browser() -> Iterator[Browser]:
     """A headless Chromium for one file of tests."""
     from tests.support.browser import open_browser

@@ -4,10 +4,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.support.wire import running_router
-
 if TYPE_CHECKING:
-    from collections.abc import Generator
     from pathlib import Path
 
 
@@ -19,10 +16,3 @@ def own_folders(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.Mo
     monkeypatch.chdir(folder)
     for name in ("ROS_DOMAIN_ID", "ROS_DISTRO", "AMENT_PREFIX_PATH", "ZENOH_CONFIG_OVERRIDE"):
         monkeypatch.delenv(name, raising=False)
-
-
-@pytest.fixture(scope="module")
-def endpoint() -> Generator[str]:
-    """A router for the tests of a module."""
-    with running_router() as found:
-        yield found

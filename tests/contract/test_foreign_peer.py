@@ -12,7 +12,7 @@ from studio.ros.qos import DurabilityPolicy, QoSProfile
 from tests.support.demos import node_at
 from tests.support.foreign_peer import ForeignPeer, foreign_peer
 from tests.support.golden_wire import Distribution
-from tests.support.wire import running_router, wait_until
+from tests.support.wire import wait_until
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator
@@ -25,12 +25,6 @@ LATCHED = QoSProfile(depth=3, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 ADD = "example_interfaces/srv/AddTwoInts"
 ADD_HASH = Distribution("jazzy").hash_of(ADD)
 LATCHED_TEXT = ":1:,3:,:,:,,"
-
-
-@pytest.fixture(scope="module")
-def endpoint() -> Generator[str]:
-    with running_router() as found:
-        yield found
 
 
 @pytest.fixture(scope="module")

@@ -10,11 +10,9 @@ from studio.ros.action import ActionClient, GoalStatus
 from studio.ros.client import Node, action
 from tests.support.demos import node_at, running_demo
 from tests.support.patience import Stopwatch
-from tests.support.wire import PATIENCE_S, running_router, wait_until
+from tests.support.wire import PATIENCE_S, wait_until
 
 if TYPE_CHECKING:
-    from collections.abc import Generator
-
     from studio.ros.action import ClientGoalHandle
     from studio.ros.client import Future
 
@@ -22,12 +20,6 @@ pytestmark = pytest.mark.network
 CHOOSE_SONG = "radio_station_interfaces/action/ChooseSong"
 FAST = ("--ros-args", "-p", "step_seconds:=0.05")
 SLOW = ("--ros-args", "-p", "step_seconds:=0.5")
-
-
-@pytest.fixture(scope="module")
-def router() -> Generator[str]:
-    with running_router() as endpoint:
-        yield endpoint
 
 
 class Requester:
@@ -51,8 +43,8 @@ def finished(future: Future[Any]) -> Any:  # noqa: ANN401
     return future.result()
 
 
-def test_a1_a_song_gives_21_feedbacks_and_a_result(router: str):
-    with node_at(router) as node, running_demo(router, "radio_dj", *FAST):
+def test_a1_a_song_gives_21_feedbacks_and_a_result(endpoint: str):
+    with node_at(endpoint) as node, running_demo(endpoint, "radio_dj", *FAST):
         requester = Requester(node)
         answer = finished(requester.wish("Clocks").get_result_async())
         assert answer.status == GoalStatus.SUCCEEDED
@@ -63,18 +55,18 @@ def test_a1_a_song_gives_21_feedbacks_and_a_result(router: str):
         assert {said.status_line for said in requester.said} == {"Playing Clocks"}
 
 
-def test_a1_the_requester_logs_the_feedback_and_ends_with_the_song(router: str):
+def test_a1_the_requester_logs_the_feedback_and_ends_with_the_song(endpoint: str):
     with (
-        running_demo(router, "radio_dj", *FAST),
-        running_demo(router, "song_requester", "Clocks") as requester,
+        running_demo(endpoint, "radio_dj", *FAST),
+        running_demo(endpoint, "song_requester", "Clocks") as requester,
     ):
         assert requester.wait() == 0
     assert requester.printed.count("DJ says: Playing Clocks") == 21
     assert "DJ final: Finished Clocks" in requester.printed
 
 
-def test_a2_a_goal_that_is_cancelled_ends_canceled_within_a_second(router: str):
-    with node_at(router) as node, running_demo(router, "radio_dj", *SLOW):
+def test_a2_a_goal_that_is_cancelled_ends_canceled_within_a_second(endpoint: str):
+    with node_at(endpoint) as node, running_demo(endpoint, "radio_dj", *SLOW):
         requester = Requester(node)
         goal = requester.wish("Clocks")
         wait_until("the song plays", lambda: bool(requester.said))
@@ -86,15 +78,15 @@ def test_a2_a_goal_that_is_cancelled_ends_canceled_within_a_second(router: str):
         assert answer.result.final_message == "Stopped Clocks"
 
 
-def test_a2_a_song_without_a_name_is_refused(router: str):
-    with node_at(router) as node, running_demo(router, "radio_dj", *FAST):
+def test_a2_a_song_without_a_name_is_refused(endpoint: str):
+    with node_at(endpoint) as node, running_demo(endpoint, "radio_dj", *FAST):
         requester = Requester(node)
         assert not requester.wish("").accepted
         assert requester.wish("Clocks").accepted
 
 
-def test_a2_two_songs_at_once_both_end(router: str):
-    with node_at(router) as node, running_demo(router, "radio_dj", *FAST):
+def test_a2_two_songs_at_once_both_end(endpoint: str):
+    with node_at(endpoint) as node, running_demo(endpoint, "radio_dj", *FAST):
         requester = Requester(node)
         goals = [requester.wish(song) for song in ("Clocks", "Yellow")]
         answers = [finished(goal.get_result_async()) for goal in goals]
@@ -102,9 +94,9 @@ def test_a2_two_songs_at_once_both_end(router: str):
         assert said == ["Finished Clocks", "Finished Yellow"]
 
 
-def test_a2_one_of_many_songs_is_cancelled_while_the_others_play(router: str):
+def test_a2_one_of_many_songs_is_cancelled_while_the_others_play(endpoint: str):
     """More than the machine has cores: each is worked on nevertheless."""
-    with node_at(router) as node, running_demo(router, "radio_dj", *SLOW):
+    with node_at(endpoint) as node, running_demo(endpoint, "radio_dj", *SLOW):
         requester = Requester(node)
         goals = [requester.wish(f"Song {number}") for number in range(12)]
         playing = {f"Playing Song {number}" for number in range(12)}

@@ -15,11 +15,9 @@ from studio.nodes.demos.rover.room import clearance_m
 from studio.ros.messages import message
 from tests.support.demos import heard, node_at, running_demo
 from tests.support.open_documents import until
-from tests.support.wire import running_router
 from tests.support.wired_studio import TF, Studio, studio
 
 if TYPE_CHECKING:
-    from collections.abc import Generator
     from pathlib import Path
 
     from numpy.typing import NDArray
@@ -39,12 +37,6 @@ TOPICS = {
     "Axes": "",
     "Grid": "",
 }
-
-
-@pytest.fixture(scope="module")
-def router() -> Generator[str]:
-    with running_router() as endpoint:
-        yield endpoint
 
 
 async def add(one: Studio, kind: str, topic: str = "") -> str:
@@ -81,9 +73,9 @@ def points_in_fixed(one: Studio, display: str) -> NDArray[np.floating]:
     return np.concatenate(found)
 
 
-def test_v1_each_display_draws_its_topic_of_the_moving_graph(router: str, tmp_path: Path):
+def test_v1_each_display_draws_its_topic_of_the_moving_graph(endpoint: str, tmp_path: Path):
     async def run() -> None:
-        async with studio(router, tmp_path) as one:
+        async with studio(endpoint, tmp_path) as one:
             displays = {kind: await add(one, kind, topic) for kind, topic in TOPICS.items()}
             await one.do(v.SetFixedFrame(frame="map"))
             for kind, display in displays.items():
@@ -92,15 +84,15 @@ def test_v1_each_display_draws_its_topic_of_the_moving_graph(router: str, tmp_pa
                 except TimeoutError:
                     pytest.fail(f"{kind}: {remarks_of(one, display)}")
 
-    with running_demo(router, "rover"):
+    with running_demo(endpoint, "rover"):
         asyncio.run(run())
 
 
 def test_v1_the_scan_lies_on_the_walls_of_the_room_while_the_rover_is_driven(
-    router: str, tmp_path: Path
+    endpoint: str, tmp_path: Path
 ):
     async def run(cart: Any) -> None:  # noqa: ANN401
-        async with studio(router, tmp_path) as one:
+        async with studio(endpoint, tmp_path) as one:
             scan = await add(one, "LaserScan", "/scan")
             await one.do(v.SetFixedFrame(frame="map"))
             await until(lambda: shapes_of(one, scan) > 0)
@@ -122,16 +114,16 @@ def test_v1_the_scan_lies_on_the_walls_of_the_room_while_the_rover_is_driven(
         pose = one.ear.last("tf_frames")["pose"]
         return pose["xyz"]
 
-    with running_demo(router, "rover"), node_at(router) as tester:
+    with running_demo(endpoint, "rover"), node_at(endpoint) as tester:
         cart = tester.create_publisher(message("geometry_msgs/msg/Twist"), "/cmd_vel", 10)
         asyncio.run(run(cart))
 
 
 def test_v1_r2d2_goes_round_in_odom_as_it_publishes_and_stands_still_in_axis(
-    router: str, tmp_path: Path
+    endpoint: str, tmp_path: Path
 ):
     async def run(told: list[Any]) -> None:
-        async with studio(router, tmp_path) as one:
+        async with studio(endpoint, tmp_path) as one:
             await one.do(v.SetFixedFrame(frame="odom"))
             places: set[tuple[float, ...]] = set()
             while len(places) < 5:
@@ -144,7 +136,7 @@ def test_v1_r2d2_goes_round_in_odom_as_it_publishes_and_stands_still_in_axis(
             await one.do(v.GetTf(frame="axis", seen_from="axis"))
             assert one.ear.last("tf_frames")["pose"]["xyz"] == [0.0, 0.0, 0.0]
 
-    with running_demo(router, "state_publisher"), node_at(router) as tester:
+    with running_demo(endpoint, "state_publisher"), node_at(endpoint) as tester:
         asyncio.run(run(heard(tester, TF, "/tf", 1000)))
 
 

@@ -12,7 +12,7 @@ from studio.ros.node.context import Context
 from studio.ros.node.node import Node
 from tests.support.demos import running_demo
 from tests.support.patience import Stopwatch
-from tests.support.wire import PATIENCE_S, open_test_session, running_router
+from tests.support.wire import PATIENCE_S, open_test_session
 
 if TYPE_CHECKING:
     from collections.abc import Generator
@@ -20,21 +20,15 @@ if TYPE_CHECKING:
 pytestmark = pytest.mark.network
 
 
-@pytest.fixture(scope="module")
-def router() -> Generator[str]:
-    with running_router() as endpoint:
-        yield endpoint
-
-
 @pytest.fixture
-def graph(router: str) -> Generator[Graph]:
-    with open_test_session(router) as wire, Graph(wire) as made:
+def graph(endpoint: str) -> Generator[Graph]:
+    with open_test_session(endpoint) as wire, Graph(wire) as made:
         made.settle()
         yield made
 
 
-def test_n1_a_node_appears_within_a_second(router: str, graph: Graph):
-    with open_test_session(router) as wire:
+def test_n1_a_node_appears_within_a_second(endpoint: str, graph: Graph):
+    with open_test_session(endpoint) as wire:
         context = Context.over(wire)
         watch = Stopwatch()
         Node("newcomer", namespace="/class", context=context)
@@ -43,8 +37,8 @@ def test_n1_a_node_appears_within_a_second(router: str, graph: Graph):
         context.shutdown()
 
 
-def test_n1_a_node_whose_process_is_killed_vanishes(router: str, graph: Graph):
-    with running_demo(router, "talker") as talker:
+def test_n1_a_node_whose_process_is_killed_vanishes(endpoint: str, graph: Graph):
+    with running_demo(endpoint, "talker") as talker:
         talker.wait_for("Publishing")
         assert graph.wait_for(lambda: bool(graph.publishers("/chatter")), PATIENCE_S)
         talker.stop(signal.SIGKILL)

@@ -12,20 +12,14 @@ from studio.ros.client import DurabilityPolicy, Node, QoSProfile, message, qos_p
 from studio.ros.types.plain import from_yaml
 from studio.tf.rotations import compose, matrices_from_poses
 from tests.support.demos import call, heard, node_at, running_demo
-from tests.support.wire import running_router, wait_until
+from tests.support.wire import wait_until
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Generator
+    from collections.abc import Callable
 
 pytestmark = pytest.mark.network
 KEPT = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 TURNED = math.sin(math.pi / 8), math.cos(math.pi / 8)
-
-
-@pytest.fixture(scope="module")
-def router() -> Generator[str]:
-    with running_router() as endpoint:
-        yield endpoint
 
 
 def speaker(node: Node, type_name: str, topic: str) -> Callable[[str], None]:
@@ -36,8 +30,8 @@ def speaker(node: Node, type_name: str, topic: str) -> Callable[[str], None]:
     return lambda text: publisher.publish(from_yaml(kind, text))
 
 
-def test_j1_jerrys_position_follows_commands_and_the_distance_is_exact(router: str):
-    with node_at(router) as node, running_demo(router, "jerry_robot") as jerry:
+def test_j1_jerrys_position_follows_commands_and_the_distance_is_exact(endpoint: str):
+    with node_at(endpoint) as node, running_demo(endpoint, "jerry_robot") as jerry:
         poses = heard(node, "geometry_msgs/msg/Point", "/jerry/pose", KEPT)
         say = speaker(node, "pkg_with_interfaces/msg/JerryCommand", "/jerry_command")
         place = (0.0, 0.0)
@@ -57,18 +51,18 @@ def test_j1_jerrys_position_follows_commands_and_the_distance_is_exact(router: s
         assert (poses[-1].x, poses[-1].y) == (3.0, -4.0)
 
 
-def test_j1_the_commander_and_the_client_keep_jerry_busy(router: str):
+def test_j1_the_commander_and_the_client_keep_jerry_busy(endpoint: str):
     with (
-        running_demo(router, "jerry_robot") as jerry,
-        running_demo(router, "jerry_command_publisher"),
-        running_demo(router, "jerry_client") as client,
+        running_demo(endpoint, "jerry_robot") as jerry,
+        running_demo(endpoint, "jerry_command_publisher"),
+        running_demo(endpoint, "jerry_client") as client,
     ):
         jerry.wait_for(": at (")
         client.wait_for("m away from Jerry")
 
 
-def test_d7_r2d2_tells_joints_and_its_place_thirty_times_a_second(router: str):
-    with node_at(router) as node, running_demo(router, "state_publisher"):
+def test_d7_r2d2_tells_joints_and_its_place_thirty_times_a_second(endpoint: str):
+    with node_at(endpoint) as node, running_demo(endpoint, "state_publisher"):
         states = heard(node, "sensor_msgs/msg/JointState", "/joint_states")
         transforms = heard(node, "tf2_msgs/msg/TFMessage", "/tf")
 
@@ -87,9 +81,9 @@ def test_d7_r2d2_tells_joints_and_its_place_thirty_times_a_second(router: str):
         assert math.hypot(place.x, place.y) == pytest.approx(2.0)
 
 
-def test_d10_a_point_of_one_frame_is_told_in_another(router: str):
+def test_d10_a_point_of_one_frame_is_told_in_another(endpoint: str):
     tf = "tf2_msgs/msg/TFMessage"
-    with node_at(router) as node, running_demo(router, "transform_point"):
+    with node_at(endpoint) as node, running_demo(endpoint, "transform_point"):
         z, w = TURNED
         speaker(node, tf, "/tf")(
             "{transforms: [{header: {frame_id: map}, child_frame_id: base, transform: "
@@ -124,8 +118,8 @@ def test_d10_a_point_of_one_frame_is_told_in_another(router: str):
         )
 
 
-def test_p2_a_speed_below_zero_is_refused_with_the_reason(router: str):
-    with node_at(router) as node, running_demo(router, "parameter_node") as demo:
+def test_p2_a_speed_below_zero_is_refused_with_the_reason(endpoint: str):
+    with node_at(endpoint) as node, running_demo(endpoint, "parameter_node") as demo:
         demo.wait_for("Robot name: turtlebot")
         kind = message("rcl_interfaces/msg/Parameter")
         parameter = kind(name="max_velocity")
@@ -140,7 +134,7 @@ def test_p2_a_speed_below_zero_is_refused_with_the_reason(router: str):
         demo.wait_for("Parameter max_velocity changed to 0.5")
 
 
-def test_the_rover_tells_all_of_itself_and_the_room(router: str):
+def test_the_rover_tells_all_of_itself_and_the_room(endpoint: str):
     topics = {
         "/joint_states": "sensor_msgs/msg/JointState",
         "/odom": "nav_msgs/msg/Odometry",
@@ -151,7 +145,7 @@ def test_the_rover_tells_all_of_itself_and_the_room(router: str):
         "/plan": "nav_msgs/msg/Path",
         "/diagnostics": "diagnostic_msgs/msg/DiagnosticArray",
     }
-    with node_at(router) as node, running_demo(router, "rover"):
+    with node_at(endpoint) as node, running_demo(endpoint, "rover"):
         told = {
             name: heard(node, kind, name, qos_profile_sensor_data) for name, kind in topics.items()
         }
@@ -167,9 +161,9 @@ def test_the_rover_tells_all_of_itself_and_the_room(router: str):
         assert told["/diagnostics"][-1].status[0].name == "rover: battery"
 
 
-def test_the_rovers_scan_fits_its_map(router: str):
+def test_the_rovers_scan_fits_its_map(endpoint: str):
     """Beams, placed by /tf and the rover's own offsets, end where the map is taken."""
-    with node_at(router) as node, running_demo(router, "rover"):
+    with node_at(endpoint) as node, running_demo(endpoint, "rover"):
         grids = heard(node, "nav_msgs/msg/OccupancyGrid", "/map", KEPT)
         odometry = heard(node, "nav_msgs/msg/Odometry", "/odom")
         scans = heard(node, "sensor_msgs/msg/LaserScan", "/scan", qos_profile_sensor_data)
@@ -201,8 +195,8 @@ def test_the_rovers_scan_fits_its_map(router: str):
         assert np.count_nonzero(near[rows, columns] == 100) > 0.97 * 360
 
 
-def test_cmd_vel_takes_the_wheel_of_the_rover(router: str):
-    with node_at(router) as node, running_demo(router, "rover") as rover:
+def test_cmd_vel_takes_the_wheel_of_the_rover(endpoint: str):
+    with node_at(endpoint) as node, running_demo(endpoint, "rover") as rover:
         odometry = heard(node, "nav_msgs/msg/Odometry", "/odom")
         wait_until(
             "it drives by itself",
@@ -221,8 +215,8 @@ def test_cmd_vel_takes_the_wheel_of_the_rover(router: str):
         rover.wait_for("on my way again")
 
 
-def test_the_rover_tells_its_model_and_its_links_until_somebody_else_does(router: str):
-    with node_at(router) as node, running_demo(router, "rover") as rover:
+def test_the_rover_tells_its_model_and_its_links_until_somebody_else_does(endpoint: str):
+    with node_at(endpoint) as node, running_demo(endpoint, "rover") as rover:
         described = heard(node, "std_msgs/msg/String", "/robot_description", KEPT)
         moving = heard(node, "tf2_msgs/msg/TFMessage", "/tf", 100)
         wait_until("the model", lambda: bool(described))

@@ -11,7 +11,7 @@ from studio.ros.action import ActionClient, GoalStatus
 from studio.ros.client import Node, action, message
 from studio.ros.types.plain import from_yaml
 from tests.support.demos import call, heard, node_at, running_demo
-from tests.support.wire import PATIENCE_S, running_router, wait_until
+from tests.support.wire import PATIENCE_S, wait_until
 
 if TYPE_CHECKING:
     from collections.abc import Generator
@@ -21,15 +21,9 @@ POSE, COLOR = "turtlesim/msg/Pose", "turtlesim/msg/Color"
 MIDDLE = pytest.approx(5.544445, abs=1e-5)
 
 
-@pytest.fixture(scope="module")
-def router() -> Generator[str]:
-    with running_router() as endpoint:
-        yield endpoint
-
-
 @pytest.fixture
-def node(router: str) -> Generator[Node]:
-    with node_at(router) as made, running_demo(router, "turtlesim_node"):
+def node(endpoint: str) -> Generator[Node]:
+    with node_at(endpoint) as made, running_demo(endpoint, "turtlesim_node"):
         yield made
 
 

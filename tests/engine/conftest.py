@@ -5,19 +5,11 @@ from typing import TYPE_CHECKING
 import pytest
 
 from tests.support.demos import node_at
-from tests.support.wire import running_router
 
 if TYPE_CHECKING:
     from collections.abc import Generator
 
     from studio.ros.client import Node
-
-
-@pytest.fixture(scope="module")
-def endpoint() -> Generator[str]:
-    """A router for the tests of a module."""
-    with running_router() as found:
-        yield found
 
 
 @pytest.fixture

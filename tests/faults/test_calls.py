@@ -16,7 +16,7 @@ from studio.ros.messages import service
 from studio.ros.wire.door import declare_queryable
 from tests.support.demos import heard, node_at, running_demo
 from tests.support.patience import Stopwatch
-from tests.support.wire import PATIENCE_S, open_test_session, running_router, wait_until
+from tests.support.wire import PATIENCE_S, open_test_session, wait_until
 
 if TYPE_CHECKING:
     from collections.abc import Generator
@@ -30,15 +30,9 @@ ADD_NAME = "example_interfaces/srv/AddTwoInts"
 CHOOSE_SONG = "radio_station_interfaces/action/ChooseSong"
 
 
-@pytest.fixture(scope="module")
-def router() -> Generator[str]:
-    with running_router() as endpoint:
-        yield endpoint
-
-
 @pytest.fixture
-def node(router: str) -> Generator[Node]:
-    with node_at(router) as found:
+def node(endpoint: str) -> Generator[Node]:
+    with node_at(endpoint) as found:
         yield found
 
 
@@ -48,7 +42,7 @@ def failure_of(future: Future[Any]) -> BaseException | None:
 
 
 @contextmanager
-def mute_server(router: str, name: str) -> Generator[None]:
+def mute_server(endpoint: str, name: str) -> Generator[None]:
     """A server that answers no request until the end of the block."""
     released = threading.Event()
 
@@ -56,7 +50,7 @@ def mute_server(router: str, name: str) -> Generator[None]:
         released.wait(PATIENCE_S)
         return response
 
-    with node_at(router, "mute") as mute:
+    with node_at(endpoint, "mute") as mute:
         mute.create_service(ADD, name, wait)
         try:
             yield
@@ -64,8 +58,8 @@ def mute_server(router: str, name: str) -> Generator[None]:
             released.set()
 
 
-def test_a_service_that_never_answers_is_given_up_in_time(router: str, node: Node):
-    with mute_server(router, "/mute"):
+def test_a_service_that_never_answers_is_given_up_in_time(endpoint: str, node: Node):
+    with mute_server(endpoint, "/mute"):
         client = node.create_client(ADD, "/mute", timeout_s=0.3)
         assert client.wait_for_service(PATIENCE_S)
         watch = Stopwatch()
@@ -75,8 +69,8 @@ def test_a_service_that_never_answers_is_given_up_in_time(router: str, node: Nod
         assert watch.s < 10
 
 
-def test_a_wait_of_ones_own_ends_while_the_call_goes_on(router: str, node: Node):
-    with mute_server(router, "/mute_too"):
+def test_a_wait_of_ones_own_ends_while_the_call_goes_on(endpoint: str, node: Node):
+    with mute_server(endpoint, "/mute_too"):
         client = node.create_client(ADD, "/mute_too")
         assert client.wait_for_service(PATIENCE_S)
         with pytest.raises(NoAnswerError, match="/mute_too"):
@@ -89,10 +83,10 @@ def test_a_service_that_nobody_serves_is_told_at_once(node: Node):
     assert not client.wait_for_service(0.05)
 
 
-def test_two_servers_both_do_what_is_asked_and_the_first_answer_counts(router: str, node: Node):
+def test_two_servers_both_do_what_is_asked_and_the_first_answer_counts(endpoint: str, node: Node):
     done: list[str] = []
     said = heard(node, "rcl_interfaces/msg/Log", "/rosout")
-    with node_at(router, "one") as one, node_at(router, "two") as two:
+    with node_at(endpoint, "one") as one, node_at(endpoint, "two") as two:
         for server in (one, two):
 
             def add(request: Any, response: Any, name: str = server.get_name()) -> Any:  # noqa: ANN401
@@ -109,8 +103,8 @@ def test_two_servers_both_do_what_is_asked_and_the_first_answer_counts(router: s
         wait_until("it is said", lambda: any("more than one node" in each.msg for each in said))
 
 
-def test_an_answer_of_malformed_bytes_is_told_as_such(router: str, node: Node):
-    with open_test_session(router) as strange:
+def test_an_answer_of_malformed_bytes_is_told_as_such(endpoint: str, node: Node):
+    with open_test_session(endpoint) as strange:
         key = str(DataKey(0, "/garbled", ADD_NAME, strange.types.hash_of(ADD_NAME)))
         queries = declare_queryable(strange.zenoh, key, 8)
         client = node.create_client(ADD, "/garbled")
@@ -133,14 +127,16 @@ def test_an_answer_of_malformed_bytes_is_told_as_such(router: str, node: Node):
         assert isinstance(failure_of(future), CdrError)
 
 
-def test_a_request_of_malformed_bytes_is_refused_and_the_next_one_answered(router: str, node: Node):
+def test_a_request_of_malformed_bytes_is_refused_and_the_next_one_answered(
+    endpoint: str, node: Node
+):
     def add(request: Any, response: Any) -> Any:  # noqa: ANN401
         response.sum = request.a + request.b
         return response
 
     server = node.create_service(ADD, "/careful", add)
     key = str(DataKey(0, "/careful", ADD_NAME, node.wire.types.hash_of(ADD_NAME)))
-    with open_test_session(router) as strange:
+    with open_test_session(endpoint) as strange:
         for payload, attached in ((b"x", None), (b"x", bytes(33)), (b"x", b"y"), (None, None)):
             before = server.refused
             replies = strange.zenoh.get(key, payload=payload, attachment=attached, timeout=20.0)
@@ -148,13 +144,13 @@ def test_a_request_of_malformed_bytes_is_refused_and_the_next_one_answered(route
             assert server.refused == before + 1
     client = node.create_client(ADD, "/careful")
     assert client.wait_for_service(PATIENCE_S)
-    with node_at(router, "asker") as asker:
+    with node_at(endpoint, "asker") as asker:
         honest = asker.create_client(ADD, "/careful")
         assert honest.call(ADD.Request(a=2, b=2), PATIENCE_S).sum == 4
 
 
-def test_a_goal_whose_server_is_killed_ends_with_an_error(router: str, node: Node):
-    with running_demo(router, "radio_dj", "--ros-args", "-p", "step_seconds:=0.2") as dj:
+def test_a_goal_whose_server_is_killed_ends_with_an_error(endpoint: str, node: Node):
+    with running_demo(endpoint, "radio_dj", "--ros-args", "-p", "step_seconds:=0.2") as dj:
         client = ActionClient(node, action(CHOOSE_SONG), "choose_song")
         assert client.wait_for_server(PATIENCE_S)
         told: list[Any] = []
@@ -167,7 +163,7 @@ def test_a_goal_whose_server_is_killed_ends_with_an_error(router: str, node: Nod
         dj.process.kill()
         assert isinstance(failure_of(result), WireError)
     wait_until("it is known to be gone", lambda: not client.server_is_ready())
-    with running_demo(router, "radio_dj", "--ros-args", "-p", "step_seconds:=0.01"):
+    with running_demo(endpoint, "radio_dj", "--ros-args", "-p", "step_seconds:=0.01"):
         assert client.wait_for_server(PATIENCE_S)
         again = client.send_goal_async(action(CHOOSE_SONG).Goal(song_name="Clocks"))
         wait_until("it is accepted", again.done)

@@ -6,24 +6,14 @@ import signal
 import sys
 import time
 from contextlib import ExitStack
-from typing import TYPE_CHECKING
 
 import pytest
 
 from tests.support.demos import running, running_demo
 from tests.support.wire import running_router
 
-if TYPE_CHECKING:
-    from collections.abc import Generator
-
 pytestmark = pytest.mark.network
 SIGNALS = [signal.SIGINT, signal.SIGTERM]
-
-
-@pytest.fixture(scope="module")
-def router() -> Generator[str]:
-    with running_router() as endpoint:
-        yield endpoint
 
 
 @pytest.mark.parametrize("number", SIGNALS)
@@ -31,8 +21,8 @@ def router() -> Generator[str]:
     ("name", "working"),
     [("talker", "Hello World"), ("listener", "Hello World"), ("radio_dj", "")],
 )
-def test_a_node_at_work_ends(router: str, name: str, working: str, number: signal.Signals):
-    with running_demo(router, "talker") as talker, running_demo(router, name) as demo:
+def test_a_node_at_work_ends(endpoint: str, name: str, working: str, number: signal.Signals):
+    with running_demo(endpoint, "talker") as talker, running_demo(endpoint, name) as demo:
         talker.wait_for("Hello World")
         demo.wait_for(working)
         demo.stop(number)
@@ -41,8 +31,8 @@ def test_a_node_at_work_ends(router: str, name: str, working: str, number: signa
 
 @pytest.mark.parametrize("number", SIGNALS)
 @pytest.mark.parametrize("after_s", [0.0, 0.1, 0.2, 0.4, 0.6, 0.8, 1.0, 1.5])
-def test_a_node_that_is_starting_ends(router: str, after_s: float, number: signal.Signals):
-    with running_demo(router, "talker") as demo:
+def test_a_node_that_is_starting_ends(endpoint: str, after_s: float, number: signal.Signals):
+    with running_demo(endpoint, "talker") as demo:
         time.sleep(after_s)  # any moment is meant: there is no condition to wait for
         demo.stop(number)
 
@@ -57,7 +47,7 @@ def test_a_node_whose_router_is_gone_ends(number: signal.Signals):
 
 
 @pytest.mark.parametrize("number", SIGNALS)
-def test_a_node_that_waits_for_a_service_ends(router: str, number: signal.Signals):
+def test_a_node_that_waits_for_a_service_ends(endpoint: str, number: signal.Signals):
     code = (
         "import studio.ros.client as rclpy\n"
         "rclpy.init()\n"
@@ -66,6 +56,6 @@ def test_a_node_that_waits_for_a_service_ends(router: str, number: signal.Signal
         "print('waits', flush=True)\n"
         "client.wait_for_service()\n"
     )
-    with running([sys.executable, "-c", code], router) as process:
+    with running([sys.executable, "-c", code], endpoint) as process:
         process.wait_for("waits")
         process.stop(number)

@@ -21,7 +21,7 @@ from studio.ros.node.executor import SingleThreadedExecutor
 from studio.ros.node.node import Node
 from studio.ros.wire.door import declare_publisher
 from tests.support.demos import heard, node_at
-from tests.support.wire import PATIENCE_S, open_test_session, running_router, wait_until
+from tests.support.wire import PATIENCE_S, open_test_session, wait_until
 
 if TYPE_CHECKING:
     from collections.abc import Generator
@@ -64,22 +64,16 @@ with open_test_session(sys.argv[1]) as wire:
 """
 
 
-@pytest.fixture(scope="module")
-def router() -> Generator[str]:
-    with running_router() as endpoint:
-        yield endpoint
-
-
 @pytest.fixture
-def node(router: str) -> Generator[Node]:
-    with node_at(router) as found:
+def node(endpoint: str) -> Generator[Node]:
+    with node_at(endpoint) as found:
         yield found
 
 
 @contextmanager
-def strange_sender(router: str, topic: str, type_hash: str | None = None) -> Generator[Outgoing]:
+def strange_sender(endpoint: str, topic: str, type_hash: str | None = None) -> Generator[Outgoing]:
     """A bare publisher on the key of a topic of texts, which may send what it likes."""
-    with open_test_session(router) as wire:
+    with open_test_session(endpoint) as wire:
         known = wire.types.hash_of(STRING)
         key = str(DataKey(0, topic, STRING, type_hash or known))
         yield declare_publisher(wire.zenoh, key, blocking=True, reliable=True)
@@ -117,10 +111,10 @@ def subscribed(node: Node, topic: str) -> tuple[Subscription, list[Any]]:
     ],
 )
 def test_malformed_bytes_are_counted_and_the_next_message_comes(
-    router: str, node: Node, malformed: bytes
+    endpoint: str, node: Node, malformed: bytes
 ):
     subscription, came = subscribed(node, "/malformed")
-    with strange_sender(router, "/malformed") as sender:
+    with strange_sender(endpoint, "/malformed") as sender:
         send_until(sender, came)
         sender.put(malformed, attachment=attachment(1))
         wait_until("it is counted", lambda: subscription.losses.malformed == 1)
@@ -136,10 +130,10 @@ def test_malformed_bytes_are_counted_and_the_next_message_comes(
     ids=["missing", "empty", "short", "below", "negative", "old", "huge"],
 )
 def test_a_sample_without_a_proper_attachment_is_dropped_and_counted(
-    router: str, node: Node, wrong: bytes | None
+    endpoint: str, node: Node, wrong: bytes | None
 ):
     subscription, came = subscribed(node, "/unattached")
-    with strange_sender(router, "/unattached") as sender:
+    with strange_sender(endpoint, "/unattached") as sender:
         send_until(sender, came)
         sender.put(BAD, attachment=wrong)
         wait_until("it is refused", lambda: subscription.losses.refused == 1)
@@ -147,22 +141,22 @@ def test_a_sample_without_a_proper_attachment_is_dropped_and_counted(
     assert {each.data for each in came} == {"ok"}
 
 
-def test_a_wrong_hash_is_silence_on_both_sides(router: str, node: Node):
+def test_a_wrong_hash_is_silence_on_both_sides(endpoint: str, node: Node):
     subscription, came = subscribed(node, "/hashed")
     with (
-        strange_sender(router, "/hashed", "RIHS01_" + "0" * 64) as wrong,
-        strange_sender(router, "/hashed") as right,
+        strange_sender(endpoint, "/hashed", "RIHS01_" + "0" * 64) as wrong,
+        strange_sender(endpoint, "/hashed") as right,
     ):
         wrong.put(GOOD, attachment=attachment(1))
         send_until(right, came)
     assert subscription.losses.malformed == subscription.losses.refused == 0
 
 
-def test_a_message_of_50_megabytes_arrives_whole(router: str, node: Node):
+def test_a_message_of_50_megabytes_arrives_whole(endpoint: str, node: Node):
     pixels = np.arange(50_000_000, dtype=np.uint32).astype(np.uint8)
     image = message("sensor_msgs/msg/Image")
     came = heard(node, "sensor_msgs/msg/Image", "/large", 1)
-    with node_at(router, "camera") as camera:
+    with node_at(endpoint, "camera") as camera:
         publisher = camera.create_publisher(image, "/large", 1)
         assert camera.graph.wait_for(lambda: bool(camera.graph.subscriptions("/large")), PATIENCE_S)
 
@@ -177,7 +171,7 @@ def test_a_message_of_50_megabytes_arrives_whole(router: str, node: Node):
     assert np.array_equal(came[0].data, pixels)
 
 
-def test_a_slow_reader_of_20_khz_holds_up_no_other_and_no_memory(router: str):
+def test_a_slow_reader_of_20_khz_holds_up_no_other_and_no_memory(endpoint: str):
     """The slow one sleeps 50 ms in each callback; another node of its process hears every beat."""
     beats: list[int] = []
 
@@ -188,7 +182,7 @@ def test_a_slow_reader_of_20_khz_holds_up_no_other_and_no_memory(router: str):
         beats.append(int(said.data))
 
     sensor = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
-    with flooded(router), node_at(router, "slow") as slow, beside(slow) as quick:
+    with flooded(endpoint), node_at(endpoint, "slow") as slow, beside(slow) as quick:
         reader = slow.create_subscription(message(STRING), "/fast", dawdle, sensor)
         other = quick.create_subscription(message(STRING), "/beat", count, 1000)
         wait_until("it is behind", lambda: reader.losses.overwritten > 10_000)
@@ -227,9 +221,9 @@ def peak_mb() -> float:
 
 
 @contextmanager
-def flooded(router: str) -> Generator[None]:
+def flooded(endpoint: str) -> Generator[None]:
     process = subprocess.Popen(
-        [sys.executable, "-c", FLOOD, router], stdin=subprocess.PIPE, stdout=subprocess.PIPE
+        [sys.executable, "-c", FLOOD, endpoint], stdin=subprocess.PIPE, stdout=subprocess.PIPE
     )
     with process:
         try:

@@ -11,7 +11,7 @@ import pytest
 from studio.nodes.robot_state_publisher import LATCHED
 from studio.ros.messages import message
 from tests.support.demos import call, heard, node_at, running
-from tests.support.wire import running_router, wait_until
+from tests.support.wire import wait_until
 
 if TYPE_CHECKING:
     from collections.abc import Generator
@@ -30,12 +30,6 @@ URDF = """<robot name="arm">
     <origin xyz="0.5 0 0"/></joint>
 </robot>"""
 TF = "tf2_msgs/msg/TFMessage"
-
-
-@pytest.fixture(scope="module")
-def endpoint() -> Generator[str]:
-    with running_router() as found:
-        yield found
 
 
 @pytest.fixture

@@ -12,10 +12,9 @@ from studio.ros.profiles import profile_named
 from studio.ros.wire.settings import WireSettings, wire_settings
 from tests.support.demos import ENDS_WITHIN_S, heard, node_at, running
 from tests.support.patience import Stopwatch
-from tests.support.wire import running_router, wait_until
+from tests.support.wire import wait_until
 
 if TYPE_CHECKING:
-    from collections.abc import Generator
     from pathlib import Path
 
 pytestmark = pytest.mark.network
@@ -29,29 +28,23 @@ signal.pause()
 """
 
 
-@pytest.fixture(scope="module")
-def router() -> Generator[str]:
-    with running_router() as endpoint:
-        yield endpoint
-
-
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_studio_demos_starts_several_and_one_signal_ends_all_within_two_seconds(
-    router: str, number: int
+    endpoint: str, number: int
 ):
-    words = [sys.executable, "-m", "studio", "demos", "--connect", router, "talker", "listener"]
-    with running(words, router) as demos:
+    words = [sys.executable, "-m", "studio", "demos", "--connect", endpoint, "talker", "listener"]
+    with running(words, endpoint) as demos:
         demos.wait_for("studio topic echo /chatter")
         demos.wait_for("I heard:")
         demos.stop(number)
         assert "Traceback" not in demos.printed
 
 
-def test_arguments_of_ros_reach_each_demo(router: str):
-    words = [sys.executable, "-m", "studio", "demos", "--connect", router, "talker", "listener"]
+def test_arguments_of_ros_reach_each_demo(endpoint: str):
+    words = [sys.executable, "-m", "studio", "demos", "--connect", endpoint, "talker", "listener"]
     with (
-        node_at(router) as node,
-        running([*words, "--ros-args", "-r", "chatter:=elsewhere"], router) as demos,
+        node_at(endpoint) as node,
+        running([*words, "--ros-args", "-r", "chatter:=elsewhere"], endpoint) as demos,
     ):
         heard_elsewhere = heard(node, "std_msgs/msg/String", "/elsewhere")
         wait_until("the talker elsewhere", lambda: bool(heard_elsewhere))

@@ -18,7 +18,6 @@ from tests.support.wire import (
     free_endpoint,
     open_test_session,
     router_at,
-    running_router,
     show_endpoints,
     wait_until,
 )
@@ -32,21 +31,15 @@ if TYPE_CHECKING:
 STRING = "std_msgs/msg/String"
 
 
-@pytest.fixture(scope="module")
-def router() -> Iterator[str]:
-    with running_router() as endpoint:
-        yield endpoint
-
-
 @pytest.fixture
-def robot(router: str) -> Iterator[WireSession]:
-    with open_test_session(router) as wire:
+def robot(endpoint: str) -> Iterator[WireSession]:
+    with open_test_session(endpoint) as wire:
         yield wire
 
 
 @pytest.fixture
-def graph(router: str) -> Iterator[Graph]:
-    with open_test_session(router) as wire, Graph(wire) as found:
+def graph(endpoint: str) -> Iterator[Graph]:
+    with open_test_session(endpoint) as wire, Graph(wire) as found:
         yield found
 
 
@@ -84,10 +77,10 @@ def test_a_node_and_its_publisher_appear_with_all_that_they_say(robot: WireSessi
     assert held
 
 
-def test_who_looks_later_settles_on_what_stands(robot: WireSession, router: str):
+def test_who_looks_later_settles_on_what_stands(robot: WireSession, endpoint: str):
     node = node_of(robot)
     held = show(robot, node, *(endpoint_of(robot, node, f"/topic_{at}") for at in range(200)))
-    with open_test_session(router) as wire, Graph(wire) as first:
+    with open_test_session(endpoint) as wire, Graph(wire) as first:
         assert first.wait_for(lambda: len(first.topics()) == 200, PATIENCE_S)
         with Graph(wire) as second:
             assert second.settle(PATIENCE_S)
@@ -104,16 +97,16 @@ def test_an_endpoint_that_is_taken_back_vanishes(robot: WireSession, graph: Grap
     assert graph.node("/talker") is not None
 
 
-def test_nodes_of_another_domain_are_not_there(robot: WireSession, router: str, graph: Graph):
-    with open_test_session(router, domain=7) as other:
+def test_nodes_of_another_domain_are_not_there(robot: WireSession, endpoint: str, graph: Graph):
+    with open_test_session(endpoint, domain=7) as other:
         held = [*show(other, node_of(other, "far")), *show(robot, node_of(robot, "near"))]
         assert graph.wait_for(lambda: graph.node("/near") is not None, PATIENCE_S)
         assert graph.node("/far") is None
     assert len(held) == 2
 
 
-def test_two_nodes_of_one_name_are_told(robot: WireSession, router: str, graph: Graph):
-    with open_test_session(router) as other:
+def test_two_nodes_of_one_name_are_told(robot: WireSession, endpoint: str, graph: Graph):
+    with open_test_session(endpoint) as other:
         held = [*show(robot, node_of(robot)), *show(other, node_of(other))]
         assert graph.wait_for(lambda: graph.duplicate_nodes() == {"/talker": 2}, PATIENCE_S)
     assert graph.wait_for(lambda: not graph.duplicate_nodes(), PATIENCE_S)
@@ -174,11 +167,11 @@ def test_tokens_that_are_none_are_counted(robot: WireSession, graph: Graph):
     held.undeclare()
 
 
-def test_ten_thousand_topics_of_ten_sessions_are_all_seen_and_all_go(router: str, graph: Graph):
+def test_ten_thousand_topics_of_ten_sessions_are_all_seen_and_all_go(endpoint: str, graph: Graph):
     with ExitStack() as stack:
         held: list[Declared] = []
         for at in range(10):
-            wire = stack.enter_context(open_test_session(router))
+            wire = stack.enter_context(open_test_session(endpoint))
             held += show_endpoints(wire, 1_000, f"robot_{at}")
         assert graph.wait_for(lambda: len(graph.topics()) == 10_000, PATIENCE_S)
         assert len(graph.nodes()) == 10
@@ -197,9 +190,9 @@ sys.stdin.read()
 """
 
 
-def test_a_node_that_is_killed_vanishes(router: str, graph: Graph):
+def test_a_node_that_is_killed_vanishes(endpoint: str, graph: Graph):
     process = subprocess.Popen(
-        [sys.executable, "-c", NODE_OF_ITS_OWN, router], stdin=subprocess.PIPE
+        [sys.executable, "-c", NODE_OF_ITS_OWN, endpoint], stdin=subprocess.PIPE
     )
     with process:
         try:

@@ -14,18 +14,11 @@ from studio.ros.node.future import Future
 from studio.ros.node.node import Node
 from studio.ros.node.work import ReentrantCallbackGroup
 from tests.support.node_pair import context_at, spin_until
-from tests.support.wire import running_router
 
 if TYPE_CHECKING:
     from collections.abc import Generator
 
     from studio.ros.node.context import Context
-
-
-@pytest.fixture(scope="module")
-def endpoint() -> Generator[str]:
-    with running_router() as found:
-        yield found
 
 
 @pytest.fixture

@@ -14,7 +14,7 @@ from studio.ros.qos import QoSProfile, qos_profile_rosout_default
 from studio.ros.tokens import EndpointKind, tokens_of_domain
 from studio.ros.wire.door import standing_tokens
 from tests.support.node_pair import context_at, node_pair, spin_until
-from tests.support.wire import open_test_session, running_router, wait_until
+from tests.support.wire import open_test_session, wait_until
 
 if TYPE_CHECKING:
     from collections.abc import Generator
@@ -26,12 +26,6 @@ if TYPE_CHECKING:
 String = message("std_msgs/msg/String")
 Log = message("rcl_interfaces/msg/Log")
 Trigger = service("std_srvs/srv/Trigger")
-
-
-@pytest.fixture(scope="module")
-def endpoint() -> Generator[str]:
-    with running_router() as found:
-        yield found
 
 
 @pytest.fixture

@@ -7,15 +7,11 @@ import signal
 import socket
 import subprocess
 import sys
-from typing import TYPE_CHECKING
 
 import pytest
 
 from tests.support.patience import ended_within
-from tests.support.wire import free_endpoint, running_router
-
-if TYPE_CHECKING:
-    from collections.abc import Generator
+from tests.support.wire import free_endpoint
 
 ENDS_WITHIN_S = 2.0
 PREPARED = """
@@ -74,12 +70,6 @@ rate.sleep()
 """,
     "after the end": "join(); rclpy.shutdown(); ready(); time.sleep(600)",
 }
-
-
-@pytest.fixture(scope="module")
-def endpoint() -> Generator[str]:
-    with running_router() as found:
-        yield found
 
 
 def ended_by(number: signal.Signals, program: str, endpoint: str) -> tuple[int, str]:

@@ -1,7 +1,6 @@
 from __future__ import annotations
 
 import threading
-from typing import TYPE_CHECKING
 
 import pytest
 
@@ -11,18 +10,9 @@ from studio.ros.node.context import Context
 from studio.ros.node.spinning import spinning
 from studio.ros.wire.settings import WireSettings
 from tests.support.node_pair import context_at
-from tests.support.wire import running_router, wait_until
-
-if TYPE_CHECKING:
-    from collections.abc import Generator
+from tests.support.wire import wait_until
 
 NO_SIGNALS = rclpy.SignalHandlerOptions.NO
-
-
-@pytest.fixture(scope="module")
-def endpoint() -> Generator[str]:
-    with running_router() as found:
-        yield found
 
 
 def test_the_wire_is_joined_for_a_block(endpoint: str):

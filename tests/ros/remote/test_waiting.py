@@ -1,7 +1,7 @@
 from __future__ import annotations
 
 import threading
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 
@@ -10,18 +10,9 @@ from studio.ros.node.context import Context
 from studio.ros.node.node import Node
 from studio.ros.remote.waiting import asked
 from tests.support.demos import node_at
-from tests.support.wire import open_test_session, running_router
-
-if TYPE_CHECKING:
-    from collections.abc import Generator
+from tests.support.wire import open_test_session
 
 pytestmark = pytest.mark.network
-
-
-@pytest.fixture(scope="module")
-def endpoint() -> Generator[str]:
-    with running_router() as text:
-        yield text
 
 
 def test_a_node_that_nobody_spins_is_spun_for_its_answer(endpoint: str):
