@@ -108,7 +108,13 @@ def test_the_source_archive_makes_the_same_wheel(names: list[str], tmp_path: Pat
 
 
 def test_the_wheel_is_small(wheel: Path):
-    assert wheel.stat().st_size < 3_000_000
+    """The studio itself as it always was; beside it pictures of every panel, in two themes."""
+    with ZipFile(wheel) as archive:
+        pictures = [one for one in archive.infolist() if "/help/pictures/" in one.filename]
+    pictures_bytes = sum(one.compress_size for one in pictures)
+    assert wheel.stat().st_size - pictures_bytes < 3_000_000
+    assert pictures_bytes < 1_000_000
+    assert max(one.compress_size for one in pictures) < 30_000
 
 
 def test_the_wheel_says_what_it_is(wheel: Path, names: list[str]):
