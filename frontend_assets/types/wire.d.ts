@@ -473,6 +473,22 @@ export interface Done {
   request: number;
 }
 
+/**
+ * Drive so fast until told otherwise, or until nothing is told for half a second.
+ *
+ * What comes next for the topic takes its place; who falls silent, or leaves, stands still.
+ */
+export interface Drive {
+  request?: number;
+  document?: string;
+  type: "drive";
+  topic: string;
+  stamped?: boolean;
+  x?: number;
+  y?: number;
+  yaw?: number;
+}
+
 /** Ask for all parameters of a node as a file of them. */
 export interface DumpParameters {
   request?: number;
@@ -2611,6 +2627,7 @@ export type Command =
   | DumpParameters
   | LoadParameters
   | FollowParameters
+  | Drive
   | ListRecent
   | OpenRecent
   | ForgetRecent

@@ -156,6 +156,7 @@ _CONTROL: Final = frozenset(
         "cancel_goal",
         "publish",
         "stop_publishing",
+        "drive",
         "set_parameter",
         "load_parameters",
         "edit_text",

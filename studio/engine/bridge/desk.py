@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Final, TypeAlias, TypeVar
 
 from studio.engine.bridge.deeds import DeedDesk
 from studio.engine.bridge.diagnostics import DiagnosticsDesk
+from studio.engine.bridge.driving import DriveDesk
 from studio.engine.bridge.graph import GraphDesk
 from studio.engine.bridge.hearing import HearingDesk
 from studio.engine.bridge.interfaces import InterfaceDesk
@@ -20,6 +21,7 @@ from studio.engine.messages import goals as g
 from studio.engine.messages import parameters as p
 from studio.engine.messages import publishing as pub
 from studio.engine.messages.diagnostics import GetDiagnostics
+from studio.engine.messages.driving import Drive
 from studio.engine.messages.graph import GetGraph, GetNode
 from studio.engine.messages.interfaces import AddInterfaces, GetInterface, ListInterfaces
 from studio.engine.messages.lifecycle import ChangeState, GetManaged
@@ -59,6 +61,7 @@ class BridgeDesk:
         self.lifecycle = LifecycleDesk(wire)
         self.diagnostics = DiagnosticsDesk(wire)
         self.deeds = DeedDesk(wire, self.interfaces)
+        self.driving = DriveDesk(wire)
 
     async def carry_out(self, command: m.BridgeCommand, listener: Listener) -> m.BridgeEvent | None:
         """Carry out one command and give its answer, if it has one.
@@ -76,12 +79,14 @@ class BridgeDesk:
     def detach(self, listener: Listener) -> None:
         """A page is gone: what ran for it alone ends."""
         self.deeds.detach(listener)
+        self.driving.detach(listener)
 
     async def let_go(self) -> None:
         """Let go of the connection, which is about to end."""
         await asyncio.gather(
             self.hearing.let_go(),
             self.deeds.let_go(),
+            self.driving.let_go(),
             self.logs.let_go(),
             self.lifecycle.let_go(),
             self.diagnostics.let_go(),
@@ -89,7 +94,12 @@ class BridgeDesk:
 
     async def close(self) -> None:
         """End all that runs."""
-        await asyncio.gather(self.hearing.close(), self.deeds.close(), self.lifecycle.let_go())
+        await asyncio.gather(
+            self.hearing.close(),
+            self.deeds.close(),
+            self.driving.let_go(),
+            self.lifecycle.let_go(),
+        )
 
 
 _INTERFACES: Final = (
@@ -111,6 +121,7 @@ _DEEDS: Final = (
     _row(g.GetGoalStatuses, lambda d, c, _: d.deeds.statuses.statuses(c)),
     _row(pub.Publish, lambda d, c, _: d.deeds.publishing.begin(c)),
     _row(pub.StopPublishing, lambda d, c, _: d.deeds.publishing.stop(c)),
+    _row(Drive, lambda d, c, who: d.driving.drive(c, who)),
 )
 _PARAMETERS: Final = (
     _row(p.GetParameterNodes, lambda d, c, _: d.deeds.parameters.nodes(c)),

@@ -6,6 +6,7 @@ from typing import TypeAlias
 
 from studio.engine.messages.deeds import DeedCommand, DeedEvent
 from studio.engine.messages.diagnostics import DiagnosticsCommand, DiagnosticsEvent
+from studio.engine.messages.driving import DriveCommand
 from studio.engine.messages.graph import GraphCommand, GraphEvent
 from studio.engine.messages.interfaces import InterfaceCommand, InterfaceEvent
 from studio.engine.messages.lifecycle import LifecycleCommand, LifecycleEvent
@@ -22,6 +23,7 @@ BridgeCommand: TypeAlias = (
     | RatesCommand
     | TopicsCommand
     | DeedCommand
+    | DriveCommand
 )
 """Each concerns the connection, and none a document: the bridge desk carries them out."""
 BridgeEvent: TypeAlias = (
