@@ -1,7 +1,9 @@
 /** The data lane as panels use it: topics are looked at, or traced as numbers, until they are left. */
 
 /** @import { MessageView } from "../types/wire.d.ts" */
+/** @import { Range } from "../lib/image-pixels.js" */
 /** @import { FromPage } from "../workers/data.js" */
+/** @import { Pictured } from "../workers/pictures.js" */
 /** @import { Heard, Looked, Points, ToPage } from "../workers/wishes.js" */
 
 import { effect, signal } from "vendor/preact.js";
@@ -11,6 +13,7 @@ import { RefusedError, send } from "./wire.js";
 /** @typedef {{reliable?: boolean | null, latched?: boolean | null, depth?: number | null, typeName?: string, mostHz?: number}} Ways null: as fits its publishers */
 /** @typedef {{onState: (heard: Heard) => void, onMessage: (message: Looked) => void}} Onlooker */
 /** @typedef {{onState: (heard: Heard) => void, onPoints: (points: Points) => void}} Tracer */
+/** @typedef {{onState: (heard: Heard) => void, onPicture: (pictured: Pictured) => void}} Watcher */
 
 /** What is looked at is read by people. */
 const LOOK_HZ = 10;
@@ -23,7 +26,7 @@ export const laneOpen = signal(true);
 /** @type {Worker | null} */
 let worker = null;
 let lastNumber = 0;
-/** @type {Map<number, Onlooker | Tracer>} */
+/** @type {Map<number, Onlooker | Tracer | Watcher>} */
 const listeners = new Map();
 /** @type {Map<number, (text: string) => void>} */
 const texts = new Map();
@@ -58,13 +61,14 @@ function takeLane(message) {
   dropped.value = message.dropped;
 }
 
-/** @param {import("../workers/wishes.js").State | Looked | Points} message */
+/** @param {import("../workers/wishes.js").State | Looked | Points | Pictured} message */
 function takeHeard(message) {
   const listener = listeners.get(message.wish);
   if (!listener) return;
   if (message.kind === "state") listener.onState(message.heard);
   else if (message.kind === "message" && "onMessage" in listener) listener.onMessage(message);
   else if (message.kind === "points" && "onPoints" in listener) listener.onPoints(message);
+  else if (message.kind === "picture" && "onPicture" in listener) listener.onPicture(message);
 }
 
 /** @type {Map<string, Promise<{messages: readonly MessageView[] | null, reason: string}>>} */
@@ -168,6 +172,25 @@ export function trace(topic, paths, ways, tracer) {
   return {
     /** @param {readonly string[]} chosen */
     choose: (chosen) => post({ kind: "trace", wish, paths: chosen }),
+    leave: () => leave(wish.wish),
+  };
+}
+
+/**
+ * Look at the newest image of a topic, as a picture.
+ *
+ * @param {string} topic
+ * @param {Ways} ways
+ * @param {Range | null} range of numbers such as depths; null: from the least to the largest
+ * @param {Watcher} watcher
+ */
+export function watch(topic, ways, range, watcher) {
+  const wish = wishFor(topic, "newest", { mostHz: 30, ...ways });
+  listeners.set(wish.wish, watcher);
+  post({ kind: "watch", wish, range });
+  return {
+    /** @param {Range | null} chosen */
+    shade: (chosen) => post({ kind: "shade", wish: wish.wish, range: chosen }),
     leave: () => leave(wish.wish),
   };
 }

@@ -58,6 +58,7 @@ export const PANELS = {
     load: async () => (await import("../panels/masses.js")).MassesPanel,
   },
   plot: { icon: "plot", load: async () => (await import("../panels/plot.js")).PlotPanel },
+  image: { icon: "camera", load: async () => (await import("../panels/image.js")).ImagePanel },
   topics: { icon: "topics", load: async () => (await import("../panels/topics.js")).TopicsPanel },
   frames: { icon: "frames", load: async () => (await import("../panels/frames.js")).FramesPanel },
   graph: { icon: "graph", load: async () => (await import("../panels/graph.js")).GraphPanel },

@@ -1,6 +1,6 @@
 /** Files that the browser saves for the person. */
 
-/** @param {string} name proposed; signs that a folder cannot hold are left out @param {string} text @param {string} [type] */
+/** @param {string} name proposed; signs that a folder cannot hold are left out @param {string | Blob} text @param {string} [type] */
 export function saveAsFile(name, text, type = "application/json") {
   const link = document.createElement("a");
   link.href = URL.createObjectURL(new Blob([text], { type }));

@@ -4,25 +4,29 @@
  */
 
 /** @import { MessageView } from "../types/wire.d.ts" */
+/** @import { Range } from "../lib/image-pixels.js" */
 /** @import { Heard, ToPage, Wish } from "./wishes.js" */
 
 import { readFrame } from "./frames.js";
+import { Pictures } from "./pictures.js";
 import { Look, Trace, Types } from "./wishes.js";
 
 /**
  * @typedef {{kind: "look", wish: Wish}} StartLook
  * @typedef {{kind: "trace", wish: Wish, paths: readonly string[]}} StartTrace
+ * @typedef {{kind: "watch", wish: Wish, range: Range | null}} StartWatch
+ * @typedef {{kind: "shade", wish: number, range: Range | null}} Shade
  * @typedef {{kind: "leave", wish: number}} Leave
  * @typedef {{kind: "learn", typeName: string, messages: readonly MessageView[] | null, reason: string}} Learn
  * @typedef {{kind: "unfold", wish: number, path: string, count: number}} Unfold
  * @typedef {{kind: "text", wish: number, path: string, request: number}} AskText
  * @typedef {{kind: "retry"}} Retry
- * @typedef {StartLook | StartTrace | Leave | Learn | Unfold | AskText | Retry} FromPage
+ * @typedef {StartLook | StartTrace | StartWatch | Shade | Leave | Learn | Unfold | AskText | Retry} FromPage
  */
 
 const RETRY_MS = 1500;
 
-/** @type {Map<number, Look | Trace>} by wish */
+/** @type {Map<number, Look | Trace | Pictures>} by wish */
 const wishes = new Map();
 /** @type {Map<number, number[]>} wishes by channel */
 const channels = new Map();
@@ -34,12 +38,16 @@ const types = new Types(post);
 
 /** @param {ToPage} message */
 function post(message) {
-  /** @type {Transferable[]} */
-  const moved =
-    message.kind === "points"
-      ? [message.times.buffer, ...message.values.map(({ buffer }) => buffer)]
-      : [];
-  /** @type {any} */ (self).postMessage(message, moved);
+  /** @type {any} */ (self).postMessage(message, movedWith(message));
+}
+
+/** @param {ToPage} message @returns {Transferable[]} what the page gets and the worker gives away */
+function movedWith(message) {
+  if (message.kind === "points")
+    return [message.times.buffer, ...message.values.map(({ buffer }) => buffer)];
+  if (message.kind !== "picture" || !message.picture) return [];
+  const { rgba, values } = message.picture;
+  return values ? [rgba.buffer, values.buffer] : [rgba.buffer];
 }
 
 /** @param {object} message */
@@ -122,7 +130,7 @@ function takeFrame(data) {
   if (dropped > 0) post({ kind: "lane", open: true, dropped });
 }
 
-/** @param {StartLook | StartTrace} asked */
+/** @param {StartLook | StartTrace | StartWatch} asked */
 function start(asked) {
   const { wish } = asked;
   const before = wishes.get(wish.wish);
@@ -130,13 +138,17 @@ function start(asked) {
     before.choose(asked.paths);
     return;
   }
-  wishes.set(
-    wish.wish,
-    asked.kind === "look" ? new Look(wish, types, post) : new Trace(wish, types, post, asked.paths),
-  );
+  wishes.set(wish.wish, wished(asked));
   types.doubt();
   if (socket) say({ type: "hear", ...wish });
   else open();
+}
+
+/** @param {StartLook | StartTrace | StartWatch} asked */
+function wished(asked) {
+  if (asked.kind === "look") return new Look(asked.wish, types, post);
+  if (asked.kind === "watch") return new Pictures(asked.wish, types, post, asked.range);
+  return new Trace(asked.wish, types, post, asked.paths);
 }
 
 /** @param {number} wish */
@@ -163,11 +175,18 @@ function learn({ typeName, messages, reason }) {
 
 /** @param {FromPage} asked */
 function carryOut(asked) {
-  if (asked.kind === "look" || asked.kind === "trace") start(asked);
+  if (asked.kind === "look" || asked.kind === "trace" || asked.kind === "watch") start(asked);
   else if (asked.kind === "leave") leave(asked.wish);
   else if (asked.kind === "learn") learn(asked);
   else if (asked.kind === "retry") open();
+  else if (asked.kind === "shade") shade(asked);
   else carryOutLook(asked);
+}
+
+/** @param {Shade} asked */
+function shade({ wish, range }) {
+  const one = wishes.get(wish);
+  if (one instanceof Pictures) one.shade(range);
 }
 
 /** @param {Unfold | AskText} asked */

@@ -3,6 +3,7 @@
 /** @import { MessageView } from "../types/wire.d.ts" */
 /** @import { Came } from "./frames.js" */
 /** @import { Step } from "./message-paths.js" */
+/** @import { Pictured } from "./pictures.js" */
 
 import { CdrError, readerOf } from "./cdr.js";
 import { folded, hexRows, wholeText } from "./folding.js";
@@ -42,7 +43,7 @@ import { numberAt, stepsOf, valueAt } from "./message-paths.js";
  * @typedef {{kind: "need", typeName: string}} Need
  * @typedef {{kind: "text", request: number, text: string}} TextAnswer
  * @typedef {{kind: "lane", open: boolean, dropped: number}} LaneState
- * @typedef {Looked | Points | State | Need | TextAnswer | LaneState} ToPage
+ * @typedef {Looked | Points | Pictured | State | Need | TextAnswer | LaneState} ToPage
  */
 
 /** A sender's clock that jumps so far is set anew. */
@@ -211,7 +212,7 @@ export class Trace {
 const WAITING_MAX = 20_000;
 
 /** @param {{read: ((cdr: Uint8Array) => any) | null, trouble: string}} type @param {Uint8Array} cdr @returns {{value: any, trouble: string}} value undefined: it cannot be read */
-function readWith({ read, trouble }, cdr) {
+export function readWith({ read, trouble }, cdr) {
   if (!read) return { value: undefined, trouble };
   try {
     return { value: read(cdr), trouble: "" };

@@ -30,7 +30,9 @@ FOLDER = Path(__file__).resolve().parents[2] / "frontend_assets/help/pictures"
 PANELS_WINDOW = (1060, 940)
 """So narrow that a panel, cut to it, is nearly as wide as the help that shows it."""
 DIALOGS_WINDOW = (720, 640)
-ON_THE_WIRE = ("graph", "interfaces", "log", "lifecycle", "diagnostics", "topics", "plot")
+ON_THE_WIRE = (
+    "graph", "interfaces", "log", "lifecycle", "diagnostics", "topics", "plot", "image",
+)  # fmt: skip
 """Panels that show something only while a ROS 2 system is there."""
 _HIGHEST_PX = 380
 _STILL_MS = 1200
