@@ -85,6 +85,7 @@ export const PANELS = {
     load: async () => (await import("../panels/parameters.js")).ParametersPanel,
   },
   publish: { icon: "send", load: async () => (await import("../panels/publish.js")).PublishPanel },
+  teleop: { icon: "compass", load: async () => (await import("../panels/teleop.js")).TeleopPanel },
   urdf: { icon: "urdf", load: async () => (await import("../panels/urdf.js")).UrdfPanel },
 };
 

@@ -31,7 +31,7 @@ PANELS_WINDOW = (1060, 940)
 """So narrow that a panel, cut to it, is nearly as wide as the help that shows it."""
 DIALOGS_WINDOW = (720, 640)
 ON_THE_WIRE = (
-    "graph", "interfaces", "log", "lifecycle", "diagnostics", "topics", "plot", "image",
+    "graph", "interfaces", "log", "lifecycle", "diagnostics", "topics", "plot", "image", "teleop",
 )  # fmt: skip
 """Panels that show something only while a ROS 2 system is there."""
 _HIGHEST_PX = 380
