@@ -39,17 +39,19 @@ export function pairPixels({ raw: { width, height, data }, row }, luma) {
 export function mosaicPixels({ raw: { width, height, data }, row }, pattern, bytes, upper) {
   const rgba = new Uint8ClampedArray(width * height * 4).fill(255);
   const [red, blue] = [pattern.indexOf("r"), pattern.indexOf("b")];
-  const square = [0, 0, 0, 0];
+  const square = new Uint8Array(4);
   for (let y = 0; y < height; y += 1)
     for (let x = 0; x < width; x += 1) {
-      const [left, top] = [startOf(x, width), startOf(y, height)];
+      const left = startOf(x, width);
+      const top = startOf(y, height);
       for (let n = 0; n < 4; n += 1) {
         const column = Math.min(left + (n & 1), width - 1);
         const line = Math.min(top + (n >> 1), height - 1);
         square[n] = data[line * row + column * bytes + upper] ?? 0;
       }
-      const [r, b] = [square[red] ?? 0, square[blue] ?? 0];
-      const sum = square.reduce((all, one) => all + one, 0);
+      const r = square[red] ?? 0;
+      const b = square[blue] ?? 0;
+      const sum = (square[0] ?? 0) + (square[1] ?? 0) + (square[2] ?? 0) + (square[3] ?? 0);
       const at = 4 * (y * width + x);
       rgba[at] = r;
       rgba[at + 1] = (sum - r - b) >> 1;

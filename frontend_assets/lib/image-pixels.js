@@ -131,7 +131,9 @@ function channelPixels(raw, letters, bytes) {
 function packRow(packed, data, begin, pixel, [red, green, blue]) {
   let at = begin;
   for (let x = 0; x < packed.length; x += 1) {
-    const [r, g, b] = [data[at + red] ?? 0, data[at + green] ?? 0, data[at + blue] ?? 0];
+    const r = data[at + red] ?? 0;
+    const g = data[at + green] ?? 0;
+    const b = data[at + blue] ?? 0;
     packed[x] = LITTLE
       ? 0xff000000 | (b << 16) | (g << 8) | r
       : (r << 24) | (g << 16) | (b << 8) | 0xff;
@@ -186,8 +188,10 @@ function blank(values) {
 
 /** @param {Float32Array} values @returns {Range} of those that are numbers */
 export function rangeOf(values) {
-  let [low, high] = [Number.POSITIVE_INFINITY, Number.NEGATIVE_INFINITY];
-  for (const value of values) {
+  let low = Number.POSITIVE_INFINITY;
+  let high = Number.NEGATIVE_INFINITY;
+  for (let n = 0; n < values.length; n += 1) {
+    const value = values[n] ?? Number.NaN;
     if (!Number.isFinite(value)) continue;
     if (value < low) low = value;
     if (value > high) high = value;
