@@ -51,10 +51,9 @@ export function mosaicPixels({ raw: { width, height, data }, row }, pattern, byt
       }
       const r = square[red] ?? 0;
       const b = square[blue] ?? 0;
-      const sum = (square[0] ?? 0) + (square[1] ?? 0) + (square[2] ?? 0) + (square[3] ?? 0);
       const at = 4 * (y * width + x);
       rgba[at] = r;
-      rgba[at + 1] = (sum - r - b) >> 1;
+      rgba[at + 1] = (sumOf(square) - r - b) >> 1;
       rgba[at + 2] = b;
     }
   return rgba;
@@ -62,3 +61,10 @@ export function mosaicPixels({ raw: { width, height, data }, row }, pattern, byt
 
 /** @param {number} at @param {number} length @returns {number} where its square begins: a whole one, where there is any */
 const startOf = (at, length) => Math.min(at & ~1, Math.max(0, (length & ~1) - 2));
+
+/** @param {Uint8Array} square @returns {number} */
+function sumOf(square) {
+  let sum = 0;
+  for (let n = 0; n < square.length; n += 1) sum += square[n] ?? 0;
+  return sum;
+}
