@@ -11,11 +11,13 @@ from pydantic import ValidationError
 from studio.engine.bridge import driving
 from studio.engine.messages.driving import Drive
 from studio.errors import CommandError, StudioError
-from tests.support.bridged import bridged
+from tests.support.bridged import Bridged, bridged
 from tests.support.demos import heard
 from tests.support.open_documents import Ear, until
 
 if TYPE_CHECKING:
+    from collections.abc import Awaitable, Callable
+
     from studio.ros.client import Node
 
 pytestmark = pytest.mark.network
@@ -45,8 +47,20 @@ def test_who_falls_silent_has_the_robot_stand_still(endpoint: str, tester: Node)
     asyncio.run(run())
 
 
-def test_a_page_that_is_gone_drives_no_more(
-    endpoint: str, tester: Node, monkeypatch: pytest.MonkeyPatch
+async def page_is_gone(page: Bridged) -> None:
+    page.desk.detach(page.ear)
+
+
+async def connection_ends(page: Bridged) -> None:
+    await page.desk.let_go()
+
+
+@pytest.mark.parametrize("ends", [page_is_gone, connection_ends])
+def test_nothing_drives_on_beyond_its_page_or_the_connection(
+    endpoint: str,
+    tester: Node,
+    monkeypatch: pytest.MonkeyPatch,
+    ends: Callable[[Bridged], Awaitable[None]],
 ):
     monkeypatch.setattr(driving, "_SILENCE_S", 1000.0)
     twists = heard(tester, TWIST, TOPIC)
@@ -57,26 +71,11 @@ def test_a_page_that_is_gone_drives_no_more(
             page.desk.detach(Ear())  # somebody else's page
             await page.do(Drive(topic=TOPIC, x=0.6))
             await until(lambda: len(twists) == 2)
-            page.desk.detach(page.ear)
+            await ends(page)
             await until(lambda: stands(twists))
 
     asyncio.run(run())
     assert speeds(twists) == [(0.5, 0.0, 0.0), (0.6, 0.0, 0.0), (0.0, 0.0, 0.0)]
-
-
-def test_nothing_drives_on_beyond_the_connection(
-    endpoint: str, tester: Node, monkeypatch: pytest.MonkeyPatch
-):
-    monkeypatch.setattr(driving, "_SILENCE_S", 1000.0)
-    twists = heard(tester, TWIST, TOPIC)
-
-    async def run() -> None:
-        async with bridged(endpoint) as page:
-            await page.do(Drive(topic=TOPIC, x=0.5))
-            await page.desk.let_go()
-            await until(lambda: stands(twists))
-
-    asyncio.run(run())
 
 
 def test_one_drives_and_another_waits_until_they_let_go(
