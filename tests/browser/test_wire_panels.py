@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import base64
 from typing import TYPE_CHECKING
 
+import numpy as np
 import pytest
 
 from studio.ros.messages import message
@@ -19,10 +21,19 @@ if TYPE_CHECKING:
 
     from playwright.sync_api import Browser, Locator
 
+    from tests.support.managed_arm import Arm
     from tests.support.studio_page import StudioPage
 
 pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(600)]
 STRING = message("std_msgs/msg/String")
+IMAGE = message("sensor_msgs/msg/Image")
+COMPRESSED = message("sensor_msgs/msg/CompressedImage")
+GREEN_PNG = base64.b64decode(
+    "iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAIAAAB7QOjdAAAA"
+    "DUlEQVR4nGNgOMEARAAFfwGRkkj6EgAAAABJRU5ErkJggg=="
+)
+"""Two pixels of (0, 200, 0)."""
+_FIRST_PIXEL = "canvas => [...canvas.getContext('2d').getImageData(0, 0, 1, 1).data]"
 
 
 def panel(tab: StudioPage, name: str) -> Locator:
@@ -94,6 +105,31 @@ def change_a_state(tab: StudioPage) -> None:
     parts.get_by_text("81 °C").wait_for()
 
 
+def send_pictures(arm: Arm) -> None:
+    """A raw image and a compressed one, again and again."""
+    raw_out = arm.create_publisher(IMAGE, "/eye/image_raw", 10)
+    raw = IMAGE(width=2, height=1, encoding="bgr8", step=6)
+    raw.data = np.array([30, 20, 10, 30, 20, 10], dtype=np.uint8)
+    arm.create_timer(0.2, lambda: raw_out.publish(raw))
+    packed_out = arm.create_publisher(COMPRESSED, "/eye/packed", 10)
+    packed = COMPRESSED(format="png", data=np.frombuffer(GREEN_PNG, dtype=np.uint8))
+    arm.create_timer(0.2, lambda: packed_out.publish(packed))
+
+
+def see_pictures(tab: StudioPage) -> None:
+    images = panel(tab, "image")
+    images.get_by_text("· bgr8").wait_for()
+    picture = images.get_by_role("img", name="Picture of /eye/image_raw")
+    assert picture.evaluate(_FIRST_PIXEL) == [10, 20, 30, 255]
+    picture.hover()
+    images.get_by_text(": 10 20 30").wait_for()
+    images.get_by_role("button", name="Topic of the picture").click()
+    tab.page.get_by_text("/eye/packed", exact=True).click()
+    images.get_by_text("· png").wait_for()
+    picture = images.get_by_role("img", name="Picture of /eye/packed")
+    assert picture.evaluate(_FIRST_PIXEL) == [0, 200, 0, 255]
+
+
 def test_a_system_is_joined_read_drawn_and_given_a_type(browser: Browser, tmp_path: Path):
     with (
         running_router() as endpoint,
@@ -106,6 +142,7 @@ def test_a_system_is_joined_read_drawn_and_given_a_type(browser: Browser, tmp_pa
         listener.create_subscription(STRING, "/chatter", heard.append, 10)
         talker.get_logger().warning("a word of warning")
         arm.tell_parts()
+        send_pictures(arm)
         place = ["--connect", endpoint, "--router", "off", "--domain", "41"]
         with (
             running_studio(["demo", *place], tmp_path / "data") as studio,
@@ -116,4 +153,5 @@ def test_a_system_is_joined_read_drawn_and_given_a_type(browser: Browser, tmp_pa
             see_who_speaks_with_whom(tab)
             give_a_type(tab)
             change_a_state(tab)
+            see_pictures(tab)
             assert tab.errors == []
