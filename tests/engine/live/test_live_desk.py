@@ -13,6 +13,8 @@ from studio.engine.messages import live as v
 from studio.engine.messages.wire import ConnectWire, DisconnectWire
 from studio.errors import CommandError, DisplayError
 from studio.ros.messages import message
+from studio.ros.types.library import TypeLibrary
+from tests.support.demos import node_at
 from tests.support.open_documents import until
 from tests.support.viser_frames import joined
 from tests.support.wired_studio import TF, Studio, studio
@@ -20,7 +22,7 @@ from tests.support.wired_studio import TF, Studio, studio
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from studio.ros.client import Node
+    from studio.ros.client import Node, Publisher
 
 pytestmark = pytest.mark.network
 
@@ -97,6 +99,13 @@ async def draws(one: Studio, expected: bool) -> None:
             await asyncio.sleep(0.02)
 
 
+async def aim(one: Studio, poses: Publisher, pose: Any) -> None:  # noqa: ANN401
+    """Show a pose's topic, and tell the pose once it is heard."""
+    await one.do(v.AddDisplay(kind="Pose", topic=poses.topic_name))
+    await until(lambda: bool(poses.get_subscription_count()))
+    poses.publish(pose)
+
+
 def test_a_pose_of_others_stands_where_their_transforms_put_its_frame_at_its_stamp(
     endpoint: str, tester: Node, tmp_path: Path
 ):
@@ -128,9 +137,7 @@ def test_what_was_drawn_leaves_the_screen_with_the_connection(
     async def run() -> None:
         poses = tester.create_publisher(message(POSE), "/aim", 10)
         async with studio(endpoint, tmp_path) as one:
-            await one.do(v.AddDisplay(kind="Pose", topic="/aim"))
-            await until(lambda: bool(poses.get_subscription_count()))
-            poses.publish(pose_at("base", 2.0))
+            await aim(one, poses, pose_at("base", 2.0))
             await draws(one, True)
             await one.do(DisconnectWire())
             await draws(one, False)
@@ -211,13 +218,14 @@ def test_without_a_router_a_display_says_so_and_stays(tmp_path: Path):
     asyncio.run(run())
 
 
-def test_topics_are_listed_with_the_display_that_shows_them(
+def test_topics_are_listed_with_the_display_that_shows_what_is_published(
     endpoint: str, tester: Node, tmp_path: Path
 ):
     async def run() -> None:
         tester.create_publisher(message(POSE), "/aim", 10)
         async with studio(endpoint, tmp_path) as one:
-            await one.do(v.AddDisplay(kind="Pose", topic="/aim"))
+            await one.do(v.AddDisplay(kind="AccelStamped", topic="/aim"))
+            await until(lambda: said(one) == ["other_type"])
             rows: dict[str, Any] = {}
             async with asyncio.timeout(60):
                 while "/aim" not in rows:
@@ -279,15 +287,31 @@ def test_displays_are_set_arranged_copied_and_removed_and_are_there_the_next_tim
     asyncio.run(run())
 
 
+def test_poses_of_another_form_are_told_of_and_not_drawn(endpoint: str, tmp_path: Path):
+    types = TypeLibrary("jazzy")
+    types.add_texts({POSE: "std_msgs/Header header\ngeometry_msgs/Pose pose\nfloat64 error_m\n"})
+
+    async def run(stranger: Node) -> None:
+        poses = stranger.create_publisher(types.message(POSE), "/strange_aim", 10)
+        async with studio(endpoint, tmp_path) as one:
+            await one.do(v.AddDisplay(kind="Pose", topic=poses.topic_name))
+            await until(lambda: said(one) == ["other_hash"])
+            with node_at(endpoint, "late") as known:
+                known.create_publisher(message(POSE), poses.topic_name, 10)
+                await until(lambda: said(one) == ["no_message"])
+            await until(lambda: said(one) == ["other_hash"])
+
+    with node_at(endpoint, "stranger", types) as stranger:
+        asyncio.run(run(stranger))
+
+
 def test_a_broken_message_says_so_and_what_was_drawn_before_stays(
     endpoint: str, tester: Node, tmp_path: Path
 ):
     async def run() -> None:
         poses = tester.create_publisher(message(POSE), "/aim2", 10)
         async with studio(endpoint, tmp_path) as one:
-            await one.do(v.AddDisplay(kind="Pose", topic="/aim2"))
-            await until(lambda: bool(poses.get_subscription_count()))
-            poses.publish(pose_at("tip", 0.0, 0))
+            await aim(one, poses, pose_at("tip", 0.0, 0))
             await is_at(one, [0.5, 0.0, 0.0])
             bad = pose_at("tip", 0.0, 0)
             bad.pose.position.x = math.nan
