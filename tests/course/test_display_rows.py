@@ -9,18 +9,23 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
+from studio.displays.catalogue import DISPLAYS
 from studio.displays.drawing import Points
 from studio.engine.messages import live as v
 from studio.nodes.demos.rover.room import clearance_m
 from studio.ros.messages import message
 from tests.support.demos import heard, node_at, running_demo
+from tests.support.display_samples import BASE, SAMPLES
 from tests.support.open_documents import until
+from tests.support.told_samples import told
 from tests.support.wired_studio import TF, Studio, studio
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from numpy.typing import NDArray
+
+    from tests.support.display_samples import Sample
 
 pytestmark = pytest.mark.network
 
@@ -78,14 +83,38 @@ def test_v1_each_display_draws_its_topic_of_the_moving_graph(endpoint: str, tmp_
         async with studio(endpoint, tmp_path) as one:
             displays = {kind: await add(one, kind, topic) for kind, topic in TOPICS.items()}
             await one.do(v.SetFixedFrame(frame="map"))
-            for kind, display in displays.items():
-                try:
-                    await until(lambda display=display: shapes_of(one, display) > 0)
-                except TimeoutError:
-                    pytest.fail(f"{kind}: {remarks_of(one, display)}")
+            await all_drawn(one, displays)
 
     with running_demo(endpoint, "rover"):
         asyncio.run(run())
+
+
+def test_v1_every_display_draws_its_sample_that_a_node_tells(endpoint: str, tmp_path: Path):
+    async def run() -> None:
+        async with studio(endpoint, tmp_path) as one:
+            displays = {sample.name: await show(one, sample) for sample in samples}
+            await one.do(v.SetFixedFrame(frame=BASE))
+            await all_drawn(one, displays)
+
+    samples = {one.kind: one for one in reversed(SAMPLES)}.values()
+    assert {one.kind for one in samples} == {one.KIND for one in DISPLAYS}
+    with told(endpoint, samples):
+        asyncio.run(run())
+
+
+async def show(one: Studio, sample: Sample) -> str:
+    display = await add(one, sample.kind, sample.topic)
+    for name, value in sample.values.items():
+        await one.do(v.SetDisplayProperty(display=display, name=name, value=value))
+    return display
+
+
+async def all_drawn(one: Studio, displays: dict[str, str]) -> None:
+    for name, display in displays.items():
+        try:
+            await until(lambda display=display: shapes_of(one, display) > 0)
+        except TimeoutError:
+            pytest.fail(f"{name}: {remarks_of(one, display)}")
 
 
 def test_v1_the_scan_lies_on_the_walls_of_the_room_while_the_rover_is_driven(

@@ -8,10 +8,12 @@ from hypothesis import strategies as st
 
 from studio.displays.catalogue import DISPLAYS, display_of_kind, displays_of_type, drawn_types
 from studio.displays.display import Display, Received
+from studio.displays.robot_model import RobotModelDisplay
 from studio.errors import DisplayError, StudioError
 from studio.ros.cdr import Codec
-from tests.support.display_messages import NOW_NS, TYPES
-from tests.support.drawn import assert_drawable
+from tests.support.display_messages import NOW_NS, STAMP, TYPES, encoded
+from tests.support.display_samples import SAMPLES, Sample, headed
+from tests.support.drawn import assert_drawable, plain
 from tests.support.ros_values import values_of
 
 SENTENCE = re.compile(r"[A-Z0-9].*[.]", re.DOTALL)
@@ -68,6 +70,36 @@ def test_what_makes_a_property_count_is_another_that_can_take_those_values(displ
 def test_a_display_draws_nothing_before_its_first_message(display: type[Display]):
     if display.TOPICS:
         assert not display(TYPES).draw(0)
+
+
+@pytest.mark.parametrize("display", DISPLAYS, ids=lambda one: one.KIND)
+def test_every_display_has_a_sample_of_all_its_types(display: type[Display]):
+    of_kind = [one for one in SAMPLES if one.kind == display.KIND]
+    assert of_kind
+    if display.TOPICS:
+        assert {one.type_name for one in of_kind} == set(display.TOPICS[0].types)
+
+
+def drawn_from(sample: Sample, *, little: bool) -> object:
+    """What is drawn of a sample, as plain values; of a robot its description, as it was read."""
+    made = display_of_kind(sample.kind)(TYPES, sample.values)
+    role_of = {role.topic(sample.topic): role.name for role in made.roles()}
+    for topic, (type_name, fields) in sample.messages().items():
+        cdr = encoded(type_name, headed(type_name, fields, sample.frame, STAMP), little=little)
+        made.take(Received(type_name, cdr, NOW_NS), role_of[topic])
+    if isinstance(made, RobotModelDisplay):
+        return made.description
+    return {
+        path: {name: plain(shape) for name, shape in placed.shapes.items()}
+        for path, placed in made.draw(NOW_NS).items()
+    }
+
+
+@pytest.mark.parametrize("sample", [one for one in SAMPLES if one.type_name], ids=lambda s: s.name)
+def test_messages_of_both_byte_orders_are_drawn_the_same(sample: Sample):
+    little = drawn_from(sample, little=True)
+    assert little
+    assert little == drawn_from(sample, little=False)
 
 
 ODD_NUMBERS = [float("nan"), float("inf"), float("-inf"), 1e308, -1e308, 5e-324, 0.0, -1.0]

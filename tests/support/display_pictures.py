@@ -9,16 +9,10 @@ from __future__ import annotations
 
 import sys
 import tempfile
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from studio.nodes.robot_state_publisher import LATCHED
-from studio.ros.messages import message
-from studio.ros.types.plain import from_dict
-from tests.support.demos import node_at
-from tests.support.display_messages import pose
-from tests.support.display_samples import BASE, FRAMES, SAMPLES
+from tests.support.display_samples import BASE, SAMPLES
 from tests.support.panel_pictures import (
     SHOW_PANEL,
     THEMES,
@@ -29,19 +23,16 @@ from tests.support.panel_pictures import (
 )
 from tests.support.server import running_studio
 from tests.support.studio_page import wait_until
+from tests.support.told_samples import told
 from tests.support.wire import running_router
 
 if TYPE_CHECKING:
-    from collections.abc import Generator, Iterable
-
     from httpx2 import Client
     from playwright.sync_api import Browser
 
-    from studio.ros.client import Node
     from tests.support.display_samples import Sample
     from tests.support.studio_page import StudioPage
 
-_PERIOD_S = 0.3
 _EYE = {"position": [2.6, -2.3, 2.0], "target": [0.1, 0.1, 0.2]}
 _STATE = """async (id) => {
   const script = document.querySelector('script[type="module"]').src;
@@ -55,50 +46,6 @@ _MAXIMIZE = """async () => {
   (await import(new URL("commands.js", script))).commandById("maximize").run();
 }"""
 _LOOK = "(pose) => document.querySelector('iframe').contentWindow.studio3d.setCamera(pose, false)"
-
-
-@contextmanager
-def told(endpoint: str, samples: Iterable[Sample]) -> Generator[None]:
-    """A node tells of all samples and of their frames, again and again."""
-    with node_at(endpoint, "teller") as node:
-        _tell_frames(node)
-        for one in samples:
-            if one.type_name:
-                _tell(node, one.topic, one.type_name, one.frame, one.fields)
-            for topic, (type_name, fields) in one.beside.items():
-                _tell(node, topic, type_name, one.frame, fields)
-        yield
-
-
-def _tell_frames(node: Node) -> None:
-    kind = message("tf2_msgs/msg/TFMessage")
-    rows = [
-        {
-            "header": {"frame_id": parent},
-            "child_frame_id": child,
-            "transform": {"translation": at["position"], "rotation": at["orientation"]},
-        }
-        for parent, child, xyz, wxyz in FRAMES
-        for at in (pose(xyz, wxyz),)
-    ]
-    publisher = node.create_publisher(kind, "/tf_static", LATCHED)
-    publisher.publish(from_dict(kind, {"transforms": rows}))
-
-
-def _tell(node: Node, topic: str, type_name: str, frame: str, fields: dict[str, Any]) -> None:
-    kind = message(type_name)
-    publisher = node.create_publisher(kind, topic, 10)
-
-    def tell() -> None:
-        stamp = node.get_clock().now().to_msg()
-        header = {"frame_id": frame, "stamp": {"sec": stamp.sec, "nanosec": stamp.nanosec}}
-        if hasattr(kind(), "header"):
-            told = {**fields, "header": header | fields.get("header", {})}
-            publisher.publish(from_dict(kind, told))
-        else:
-            publisher.publish(from_dict(kind, fields))
-
-    node.create_timer(_PERIOD_S, tell)
 
 
 class Desk:

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import io
 import math
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from PIL import Image
 
-from tests.support.display_messages import point, pose
+from tests.support.display_messages import TYPES, point, pose
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+
+    from numpy.typing import NDArray
 
     from studio.displays.properties import Value
 
@@ -65,6 +69,19 @@ class Sample:
     def topic(self) -> str:
         """Which nobody else uses."""
         return f"/{self.name}/told" if self.type_name else ""
+
+    def messages(self) -> dict[str, tuple[str, Fields]]:
+        """Type and fields of all that is told by the topics, what is beside the main one first."""
+        main = {self.topic: (self.type_name, self.fields)} if self.type_name else {}
+        return {**self.beside, **main}
+
+
+def headed(type_name: str, fields: Fields, frame: str, stamp: Fields) -> Fields:
+    """Fields with a header, where there is one; what they say of it themselves holds."""
+    if not hasattr(TYPES.message(type_name)(), "header"):
+        return fields
+    header = {"frame_id": frame, "stamp": stamp}
+    return {**fields, "header": header | fields.get("header", {})}
 
 
 def _rgba(r: float, g: float, b: float, a: float = 1.0) -> Fields:
@@ -148,13 +165,23 @@ def _map() -> Fields:
     }
 
 
-def _picture() -> Fields:
+def _pixels() -> NDArray[np.uint8]:
     """Stripes that go over into each other, and a ball in front."""
     x, y = np.meshgrid(np.linspace(0, 1, 160), np.linspace(0, 1, 120))
     pixels = np.stack([255 * x, 255 * y, 128 + 127 * np.sin(20 * x)], axis=2)
     pixels[np.hypot((x - 0.5) * 4 / 3, y - 0.5) < 0.2] = (240, 200, 40)
-    data = pixels.astype(np.uint8).tobytes()
+    return pixels.astype(np.uint8)
+
+
+def _picture() -> Fields:
+    data = _pixels().tobytes()
     return {"height": 120, "width": 160, "encoding": "rgb8", "step": 480, "data": data}
+
+
+def _compressed() -> Fields:
+    file = io.BytesIO()
+    Image.fromarray(_pixels()).save(file, "PNG")
+    return {"format": "rgb8; png compressed bgr8", "data": file.getvalue()}
 
 
 def _camera() -> Fields:
@@ -277,6 +304,8 @@ SAMPLES: tuple[Sample, ...] = (
            {"field_of_view": 0.5, "min_range": 0.05, "max_range": 3.0, "range": 1.2}),
     Sample("image", "Image", "sensor_msgs/msg/Image", _picture(), frame=_CAMERA,
            beside={"/image/camera_info": ("sensor_msgs/msg/CameraInfo", _camera())}),
+    Sample("packed", "Image", "sensor_msgs/msg/CompressedImage", _compressed(), frame=_CAMERA,
+           beside={"/packed/camera_info": ("sensor_msgs/msg/CameraInfo", _camera())}),
     Sample("wrench", "Wrench", "geometry_msgs/msg/WrenchStamped",
            {"wrench": {"force": point(0.5, 0.2, 0.6), "torque": point(0.0, 0.3, 0.4)}}),
     Sample("twist", "TwistStamped", "geometry_msgs/msg/TwistStamped",
