@@ -2323,7 +2323,7 @@ export interface TopicTable {
   topics: TopicRow[];
 }
 
-/** A topic that others publish. */
+/** A topic that somebody publishes. */
 export interface TopicView {
   name: string;
   types: string[];

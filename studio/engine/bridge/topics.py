@@ -6,14 +6,15 @@ import asyncio
 from typing import TYPE_CHECKING, Final
 
 from studio.engine.messages.topics import (
-    TopicEnd,
     GetTopicEnds,
     ListTopics,
     Misfit,
+    TopicEnd,
     TopicEnds,
     TopicRow,
     TopicTable,
 )
+from studio.engine.wire.topic_kinds import carried_types, kind_for
 from studio.ros.qos_matching import why_unmatched
 
 if TYPE_CHECKING:
@@ -60,21 +61,19 @@ class TopicDesk:
 
 
 def _rows(link: WireLink) -> tuple[TopicRow, ...]:
-    from studio.displays.catalogue import displays_of_type  # noqa: PLC0415 - only when it is used
-
     found: list[TopicRow] = []
     for name, types in link.graph.topics():
-        publishers = _others(link.graph.publishers(name), link.zid)
-        subscribers = _others(link.graph.subscriptions(name), link.zid)
-        kinds = [kind.KIND for one in types for kind in displays_of_type(one)]
+        publishing, hearing = link.graph.publishers(name), link.graph.subscriptions(name)
+        publishers, subscribers = _others(publishing, link.zid), _others(hearing, link.zid)
         if publishers or subscribers:
+            carried = carried_types(publishing, hearing)
             found.append(
                 TopicRow(
                     name=name,
-                    types=tuple(types),
+                    types=(*carried, *(one for one in types if one not in carried)),
                     publishers=publishers,
                     subscribers=subscribers,
-                    kind=kinds[0] if kinds else "",
+                    kind=kind_for(name, carried),
                 )
             )
     return tuple(found)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from studio.displays.catalogue import displays_of_type
 from studio.engine.messages.live import TopicView
+from studio.engine.wire.topic_kinds import carried_types, kind_for
 
 if TYPE_CHECKING:
     from studio.engine.wire.link import WireLink
@@ -14,9 +14,9 @@ if TYPE_CHECKING:
 def topic_views(link: WireLink) -> tuple[TopicView, ...]:
     """Topics that somebody publishes, by name; any thread."""
     found: list[TopicView] = []
-    for name, types in link.graph.topics():
-        if publishers := len(link.graph.publishers(name)):
-            kinds = [kind.KIND for one in types for kind in displays_of_type(one, name)]
-            kind = kinds[0] if kinds else ""
-            found.append(TopicView(name=name, types=tuple(types), publishers=publishers, kind=kind))
+    for name, _ in link.graph.topics():
+        if publishers := link.graph.publishers(name):
+            types = carried_types(publishers, ())
+            kind = kind_for(name, types)
+            found.append(TopicView(name=name, types=types, publishers=len(publishers), kind=kind))
     return tuple(found)

@@ -229,10 +229,11 @@ class DisplayStates(Message):
 
 
 class TopicView(Message):
-    """A topic that others publish."""
+    """A topic that somebody publishes."""
 
     name: str
     types: tuple[str, ...]
+    """It is published with; those of subscribers do not count."""
     publishers: int
     kind: str
     """Of the display that shows it; empty: none does."""

@@ -26,6 +26,7 @@ class TopicRow(Message):
 
     name: str
     types: tuple[str, ...]
+    """Those it is published with come first, then those it is only subscribed to with."""
     publishers: int
     subscribers: int
     kind: str

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 pytestmark = pytest.mark.network
 
-SCAN, STRING = "sensor_msgs/msg/LaserScan", "std_msgs/msg/String"
+SCAN, IMU = "sensor_msgs/msg/LaserScan", "sensor_msgs/msg/Imu"
 
 
 def test_topics_are_told_with_their_ends_and_what_would_keep_those_apart(
@@ -28,7 +28,7 @@ def test_topics_are_told_with_their_ends_and_what_would_keep_those_apart(
 ):
     tester.create_publisher(message(SCAN), "/scan", qos_profile_sensor_data)
     tester.create_subscription(message(SCAN), "/scan", print, LATCHED)
-    tester.create_subscription(message(STRING), "/scan", print, 10)
+    tester.create_subscription(message(IMU), "/scan", print, 10)
 
     async def run() -> tuple[TopicRow, TopicEnds]:
         wire = WireDesk(WireChoice("off", (endpoint,)))
@@ -45,7 +45,7 @@ def test_topics_are_told_with_their_ends_and_what_would_keep_those_apart(
             await wire.close()
 
     row, ends = asyncio.run(run())
-    assert (row.types, row.publishers, row.subscribers) == ((SCAN, STRING), 1, 2)
+    assert (row.types, row.publishers, row.subscribers) == ((SCAN, IMU), 1, 2)
     assert row.kind == "LaserScan"
     (publisher,) = ends.publishers
     assert (publisher.node, publisher.own, publisher.depth) == ("/tester", False, 5)
@@ -56,7 +56,7 @@ def test_topics_are_told_with_their_ends_and_what_would_keep_those_apart(
         "the publisher is best effort, the subscription wants reliable",
         "the publisher is volatile, the subscription wants transient local",
     )
-    assert by_heard[False][0] == f"one sends {SCAN}, the other wants {STRING}"
+    assert by_heard[False][0] == f"one sends {SCAN}, the other wants {IMU}"
 
 
 def test_what_is_no_topic_has_no_ends(endpoint: str):

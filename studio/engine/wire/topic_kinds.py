@@ -1,0 +1,29 @@
+"""What a topic carries: the types of those who publish it, and the display that shows them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from studio.ros.graph.endpoints import GraphEndpoint
+
+
+def carried_types(
+    publishers: Iterable[GraphEndpoint], subscribers: Iterable[GraphEndpoint]
+) -> tuple[str, ...]:
+    """What is published, in the order of the alphabet; what is wished for when nobody publishes.
+
+    Whoever subscribes with a wrong type hears nothing, so it says nothing of the topic.
+    """
+    types = {one.type_name for one in publishers} or {one.type_name for one in subscribers}
+    return tuple(sorted(types))
+
+
+def kind_for(topic: str, types: Sequence[str]) -> str:
+    """The display that shows the first of these types that any shows; empty: none does."""
+    from studio.displays.catalogue import displays_of_type  # noqa: PLC0415 - only when it is used
+
+    kinds = (kind.KIND for one in types for kind in displays_of_type(one, topic))
+    return next(kinds, "")
