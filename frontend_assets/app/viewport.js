@@ -9,8 +9,9 @@
 import { effect, signal } from "vendor/preact.js";
 import { moveJoint } from "./actions.js";
 import { isStroke, onKey } from "./commands.js";
+import { keepInScene } from "./frames-in-scene.js";
 import { movable, position, robot } from "./state/document.js";
-import { comparedFrames, litChain } from "./state/frame-pair.js";
+import { comparedFrames, drawnChain, followedFrames, litChain } from "./state/frame-pair.js";
 import { lights } from "./state/origin.js";
 import { mayMove } from "./state/ros.js";
 import { selectedJoint, selectLink } from "./state/selection.js";
@@ -42,7 +43,8 @@ import {
  * @property {(link: string | null) => void} setHover
  * @property {(link: string | null) => void} setSelection
  * @property {(joint: JointView | null) => void} setAxis of the selected joint
- * @property {(links: readonly string[]) => void} setFrames that are compared
+ * @property {(links: readonly string[], others: readonly string[]) => void} setFrames that are compared
+ * @property {(frames: readonly string[]) => void} setChain a line leads from one to the next
  * @property {(changed: readonly string[], moved: readonly string[]) => void} setLit what a property shapes
  * @property {(can: boolean) => void} setCanDrag
  * @property {(unit: "deg" | "rad") => void} setAngleUnit of the value at the cursor
@@ -134,7 +136,9 @@ function tell(view) {
       const name = selectedJoint.value;
       view.setAxis(robot.value?.joints.find((joint) => joint.name === name) ?? null);
     }),
-    effect(() => view.setFrames(comparedFrames.value)),
+    effect(() => view.setFrames(comparedFrames.value.links, comparedFrames.value.others)),
+    effect(() => view.setChain(drawnChain.value)),
+    keepInScene(() => followedFrames.value),
     effect(() => {
       const lit = lights.value ?? { changed_links: [], moved_links: litChain.value };
       view.setLit(lit.changed_links, lit.moved_links);

@@ -5,7 +5,7 @@ const CHARACTER_PX = 8;
 const LINE_PX = 24;
 const SVG = "http://www.w3.org/2000/svg";
 
-/** @typedef {{ places: Place[], kind: "line" | "axis" | "aim" }} Line */
+/** @typedef {{ places: Place[], kind: "line" | "axis" | "aim" | "chain" }} Line */
 /** @typedef {{ place: Place, kind: "point" | "frame" | "axis" | "aim" | "centre" }} Dot */
 /** @typedef {{ place: Place, text: string, kind: "measure" | "aim" | "centre" }} Label */
 

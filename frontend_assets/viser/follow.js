@@ -5,6 +5,8 @@
 
 /** Frames that are no links of the robot, which the studio puts there for who asks. */
 const ROOT = "/live/followed/";
+/** Its name in the scene. @param {string} frame */
+export const followedName = (frame) => ROOT + encodeURIComponent(frame);
 /** m; a frame that moved less stands still. */
 const STILL_M = 1e-6;
 
@@ -52,6 +54,6 @@ export class Follow {
   }
 
   #node() {
-    return this.#robot.node(this.#frame) ?? this.#door.node(ROOT + encodeURIComponent(this.#frame));
+    return this.#robot.node(this.#frame) ?? this.#door.node(followedName(this.#frame));
   }
 }

@@ -1,5 +1,6 @@
 /** @import { Door } from "./door.js" */
 /** @import { JointView, Material, Message, Object3D } from "./viser.d.ts" */
+import { followedName } from "./follow.js";
 import { RobotView } from "./robot.js";
 
 /** Of the robot's size. */
@@ -12,8 +13,8 @@ const AXIS_RGB = [255, 176, 46];
 const MOVES = new Set(["revolute", "continuous", "prismatic"]);
 
 /**
- * Frames of links and the axis of a joint, drawn over everything and in this browser only. They hang
- * on the links' own nodes, so that they move with them.
+ * Frames and the axis of a joint, drawn over everything and in this browser only. They hang on the
+ * nodes of links and of followed frames, so that they move with them.
  */
 export class Marks {
   /** Names of nodes and what makes each, as they stand in the scene. @type {Map<string, Message>} */
@@ -35,11 +36,12 @@ export class Marks {
     door.onPicture(() => this.#raise());
   }
 
-  /** @param {readonly string[]} links whose frames are seen */
-  setFrames(links) {
-    if (links.length + this.#frames.size === 0) return;
+  /** @param {readonly string[]} links whose frames are seen @param {readonly string[]} others that are no links */
+  setFrames(links, others) {
+    if (links.length + others.length + this.#frames.size === 0) return;
+    const nodes = [...links.map(RobotView.nodeName), ...others.map(followedName)];
     const length = FRAME_SHARE * this.#size();
-    this.#frames = new Map(links.map((link) => named(link, "studio_frame", frame(length))));
+    this.#frames = new Map(nodes.map((node) => named(node, "studio_frame", frame(length))));
     this.#show();
   }
 
@@ -49,7 +51,7 @@ export class Marks {
     this.#axes = new Map();
     if (joint && MOVES.has(joint.type) && joint.axis.some((part) => part !== 0)) {
       const drawn = axis(joint.axis, AXIS_SHARE * this.#size());
-      this.#axes.set(...named(joint.child, "studio_axis", drawn));
+      this.#axes.set(...named(RobotView.nodeName(joint.child), "studio_axis", drawn));
     }
     if (before.size + this.#axes.size > 0) this.#show();
   }
@@ -108,9 +110,9 @@ export class Marks {
   }
 }
 
-/** @param {string} link @param {string} below @param {Message} message @returns {[string, Message]} */
-function named(link, below, message) {
-  const name = `${RobotView.nodeName(link)}/${below}`;
+/** @param {string} node @param {string} below @param {Message} message @returns {[string, Message]} */
+function named(node, below, message) {
+  const name = `${node}/${below}`;
   return [name, { ...message, name, owner: "" }];
 }
 

@@ -1,6 +1,7 @@
 /** @import { CameraPose, JointView, RobotState } from "./viser.d.ts" */
 import { Aim } from "./aim.js";
 import { CameraView } from "./camera.js";
+import { ChainLine } from "./chain-line.js";
 import { CloudDetail } from "./cloud-detail.js";
 import { Door } from "./door.js";
 import { LiveExtent } from "./extent.js";
@@ -40,6 +41,7 @@ class Studio3d {
   #theme = new Theme(this.#door, () => this.#camera.distance());
   #looks = new Looks(this.#door, this.#robot, this.#theme);
   #marks = new Marks(this.#door, this.#robot);
+  #chain = new ChainLine(this.#door, this.#robot);
   #measuring = new Measuring(
     this.#door,
     this.#robot,
@@ -174,9 +176,15 @@ class Studio3d {
     this.#marks.setAxis(joint);
   }
 
-  /** The frames of these links are seen, over everything. @param {readonly string[]} links */
-  setFrames(links) {
-    this.#marks.setFrames(links);
+  /** These frames are seen, over everything: of links, and others that are followed.
+   * @param {readonly string[]} links @param {readonly string[]} others */
+  setFrames(links, others) {
+    this.#marks.setFrames(links, others);
+  }
+
+  /** A line leads from each of these frames to the next. @param {readonly string[]} frames */
+  setChain(frames) {
+    this.#chain.set(frames);
   }
 
   /** What a property shapes: links that look otherwise for it, and links that only sit elsewhere.

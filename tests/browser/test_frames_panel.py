@@ -30,7 +30,9 @@ pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(240)
 _LIT = """() => Object.entries(
   document.querySelector("iframe").contentWindow.__viserMutable.nodeRefFromName)
   .filter(([name, node]) => name.endsWith("/studio_frame") && node)
-  .map(([name]) => name.split("/")[2]).sort()"""
+  .map(([name]) => name.split("/").at(-2)).sort()"""
+_CHAIN = """() => document.querySelector("iframe").contentDocument
+  .querySelector("polyline.chain")?.getAttribute("points").split(" ").length ?? 0"""
 _JOINTS = """() => [...document.querySelectorAll(".joint")].map((row) => [
   row.getAttribute("aria-label"),
   Number(row.querySelector("input[type=range]").value)])"""
@@ -89,6 +91,8 @@ def test_the_pose_of_one_frame_in_another_takes_three_clicks(tab: StudioPage):
     assert (box(tab, "Frame whose pose is told"), hand.clicks) == ("camera_head", 3)
     assert box(tab, "Frame in which it is told") == "base_link"
     wait_until("both frames in 3D", lambda: tab.page.evaluate(_LIT) == ["base_link", "camera_head"])
+    on_chain = panel(tab).locator(".on-chain").count()
+    wait_until("a line through all", lambda: tab.page.evaluate(_CHAIN) == on_chain >= 3)
 
     way = tab.page.get_by_role("list", name="Joints between the two frames")
     way.get_by_role("button", name="mast_pan_joint").click()
@@ -111,6 +115,7 @@ def test_the_pose_of_one_frame_in_another_takes_three_clicks(tab: StudioPage):
     wait_until("the lidar", lambda: box(tab, "Frame in which it is told") == "lidar")
     tab.page.get_by_role("tab", name="Source").click()
     wait_until("no frames in 3D", lambda: tab.page.evaluate(_LIT) == [])
+    wait_until("no line", lambda: tab.page.evaluate(_CHAIN) == 0)
     assert tab.errors == []
 
 
@@ -208,6 +213,8 @@ def sees_the_rover_in_odom(tab: StudioPage) -> None:
         for one in panel(tab).locator(".on-chain").all()
     ]
     assert lit == ["odom", "base_footprint", "base_link", "lidar"]
+    wait_until("a frame of TF in 3D, too", lambda: tab.page.evaluate(_LIT) == ["lidar", "odom"])
+    wait_until("a line through all four", lambda: tab.page.evaluate(_CHAIN) == len(lit))
     in_odom = matrix(tab)
     row(tab, "base_footprint").focus()
     tab.page.keyboard.press("Shift+Enter")

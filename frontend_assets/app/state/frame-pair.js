@@ -20,6 +20,8 @@ import { fixedFrame, pair, pairAnswer, tfFrames, tfNames } from "./tf.js";
 
 /** Selections made by this panel are those on the way. */
 export const BY_FRAMES = "frames";
+/** Frames that are no links, which are marked in 3D at once. */
+const FOLLOWED_MAX = 16;
 
 /** @type {Signal<string | null>} */
 const followed = signal(null);
@@ -120,16 +122,47 @@ export const millimetres = remembered("millimetres", false);
 /** Somebody looks at the pose. */
 export const comparing = signal(false);
 
-/** Links whose frames are seen in 3D for it. @type {Signal<readonly string[]>} */
-export const comparedFrames = computed(() => {
-  const frames = comparing.value ? [reference.value, target.value] : [];
-  return frames.filter((frame) => frame !== null).filter((frame) => linkNames.value.has(frame));
+const isLink = (/** @type {string} */ frame) => linkNames.value.has(frame);
+
+/**
+ * A list that is the same while its members are: frames are told anew all the time.
+ *
+ * @param {() => string[]} list
+ * @returns {Signal<readonly string[]>}
+ */
+function steady(list) {
+  const members = computed(() => JSON.stringify(list()));
+  return computed(() => JSON.parse(members.value));
+}
+
+/** The two while somebody looks. */
+const ends = steady(() => {
+  const two = comparing.value ? [reference.value, target.value] : [];
+  return two.filter((frame) => frame !== null);
 });
+
+/** Frames that are seen in 3D for it. */
+export const comparedFrames = computed(() => ({
+  links: ends.value.filter(isLink),
+  others: ends.value.filter((frame) => !isLink(frame)),
+}));
+
+/** All frames of the way, through which a line leads in 3D. */
+export const drawnChain = steady(() =>
+  comparing.value && target.value !== null ? [...chain.value] : [],
+);
+
+/** Those of them that are no links; of a long way the two ends and as many as may be. */
+export const followedFrames = steady(() =>
+  [...new Set([...ends.value, ...drawnChain.value])]
+    .filter((frame) => !isLink(frame))
+    .slice(0, FOLLOWED_MAX),
+);
 
 /** Links on the way that are lit in 3D for it. @type {Signal<readonly string[]>} */
 export const litChain = computed(() => {
   if (!comparing.value || target.value === null) return [];
-  return [...chain.value].filter((frame) => linkNames.value.has(frame));
+  return [...chain.value].filter(isLink);
 });
 
 /** @param {string} frame a link is selected, too */

@@ -1,4 +1,4 @@
-"""FollowedFrames: frames that cameras go with, kept in the scene for as long as somebody asks."""
+"""FollowedFrames: frames that cameras go with or pages mark, kept while somebody asks."""
 
 from __future__ import annotations
 
@@ -15,7 +15,8 @@ if TYPE_CHECKING:
 
 FOLLOWED: Final = "followed"
 """Their root in the scene, beside those of displays; the page knows its name."""
-FOLLOWED_MAX: Final = 16
+FOLLOWED_MAX: Final = 64
+"""By all who look; one page marks sixteen at once, and its camera goes with one."""
 FOLLOWED_FOR_NS: Final = 5_000_000_000
 """After the last question of somebody, who asks every two seconds."""
 

@@ -67,6 +67,6 @@ def test_frames_without_end_are_not_followed():
     for number in range(FOLLOWED_MAX):
         assert followed.ask(f"f{number}", NOW) == ""
     assert followed.ask("one more", NOW) == (
-        "16 other frames are followed already: choose one of those."
+        f"{FOLLOWED_MAX} other frames are followed already: choose one of those."
     )
     assert followed.ask("f3", NOW) == ""
