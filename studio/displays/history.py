@@ -96,6 +96,10 @@ class HistoryDisplay(StillDisplay, Generic[Content]):
         del content
         return 1
 
+    def sizes(self) -> tuple[str, ...]:
+        """Measures of what is drawn, by name; where all are 0 nothing may be seen of a message."""
+        return ()
+
     def placed(self, entry: Entry[Content], shapes: Mapping[str, Shape]) -> Placed:
         """Where the shapes of a message are."""
         return Placed(entry.frame, entry.stamp_ns, shapes)
@@ -130,8 +134,8 @@ class HistoryDisplay(StillDisplay, Generic[Content]):
         super().reset()
 
     def statuses(self) -> tuple[Status, ...]:
-        """What is to be said of the newest message, and what is transparent."""
-        return (*self._told, *self._crowded(), *self.transparent())
+        """What is to be said of the newest message, and what is transparent or of no size."""
+        return (*self._told, *self._crowded(), *self.transparent(), *self._of_no_size())
 
     def _crowded(self) -> tuple[Status, ...]:
         """That fewer messages are kept than are wished."""
@@ -153,6 +157,18 @@ class HistoryDisplay(StillDisplay, Generic[Content]):
             )
             for one in clear
         )  # fmt: skip
+
+    def _of_no_size(self) -> tuple[Status, ...]:
+        """That nothing of the newest message is seen since its measures are set to 0."""
+        newest, names = self.newest, self.sizes()
+        if newest is None or not names or any(map(self.number, names)):
+            return ()
+        if self.shapes(newest.content):
+            return ()
+        are = "is" if len(names) == 1 else "are"
+        words = f"{' and '.join(names)} {are} 0, so nothing of it is seen: raise {names[0]}."
+        mend = (names[0], self._property(names[0]).default)
+        return (Status("warn", "empty", words, mend),)
 
     def number(self, name: str) -> float:
         """The value of a property that is a number."""

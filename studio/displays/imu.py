@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from studio.displays.display import TopicRole
+from studio.displays.display import Status, TopicRole
 from studio.displays.drawing import Arrows, Placed, Solids
 from studio.displays.history import Entry, HistoryDisplay, frame_and_stamp
 from studio.displays.pose_look import (
@@ -38,6 +38,13 @@ _HAS_RATE = (f"{_RATE}/Enable angular velocity", (True,))
 # Of the arrows, for a scale of 1: thickness of shaft and head, and length of the head.
 _SHAFT_M, _HEAD_M, _HEAD_LENGTH_M = 0.5, 1.0, 1.0
 _AXES_THICKNESS = 0.1
+_PARTS = {
+    _HAS_AXES[0]: (f"{_AXES}/Axes scale",),
+    _HAS_BOX[0]: tuple(f"{_BOX}/{axis}_scale" for axis in "xyz"),
+    _HAS_ACCELERATION[0]: (f"{_ACCELERATION}/Acc. vector scale",),
+    _HAS_RATE[0]: (f"{_RATE}/Vector scale",),
+}
+"""What can be shown, by its switch, and the properties that say how large it is."""
 _NO_ATTITUDE = "This unit says that it measures no orientation: it is drawn as no turn."
 
 
@@ -107,7 +114,7 @@ class ImuDisplay(HistoryDisplay[Motion]):
         if self.values[_HAS_AXES[0]]:
             size_m = self.number(f"{_AXES}/Axes scale")
             shapes |= axes_shapes(content.attitude, size_m, size_m * _AXES_THICKNESS)
-        if self.values[_HAS_BOX[0]]:
+        if self.values[_HAS_BOX[0]] and any(map(self.number, _PARTS[_HAS_BOX[0]])):
             shapes["box"] = self._box(content)
         if self.values[_HAS_ACCELERATION[0]]:
             derotated = bool(self.values[f"{_ACCELERATION}/Derotate acceleration"])
@@ -118,13 +125,26 @@ class ImuDisplay(HistoryDisplay[Motion]):
             shapes |= self._arrow("angular velocity", rate, f"{_RATE}/Vector")
         return shapes
 
+    def sizes(self) -> tuple[str, ...]:
+        """Those of what is switched on."""
+        on = (sizes for part, sizes in _PARTS.items() if self.values[part])
+        return tuple(name for sizes in on for name in sizes)
+
+    def statuses(self) -> tuple[Status, ...]:
+        """Also that nothing is switched on."""
+        if any(self.values[part] for part in _PARTS):
+            return super().statuses()
+        words = "None of its parts is switched on, so nothing of it is seen."
+        off = Status("warn", "empty", words, (_HAS_AXES[0], True))
+        return (*super().statuses(), off)
+
     def placed(self, entry: Entry[Motion], shapes: Mapping[str, Shape]) -> Placed:
         """Where the unit is, turned with its frame unless its attitude is that in the world."""
         turns = not self.values[_IN_WORLD]
         return Placed(entry.frame, entry.stamp_ns, shapes, turns=turns)
 
     def _box(self, motion: Motion) -> Solids:
-        scales = np.array([[self.values[f"{_BOX}/{axis}_scale"] for axis in "xyz"]], np.float32)
+        scales = np.array([[self.values[name] for name in _PARTS[_HAS_BOX[0]]]], np.float32)
         return Solids(
             "box",
             motion.attitude.xyz.astype(np.float32),

@@ -14,6 +14,7 @@ from studio.displays.pose_look import (
     pose_of,
     pose_properties,
     pose_shapes,
+    pose_sizes,
 )
 
 if TYPE_CHECKING:
@@ -42,3 +43,7 @@ class PoseDisplay(HistoryDisplay[Poses]):
     def shapes(self, content: Poses) -> dict[str, Shape]:
         """An arrow, or axes."""
         return pose_shapes(content, self.values)
+
+    def sizes(self) -> tuple[str, ...]:
+        """How long the arrow or the axes are."""
+        return pose_sizes(self.values)

@@ -19,6 +19,7 @@ from studio.displays.pose_look import (
     colour_properties,
     length,
     pose_shapes,
+    pose_sizes,
 )
 from studio.displays.properties import Property, rgb_of
 from studio.displays.rows import poses_of_rows
@@ -66,6 +67,10 @@ class PoseArrayDisplay(HistoryDisplay[Poses]):
         if not len(content) or not self.values["Arrow Length"]:
             return {}
         return {"arrows": self._flat(content)}
+
+    def sizes(self) -> tuple[str, ...]:
+        """How long each of them is."""
+        return ("Arrow Length",) if self.values["Shape"] == _FLAT else pose_sizes(self.values)
 
     def _flat(self, poses: Poses) -> Lines:
         along, aside = self.number("Arrow Length") * np.eye(3)[:2]

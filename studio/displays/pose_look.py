@@ -132,6 +132,12 @@ def pose_shapes(poses: Poses, values: Mapping[str, Value], under: str = "") -> d
     )
 
 
+def pose_sizes(values: Mapping[str, Value], under: str = "") -> tuple[str, ...]:
+    """How long a pose is drawn, by the names of properties; where all are 0 it is not."""
+    names = ("Axes Length",) if values["Shape"] == "Axes" else ("Shaft Length", "Head Length")
+    return tuple(f"{under}{name}" for name in names)
+
+
 def arrow_shapes(
     poses: Poses, shaft_m: tuple[float, float], head_m: tuple[float, float], rgb: Rgb, alpha: float
 ) -> dict[str, Shape]:

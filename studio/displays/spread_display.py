@@ -13,7 +13,7 @@ from studio.displays.covariance_look import (
     spread_of,
 )
 from studio.displays.history import Entry, HistoryDisplay, frame_and_stamp
-from studio.displays.pose_look import NOT_FINITE, pose_of, pose_shapes
+from studio.displays.pose_look import NOT_FINITE, pose_of, pose_shapes, pose_sizes
 
 if TYPE_CHECKING:
     from studio.displays.display import Received
@@ -47,3 +47,7 @@ class SpreadDisplay(HistoryDisplay[Spread]):
         """The pose, an ellipsoid, and the spread of its axes."""
         pose = pose_shapes(content.pose, self.values, self.UNDER)
         return pose | covariance_shapes(content, self.values)
+
+    def sizes(self) -> tuple[str, ...]:
+        """How long the pose is: without, how sure it is may still be seen."""
+        return pose_sizes(self.values, self.UNDER)

@@ -17,7 +17,7 @@ from studio.displays.frame_look import (
     name_of,
     shades_of,
 )
-from studio.displays.properties import Property
+from studio.displays.properties import UPDATE_INTERVAL, Property
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 
 NAMES_MAX: Final = 1000
 """Names are nodes of their own, and nobody could read more."""
+_PARTS: Final = ("Show Names", "Show Axes", "Show Arrows")
 _STILL: Final = 1e-6
 """Of a place in m or of a part of a quaternion: who moved less stands still."""
 
@@ -99,6 +100,7 @@ class TfDisplay(Display):
             high=1e6,
             unit="s",
         ),
+        UPDATE_INTERVAL,
         *PROPERTIES,
     )
     SETTINGS_MAX = 25_000
@@ -109,6 +111,7 @@ class TfDisplay(Display):
         self._frames: FramesNow | None = None
         self._seen: _Seen | None = None
         self._drawing: Drawing = NOTHING
+        self._drawn_ns = 0
         self._names: dict[str, Placed] = {}
         self._checks: tuple[tuple[str, ...], Value, tuple[Property, ...]] = ((), True, ())
 
@@ -140,10 +143,12 @@ class TfDisplay(Display):
 
     def draw(self, now_ns: int) -> Drawing:
         """What is to be seen of the frames shown last."""
-        del now_ns
         if self._frames is None or not self.values["Marker Alpha"]:
             self._seen = None
             return NOTHING
+        if self._rests(self._frames.fixed, now_ns):
+            return self._drawing
+        self._drawn_ns = now_ns
         seen = self._look(self._frames)
         before, self._seen = self._seen, seen
         is_same = before is not None and seen.shows_what(before)
@@ -161,6 +166,9 @@ class TfDisplay(Display):
         if not self.values["Marker Alpha"]:
             words = "Marker Alpha is 0, so nothing of the frames is seen."
             return (Status("warn", "transparent", words, ("Marker Alpha", 1.0)),)
+        if not any(self.values[part] for part in _PARTS):
+            words = "Neither names, axes nor arrows of the frames are switched on."
+            return (Status("warn", "empty", words, ("Show Axes", True)),)
         if self._frames is None or not self._frames.names:
             return (Status("warn", "empty", "No transform has come yet."),)
         found = (self._nothing_chosen(), self._not_connected(), self._too_many())
@@ -198,6 +206,11 @@ class TfDisplay(Display):
         drawable = np.abs(frames.wxyz_xyz).max(axis=1, initial=0.0) < 1e30
         shown = self._choice.of(frames.names) & frames.connected & drawable
         return _Seen(frames, shown & (shades.opacity > 0.0), shades)
+
+    def _rests(self, fixed: str, now_ns: int) -> bool:
+        """Whether what is drawn stays as it is until its interval is over."""
+        is_drawn = self._seen is not None and self._seen.frames.fixed == fixed
+        return is_drawn and 0 <= now_ns - self._drawn_ns < self.interval_ns
 
     def _drawn(self, seen: _Seen) -> Drawing:
         shapes: dict[str, Shape] = {}

@@ -11,6 +11,7 @@ from studio.displays.pose_look import NOT_FINITE, switch
 from studio.displays.vector_look import (
     Names,
     Vectors,
+    scale_of,
     too_short,
     vector_properties,
     vector_shapes,
@@ -50,6 +51,13 @@ class VectorDisplay(HistoryDisplay[Vectors]):
     def shapes(self, content: Vectors) -> dict[str, Shape]:
         """An arrow each, and a circle about the one that turns."""
         return vector_shapes(content, self.NAMES, self.values, small_too=self._small_too)
+
+    def sizes(self) -> tuple[str, ...]:
+        """The scales of the newest vectors that are not zero."""
+        if self.newest is None:
+            return ()
+        pairs = zip(self.NAMES, self.newest.content, strict=True)
+        return tuple(scale_of(name) for name, vector in pairs if vector.any())
 
     def statuses(self) -> tuple[Status, ...]:
         """Also that the newest arrows are too short to be seen."""

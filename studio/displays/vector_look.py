@@ -57,9 +57,14 @@ def vector_properties(names: Names) -> tuple[Property, ...]:
     )
 
 
+def scale_of(name: str) -> str:
+    """The name of the property that says how long an arrow is."""
+    return f"{name} Arrow Scale"
+
+
 def _scale(name: str) -> Property:
     doc = f"How long the arrow of a {name.lower()} of 1 is."
-    return Property(f"{name} Arrow Scale", "number", 2.0, doc, 0.0, _SCALE_MAX, "m")
+    return Property(scale_of(name), "number", 2.0, doc, 0.0, _SCALE_MAX, "m")
 
 
 def vectors_of(straight: Any, turning: Any) -> Vectors | None:  # noqa: ANN401 - messages
@@ -71,8 +76,8 @@ def vectors_of(straight: Any, turning: Any) -> Vectors | None:  # noqa: ANN401 -
 def lengths_m(vectors: Vectors, names: Names, values: Mapping[str, Value]) -> tuple[float, float]:
     """How long the two arrows are by the properties."""
     return (
-        float(np.linalg.norm(vectors.straight)) * float(values[f"{names.straight} Arrow Scale"]),
-        float(np.linalg.norm(vectors.turning)) * float(values[f"{names.turning} Arrow Scale"]),
+        float(np.linalg.norm(vectors.straight)) * float(values[scale_of(names.straight)]),
+        float(np.linalg.norm(vectors.turning)) * float(values[scale_of(names.turning)]),
     )
 
 

@@ -13,6 +13,7 @@ TYPE = "sensor_msgs/msg/Imu"
 HALF = math.sqrt(0.5)
 QUARTER_ABOUT_Z = {"w": HALF, "x": 0.0, "y": 0.0, "z": HALF}
 ACCELERATION, RATE = "Acceleration properties", "Angular velocity properties"
+AXES_ON = "Axes properties/Enable axes"
 MESSAGE: dict[str, Any] = {
     "orientation": QUARTER_ABOUT_Z,
     "angular_velocity": point(0.0, 0.0, 2.0),
@@ -125,3 +126,35 @@ def test_numbers_that_cannot_be_drawn_are_told(part: str, number: float):
     display = display_of({part: {"x": number}})
     assert not display.draw(0)
     assert said(display) == [("error", "not_finite")]
+
+
+def test_a_unit_without_any_part_says_what_would_show_it():
+    display = display_of({}, **{AXES_ON: False})
+    assert not display.draw(0)
+    (status,) = display.statuses()
+    assert (status.level, status.reason, status.mend) == ("warn", "empty", (AXES_ON, True))
+    display.set(f"{RATE}/Enable angular velocity", value=True)
+    assert display.draw(0)
+    assert display.statuses() == ()
+
+
+@pytest.mark.parametrize(
+    ("switched_on", "sizes"),
+    [
+        (AXES_ON, ["Axes properties/Axes scale"]),
+        ("Box properties/Enable box", [f"Box properties/{axis}_scale" for axis in "xyz"]),
+        (f"{ACCELERATION}/Enable acceleration", [f"{ACCELERATION}/Acc. vector scale"]),
+        (f"{RATE}/Enable angular velocity", [f"{RATE}/Vector scale"]),
+    ],
+)
+def test_a_part_of_no_size_is_not_seen_and_it_is_said_how_it_would_be(
+    switched_on: str, sizes: list[str]
+):
+    values: dict[str, Any] = {AXES_ON: False, switched_on: True, **dict.fromkeys(sizes, 0.0)}
+    display = display_of({}, **values)
+    assert not display.draw(0)
+    (status,) = display.statuses()
+    assert (status.reason, status.mend) == ("empty", (sizes[0], 1.0))
+    display.set(sizes[0], 1.0)
+    assert display.draw(0)
+    assert display.statuses() == ()

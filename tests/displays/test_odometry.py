@@ -120,3 +120,16 @@ def test_what_is_no_covariance_is_told():
     display = OdometryDisplay(TYPES)
     take(display, pose(), [-1.0, 1.0, 1.0, 1.0, 1.0, 1.0])
     assert said(display) == [("warn", None)]
+
+
+def test_that_its_length_is_0_is_said_only_where_nothing_else_of_a_pose_is_seen():
+    display = driven((1.0, 0.0))
+    for part in ("Shaft Length", "Head Length"):
+        display.set(f"Shape/{part}", 0.0)
+    (status,) = display.statuses()
+    assert (status.reason, status.mend) == ("empty", ("Shape/Shaft Length", 1.0))
+    take(display, pose((5.0, 0.0, 0.0)), [0.01] * 6)
+    assert display.draw(0)
+    assert display.statuses() == ()
+    display.set("Covariance", value=False)
+    assert said(display) == [("warn", "empty")]

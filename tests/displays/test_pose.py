@@ -5,6 +5,7 @@ from typing import Any
 
 import pytest
 
+from studio.displays.display import Status
 from studio.displays.pose import PoseDisplay
 from tests.support.display_messages import STAMP_NS, TYPES, pose, received
 from tests.support.drawn import only, said, shapes_of
@@ -112,6 +113,27 @@ def test_numbers_that_cannot_be_drawn_are_told(number: float, where: int):
     assert said(display) == [("error", "not_finite")]
 
 
-def test_an_arrow_of_no_length_is_not_drawn():
-    assert not display_of(pose(), Shaft_Length=0.0, Head_Length=0.0).draw(0)
-    assert not display_of(pose(), Shape="Axes", Axes_Length=0.0).draw(0)
+@pytest.mark.parametrize(
+    ("values", "words", "mend"),
+    [
+        (
+            {"Shaft_Length": 0.0, "Head_Length": 0.0},
+            "Shaft Length and Head Length are 0, so nothing of it is seen: raise Shaft Length.",
+            ("Shaft Length", 1.0),
+        ),
+        (
+            {"Shape": "Axes", "Axes_Length": 0.0},
+            "Axes Length is 0, so nothing of it is seen: raise Axes Length.",
+            ("Axes Length", 1.0),
+        ),
+    ],
+)
+def test_a_pose_of_no_length_is_not_drawn_and_its_display_says_how_it_would_be(
+    values: dict[str, Any], words: str, mend: tuple[str, float]
+):
+    display = display_of(pose(), **values)
+    assert not display.draw(0)
+    assert display.statuses() == (Status("warn", "empty", words, mend),)
+    display.set(*mend)
+    assert display.draw(0)
+    assert display.statuses() == ()

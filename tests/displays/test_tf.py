@@ -318,3 +318,12 @@ def test_settings_of_frames_are_bounded():
     with pytest.raises(DisplayPropertyError, match="one too many"):
         display.set("Frames/more", value=False)
     display.set("Frames/0", value=True)
+
+
+def test_without_names_axes_and_arrows_it_says_what_would_show_frames():
+    display = shown(Robot(), Show_Names=False, Show_Axes=False, Show_Arrows=False)
+    assert not display.draw(0)
+    (status,) = display.statuses()
+    assert (status.level, status.reason, status.mend) == ("warn", "empty", ("Show Axes", True))
+    display.set("Show Axes", value=True)
+    assert frames_of(display.draw(0)).shapes

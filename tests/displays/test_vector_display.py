@@ -117,3 +117,21 @@ def test_as_many_are_seen_as_the_history_is_long():
             message(WrenchDisplay, "wrench", ("force", "torque"), (force, 0, 0), (0, 0, 0))
         )
     assert len(display.draw(0)) == 2
+
+
+@pytest.mark.parametrize(("kind", "field", "parts", "names"), CASES)
+def test_an_arrow_of_scale_0_is_not_seen_and_its_display_says_how_it_would_be(
+    kind: type[VectorDisplay], field: str, parts: tuple[str, str], names: tuple[str, str]
+):
+    scale = f"{names[0]} Arrow Scale"
+    display = kind(TYPES, {scale: 0.0})
+    assert display.statuses() == ()
+    display.take(message(kind, field, parts, (1, 0, 0), (0, 0, 0)))
+    assert not display.draw(0)
+    (status,) = display.statuses()
+    assert (status.level, status.reason, status.mend) == ("warn", "empty", (scale, 2.0))
+    assert status.sentence == f"{scale} is 0, so nothing of it is seen: raise {scale}."
+    display.set(scale, 2.0)
+    assert display.draw(0)
+    display.take(message(kind, field, parts, (0, 0, 0), (0, 0, 0)))
+    assert display.statuses() == ()

@@ -80,7 +80,7 @@ class MarkersDisplay(Display):
         """Troubles of markers, and why nothing is seen of those that are there."""
         hidden = self._hidden()
         found = statuses_of(self._store, hidden)
-        if not len(self._store) and self._has_heard:
+        if self._has_heard and not len(self._store) and not self._store.refused:
             words = "There are no markers: all were deleted, or their lifetime is over."
             found.append(Status("warn", "empty", words))
         elif len(self._store) and self._store.namespaces() <= hidden:

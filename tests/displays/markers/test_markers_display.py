@@ -148,6 +148,14 @@ def test_it_says_that_all_markers_are_gone():
     ]
 
 
+def test_of_a_marker_that_is_left_out_it_is_not_said_that_it_was_deleted():
+    display = MarkerArrayDisplay(TYPES)
+    display.take(array_of(marker(Kind.CUBE, at=(float("nan"), 0.0, 0.0))))
+    assert display.draw(0) == {}
+    [status] = display.statuses()
+    assert (status.level, status.reason) == ("error", "not_finite")
+
+
 @pytest.mark.parametrize("off", [["Namespaces"], ["Namespaces/lane", "Namespaces/wall"]])
 def test_it_says_that_all_namespaces_are_off_and_how_to_see_them(off: list[str]):
     display = with_lanes()
