@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Final, Literal, NamedTuple, Typ
 
 from studio.displays.drawing import NOTHING, Drawing
 from studio.displays.limits import Limits
+from studio.displays.properties import UPDATE_INTERVAL
 from studio.errors import DisplayPropertyError
 from studio.ros.cdr import Codec
 
@@ -130,8 +131,8 @@ class Display(ABC):
 
     @property
     def interval_ns(self) -> int:
-        """How long what is drawn stays where it is, though its frame may move."""
-        return 0
+        """How long what is drawn stays where it is, whatever /tf tells."""
+        return round(float(self.values.get(UPDATE_INTERVAL.name, 0.0)) * 1e9)
 
     def changed(self, name: str) -> None:
         """A property has another value, or all (empty): what was drawn may look different."""

@@ -82,6 +82,18 @@ class Property:
         return value
 
 
+UPDATE_INTERVAL: Final = Property(
+    "Update Interval",
+    "number",
+    0.0,
+    "Time between two updates; 0 is as often as it can.",
+    low=0.0,
+    high=3600.0,
+    unit="s",
+)
+"""Of displays that show where frames are."""
+
+
 def rgb_of(colour: Value) -> Rgb:
     """The parts of a colour, 0 to 255."""
     text = str(colour)

@@ -11,7 +11,7 @@ import numpy as np
 from studio.displays.display import Received, Status, StillDisplay, TopicRole
 from studio.displays.drawing import NO_TURN, Axes, Placed
 from studio.displays.link_parts import LinkParts, frame_of
-from studio.displays.properties import Property
+from studio.displays.properties import UPDATE_INTERVAL, Property
 from studio.displays.reading import reading
 from studio.errors import DisplayError, DisplayMessageError
 from studio.robot.values import Robot
@@ -69,10 +69,7 @@ class RobotModelDisplay(StillDisplay):
     PROPERTIES: ClassVar[tuple[Property, ...]] = (
         Property("Visual Enabled", "switch", default=True, doc="Shows what the robot looks like."),
         Property("Collision Enabled", "switch", default=False, doc="Shows its collision shapes."),
-        Property(
-            "Update Interval", "number", 0.0, "Time between two updates; 0 is as often as it can.",
-            low=0.0, high=3600.0, unit="s",
-        ),
+        UPDATE_INTERVAL,
         Property("Alpha", "number", 1.0, "How opaque it is: 0 is not seen.", low=0.0, high=1.0),
         Property(
             _SOURCE, "choice", "Topic", "Where the description comes from.",
@@ -131,11 +128,6 @@ class RobotModelDisplay(StillDisplay):
                 return DescriptionSource(kind, str(self.values["Description File"]).strip())
             case "Topic" | "Document":
                 return DescriptionSource(kind)
-
-    @property
-    def interval_ns(self) -> int:
-        """How long links stay where they are, whatever /tf tells."""
-        return round(float(self.values["Update Interval"]) * 1e9)
 
     def show(self, robot: Robot) -> None:
         """This is the robot from now on; of a very large one the first links are shown.

@@ -97,6 +97,33 @@ def test_arrows_lead_from_child_to_parent():
         assert middle == pytest.approx(shafts.positions[at], abs=1e-5)
 
 
+def test_frames_stay_where_they_are_for_as_long_as_is_chosen():
+    robot = Robot()
+    display = shown(robot, Update_Interval=0.5)
+    first = display.draw(S)
+    robot.turn(0.0)
+    display.show(robot.buffer.all_in("odom"))
+    assert display.draw(S + S // 4) is first
+    assert sorted(axes_of(display.draw(S + S // 2)).positions.round(6).tolist())[1:] == [
+        [2.0, 1.0, 0.0],
+        [2.0, 2.0, 0.0],
+    ]
+
+
+def test_another_setting_fixed_frame_or_a_clock_put_back_is_not_waited_for():
+    robot = Robot()
+    display = shown(robot, Update_Interval=3600.0)
+    display.draw(S)
+    display.set("Show Names", value=False)
+    assert not names_in(display.draw(S))
+    display.show(robot.buffer.all_in("base"))
+    assert frames_of(display.draw(S)).frame == "base"
+    robot.turn(0.0)
+    display.show(robot.buffer.all_in("base"))
+    still = display.draw(S)
+    assert display.draw(0) is not still
+
+
 @pytest.mark.parametrize("distance_m", [0.0, 0.0005, 0.05, 3.0])
 @pytest.mark.parametrize("scale", [0.01, 1.0, 100.0])
 def test_arrows_of_any_length_are_as_long_as_the_way(distance_m: float, scale: float):
