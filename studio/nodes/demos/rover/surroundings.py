@@ -36,7 +36,7 @@ class Surroundings:
         self._maps = node.create_publisher(OccupancyGrid, "map", kept)
         self._maps.publish(_map(stamp))
         self._markers = node.create_publisher(MarkerArray, "markers", kept)
-        self._markers.publish(_markers(stamp))
+        self._markers.publish(_markers())
 
     def publish(self, stamp: Time, drive: Drive) -> None:
         """Tell the way from here once around."""
@@ -59,16 +59,14 @@ def _map(stamp: Time) -> OccupancyGrid:
     return grid
 
 
-def _markers(stamp: Time) -> MarkerArray:
+def _markers() -> MarkerArray:
+    """All stand in their frame for good, without a time: told once, they are seen ever after."""
     walls = _marker("walls", 0, Marker.LINE_LIST, _GREY, (0.05, 0.0, 0.0))
     walls.points = list(_wall_edges())
     posts = [_post(number, *place) for number, place in enumerate(POSTS_M.tolist())]
     title = _marker("title", 0, Marker.TEXT_VIEW_FACING, _WHITE, (0.0, 0.0, 0.3))
     title.text, title.pose.position.z = "room of the rover", _TITLE_M
-    array = MarkerArray(markers=[walls, *posts, title])
-    for marker in array.markers:
-        marker.header.stamp = stamp
-    return array
+    return MarkerArray(markers=[walls, *posts, title])
 
 
 def _post(number: int, x: float, y: float, radius_m: float) -> Marker:
@@ -89,6 +87,7 @@ def _marker(
     namespace: str, number: int, kind: int, color: ColorRGBA, scale: tuple[float, float, float]
 ) -> Marker:
     marker = Marker(ns=namespace, id=number, type=kind, action=Marker.ADD, color=color)
+    marker.frame_locked = True
     marker.header.frame_id = "map"
     marker.scale = Vector3(x=scale[0], y=scale[1], z=scale[2])
     marker.pose.orientation.w = 1.0
