@@ -29,10 +29,12 @@ import { ros } from "../app/state/ros.js";
 import { part, selectPart } from "../app/state/selection.js";
 import {
   answered,
+  askPair,
   askTf,
   fixedFrame,
   followTf,
   pairAnswer,
+  pairRefused,
   tfFrames,
   tfRefused,
 } from "../app/state/tf.js";
@@ -144,7 +146,7 @@ function Values() {
   if (source.value === "tf" && pairAnswer.value?.trouble)
     return html`<p class="note frames-trouble" role="status"><${Icon} name="alert" size=${14} /><span>${troubleText(pairAnswer.value.trouble)}</span></p>`;
   const [refused, again] =
-    source.value === "tf" ? [tfRefused.value, askTf] : [framesRefused.value, askFrames];
+    source.value === "tf" ? [pairRefused.value, askPair] : [framesRefused.value, askFrames];
   return refused
     ? html`<${Refusal} sentence=${refused} again=${again} />`
     : html`<p class="note padded">${t("loading")}</p>`;
@@ -171,7 +173,7 @@ function Way() {
   if (!frames) return null;
   return html`<${Steps} label=${t("tf.way")} first=${first}>${frames.map(
     (step) => html`<${TfStep} key=${step.at} step=${step} />`,
-  )}<//><p class="note padded">${t("tf.every_second")}</p>`;
+  )}<//><p class="note padded">${t("tf.told_last")}</p>`;
 }
 
 /** @param {{label: string, first: string, children?: ComponentChildren}} props */

@@ -926,6 +926,7 @@ export interface GetTf {
   type: "get_tf";
   frame?: string;
   seen_from?: string;
+  pose_only?: boolean;
 }
 
 /** Ask who publishes a topic and who subscribes to it, how, and what keeps them apart. */

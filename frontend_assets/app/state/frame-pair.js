@@ -47,11 +47,6 @@ export const reference = computed(
   () => there(chosen.value) ?? robot.value?.root ?? there(fixedFrame.value),
 );
 
-effect(() => {
-  const [seen_from, frame] = [reference.value ?? "", target.value ?? ""];
-  pair.value = { frame, seen_from };
-});
-
 /** All that can be chosen: what TF has, and the robot's links before TF was asked. */
 export const frameNames = computed(() => [...new Set([...tfNames.value, ...linkNames.value])]);
 
@@ -75,6 +70,14 @@ const isOwnPair = computed(() => {
   if (from === null || to === null) return false;
   if (!linkNames.value.has(from) || !linkNames.value.has(to)) return false;
   return frameWay.value ? isOwnWay(tfFrames.value, from, frameWay.value) : !isToldByOthers.value;
+});
+
+// Where joints lead, nobody needs to ask.
+effect(() => {
+  const [seen_from, frame] = isOwnPair.value
+    ? ["", ""]
+    : [reference.value ?? "", target.value ?? ""];
+  pair.value = { frame, seen_from };
 });
 
 /** Joints between the two; null: they are not what leads from one to the other. */

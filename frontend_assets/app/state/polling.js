@@ -7,9 +7,10 @@ import { sharedLook } from "./frames.js";
 /**
  * @param {() => Promise<boolean | void>} ask gives whether there is more to be asked for at once
  * @param {number} everyMs from an answer to the next question
+ * @param {() => boolean} [isOn] whether there is anything to ask; when what it reads changes, it is asked at once
  * @returns {() => () => void} begin to look; gives the end of looking
  */
-export const polled = (ask, everyMs) =>
+export const polled = (ask, everyMs, isOn = () => true) =>
   sharedLook(() => {
     /** @type {ReturnType<typeof setTimeout> | undefined} */
     let timer;
@@ -23,7 +24,7 @@ export const polled = (ask, everyMs) =>
       turn += 1;
       clearTimeout(timer);
       const mine = turn;
-      if (connection.value === "connected") untracked(() => go(mine));
+      if (isOn() && connection.value === "connected") untracked(() => go(mine));
     });
     return () => {
       turn += 1;

@@ -1,22 +1,23 @@
-/** The frames of TF as the studio last told them: asked every second while somebody looks, else never. */
+/** The frames of TF and the pose of one in another, as the studio last told them: asked while somebody looks. */
 
 /** @import { FrameView, TfFrames } from "../../types/wire.d.ts" */
 /** @import { Signal } from "vendor/preact.js" */
 
-import { computed, effect, signal, untracked } from "vendor/preact.js";
+import { computed, effect, signal } from "vendor/preact.js";
 import { withLooseLinks } from "../../lib/frame-tree.js";
-import { connection } from "./connection.js";
 import { documentId, robot } from "./document.js";
-import { sharedLook } from "./frames.js";
+import { polled } from "./polling.js";
 import { askOrKeepWhy } from "./refusals.js";
 
-const EVERY_MS = 1000;
+const TREE_EVERY_MS = 1000;
+/** One pose costs the studio next to nothing. */
+const PAIR_EVERY_MS = 200;
 
 /** Of which frame the pose is told, and in which; empty: of none. @typedef {{frame: string, seen_from: string}} Pair */
 /** @type {Signal<Pair>} */
 export const pair = signal({ frame: "", seen_from: "" });
 
-/** The last answer, and what was asked. @type {Signal<{asked: Pair, told: TfFrames} | null>} */
+/** The last answer. @type {Signal<{told: TfFrames} | null>} */
 export const answered = signal(null);
 /** Why there was none at last; empty: there was. */
 export const tfRefused = signal("");
@@ -32,46 +33,49 @@ export const tfNames = computed(() => new Set(tfFrames.value.map(({ name }) => n
 /** The frame that everything is drawn in. */
 export const fixedFrame = computed(() => answered.value?.told.fixed ?? "");
 
+/** The last pose, and of what. @type {Signal<{asked: Pair, told: TfFrames} | null>} */
+const posed = signal(null);
+/** Why none was told at last; empty: it was. */
+export const pairRefused = signal("");
+
 /** What was told of the pair that is looked at now; null: not yet. */
 export const pairAnswer = computed(() => {
-  const [known, { frame, seen_from }] = [answered.value, pair.value];
+  const [known, { frame, seen_from }] = [posed.value, pair.value];
   const fits = known?.asked.frame === frame && known.asked.seen_from === seen_from;
   return known && fits ? known.told : null;
 });
 
-/** Keep the frames true while somebody looks. @type {() => () => void} gives the end of looking */
-export const followTf = sharedLook(() => {
-  /** @type {ReturnType<typeof setTimeout> | undefined} */
-  let later;
-  let turn = 0;
-  /** @param {number} mine */
-  const go = async (mine) => {
-    if (!document.hidden) await askTf();
-    if (mine === turn) later = setTimeout(go, EVERY_MS, mine);
-  };
-  const end = effect(() => {
-    pair.value;
-    turn += 1;
-    clearTimeout(later);
-    if (connection.value === "connected" && documentId.value !== "") untracked(() => go(turn));
-  });
-  return () => {
-    turn += 1;
-    clearTimeout(later);
-    end();
-  };
+/** Ask for all frames now. */
+export async function askTf() {
+  const told = await askOrKeepWhy({ type: "get_tf" }, tfRefused);
+  if (told?.type === "tf_frames") answered.value = { told };
+}
+
+/** Ask for the pose now. */
+export async function askPair() {
+  const asked = pair.peek();
+  const told = await askOrKeepWhy({ type: "get_tf", ...asked, pose_only: true }, pairRefused);
+  // An answer to an earlier question may come after the next was asked.
+  if (told?.type === "tf_frames" && asked === pair.peek()) posed.value = { asked, told };
+}
+
+const followTree = polled(askTf, TREE_EVERY_MS, () => documentId.value !== "");
+const followPair = polled(askPair, PAIR_EVERY_MS, () => {
+  const { frame, seen_from } = pair.value;
+  return documentId.value !== "" && frame !== "" && seen_from !== "";
 });
 
-/** Ask now. */
-export async function askTf() {
-  const asked = pair.peek();
-  const told = await askOrKeepWhy({ type: "get_tf", ...asked }, tfRefused);
-  // An answer to an earlier question may come after the next was asked.
-  if (told?.type === "tf_frames" && asked === pair.peek()) answered.value = { asked, told };
+/** Keep the frames and the pose true while somebody looks. @returns {() => void} the end of looking */
+export function followTf() {
+  const ends = [followTree(), followPair()];
+  return () => {
+    for (const end of ends) end();
+  };
 }
 
 // Another document has other frames.
 effect(() => {
   documentId.value;
   answered.value = null;
+  posed.value = null;
 });

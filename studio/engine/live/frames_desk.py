@@ -181,8 +181,18 @@ class FramesDesk:
 
     def answer(self, asked: GetTf, fixed: str) -> TfFrames:
         """All frames, as the page lists them, and where one is in another; in any thread."""
-        rows = self.buffer.report(fixed, most=_FRAMES_SHOWN)
         pose, trouble = self._pose(asked.seen_from, asked.frame)
+        if asked.pose_only:
+            return TfFrames(
+                request=asked.request,
+                fixed=fixed,
+                frames=(),
+                more=0,
+                refused=(),
+                pose=pose,
+                trouble=trouble,
+            )
+        rows = self.buffer.report(fixed, most=_FRAMES_SHOWN)
         return TfFrames(
             request=asked.request,
             fixed=fixed,

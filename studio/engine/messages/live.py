@@ -103,6 +103,8 @@ class GetTf(CommandMessage):
     type: Literal["get_tf"] = "get_tf"
     frame: RosName = ""
     seen_from: RosName = ""
+    pose_only: bool = False
+    """Of all frames nothing is told: then it may be asked many times a second."""
 
 
 class FollowFrame(CommandMessage):

@@ -99,6 +99,8 @@ def test_the_answer_names_who_tells_of_each_frame_and_the_way_between_two():
     assert told["base"] == ("/talker", False)
     assert told["tip"] == ("this robot", True)
     assert told["lamp"] == ("00" * 16, True)
+    only = desk.answer(GetTf(frame="tip", seen_from="odom", pose_only=True), desk.fixed)
+    assert (only.pose, only.frames, only.more) == (answer.pose, (), 0)
 
 
 def test_what_is_refused_is_told_in_sentences_of_which_few_are_kept():
