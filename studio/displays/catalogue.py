@@ -98,11 +98,6 @@ def displays_of_type(type_name: str, topic: str = "") -> tuple[type[Display], ..
     )
 
 
-def drawn_types() -> tuple[str, ...]:
-    """All types of messages that some display draws, in the order of the alphabet."""
-    return tuple(sorted({name for one in DISPLAYS for name in _types_of(one)}))
-
-
 def _types_of(display: type[Display]) -> tuple[str, ...]:
     """What one looks for: of transforms there is one buffer, which serves TF and all others."""
     if issubclass(display, TfDisplay):

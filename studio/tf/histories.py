@@ -40,11 +40,6 @@ class Histories:
         self._end = np.zeros(0, np.int64)
         self._static = np.zeros(0, np.bool_)
 
-    @property
-    def rows_held(self) -> int:
-        """How many rows the pool has given out since the beginning, free ones with them."""
-        return self._used
-
     def fit(self, count: int) -> None:
         """Let there be frames of numbers below this."""
         if count > len(self._block):

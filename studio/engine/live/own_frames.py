@@ -76,11 +76,6 @@ class OwnFrames:
         """All its links."""
         return self._robot.kinematics.link_names
 
-    @property
-    def left_to_others(self) -> int:
-        """Frames that the wire tells of, as far as they are known."""
-        return len(self._told_by_others)
-
     def leave_to_others(self, names: tuple[str, ...], who: str = "") -> None:
         """Tell no more of frames that somebody on the wire tells of."""
         if all(name in self._told_by_others for name in names):

@@ -100,12 +100,16 @@ def test_only_what_moved_is_told():
     assert buffer.told == 5  # the tip, and the shoulder that is at 0 again
 
 
-def test_names_without_end_do_not_fill_the_memory():
-    own = OwnFrames(Posed(arm()), TransformBuffer())
+def test_of_names_without_end_only_the_robots_own_are_kept_in_mind():
+    buffer, posed = TransformBuffer(), Posed(arm())
+    own = OwnFrames(posed, buffer)
     own.step()
     own.leave_to_others(tuple(f"far{number}" for number in range(FRAMES_MAX)))
-    held = own.left_to_others
-    own.leave_to_others(tuple(f"farther{number}" for number in range(1000)))
-    assert own.left_to_others == held == FRAMES_MAX
-    own.leave_to_others(("tip",))
-    assert own.left_to_others == held + 1
+    own.leave_to_others(("hand",))
+    posed.become(arm(tip="hand"))
+    own.step()
+    assert x_m(buffer, "hand") == 0.5
+    own.leave_to_others(("hand",))
+    own.step()
+    with pytest.raises(UnknownFrameError):
+        buffer.fixed_from("base", "hand")
