@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import islice
 from typing import TYPE_CHECKING, Final, Protocol
 
@@ -13,6 +14,7 @@ from studio.engine.live.followed_frames import FollowedFrames
 from studio.engine.live.frames_desk import STILL, FramesDesk, KnowsPublishers
 from studio.engine.live.reasons import remarks_on
 from studio.engine.live.running import RunningDisplay
+from studio.engine.live.topics_now import KnowsTopics, TopicsNow
 from studio.engine.messages.live import (
     DisplayState,
     DisplayStates,
@@ -43,6 +45,10 @@ _SENTENCE_MAX: Final = 600
 _NO_TOPIC: Final = TopicRole("", (), depth=1)
 
 
+class KnowsGraph(KnowsPublishers, KnowsTopics, Protocol):
+    """What displays need of the graph."""
+
+
 class Connected(Hearing, Protocol):
     """What displays need of a connection."""
 
@@ -52,7 +58,7 @@ class Connected(Hearing, Protocol):
         ...
 
     @property
-    def graph(self) -> KnowsPublishers:
+    def graph(self) -> KnowsGraph:
         """Who publishes."""
         ...
 
@@ -114,11 +120,13 @@ class DrawingRoom:
         """Have TF and those that are shown heard, and no others; in a thread."""
         self.frames.listen(link, link.graph)
         wanted, connected = set(shown), link.is_connected
+        topics = TopicsNow(link.graph)
         if connected:  # else all seem to be gone
             self.frames.look(link.graph)
         for display, running in tuple(self._running.items()):
             if display in wanted:
                 running.listen(link, link.graph.publishers, connected=connected)
+                running.look_around(topics)
             else:
                 running.deafen()
 
@@ -189,7 +197,8 @@ class DrawingRoom:
         running = self._running[spec.id]
         age_s = running.age_s(now_ns)
         more = self._of_meshes(spec.id)
-        remarks = remarks_on(running.facts(now_ns, shown=displays.is_shown(spec), more=more))
+        facts = running.facts(now_ns, shown=displays.is_shown(spec), more=more)
+        remarks = remarks_on(replace(facts, frame=self.frames.offered_for(facts.frame)))
         if fault := self._faults.get(spec.id):
             remarks = (Remark(level="error", reason="too_much", sentence=fault), *remarks)
         return DisplayState(

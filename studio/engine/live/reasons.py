@@ -49,11 +49,12 @@ class Facts:
         types: Of messages that it shows; empty: it listens to no topic.
         fitting_kind: The display that shows what is published on the topic; empty: none.
         wire: Who publishes.
+        instead: A topic that is published and would fit; empty: there is none.
         heard: Messages that came.
         silent_s: Since the last one, when it is longer ago than is usual of them.
         trouble: Why the topic cannot be heard at all, in a sentence.
         frames: Why parts of the drawing have no place.
-        frame: The first of their frames; in it they have a place at any time.
+        frame: In it everything can be drawn so that the first of them has a place; empty: in none.
         stamp_zero: Whether messages come without a time.
         statuses: What the display itself says.
         draws: Whether anything of it is on screen.
@@ -65,6 +66,7 @@ class Facts:
     types: tuple[str, ...] = ()
     fitting_kind: str = ""
     wire: OnWire = OnWire()
+    instead: str = ""
     heard: int = 0
     silent_s: float | None = None
     trouble: str = ""
@@ -114,10 +116,16 @@ def _remarks(facts: Facts) -> Iterator[Remark]:
             "have the publisher stamp them.",
         )
     for status in facts.statuses:
-        mend = _of_property(facts.spec, *status.mend) if status.mend else None
-        yield Remark(
-            level=status.level, reason=status.reason or "", sentence=status.sentence, mend=mend
-        )
+        yield _said_by_itself(facts, status)
+
+
+def _said_by_itself(facts: Facts, status: Status) -> Remark:
+    mend = _of_property(facts.spec, *status.mend) if status.mend else None
+    if status.reason == "not_connected_frame" and facts.frame:
+        mend = _drawn_in(facts.frame)
+    return Remark(
+        level=status.level, reason=status.reason or "", sentence=status.sentence, mend=mend
+    )
 
 
 def _hidden(facts: Facts) -> Iterator[Remark]:
@@ -138,7 +146,8 @@ def _silence(facts: Facts) -> Remark | None:
     """Why no message comes, or none that can be shown."""
     spec, wire = facts.spec, facts.wire
     if not spec.topic:
-        return _warn("no_topic", f"{spec.kind} listens to no topic yet: choose one.")
+        sentence = f"{spec.kind} listens to no topic yet: choose one."
+        return _warn("no_topic", sentence, _other_topic(facts))
     if wire.lost:
         return _error(
             "connection_lost",
@@ -159,7 +168,8 @@ def _fault_of_publishers(facts: Facts) -> Remark | None:
     """Nobody publishes the topic, or none publishes what can be shown."""
     spec, wire = facts.spec, facts.wire
     if wire.publishers == 0:
-        return _error("no_publisher", f"Nobody publishes {spec.topic}: start its node.")
+        sentence = f"Nobody publishes {spec.topic}: start its node."
+        return _error("no_publisher", sentence, _other_topic(facts))
     if not set(wire.types) & set(facts.types):
         return _other_type(facts)
     if wire.foreign_hash:
@@ -169,6 +179,20 @@ def _fault_of_publishers(facts: Facts) -> Remark | None:
             "cannot be read here: run both sides with the same distribution of ROS 2.",
         )
     return None
+
+
+def _other_topic(facts: Facts) -> Mend | None:
+    """Listen to one that is there."""
+    if not facts.instead:
+        return None
+    return Mend(
+        label=f"Listen to {facts.instead}",
+        command={
+            "type": "set_display_topic",
+            "display": facts.spec.id,
+            "topic": facts.instead,
+        },
+    )
 
 
 def _other_type(facts: Facts) -> Remark:
@@ -218,7 +242,7 @@ def _drawn_in(frame: str) -> Mend:
 
 def _of_property(spec: DisplaySpec, name: str, value: bool | float | str) -> Mend:  # noqa: FBT001
     return Mend(
-        label=f"Set {name} to {value}",
+        label=_label(name, value),
         command={
             "type": "set_display_property",
             "display": spec.id,
@@ -226,6 +250,14 @@ def _of_property(spec: DisplaySpec, name: str, value: bool | float | str) -> Men
             "value": value,
         },
     )
+
+
+def _label(name: str, value: bool | float | str) -> str:  # noqa: FBT001
+    if isinstance(value, bool):
+        return f"Switch {'on' if value else 'off'} {name}"
+    if value == "":
+        return f"Clear {name}"
+    return f"Set {name} to {value:g}" if isinstance(value, float) else f"Set {name} to {value}"
 
 
 def _warn(reason: str, sentence: str, mend: Mend | None = None) -> Remark:

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from studio.engine.live.display_list import DisplaySpec
     from studio.engine.live.ear import Hearing, Wish
     from studio.engine.live.placing import Lookup, Shown
+    from studio.engine.live.topics_now import TopicsNow
     from studio.errors import FrameError
     from studio.ros.graph.endpoints import GraphEndpoint
     from studio.ros.types.library import TypeLibrary
@@ -59,6 +60,7 @@ class RunningDisplay:
         """Who listens and who ends that come from different threads."""
         self._closed = False
         self._wire = OnWire()
+        self._instead = ""
         self._trouble = ""
         self._bad_message = ""
         self._placed_ns = 0
@@ -99,13 +101,18 @@ class RunningDisplay:
             if not self._closed:
                 self._listen(hearing, publishers_of, connected=connected)
 
+    def look_around(self, topics: TopicsNow) -> None:
+        """Know what to listen to instead, as long as nobody publishes its topic; in a thread."""
+        lacks = self._wire.publishers == 0
+        self._instead = topics.instead_of(self.spec.topic, self.display) if lacks else ""
+
     def deafen(self) -> None:
         """Stop listening, as when the connection is no more."""
         with self._turn:
             ears, self._ears = self._ears, {}
             for ear in ears.values():
                 ear.close()
-            self._wire = OnWire()
+            self._wire, self._instead = OnWire(), ""
 
     def close(self) -> None:
         """Stop listening for good, also if somebody is about to listen."""
@@ -178,6 +185,7 @@ class RunningDisplay:
             types=roles[0].types if roles else (),
             fitting_kind=fitting.KIND if fitting else "",
             wire=self._wire,
+            instead=self._instead,
             heard=ear.mailbox.heard if ear else 0,
             silent_s=age_s if age_s is not None and age_s > self._patience_s else None,
             trouble=self._trouble,

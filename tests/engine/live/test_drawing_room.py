@@ -31,6 +31,9 @@ class Graph:
             raise RosNameError(topic, "it has a space")
         return (publisher(POSE),)
 
+    def topics(self) -> Sequence[tuple[str, Sequence[str]]]:
+        return (("/goal", (POSE,)),)
+
     def endpoint_of_gid(self, gid: bytes) -> GraphEndpoint | None:
         del gid
         return None

@@ -25,6 +25,12 @@ GROUPED = replace(SPEC, group="Sensors")
 CLOUD = "sensor_msgs/msg/PointCloud2"
 EMPTY = Status("warn", "transparent", "Its alpha is 0.", ("Alpha", 1.0))
 
+APART = Status("error", "not_connected_frame", "Nothing connects a with mapp.")
+
+
+def mended_by(name: str, value: bool | str) -> Status:
+    return Status("warn", "empty", "Nothing of it is seen.", (name, value))
+
 
 def test_of_a_display_that_shows_what_it_should_nothing_else_is_said():
     assert [one.level for one in remarks_on(WELL)] == ["ok"]
@@ -94,6 +100,11 @@ def test_each_reason_is_one_sentence(facts: Facts, reason: str, words: str):
             replace(WELL, wire=OnWire(True, 1, (CLOUD,)), fitting_kind="PointCloud2"),
             "Add a PointCloud2 for it",
         ),
+        (
+            replace(WELL, spec=replace(SPEC, topic=""), instead="/scan"),
+            "Listen to /scan",
+        ),
+        (replace(WELL, wire=OnWire(True), instead="/front/scan"), "Listen to /front/scan"),
         (replace(WELL, frames=(NEAREST,)), "Draw everything in base"),
         (
             replace(WELL, frames=(ExtrapolationError("a", 1, 2, 3),), frame="map"),
@@ -103,7 +114,12 @@ def test_each_reason_is_one_sentence(facts: Facts, reason: str, words: str):
             replace(WELL, frames=(UnknownFrameError("odom"),), frame="laser"),
             "Draw everything in laser",
         ),
-        (replace(WELL, statuses=(EMPTY,)), "Set Alpha to 1.0"),
+        (replace(WELL, statuses=(EMPTY,)), "Set Alpha to 1"),
+        (replace(WELL, statuses=(mended_by("Show Axes", value=True),)), "Switch on Show Axes"),
+        (replace(WELL, statuses=(mended_by("Covariance", value=False),)), "Switch off Covariance"),
+        (replace(WELL, statuses=(mended_by("Filter", ""),)), "Clear Filter"),
+        (replace(WELL, statuses=(mended_by("Shape", "Axes"),)), "Set Shape to Axes"),
+        (replace(WELL, statuses=(APART,), frame="odom"), "Draw everything in odom"),
         (replace(WELL, spec=GROUPED, shown=False), "Show Sensors"),
     ],
 )
@@ -129,3 +145,8 @@ def test_of_a_robot_without_any_frame_the_first_are_told_and_how_many_more_there
     assert [one.sentence for one in remarks[:3]] == [str(error) for error in links[:3]]
     assert remarks[3].sentence == "37 more of its frames have no place in the fixed frame."
     assert remarks[4].reason == "transparent"
+
+
+def test_where_no_frame_would_help_none_is_offered():
+    lost = replace(WELL, frames=(UnknownFrameError("laser"),), statuses=(APART,))
+    assert [one.mend for one in remarks_on(lost)] == [None, None]
