@@ -1,5 +1,6 @@
 /** @import { Door } from "./door.js" */
-/** @import { Message, Object3D } from "./viser.d.ts" */
+/** @import { Message } from "./viser.d.ts" */
+import { isSeen } from "./seen.js";
 
 /**
  * The data of a cloud as it came: three numbers for each point, and three bytes, or three for all.
@@ -237,11 +238,3 @@ export class CloudDetail {
 
 /** @param {any} renderer as three.js has it @returns {WebGL2RenderingContext | null} */
 const contextOf = (renderer) => renderer.getContext?.() ?? null;
-
-/** @param {Object3D | null | undefined} object */
-function isSeen(object) {
-  if (!object) return false;
-  let above = /** @type {Object3D | null} */ (object);
-  while (above?.visible) above = above.parent;
-  return above === null;
-}

@@ -1,6 +1,7 @@
 /** @import { Door } from "./door.js" */
 /** @import { Object3D, Vector3 } from "./viser.d.ts" */
 import { boxCorners } from "./robot.js";
+import { isSeen } from "./seen.js";
 
 const ROOT = "/live/";
 /** So many places of one node are looked at, spread over all of them. */
@@ -55,13 +56,6 @@ function around(points) {
   const box = boxOf(points.map(({ x, y, z }) => [x, y, z]));
   const [first] = points;
   return box && first ? cornersOfBox(box).map((corner) => first.clone().set(...corner)) : [];
-}
-
-/** @param {Object3D} object */
-function isSeen(object) {
-  for (let one = /** @type {Object3D | null} */ (object); one; one = one.parent)
-    if (!one.visible) return false;
-  return true;
 }
 
 /** @param {Object3D} object @param {Props} props @returns {Vector3[]} */

@@ -12,7 +12,7 @@ const NEUTRAL_TONES = 7;
 const FADE = 16;
 
 /** @type {Record<ThemeName, { cell: Rgb, section: Rgb, accent: string, shadow: number }>} */
-export const THEMES = {
+const THEMES = {
   dark: { cell: [66, 75, 91], section: [88, 100, 120], accent: "#4db3ff", shadow: 0.6 },
   light: { cell: [150, 160, 178], section: [122, 135, 158], accent: "#1769d2", shadow: 0.28 },
 };
