@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 Reason: TypeAlias = Literal[
     "no_points", "not_finite", "out_of_range", "transparent", "empty", "bad_message",
-    "no_mesh", "unknown_field", "no_camera_info", "unsupported", "thinned",
+    "no_mesh", "unknown_field", "no_camera_info", "unsupported", "thinned", "not_connected_frame",
 ]  # fmt: skip
 """Why nothing, or not everything, is seen, as far as the display itself can know."""
 

@@ -192,7 +192,7 @@ class TfDisplay(Display):
         names = [self._frames.names[row] for row in lost[:3]]
         more = f" and {len(lost) - len(names)} more" if len(lost) > len(names) else ""
         words = f"Nothing connects {', '.join(names)}{more} with {self._frames.fixed}."
-        return Status("error", None, words)
+        return Status("error", "not_connected_frame", words)
 
     def _too_many(self) -> Status | None:
         count = 0 if self._seen is None else int(self._seen.shown.sum())

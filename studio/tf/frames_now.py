@@ -5,6 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+import numpy as np
+
+from studio.tf.forest import NONE
 from studio.tf.rotations import IDENTITY, Pose
 
 if TYPE_CHECKING:
@@ -43,3 +46,13 @@ class FramesNow:
             return IDENTITY if frame == self.fixed else None
         w, x, y, z, px, py, pz = self.wxyz_xyz[row].tolist()
         return w, x, y, z, px, py, pz
+
+    def root_of_most(self) -> str:
+        """The root of the largest tree, of several the first by name; empty without any frame."""
+        if not self.names:
+            return ""
+        reached = np.where(self.parents == NONE, np.arange(len(self.names)), self.parents)
+        while (further := reached[reached]).tobytes() != reached.tobytes():
+            reached = further
+        counts = np.bincount(reached)
+        return min(self.names[row] for row in np.flatnonzero(counts == counts.max()).tolist())

@@ -299,7 +299,7 @@ def test_frames_of_another_tree_are_told():
     display = shown(Robot())
     display.draw(0)
     (told,) = display.statuses()
-    assert told.level == "error"
+    assert (told.level, told.reason) == ("error", "not_connected_frame")
     assert told.sentence == "Nothing connects camera, lens with odom."
     display.set("Frames/camera", value=False)
     display.set("Frames/lens", value=False)

@@ -12,7 +12,7 @@ from studio.engine.messages.live import FrameView, GetTf, TfFrames, TfPose
 from studio.errors import CdrError, FrameError
 from studio.ros.fast.transforms import TransformCodec
 from studio.ros.qos import DurabilityPolicy, QoSProfile
-from studio.tf.admission import Notice
+from studio.tf.admission import Notice, plain
 from studio.tf.buffer import TransformBuffer
 
 if TYPE_CHECKING:
@@ -170,6 +170,19 @@ class FramesDesk:
             return self.lookup(root, 0), ""
         except FrameError as error:
             return None, str(error)
+
+    def offered_for(self, frame: str) -> str:
+        """In which frame everything may be drawn so that a part in this one has a place.
+
+        Where nothing tells of the fixed frame it is the same for all parts; where nothing tells of
+        the frame of the part it is none, which is empty, unless nobody tells of any frame at all.
+        """
+        now = self._newest()
+        if not now.names:
+            return frame
+        if now.fixed not in now.rows:
+            return now.root_of_most()
+        return frame if plain(frame) in now.rows else ""
 
     def trouble_of(self, frame: str) -> str:
         """Why it is not known where a frame is, in a sentence; empty: it is."""

@@ -204,3 +204,23 @@ def test_who_listens_again_hears_once_and_who_is_closed_never():
     desk.close()
     desk.listen(heard, Known())
     assert heard.takers == {}
+
+
+def test_where_the_fixed_frame_is_misspelt_all_parts_are_offered_the_root_of_most_frames():
+    desk, heard = listening()
+    heard.say("/tf", message_of(Told("map", "goal", S)))
+    desk.chosen = "mapp"
+    assert {desk.offered_for(frame) for frame in ("", "laser", "goal", "tip")} == {desk.own.root}
+
+
+def test_only_a_frame_that_somebody_tells_of_is_offered():
+    desk, heard = listening()
+    heard.say("/tf", message_of(Told("map", "goal", S)))
+    assert desk.offered_for("/goal") == "/goal"
+    assert desk.offered_for("laser") == ""
+
+
+def test_without_any_transform_the_frame_that_messages_name_is_offered():
+    desk = FramesDesk(Posed(arm()))
+    desk.chosen = "map"
+    assert desk.offered_for("laser") == "laser"

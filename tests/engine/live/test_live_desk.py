@@ -207,6 +207,24 @@ def test_frames_of_an_opened_file_are_there_without_ros(tmp_path: Path):
     asyncio.run(run())
 
 
+def test_in_a_fixed_frame_that_nobody_tells_of_all_rows_offer_the_same_one(tmp_path: Path):
+    async def run() -> None:
+        async with studio("tcp/127.0.0.1:1", tmp_path) as one:
+            await one.do(v.AddDisplay(kind="TF"))
+            await one.do(v.AddDisplay(kind="Axes"))
+            axes = v.SetDisplayProperty(display="d2", name="Reference Frame", value="tip")
+            await one.do(axes)
+            await one.do(v.SetFixedFrame(frame="mapp"))
+            await until(
+                lambda: (said(one), said(one, 1)) == (["not_connected_frame"], ["no_frame"])
+            )
+            states = one.ear.last("display_states")["states"]
+            offers = [state["remarks"][0]["mend"]["command"]["frame"] for state in states]
+            assert offers == ["base", "base"]
+
+    asyncio.run(run())
+
+
 def test_without_a_router_a_display_says_so_and_stays(tmp_path: Path):
     async def run() -> None:
         async with studio("tcp/127.0.0.1:1", tmp_path) as one:
