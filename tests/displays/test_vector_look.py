@@ -53,6 +53,8 @@ def test_any_turn_draws_a_circle_across_its_arrow(turning: tuple[float, ...], wi
     assert isinstance(arrow, Arrows)
     assert isinstance(circle, Lines)
     tip = arrow.ends[0, 1].astype(np.float64)
+    if np.linalg.norm(tip) < 1e-30:  # float32 has no digits left for what no eye sees
+        return
     across = np.diff(circle.ends.astype(np.float64), axis=1)[:, 0]
     size = np.linalg.norm(tip) * np.linalg.norm(across, axis=1)
     assert (np.abs(across @ tip) <= 1e-3 * size).all()
