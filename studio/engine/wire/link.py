@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from studio.robot.kinematics import Kinematics
     from studio.robot.values import Robot
     from studio.ros.graph.graph import Graph
-    from studio.ros.node.info import MessageInfo
+    from studio.ros.node.info import TakeBytes
     from studio.ros.node.subscription import MessageCallback
     from studio.ros.qos import QoSProfile
     from studio.ros.types.classes import MessageValue
@@ -184,11 +184,7 @@ class WireLink:
         return self._subscribed(type_name, topic, take, qos)
 
     def hear(
-        self,
-        type_name: str,
-        topic: str,
-        take: Callable[[bytes, MessageInfo], None],
-        qos: QoSProfile,
+        self, type_name: str, topic: str, take: TakeBytes, qos: QoSProfile
     ) -> Callable[[], None]:
         """Hear a topic's messages as bytes, in the thread of the link; gives what ends that.
 

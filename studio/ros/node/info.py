@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import inspect
-from typing import TYPE_CHECKING, TypedDict
+from typing import TYPE_CHECKING, TypeAlias, TypedDict
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -19,6 +19,10 @@ class MessageInfo(TypedDict):
     publication_sequence_number: int
     reception_sequence_number: int | None
     publisher_gid: bytes
+
+
+TakeBytes: TypeAlias = "Callable[[bytes, MessageInfo], None]"
+"""Takes a message as it came, and what came with it."""
 
 
 def info_of(sample: RawSample) -> MessageInfo:
