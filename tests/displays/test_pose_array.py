@@ -143,3 +143,26 @@ def test_a_limit_from_outside_is_held():
     display.take(received(TYPE, {"poses": [pose((float(x), 0.0, 0.0)) for x in range(5)]}))
     display.set("Shape", "Axes")
     assert plain(only(display).shapes["axes"])["positions"] == [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0]]
+
+
+@pytest.mark.parametrize(
+    ("shape", "sizes"),
+    [
+        ("Arrow (Flat)", ["Arrow Length"]),
+        ("Arrow (3D)", ["Shaft Length", "Head Length"]),
+        ("Axes", ["Axes Length"]),
+    ],
+)
+def test_poses_of_no_length_are_not_drawn_and_their_display_says_how_they_would_be(
+    shape: str, sizes: list[str]
+):
+    display = display_of([pose()])
+    for name, value in (("Shape", shape), *((size, 0.0) for size in sizes)):
+        display.set(name, value)
+    assert not display.draw(0)
+    (status,) = display.statuses()
+    assert status.mend is not None
+    assert (status.reason, status.mend[0]) == ("empty", sizes[0])
+    display.set(*status.mend)
+    assert display.draw(0)
+    assert display.statuses() == ()
