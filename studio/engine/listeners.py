@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Generic, Protocol, TypeVar
 
 if TYPE_CHECKING:
     from studio.engine.messages import Event
     from studio.engine.roles import Role
+
+_Told = TypeVar("_Told", bound="Event")
 
 
 class Listener(Protocol):
@@ -55,3 +57,21 @@ class Audience:
         """Send encoded bytes to all."""
         for listener in tuple(self._listeners):
             listener.post(data, binary=binary, key=key)
+
+
+class LastTold(Generic[_Told]):
+    """What an audience was told last of one thing, so that it hears only news.
+
+    Attributes:
+        event: None before the first.
+    """
+
+    def __init__(self, audience: Audience) -> None:
+        self._audience = audience
+        self.event: _Told | None = None
+
+    def tell(self, event: _Told) -> None:
+        """Tell it, unless it was the last thing told."""
+        if event != self.event:
+            self.event = event
+            self._audience.tell(event)

@@ -8,6 +8,7 @@ import time
 from dataclasses import replace
 from typing import TYPE_CHECKING, Final
 
+from studio.engine.listeners import LastTold
 from studio.engine.live.display_file import DisplayFile, KeptDisplays
 from studio.engine.live.display_list import DisplayList, Listening
 from studio.engine.messages import live as m
@@ -65,8 +66,8 @@ class LiveDesk:
         self._fault = ""
         self._looked_s = 0.0
         self._asked_until_s = 0.0
-        self._told: m.DisplayStates | None = None
-        self._told_displays: m.LiveDisplays | None = None
+        self._states = LastTold[m.DisplayStates](document.board.audience)
+        self._settings = LastTold[m.LiveDisplays](document.board.audience)
         self._closed = False
 
     @property
@@ -107,8 +108,8 @@ class LiveDesk:
         self._seen_s = time.monotonic()
         self._go_on()
         yield self._displays()
-        if self._told is not None:
-            yield self._told
+        if self._states.event is not None:
+            yield self._states.event
 
     async def add(self, command: m.AddDisplay) -> None:
         """Add a display; with a topic, the connection is made if there is none."""
@@ -357,17 +358,11 @@ class LiveDesk:
             await asyncio.to_thread(self._room.listen, link, shown)
 
     def _tell_states(self) -> None:
-        news = self._room.states(self._list, time.time_ns())
-        if news != self._told:
-            self._told = news
-            self._document.board.audience.tell(news)
+        self._states.tell(self._room.states(self._list, time.time_ns()))
 
     def _tell_displays(self) -> None:
         """Tell how all are set, if that is news: how they listen changes with who publishes."""
-        news = self._displays()
-        if news != self._told_displays:
-            self._told_displays = news
-            self._document.board.audience.tell(news)
+        self._settings.tell(self._displays())
 
     def _displays(self) -> m.LiveDisplays:
         return m.LiveDisplays(

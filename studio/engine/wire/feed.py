@@ -8,6 +8,7 @@ from contextlib import asynccontextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final, Literal
 
+from studio.engine.listeners import LastTold
 from studio.engine.messages.wire import WireFeed
 from studio.engine.wire.sending import RobotSending
 from studio.errors import CommandError, StudioError
@@ -47,7 +48,7 @@ class FeedDesk:
         self._following: JointsIn | None = None
         self._source: Literal["sliders", "joint_states", "tf"] = "sliders"
         self._described: _Described | None = None
-        self._told: WireFeed | None = None
+        self._told = LastTold[WireFeed](document.board.audience)
         self._told_s = 0.0
         self._ticking: asyncio.Task[None] | None = None
         self._turn = asyncio.Lock()
@@ -209,10 +210,7 @@ class FeedDesk:
             described.trouble = str(error)
 
     def _tell(self) -> None:
-        news = self._state()
-        if news != self._told:
-            self._told = news
-            self._document.board.audience.tell(news)
+        self._told.tell(self._state())
 
     def _state(self) -> WireFeed:
         following = self._following
