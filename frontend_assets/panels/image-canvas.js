@@ -37,7 +37,7 @@ export function ImageCanvas({ picture, label, pointed }) {
   latestZoom.current = zoom;
   useWheel(frame, latestZoom);
   const onPointerMove = (/** @type {PointerEvent} */ event) => {
-    pointer.value = pointIn(frame.current, event);
+    pointer.value = pointOf(frame.current, event);
     if ((event.buttons & 1) === 0) return;
     moved.value = { ...view, x: view.x + event.movementX, y: view.y + event.movementY };
   };
@@ -79,7 +79,7 @@ function useWheel(frame, zoom) {
   useEffect(() => {
     const onWheel = (/** @type {WheelEvent} */ event) => {
       event.preventDefault();
-      zoom.current(Math.exp(-event.deltaY * WHEEL), pointIn(frame.current, event));
+      zoom.current(Math.exp(-event.deltaY * WHEEL), pointOf(frame.current, event));
     };
     const element = frame.current;
     // One that says beforehand that it stops the page from rolling.
@@ -95,7 +95,7 @@ function capture(event) {
 }
 
 /** @param {Element | null} element @param {MouseEvent} event @returns {Point} */
-function pointIn(element, { clientX, clientY }) {
+function pointOf(element, { clientX, clientY }) {
   const place = element?.getBoundingClientRect();
   return { x: clientX - (place?.left ?? 0), y: clientY - (place?.top ?? 0) };
 }

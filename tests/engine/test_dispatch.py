@@ -21,6 +21,7 @@ OF_THE_ENGINE = {
     m.ForgetWork,
     *get_args(m.LibraryCommand),
     *get_args(EngineWireCommand),
+    *get_args(m.BridgeCommand),
 }
 
 

@@ -209,7 +209,7 @@ def test_who_listens_again_hears_once_and_who_is_closed_never():
 def test_where_the_fixed_frame_is_misspelt_all_parts_are_offered_the_root_of_most_frames():
     desk, heard = listening()
     heard.say("/tf", message_of(Told("map", "goal", S)))
-    desk.chosen = "mapp"
+    desk.chosen = "mop"
     assert {desk.offered_for(frame) for frame in ("", "laser", "goal", "tip")} == {desk.own.root}
 
 

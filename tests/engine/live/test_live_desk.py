@@ -214,7 +214,7 @@ def test_in_a_fixed_frame_that_nobody_tells_of_all_rows_offer_the_same_one(tmp_p
             await one.do(v.AddDisplay(kind="Axes"))
             axes = v.SetDisplayProperty(display="d2", name="Reference Frame", value="tip")
             await one.do(axes)
-            await one.do(v.SetFixedFrame(frame="mapp"))
+            await one.do(v.SetFixedFrame(frame="mop"))
             await until(
                 lambda: (said(one), said(one, 1)) == (["not_connected_frame"], ["no_frame"])
             )

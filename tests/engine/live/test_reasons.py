@@ -25,7 +25,7 @@ GROUPED = replace(SPEC, group="Sensors")
 CLOUD = "sensor_msgs/msg/PointCloud2"
 EMPTY = Status("warn", "transparent", "Its alpha is 0.", ("Alpha", 1.0))
 
-APART = Status("error", "not_connected_frame", "Nothing connects a with mapp.")
+APART = Status("error", "not_connected_frame", "Nothing connects a with mop.")
 
 
 def mended_by(name: str, value: bool | str) -> Status:
