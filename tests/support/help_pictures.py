@@ -18,6 +18,7 @@ from tests.support.panel_pictures import PANEL_IDS, SHOW_PANEL, THEMES, Theme, t
 from tests.support.readme_pictures import save_variant
 from tests.support.server import running_studio
 from tests.support.wire import running_router
+from tests.support.wired_tab import add_displays, connect, look_at_odometry
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -43,29 +44,6 @@ _RUN = """async (id) => {
 _SHOW_DIALOG = """async (kind) => {
   const script = document.querySelector('script[type="module"]').src;
   (await import(new URL("state/view.js", script))).dialog.value = { kind };
-}"""
-_CONNECT = """async () => {
-  const script = document.querySelector('script[type="module"]').src;
-  await (await import(new URL("ros.js", script))).connectRos();
-}"""
-_ADD_LIVE = """async () => {
-  const script = document.querySelector('script[type="module"]').src;
-  const { addDisplay, groupDisplay } = await import(new URL("live.js", script));
-  const { liveDisplays } = await import(new URL("state/live.js", script));
-  const kinds = [["LaserScan", "/scan"], ["Map", "/map", "Navigation"],
-    ["Path", "/plan", "Navigation"], ["Odometry", "/odom", "Navigation"], ["Range", "/sonar"]];
-  for (const [kind, topic, group] of kinds) {
-    await addDisplay(kind, topic);
-    if (group) await groupDisplay(liveDisplays.value.at(-1).id, group);
-  }
-}"""
-_LOOK_AT = """async () => {
-  const script = document.querySelector('script[type="module"]').src;
-  const { chosenTopic } = await import(new URL("state/topics.js", script));
-  const { series } = await import(new URL("state/plot.js", script));
-  chosenTopic.value = "/odom";
-  series.value = [".twist.twist.linear.x", ".twist.twist.angular.z", ".pose.pose.position.x"]
-    .map((path) => ({ topic: "/odom", path }));
 }"""
 _TO_WEBP = """async (png) => {
   const picture = new Image();
@@ -234,8 +212,8 @@ def take_wired(browser: Browser, data: Path) -> None:
         for theme in THEMES:
             with tab_of(browser, studio, theme, DIALOGS_WINDOW) as tab:
                 camera = Camera(tab, theme)
-                tab.page.evaluate(_CONNECT)
-                tab.page.evaluate(_LOOK_AT)
+                connect(tab)
+                look_at_odometry(tab)
                 for panel in filter(wanted, ON_THE_WIRE):
                     tab.page.evaluate(SHOW_PANEL, panel)
                     tab.page.evaluate(_RUN, "maximize")
@@ -257,7 +235,7 @@ def take_wired(browser: Browser, data: Path) -> None:
                     tab.page.keyboard.press("Escape")
                 if wanted("displays"):
                     if theme == THEMES[0]:
-                        tab.page.evaluate(_ADD_LIVE)
+                        add_displays(tab)
                     take_displays(camera)
 
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-from time import perf_counter
 from typing import TYPE_CHECKING, NamedTuple
 
 from studio.description.client import DescriptionWorker
 from studio.description.values import Expansion, Failure, OpenRequest
 from tests.support.descriptions import policy_for, robot, write
+from tests.support.patience import Stopwatch
 
 if TYPE_CHECKING:
     from collections.abc import Generator, Mapping
@@ -61,9 +61,9 @@ class HostileStudio:
         request = OpenRequest(str(file), {}, policy or policy_for(file.parent), {})
         if self._worker.pid is None:
             self._runner.run(self._worker.warm())
-        started = perf_counter()
+        watch = Stopwatch()
         answer = self._runner.run(self._worker.open(request))
-        return Opened(answer, perf_counter() - started)
+        return Opened(answer, watch.s)
 
     def survives(self, folder: Path) -> bool:
         """Whether a good robot can be opened now."""

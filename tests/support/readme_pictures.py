@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import tempfile
 from contextlib import contextmanager
 from pathlib import Path
@@ -10,6 +11,8 @@ from typing import TYPE_CHECKING
 from tests.support.browser import open_browser
 from tests.support.server import running_studio
 from tests.support.studio_page import StudioPage
+from tests.support.wire import running_router
+from tests.support.wired_tab import add_displays, connect, look_at_odometry
 
 if TYPE_CHECKING:
     from collections.abc import Generator
@@ -22,6 +25,8 @@ if TYPE_CHECKING:
 FOLDER = Path(__file__).resolve().parents[2] / "frontend_assets/screenshots"
 _STILL_MS = 3000
 """After this time at rest the view has been drawn finely."""
+_DRIVEN_MS = 15_000
+"""So far the rover has driven, and so much of it is in the plot."""
 
 
 @contextmanager
@@ -87,10 +92,34 @@ def compare(tab: StudioPage) -> None:
     tab.page.get_by_role("button", name="Fit", exact=False).first.click()
 
 
+def take_live(browser: Browser) -> None:
+    """The moving graph of the demo, in the layout for what is live."""
+    with (
+        running_router() as endpoint,
+        tempfile.TemporaryDirectory() as folder,
+        running_studio(
+            ["demo", "--connect", endpoint, "--router", "off"], Path(folder), moving=True
+        ) as studio,
+        tab_of(browser, studio, "dark") as tab,
+    ):
+        connect(tab)
+        add_displays(tab)
+        tab.page.keyboard.press("Control+2")
+        frame = tab.page.get_by_role("textbox", name="Fixed frame")
+        frame.fill("odom")
+        frame.press("Enter")
+        look_at_odometry(tab)
+        tab.page.wait_for_timeout(_DRIVEN_MS)
+        tab.page.get_by_role("button", name="Fit", exact=False).first.click()
+        take(tab, "live-dark")
+
+
 def main() -> None:
-    """Take them all anew."""
+    """Take them all anew, or only what is live: `python -m tests.support.readme_pictures live`."""
     for browser in open_browser():
-        take_all(browser)
+        if sys.argv[1:] != ["live"]:
+            take_all(browser)
+        take_live(browser)
 
 
 def take_all(browser: Browser) -> None:
