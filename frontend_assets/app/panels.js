@@ -8,6 +8,7 @@ import { until, untilIdle } from "../lib/idle.js";
 import { Icon, ProgressBar } from "../lib/ui.js";
 import { heldBack } from "./state/alarm.js";
 import { changedCount, problems, robot } from "./state/document.js";
+import { wired } from "./wired-styles.js";
 
 /**
  * @typedef {{icon: string, keepsFrame?: boolean, heavy?: boolean, badge?: () => {text: string, tone: string, label: string} | null,
@@ -57,35 +58,53 @@ export const PANELS = {
     icon: "masses",
     load: async () => (await import("../panels/masses.js")).MassesPanel,
   },
-  plot: { icon: "plot", load: async () => (await import("../panels/plot.js")).PlotPanel },
-  image: { icon: "camera", load: async () => (await import("../panels/image.js")).ImagePanel },
-  topics: { icon: "topics", load: async () => (await import("../panels/topics.js")).TopicsPanel },
+  plot: { icon: "plot", load: wired(async () => (await import("../panels/plot.js")).PlotPanel) },
+  image: {
+    icon: "camera",
+    load: wired(async () => (await import("../panels/image.js")).ImagePanel),
+  },
+  topics: {
+    icon: "topics",
+    load: wired(async () => (await import("../panels/topics.js")).TopicsPanel),
+  },
   frames: { icon: "frames", load: async () => (await import("../panels/frames.js")).FramesPanel },
-  graph: { icon: "graph", load: async () => (await import("../panels/graph.js")).GraphPanel },
+  graph: {
+    icon: "graph",
+    load: wired(async () => (await import("../panels/graph.js")).GraphPanel),
+  },
   interfaces: {
     icon: "interfaces",
-    load: async () => (await import("../panels/interfaces.js")).InterfacesPanel,
+    load: wired(async () => (await import("../panels/interfaces.js")).InterfacesPanel),
   },
   lifecycle: {
     icon: "lifecycle",
-    load: async () => (await import("../panels/lifecycle.js")).LifecyclePanel,
+    load: wired(async () => (await import("../panels/lifecycle.js")).LifecyclePanel),
   },
   diagnostics: {
     icon: "diagnostics",
-    load: async () => (await import("../panels/diagnostics.js")).DiagnosticsPanel,
+    load: wired(async () => (await import("../panels/diagnostics.js")).DiagnosticsPanel),
   },
-  log: { icon: "log", load: async () => (await import("../panels/log.js")).LogPanel },
+  log: { icon: "log", load: wired(async () => (await import("../panels/log.js")).LogPanel) },
   services: {
     icon: "services",
-    load: async () => (await import("../panels/services.js")).ServicesPanel,
+    load: wired(async () => (await import("../panels/services.js")).ServicesPanel),
   },
-  actions: { icon: "goal", load: async () => (await import("../panels/actions.js")).ActionsPanel },
+  actions: {
+    icon: "goal",
+    load: wired(async () => (await import("../panels/actions.js")).ActionsPanel),
+  },
   parameters: {
     icon: "parameters",
-    load: async () => (await import("../panels/parameters.js")).ParametersPanel,
+    load: wired(async () => (await import("../panels/parameters.js")).ParametersPanel),
   },
-  publish: { icon: "send", load: async () => (await import("../panels/publish.js")).PublishPanel },
-  teleop: { icon: "compass", load: async () => (await import("../panels/teleop.js")).TeleopPanel },
+  publish: {
+    icon: "send",
+    load: wired(async () => (await import("../panels/publish.js")).PublishPanel),
+  },
+  teleop: {
+    icon: "compass",
+    load: wired(async () => (await import("../panels/teleop.js")).TeleopPanel),
+  },
   urdf: { icon: "urdf", load: async () => (await import("../panels/urdf.js")).UrdfPanel },
 };
 

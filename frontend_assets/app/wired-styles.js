@@ -1,0 +1,42 @@
+/** Styles of the panels about ROS 2: they come with the first of these, not with the page. */
+
+const FILES = [
+  "styles/topics.css",
+  "vendor/uplot.css",
+  "styles/plot.css",
+  "styles/image.css",
+  "styles/deeds.css",
+  "styles/message-form.css",
+  "styles/teleop.css",
+  "styles/log.css",
+  "styles/lifecycle.css",
+  "styles/interfaces.css",
+  "styles/graph.css",
+];
+/** @type {Promise<unknown> | null} */
+let coming = null;
+
+/**
+ * @template T
+ * @param {() => Promise<T>} load
+ * @returns {() => Promise<T>} the same, with the styles
+ */
+export const wired = (load) => async () => {
+  coming ??= Promise.all(FILES.map(styled));
+  const [loaded] = await Promise.all([load(), coming]);
+  return loaded;
+};
+
+/** @param {string} file @returns {Promise<unknown>} settles once it holds, or cannot be had */
+function styled(file) {
+  const link = document.createElement("link");
+  link.rel = "stylesheet";
+  link.href = new URL(`../${file}`, import.meta.url).href;
+  const arrived = new Promise((resolve) => {
+    link.onload = resolve;
+    link.onerror = resolve;
+  });
+  // Before those of windows and of other panels, which may say more.
+  document.head.insertBefore(link, document.querySelector('link[href*="styles/launch.css"]'));
+  return arrived;
+}
