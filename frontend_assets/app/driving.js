@@ -1,24 +1,29 @@
 /** Sends the speed that hands hold, again and again, and zero at once when they let go. */
 
-/** @import { Deflection } from "../lib/driving.js" */
+/** @import { Deflection, Limits } from "../lib/driving.js" */
 
 import { CENTRE, speedOf, together } from "../lib/driving.js";
 import { mayEdit } from "./state/connection.js";
 import { driveLimits, driveTarget, drivingRefused, held } from "./state/driving.js";
 import { askOrKeepWhy } from "./state/refusals.js";
 
+/** @typedef {{name: string, stamped: boolean, limits: () => Limits & {rate: number}}} DriveTarget a topic, and how fast what hears it may go */
+
+/** @returns {DriveTarget} as the Teleop panel says */
+const chosenTarget = () => ({ ...driveTarget.peek(), limits: () => driveLimits.peek() });
+
 /** @type {ReturnType<typeof setTimeout> | undefined} while something is held */
 let beat;
 /** Where the robot is that moves now: another topic may be chosen meanwhile. */
-let moved = driveTarget.peek();
+let moved = chosenTarget();
 let waits = false;
 
-/** @param {string} hand @param {Deflection} deflection what this hand holds from now on */
-export function hold(hand, deflection) {
+/** @param {string} hand @param {Deflection} deflection what this hand holds from now on @param {DriveTarget} [target] of what stood still until now */
+export function hold(hand, deflection, target = chosenTarget()) {
   if (!mayEdit.peek()) return;
   held.value = new Map(held.peek()).set(hand, deflection);
   if (beat !== undefined) return;
-  moved = driveTarget.peek();
+  moved = target;
   go();
 }
 
@@ -40,16 +45,16 @@ export function halt() {
 }
 
 function go() {
-  beat = setTimeout(go, 1000 / driveLimits.peek().rate);
+  beat = setTimeout(go, 1000 / moved.limits().rate);
   // One at a time: on a slow line old speeds would pile up before the newest.
   if (!waits) say(together(held.peek().values()));
 }
 
 /** @param {Deflection} deflection */
 async function say(deflection) {
-  const { name: topic, stamped } = moved;
+  const { name: topic, stamped, limits } = moved;
   waits = true;
-  const speed = speedOf(deflection, driveLimits.peek());
+  const speed = speedOf(deflection, limits());
   const answer = await askOrKeepWhy({ type: "drive", topic, stamped, ...speed }, drivingRefused);
   waits = false;
   if (answer === null) giveUp();

@@ -1,10 +1,11 @@
 /** The stick and the buttons of the Teleop panel; keys drive while the focus is among them. */
 
-import { html, useRef } from "vendor/preact.js";
+import { html } from "vendor/preact.js";
 import { halt, hold, release } from "../app/driving.js";
+import { useDrivingKeys } from "../app/driving-keys.js";
 import { mayEdit } from "../app/state/connection.js";
 import { driveLimits, held } from "../app/state/driving.js";
-import { CENTRE, drives, ofKeys, ofStick, together } from "../lib/driving.js";
+import { CENTRE, ofStick, together } from "../lib/driving.js";
 import { t } from "../lib/i18n.js";
 import { Icon } from "../lib/ui.js";
 
@@ -22,29 +23,7 @@ const ARROWS = [
 ];
 
 export function Hands() {
-  const keys = useRef(/** @type {Set<string>} */ (new Set()));
-  const letGo = () => {
-    keys.current.clear();
-    halt();
-  };
-  const onKeyDown = (/** @type {KeyboardEvent} */ event) => {
-    if (event.ctrlKey || event.metaKey || event.altKey) return;
-    if (event.code === "Space") letGo();
-    else if (!drives(event.code)) return;
-    else if (!event.repeat) hold("keys", ofKeys(keys.current.add(event.code)));
-    // Neither the page scrolls nor another part of it takes the key.
-    event.preventDefault();
-    event.stopPropagation();
-  };
-  const onKeyUp = (/** @type {KeyboardEvent} */ event) => {
-    if (!keys.current.delete(event.code)) return;
-    if (keys.current.size > 0) hold("keys", ofKeys(keys.current));
-    else release("keys");
-  };
-  const onFocusOut = (/** @type {any} */ event) => {
-    if (!event.currentTarget.contains(event.relatedTarget)) letGo();
-  };
-  return html`<div class="teleop-hands" onKeyDown=${onKeyDown} onKeyUp=${onKeyUp} onFocusOut=${onFocusOut}>
+  return html`<div class="teleop-hands" ...${useDrivingKeys()}>
     <${Stick} /><${Pad} /></div>`;
 }
 
