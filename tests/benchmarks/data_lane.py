@@ -1,63 +1,56 @@
-"""The data lane beside foxglove-sdk's server and a plain FastAPI loop: one topic, many browsers.
+"""The data lane beside foxglove-sdk's server and a plain FastAPI loop: a few topics, many browsers.
 
-All hear the same topic over Zenoh from a process that publishes it. Browsers are sockets that
-count bytes; a row counts only while they take less than 0.9 of a core. Where foxglove-sdk is not
-installed, it is left out.
+All hear the same topics over Zenoh from a process that publishes them, in turn and several times
+over. Browsers are sockets in processes of their own; a row counts only while none of these takes
+0.9 of a core. Where foxglove-sdk cannot be imported, it is left out.
 """
 
 from __future__ import annotations
 
-import asyncio
-import base64
 import importlib.util
 import json
-import os
 import statistics
 import subprocess
 import sys
 import tempfile
 import time
 from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import IO, TYPE_CHECKING, Final, cast
 
-from tests.benchmarks import data_server
+from tests.benchmarks import data_browsers, data_server
+from tests.benchmarks.data_browsers import Counted, Job
+from tests.benchmarks.data_cells import BUSY, CELLS, SLOW, SLOW_BYTES_PER_S, Cell
 from tests.benchmarks.fan_out import cpu_s_of
-from tests.benchmarks.report import judge, say
+from tests.benchmarks.report import judge, judge_ratio, say
 from tests.support.server import running_studio
 from tests.support.wire import running_router
 
 if TYPE_CHECKING:
     from collections.abc import Generator
 
-CELLS: Final = (
-    (500, 1_000, 10, 0.6),
-    (500, 1_000, 30, 0.6),
-    (5_000, 50, 50, 0.85),
-    (500, 5_000, 10, 0.3),
-)
-"""Bytes of a message, how many in a second, how many browsers, and what part of the others' CPU."""
-OVER_EMPTY: Final = 1.5
-"""Of a callback that does nothing, with 5,000 messages in a second."""
 RUNS: Final = 3
 WINDOW_S: Final = 3.0
+OVER_EMPTY: Final = 1.5
+"""Of a callback that does nothing."""
 _SETTLE_S: Final = 1.0
-_BUSY: Final = 0.9
-_WISH: Final = json.dumps({"type": "hear", "wish": 1, "topic": data_server.TOPIC, "mode": "every"})
-_SUBSCRIBE: Final = json.dumps({"op": "subscribe", "subscriptions": [{"id": 1, "channelId": 1}]})
+_SLOW_WINDOW_S: Final = 5.0
+_MEGABYTE: Final = 1e6
+_PAGE_BYTES: Final = 4096
 
 
 @dataclass(frozen=True)
 class Server:
-    """Where to hear, as whom, and what is said first."""
+    """Where to hear, and whose processor is measured."""
 
-    name: str
-    port: int
+    job: Job
     pid: int
-    path: str = "/data"
-    headers: str = ""
-    first: str = ""
+
+    @property
+    def name(self) -> str:
+        """What it is called in the table."""
+        return self.job.kind
 
 
 @dataclass(frozen=True)
@@ -66,58 +59,18 @@ class Seen:
 
     cpu: float
     """Of the server, in cores."""
-    messages_per_s: float
-    """Of one browser, in the middle."""
+    hz: float
+    """What the browser in the middle got of each topic."""
+    p50_ms: float
+    p95_ms: float
     load: float
-    """What the browsers took, in cores."""
-
-
-class Browser(asyncio.Protocol):
-    """Shakes hands, says what it hears, and counts the bytes that come."""
-
-    def __init__(self, server: Server) -> None:
-        self._server = server
-        self._shaken = False
-        self.bytes = 0
-
-    def connection_made(self, transport: asyncio.BaseTransport) -> None:
-        """Ask for a websocket."""
-        assert isinstance(transport, asyncio.Transport)
-        self._transport = transport
-        key = base64.b64encode(os.urandom(16)).decode()
-        server = self._server
-        transport.write(
-            (
-                f"GET {server.path} HTTP/1.1\r\nHost: 127.0.0.1:{server.port}\r\n"
-                "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
-                f"Sec-WebSocket-Key: {key}\r\n{server.headers}\r\n"
-            ).encode()
-        )
-
-    def data_received(self, data: bytes) -> None:
-        """Count, once hands are shaken."""
-        self.bytes += len(data)
-        if not self._shaken and b"\r\n\r\n" in data:
-            assert b" 101 " in data, data[:200]
-            self._shaken = True
-            if self._server.first:
-                self._transport.write(_text_frame(self._server.first.encode()))
-
-    def close(self) -> None:
-        """Leave."""
-        self._transport.abort()
-
-
-def _text_frame(payload: bytes) -> bytes:
-    """A short text from a browser, masked with zeros."""
-    assert len(payload) < 126
-    return bytes((0x81, 0x80 | len(payload), 0, 0, 0, 0)) + payload
+    """What the busiest process of browsers took, in cores."""
 
 
 def run() -> None:
     """Measure every cell with every server in turn, again and again."""
     with running_router() as endpoint, tempfile.TemporaryDirectory() as scratch:
-        zenoh_port = int(endpoint.rpartition(":")[2])
+        port = int(endpoint.rpartition(":")[2])
         with ExitStack() as stack:
             servers = [stack.enter_context(_studio(endpoint, Path(scratch)))]
             kinds = ["naive", "empty"]
@@ -125,73 +78,135 @@ def run() -> None:
                 kinds.append("foxglove")
             else:
                 say("  foxglove-sdk is not installed: beside a plain FastAPI loop alone")
-            servers += [stack.enter_context(_other(kind, zenoh_port)) for kind in kinds]
+            servers += [stack.enter_context(_other(kind, port)) for kind in kinds]
+            say(f"  an idle studio takes {_idle(servers[0]):.1%} of a core")
             for cell in CELLS:
-                _cell(servers, zenoh_port, cell)
-
-
-def _cell(servers: list[Server], zenoh_port: int, cell: tuple[int, int, int, float]) -> None:
-    size, rate_hz, browsers, share = cell
-    say(f"  {size} bytes at {rate_hz} Hz to {browsers} browsers")
-    found: dict[str, list[Seen]] = {server.name: [] for server in servers}
-    with _process("publish", zenoh_port, rate_hz, size):
-        for _ in range(RUNS):
+                _measure(servers, port, cell)
             for server in servers:
-                heard_by = 0 if server.name == "empty" else browsers
-                found[server.name].append(asyncio.run(_watch(server, heard_by, size)))
+                if server.name != "empty":
+                    _slow(server, port)
+
+
+def _idle(server: Server) -> float:
+    begin_s, cpu_s = time.perf_counter(), cpu_s_of(server.pid)
+    time.sleep(WINDOW_S)
+    return (cpu_s_of(server.pid) - cpu_s) / (time.perf_counter() - begin_s)
+
+
+def _measure(servers: list[Server], port: int, cell: Cell) -> None:
+    say(f"  {cell}")
+    chosen = [one for one in servers if one.name != "empty" or cell.over_empty]
+    found: dict[str, list[Seen]] = {server.name: [] for server in chosen}
+    with _publishing(port, cell):
+        for turn in range(RUNS):
+            for server in chosen[:: -1 if turn % 2 else 1]:
+                found[server.name].append(_watch(server, cell))
     middle = {name: _middle(seen) for name, seen in found.items()}
     for name, seen in middle.items():
         say(
-            f"    {name:<10}{seen.cpu:7.1%} of a core   {seen.messages_per_s:8.0f} of "
-            f"{rate_hz} Hz   load {seen.load:5.0%}"
+            f"    {name:<10}{seen.cpu:7.1%} of a core   {seen.hz:8.1f} Hz"
+            f"   p50 {seen.p50_ms:7.2f} ms   p95 {seen.p95_ms:7.2f} ms   load {seen.load:4.0%}"
         )
-    _judge(middle, f"{size} B at {rate_hz} Hz to {browsers}", share)
-    if rate_hz == CELLS[-1][1]:
-        over = middle["studio"].cpu / middle["empty"].cpu
-        judge("CPU over that of an empty callback", over, at_most=OVER_EMPTY, unit="times")
+    _judge(middle, cell)
 
 
 def _middle(runs: list[Seen]) -> Seen:
-    return Seen(
-        statistics.median(one.cpu for one in runs),
-        statistics.median(one.messages_per_s for one in runs),
-        max(one.load for one in runs),
-    )
+    def middle(name: str) -> float:
+        return statistics.median(getattr(one, name) for one in runs)
+
+    load = max(one.load for one in runs)
+    return Seen(middle("cpu"), middle("hz"), middle("p50_ms"), middle("p95_ms"), load)
 
 
-def _judge(middle: dict[str, Seen], cell: str, share: float) -> None:
+def _judge(middle: dict[str, Seen], cell: Cell) -> None:
     ours = middle["studio"]
     for name in ("foxglove", "naive"):
         other = middle.get(name)
         if other is None:
             continue
-        if max(other.load, ours.load) > _BUSY:
+        if max(other.load, ours.load) > BUSY:
             say(f"    against {name}: not measurable here")
-        else:
-            what = f"{cell}: CPU of ours over {name}"
-            judge(what, ours.cpu / other.cpu, at_most=share, unit="times")
+            continue
+        if cell.cpu_at_most:
+            what = f"{cell}: CPU over {name}"
+            judge(what, ours.cpu / other.cpu, at_most=cell.cpu_at_most, unit="times")
+        if cell.p50_at_most and name == "foxglove":
+            what = f"{cell}: p50 over {name}"
+            judge(what, ours.p50_ms / other.p50_ms, at_most=cell.p50_at_most, unit="times")
+    if cell.over_empty:
+        over = ours.cpu / middle["empty"].cpu
+        judge(f"{cell}: CPU over an empty callback", over, at_most=OVER_EMPTY, unit="times")
 
 
-async def _watch(server: Server, browsers: int, size: int) -> Seen:
-    loop = asyncio.get_running_loop()
-    opened = [
-        (await loop.create_connection(lambda: Browser(server), "127.0.0.1", server.port))[1]
-        for _ in range(browsers)
-    ]
-    await asyncio.sleep(_SETTLE_S)
-    before = [one.bytes for one in opened]
-    begin_s, cpu_s, load_s = time.perf_counter(), cpu_s_of(server.pid), time.process_time()
-    await asyncio.sleep(WINDOW_S)
+def _watch(server: Server, cell: Cell) -> Seen:
+    if server.name == "empty":
+        return Seen(_idle(server), 0.0, 0.0, 0.0, 0.0)
+    with ExitStack() as stack:
+        each, processes = cell.browsers // cell.processes, cell.processes
+        job = replace(server.job, browsers=each, words=_words(server, cell))
+        heard = [stack.enter_context(_browsers(job)) for _ in range(processes)]
+        return _window(server, heard, cell, WINDOW_S)
+
+
+def _window(
+    server: Server, heard: list[subprocess.Popen[str]], cell: Cell, window_s: float
+) -> Seen:
+    time.sleep(_SETTLE_S)
+    for process in heard:
+        _order(process, "begin")
+    begin_s, cpu_s = time.perf_counter(), cpu_s_of(server.pid)
+    time.sleep(window_s)
     took_s = time.perf_counter() - begin_s
-    came = sorted(one.bytes - was for one, was in zip(opened, before, strict=True))
-    seen = Seen(
-        (cpu_s_of(server.pid) - cpu_s) / took_s,
-        came[len(came) // 2] / (size + 13) / took_s if came else 0.0,
-        (time.process_time() - load_s) / took_s,
+    cpu = (cpu_s_of(server.pid) - cpu_s) / took_s
+    for process in heard:
+        _order(process, "end")
+    counted = [Counted(**json.loads(_line(process))) for process in heard]
+    came = sorted(count for one in counted for count in one.messages)
+    delays_ms = sorted(delay for one in counted for delay in one.delays_ms)
+    assert delays_ms, f"nothing came from {server.name}"
+    return Seen(
+        cpu,
+        came[len(came) // 2] / took_s / cell.topics,
+        delays_ms[len(delays_ms) // 2],
+        delays_ms[int(0.95 * len(delays_ms))],
+        max(one.load for one in counted),
     )
-    for one in opened:
-        one.close()
-    return seen
+
+
+def _words(server: Server, cell: Cell) -> tuple[str, ...]:
+    """What a browser says first."""
+    numbers = range(cell.topics)
+    if server.name == "studio":
+        wishes = (
+            {"type": "hear", "wish": number, "topic": data_server.topic(number), **cell.wish}
+            for number in numbers
+        )
+        return tuple(json.dumps(wish) for wish in wishes)
+    chosen = [{"id": number + 1, "channelId": number + 1} for number in numbers]
+    subscribe = json.dumps({"op": "subscribe", "subscriptions": chosen})
+    return (subscribe,) if server.name == "foxglove" else ()
+
+
+def _slow(server: Server, port: int) -> None:
+    """One of the browsers reads slowly: what that takes from the others, and how much memory."""
+    job = replace(server.job, words=_words(server, SLOW))
+    fast = replace(job, browsers=(SLOW.browsers - 1) // SLOW.processes)
+    slow = replace(job, browsers=1, sips_bytes_per_s=SLOW_BYTES_PER_S)
+    with _publishing(port, SLOW), ExitStack() as stack:
+        heard = [stack.enter_context(_browsers(fast)) for _ in range(SLOW.processes)]
+        before = _memory_bytes(server.pid)
+        stack.enter_context(_browsers(slow))
+        seen = _window(server, heard, SLOW, _SLOW_WINDOW_S)
+        grown = (_memory_bytes(server.pid) - before) / _MEGABYTE
+    say(f"    {server.name:<10}one slow: others {seen.hz:.1f} Hz, memory {grown:+.0f} MB"
+        f"   load {seen.load:4.0%}")  # fmt: skip
+    if server.name == "studio" and seen.load <= BUSY:
+        judge("one slow browser: memory", grown, at_most=64, unit="MB")
+        judge_ratio("one slow browser: rate of the others", seen.hz / SLOW.rate_hz, at_least=0.85)
+
+
+def _memory_bytes(pid: int) -> int:
+    return int(Path(f"/proc/{pid}/statm").read_text().split()[1]) * _PAGE_BYTES
 
 
 @contextmanager
@@ -203,33 +218,58 @@ def _studio(endpoint: str, scratch: Path) -> Generator[Server]:
         ).raise_for_status()
         cookie = "; ".join(f"{name}={one}" for name, one in client.cookies.items())
         headers = f"Origin: {studio.origin}\r\nCookie: {cookie}\r\n"
-        yield Server("studio", studio.port, studio.pid, headers=headers, first=_WISH)
+        yield Server(Job("studio", studio.port, 0, headers=headers), studio.pid)
 
 
 @contextmanager
 def _other(kind: str, zenoh_port: int) -> Generator[Server]:
-    with _process(kind, zenoh_port, 0) as (pid, port):
+    with _process(data_server.__name__, kind, zenoh_port) as process:
+        job = Job(kind, int(_line(process).split()[1]), 0)
         if kind == "foxglove":
             protocol = "Sec-WebSocket-Protocol: foxglove.sdk.v1\r\n"
-            yield Server(kind, port, pid, "/", protocol, _SUBSCRIBE)
-        else:
-            yield Server(kind, port, pid)
+            job = replace(job, path="/", headers=protocol)
+        yield Server(job, process.pid)
 
 
 @contextmanager
-def _process(*words: object) -> Generator[tuple[int, int]]:
+def _publishing(zenoh_port: int, cell: Cell) -> Generator[None]:
+    words = (zenoh_port, cell.rate_hz, cell.size, cell.topics)
+    with _process(data_server.__name__, "publish", *words) as process:
+        assert _line(process) == "port 0"
+        yield
+
+
+@contextmanager
+def _browsers(job: Job) -> Generator[subprocess.Popen[str]]:
+    with _process(data_browsers.__name__) as process:
+        _order(process, json.dumps(asdict(job)))
+        assert _line(process) == "ready"
+        yield process
+
+
+@contextmanager
+def _process(module: str, *words: object) -> Generator[subprocess.Popen[str]]:
     process = subprocess.Popen(
-        [sys.executable, "-m", data_server.__name__, *map(str, words)],
+        [sys.executable, "-m", module, *map(str, words)],
+        stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
-        stderr=subprocess.DEVNULL,  # they complain of browsers that leave
+        stderr=subprocess.DEVNULL,  # servers complain of browsers that leave
         text=True,
     )
     try:
-        assert process.stdout is not None
-        said = iter(process.stdout.readline, "")
-        yield process.pid, next(int(line.split()[1]) for line in said if line.startswith("port "))
+        yield process
     finally:
         process.kill()
         process.wait()
-        if process.stdout is not None:
-            process.stdout.close()
+        for pipe in (process.stdin, process.stdout):
+            cast("IO[str]", pipe).close()
+
+
+def _order(process: subprocess.Popen[str], line: str) -> None:
+    pipe = cast("IO[str]", process.stdin)
+    pipe.write(line + "\n")
+    pipe.flush()
+
+
+def _line(process: subprocess.Popen[str]) -> str:
+    return cast("IO[str]", process.stdout).readline().strip()

@@ -1,0 +1,50 @@
+"""The cells of the data lane's benchmark: what is published, how many hear it, what was asked."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Final
+
+BUSY: Final = 0.9
+"""Of a core: browsers that take more measure themselves."""
+SLOW_BYTES_PER_S: Final = 2_000_000
+
+
+@dataclass(frozen=True)
+class Cell:
+    """What is published, how it is heard, and what part of foxglove-sdk's that may take."""
+
+    name: str
+    size: int
+    """Bytes of a message."""
+    rate_hz: int
+    """Of each topic."""
+    browsers: int
+    topics: int = 1
+    processes: int = 1
+    """Over which the browsers are spread evenly."""
+    wish: dict[str, object] = field(default_factory=lambda: {"mode": "every"})
+    """How a browser of the studio hears."""
+    cpu_at_most: float = 0.0
+    """Of the other's; 0: it is not asked for."""
+    p50_at_most: float = 0.0
+    """Of foxglove-sdk's; 0: it is not asked for."""
+    over_empty: bool = False
+    """Whether it is held against a callback that does nothing, too."""
+
+    def __str__(self) -> str:
+        """As it is named in the table."""
+        return self.name
+
+
+_NEWEST: Final[dict[str, object]] = {"mode": "newest", "most_hz": 60}
+
+CELLS: Final = (
+    Cell("500 B at 1 kHz x 10", 500, 1_000, 10, cpu_at_most=0.6),
+    Cell("500 B at 1 kHz x 30", 500, 1_000, 30, processes=2, cpu_at_most=0.6),
+    Cell("4 topics of 5 KB at 50 Hz x 50", 5_000, 50, 50, topics=4, cpu_at_most=0.85),
+    Cell("4.8 MB at 10 Hz x 10", 4_800_000, 10, 10, processes=2, wish=_NEWEST, cpu_at_most=0.42),
+    Cell("6.2 MB at 30 Hz x 10", 6_200_000, 30, 10, processes=5, wish=_NEWEST, cpu_at_most=0.42),
+    Cell("500 B at 5 kHz x 10", 500, 5_000, 10, processes=2, cpu_at_most=0.3, over_empty=True),
+)
+SLOW: Final = Cell("6.2 MB at 30 Hz, 1 of 10 slow", 6_200_000, 30, 10, processes=3, wish=_NEWEST)
