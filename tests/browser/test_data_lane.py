@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import time
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import pytest
 
-from studio.ros.messages import message
-from tests.support.demos import node_at, running_demo
+from tests.support.demos import running_demo
+from tests.support.eight_numbers import SERIES, eight_numbers
 from tests.support.server import running_studio
 from tests.support.studio_page import StudioPage, studio_page, wait_until
 from tests.support.wire import free_endpoint, router_at
@@ -19,13 +18,12 @@ if TYPE_CHECKING:
 
     from playwright.sync_api import Browser, Locator
 
-    from studio.ros.client import Publisher
     from tests.support.server import RunningStudio
 
 pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(400)]
 
-NUMBERS = "std_msgs/msg/Float64MultiArray"
-SERIES, MESSAGES = 8, 5_000
+MESSAGES = 30_000
+"""Of half a minute."""
 _COUNTS = """async () => {
   const script = document.querySelector('script[type="module"]').src;
   const { samplesOf } = await import(new URL("plotting.js", script));
@@ -35,6 +33,12 @@ _COUNTS = """async () => {
     const drawn = values.subarray(begin, end);
     return [count, drawn[0], drawn.every((value, n) => value === drawn[0] + n)];
   });
+}"""
+_COME = """async () => {
+  const script = document.querySelector('script[type="module"]').src;
+  const { samplesOf } = await import(new URL("plotting.js", script));
+  const { series } = await import(new URL("state/plot.js", script));
+  return samplesOf(series.value[0]).count;
 }"""
 
 
@@ -77,17 +81,6 @@ def see_ends(tab: StudioPage, node: str, reliability: str) -> None:
     button.click()
 
 
-def numbers(first: int) -> Any:  # noqa: ANN401
-    return message(NUMBERS)(data=[float(first + at) for at in range(SERIES)])
-
-
-def publish_at_1_khz(publisher: Publisher) -> None:
-    began_s = time.monotonic()
-    for number in range(1, MESSAGES + 1):
-        publisher.publish(numbers(number))
-        time.sleep(max(0.0, began_s + number / 1000 - time.monotonic()))
-
-
 def draw_all(tab: StudioPage) -> None:
     """One number by a drag, the others by their buttons."""
     field(tab, ".data").click()
@@ -100,15 +93,23 @@ def draw_all(tab: StudioPage) -> None:
     wait_until("all lines", lambda: lines.count() == SERIES)
 
 
+def count_all(tab: StudioPage) -> None:
+    """Every number as it was sent, for half a minute."""
+    came = lambda: tab.page.evaluate(_COME)  # noqa: E731
+    wait_until("half of them", lambda: came() > MESSAGES / 2)
+    wait_until("all of them", lambda: came() >= MESSAGES)
+    expected = [[MESSAGES, 1 + at, True] for at in range(SERIES)]
+    wait_until("every number as it was sent", lambda: tab.page.evaluate(_COUNTS) == expected)
+
+
 def test_v2_v3_t1_t3_a_click_echoes_a_topic_and_a_drag_draws_every_number_as_it_was_sent(
     browser: Browser, studio: RunningStudio, endpoint: str
 ):
     with (
         running_demo(endpoint, "talker") as talker,
-        node_at(endpoint, "teller") as teller,
+        eight_numbers(endpoint) as eight,
         studio_page(browser, studio) as tab,
     ):
-        out = teller.create_publisher(message(NUMBERS), "/eight", 10)
         see_topics(tab)
         topic(tab, "/chatter").click()
         said = field(tab, ".data").locator(".echo-value")
@@ -122,15 +123,14 @@ def test_v2_v3_t1_t3_a_click_echoes_a_topic_and_a_drag_draws_every_number_as_it_
         see_ends(tab, "/topic_helloworld_pub", "reliable")
 
         topic(tab, "/eight").click()
-        wait_until("the studio to listen", lambda: out.get_subscription_count() == 1)
-        out.publish(numbers(0))
+        eight.wait_for_listeners(1)
+        eight.publish_once()
         draw_all(tab)
-        wait_until("the plot to listen", lambda: out.get_subscription_count() == 2)
-        publish_at_1_khz(out)
-        expected = [[MESSAGES, 1 + at, True] for at in range(SERIES)]
-        wait_until("every number as it was sent", lambda: tab.page.evaluate(_COUNTS) == expected)
+        eight.wait_for_listeners(2)
+        eight.publish_at_1_khz(MESSAGES)
+        count_all(tab)
 
-        teller.destroy_publisher(out)
+        eight.end()
         silence = tab.page.get_by_text("Nobody publishes it now.")
         wait_until("that to be said", lambda: silence.count() == 1)
         assert tab.errors == []

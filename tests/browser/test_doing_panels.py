@@ -26,6 +26,12 @@ if TYPE_CHECKING:
 pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(300)]
 
 CALL = 'ros2 service call /add_two_ints example_interfaces/srv/AddTwoInts "{a: 41, b: 1}"'
+WHAT_PLAYS = "ros2 service call /get_now_playing radio_station_interfaces/srv/GetNowPlaying {}"
+STATION = (
+    "station_name\nRadio Educativa 100.3 FM",
+    "song_title\nBohemian Rhapsody",
+    "artist_name\nQueen",
+)
 PUB = (
     "ros2 topic pub --rate 20 /turtle1/cmd_vel geometry_msgs/msg/Twist "
     '"{linear: {x: 2.0, y: 0.0, z: 0.0}, angular: {x: 0.0, y: 0.0, z: 1.8}}"'
@@ -73,13 +79,15 @@ class Hand:
         self.panel.locator(".deeds-chosen").get_by_text(text).first.wait_for()
 
 
-def call_a_service(tab: StudioPage) -> None:
+def call_a_service(tab: StudioPage, line: str, *reply: str) -> None:
     hand = Hand(tab, "services", "Services")
-    hand.paste(CALL)
+    hand.paste(line)
     hand.press("Call")
+    rows = hand.panel.locator(".value-row")
+    wait_until("its answer", lambda: tuple(rows.all_inner_texts()) == reply)
     hand.see("Answered in")
     assert hand.count <= 3
-    assert hand.panel.locator(".value-row").all_inner_texts() == ["sum\n42"]
+    hand.press("Back to the list")
 
 
 def send_and_cancel_a_goal(tab: StudioPage) -> None:
@@ -138,6 +146,7 @@ def test_calls_goals_parameters_and_messages_go_out_and_what_is_in_the_way_is_sa
 ):
     with (
         running_demo(router, "service_server_node"),
+        running_demo(router, "now_playing_server"),
         running_demo(router, "turtlesim_node"),
         node_at(router) as node,
         studio_page(browser, studio) as tab,
@@ -146,7 +155,8 @@ def test_calls_goals_parameters_and_messages_go_out_and_what_is_in_the_way_is_sa
         tab.page.evaluate(SHOW_PANEL, "services")
         tab.page.get_by_role("button", name="Connect", exact=True).click()
         with running_demo(router, "radio_dj", *STEPS):
-            call_a_service(tab)
+            call_a_service(tab, CALL, "sum\n42")
+            call_a_service(tab, WHAT_PLAYS, *STATION)
             send_and_cancel_a_goal(tab)
             set_parameters(tab, node)
             publish_as_pasted(tab, node)
