@@ -81,6 +81,7 @@ StudioError
         DisplayPropertyError
     AccessError
         NotAllowedError
+        UnknownLaneError
     CommandError
         UnknownDocumentError
         SupersededError
@@ -168,6 +169,7 @@ from studio.errors.serving import (
     NotAllowedError,
     SupersededError,
     UnknownDocumentError,
+    UnknownLaneError,
     WorkerDiedError,
     WorkerError,
     WorkerTimeoutError,
@@ -263,6 +265,7 @@ __all__ = [
     "UnconnectedFramesError",
     "UnknownDocumentError",
     "UnknownFrameError",
+    "UnknownLaneError",
     "UnknownTypeError",
     "UnreadableFileError",
     "UnsafeArchiveError",

@@ -39,6 +39,13 @@ class NotAllowedError(AccessError):
         self.role, self.command = role, command
 
 
+class UnknownLaneError(AccessError):
+    """A bulk lane was asked for with a key of no open data lane."""
+
+    def __init__(self) -> None:
+        super().__init__("No open data lane has this key: ask for one on your data lane.")
+
+
 class CommandError(StudioError):
     """A command of the browser is malformed or names what does not exist."""
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Final, Protocol
 
 import uvicorn
 
+from studio.web.http_protocol import StudioConnection
 from studio.web.protocol import StudioSocket
 
 if TYPE_CHECKING:
@@ -74,6 +75,7 @@ def _configuration(app: ASGIApp) -> uvicorn.Config:
         log_config=None,
         access_log=False,  # it would write the token of the first request
         lifespan="off",
+        http=StudioConnection,
         ws=StudioSocket,
         ws_per_message_deflate=False,
         ws_max_size=_MESSAGE_LIMIT_BYTES,

@@ -12,6 +12,7 @@ import studio
 from studio.engine.messages import Hello
 from studio.scene import viser_page, viser_page_gzipped
 from studio.web.assets import Asset, Assets
+from studio.web.bulk_lane import BulkAnswer, BulkKeys
 from studio.web.control import ControlLane
 from studio.web.data_lane import DataLane
 from studio.web.lane import Lane
@@ -33,6 +34,7 @@ class Site:
 
     def __init__(self, engine: OpenDocuments, assets: Assets, session: str) -> None:
         self._engine, self._assets, self._session = engine, assets, session
+        self._bulk_keys = BulkKeys()
 
     def add_to(self, app: FastAPI) -> None:
         """Add every route; none of them is for scripts, so none is in the OpenAPI document."""
@@ -52,6 +54,13 @@ class Site:
                 response_class=Response,
                 response_model=None,
             )
+        app.add_api_route(
+            "/bulk",
+            self.bulk,
+            include_in_schema=False,
+            response_class=Response,
+            response_model=None,
+        )
         app.add_api_websocket_route("/control", self.control)
         app.add_api_websocket_route("/data", self.data)
         app.add_api_websocket_route("/d/{document}/viser", self.scene)
@@ -106,7 +115,11 @@ class Site:
     async def data(self, websocket: WebSocket) -> None:
         """The data lane."""
         await websocket.accept()
-        await DataLane(Lane(websocket)).serve(self._engine.hearing)
+        await DataLane(Lane(websocket), self._bulk_keys).serve(self._engine.hearing)
+
+    async def bulk(self, key: str = "") -> Response:
+        """The bulk lane of the data lane that was told this key."""
+        return BulkAnswer(self._bulk_keys.lane_of(key))
 
     async def scene(self, document: str, websocket: WebSocket) -> None:
         """The 3D lane of one document."""

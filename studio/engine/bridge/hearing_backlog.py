@@ -12,6 +12,8 @@ if TYPE_CHECKING:
 
 KEPT_BYTES: Final = 8 << 20
 """Of channels that keep every message, together; then the oldest are given up and counted."""
+NEWEST_BYTES: Final = 24 << 20
+"""Of channels where only the newest counts, together; then the oldest gives way."""
 
 
 class Backlog:
@@ -20,7 +22,7 @@ class Backlog:
     def __init__(self) -> None:
         self._newest: OrderedDict[int, Chunk] = OrderedDict()
         self._all: deque[Chunk] = deque()
-        self._bytes = 0
+        self._bytes = self._newest_bytes = 0
         self.dropped = 0
         """Messages that were given up since the beginning."""
 
@@ -32,18 +34,41 @@ class Backlog:
         for chunk in chunks:
             if chunk.keeps_all:
                 self._all.append(chunk)
-                self._bytes += len(chunk.data)
+                self._bytes += chunk.size
             else:
-                self._newest[chunk.channel] = chunk
-        while self._bytes > KEPT_BYTES and self._all:
+                self._replace(chunk)
+        while self._bytes > KEPT_BYTES and len(self._all) > 1:
             given_up = self._all.popleft()
-            self._bytes -= len(given_up.data)
+            self._bytes -= given_up.size
             self.dropped += given_up.count
 
-    def frame(self) -> bytes:
-        """Take all out, as one frame."""
+    def pop(self) -> Chunk:
+        """Take the oldest out; there is one."""
+        if self._all:
+            chunk = self._all.popleft()
+            self._bytes -= chunk.size
+        else:
+            _, chunk = self._newest.popitem(last=False)
+            self._newest_bytes -= chunk.size
+        return chunk
+
+    def take_all(self) -> tuple[Chunk, ...]:
+        """Take all out."""
         chunks = (*self._all, *self._newest.values())
         self._all.clear()
         self._newest.clear()
-        self._bytes = 0
-        return frame_of(chunks, self.dropped)
+        self._bytes = self._newest_bytes = 0
+        return chunks
+
+    def frame(self) -> bytes:
+        """Take all out, as one frame."""
+        return frame_of(self.take_all(), self.dropped)
+
+    def _replace(self, chunk: Chunk) -> None:
+        if (before := self._newest.pop(chunk.channel, None)) is not None:
+            self._newest_bytes -= before.size
+        self._newest[chunk.channel] = chunk
+        self._newest_bytes += chunk.size
+        while self._newest_bytes > NEWEST_BYTES and len(self._newest) > 1:
+            _, passed_over = self._newest.popitem(last=False)
+            self._newest_bytes -= passed_over.size

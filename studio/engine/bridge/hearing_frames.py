@@ -5,7 +5,7 @@ messages follow, how many this browser was too slow for since it came, four of n
 message begins with 28 bytes: channel, length, when it came and when it was sent (ns since the Unix
 epoch), how many of its channel were lost on their way so far. Then come its bytes, filled up to a
 multiple of 8: so the body of its CDR lies at one, and arrays need not be copied to be read.
-The page reads them in `frontend_assets/workers/frames.js`.
+The page reads them in `frontend_assets/workers/frames.js`. The bulk lane carries the same frames.
 """
 
 from __future__ import annotations
@@ -16,11 +16,13 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Final
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Sequence
 
     from studio.ros.node.inbox import RawSample
 
 VERSION: Final = 1
+LARGE_BYTES: Final = 256 << 10
+"""Of a message: longer ones go by the bulk lane where a browser has one."""
 FRAME_HEAD: Final = struct.Struct("<B3xII4x")
 MESSAGE_HEAD: Final = struct.Struct("<IIqqI")
 _FILLING: Final = tuple(bytes(count) for count in range(8))
@@ -33,30 +35,47 @@ class Chunk:
 
     channel: int
     count: int
-    data: bytes
+    parts: tuple[bytes, ...]
+    """To be sent one after the other: what is large is not copied to be one."""
+    size: int
+    """Bytes of all parts."""
     keeps_all: bool
     """Whether older ones are of worth, too, once there is a newer one."""
+
+    @property
+    def is_large(self) -> bool:
+        """Whether its messages are for the bulk lane."""
+        return self.size > LARGE_BYTES * self.count
 
 
 def chunk_of(channel: int, samples: Sequence[RawSample], lost: int, *, keeps_all: bool) -> Chunk:
     """Write the messages of one channel."""
     parts: list[bytes] = []
+    size = 0
     for payload, attachment, received_ns in samples:
         length = len(payload)
         sent_ns = attachment.source_time_ns
+        filling = _FILLING[-(MESSAGE_HEAD.size + length) % 8]
         parts += (
             MESSAGE_HEAD.pack(channel, length, received_ns, sent_ns, lost % _LOST_MOD),
             payload,
-            _FILLING[-(MESSAGE_HEAD.size + length) % 8],
+            filling,
         )
-    return Chunk(channel, len(samples), b"".join(parts), keeps_all)
+        size += MESSAGE_HEAD.size + length + len(filling)
+    is_small = size <= LARGE_BYTES * len(samples)
+    joined = (b"".join(parts),) if is_small else tuple(parts)
+    return Chunk(channel, len(samples), joined, size, keeps_all)
 
 
-def frame_of(chunks: Iterable[Chunk], dropped: int) -> bytes:
+def frame_parts(chunks: Sequence[Chunk], dropped: int) -> list[bytes]:
+    """The frame of these, in parts that are to be sent one after the other."""
+    head = FRAME_HEAD.pack(VERSION, sum(one.count for one in chunks), dropped % _LOST_MOD)
+    return [head, *(part for one in chunks for part in one.parts)]
+
+
+def frame_of(chunks: Sequence[Chunk], dropped: int) -> bytes:
     """Write the frame of one browser that was too slow for so many messages."""
-    chosen = tuple(chunks)
-    head = FRAME_HEAD.pack(VERSION, sum(one.count for one in chosen), dropped % _LOST_MOD)
-    return b"".join((head, *(one.data for one in chosen)))
+    return b"".join(frame_parts(chunks, dropped))
 
 
 class Tick:
@@ -64,8 +83,21 @@ class Tick:
 
     def __init__(self, chunks: tuple[Chunk, ...]) -> None:
         self.chunks = chunks
+        self._without: dict[frozenset[int], Tick] = {}
 
     @cached_property
     def frame(self) -> bytes:
         """For a browser that was never too slow."""
         return frame_of(self.chunks, 0)
+
+    @cached_property
+    def large(self) -> frozenset[int]:
+        """Channels whose messages are for the bulk lane."""
+        return frozenset(one.channel for one in self.chunks if one.is_large)
+
+    def without(self, channels: frozenset[int]) -> Tick:
+        """The rest, once for all who have these from elsewhere."""
+        if channels not in self._without:
+            left = tuple(one for one in self.chunks if one.channel not in channels)
+            self._without[channels] = self if left == self.chunks else Tick(left)
+        return self._without[channels]

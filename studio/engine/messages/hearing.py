@@ -41,8 +41,22 @@ class Leave(Message):
     wish: WishNumber
 
 
+class AskBulk(Message):
+    """Tell the key of the bulk lane that goes with this data lane."""
+
+    type: Literal["ask_bulk"] = "ask_bulk"
+
+
+class BulkKey(Message):
+    """Opens `/bulk?key=` as long as this data lane is open, for large messages of what it hears."""
+
+    type: Literal["bulk_key"] = "bulk_key"
+    key: str
+
+
 Wish: TypeAlias = Annotated[Hear | Leave, Field(discriminator="type")]
-WISHES: Final[TypeAdapter[Wish]] = TypeAdapter(Wish)
+SaidOnLane: TypeAlias = Annotated[Hear | Leave | AskBulk, Field(discriminator="type")]
+WISHES: Final[TypeAdapter[SaidOnLane]] = TypeAdapter(SaidOnLane)
 
 
 HeardState: TypeAlias = Literal["not_connected", "no_publisher", "other_type", "refused", "hearing"]
