@@ -312,6 +312,32 @@ export interface DeleteVariant {
   name: string;
 }
 
+/** Answer to `get_demo_output`. */
+export interface DemoOutput {
+  type: "demo_output";
+  request: number;
+  run: number;
+  lines: string[];
+  last: number;
+}
+
+/** A demo that was started from a page. */
+export interface DemoView {
+  demo: string;
+  state: "starting" | "running" | "stopping" | "stopped" | "ended";
+  for_s: number;
+  code: number;
+  reason: string;
+}
+
+/** Answer to `get_demos`. */
+export interface Demos {
+  type: "demos";
+  request: number;
+  demos: DemoView[];
+  elsewhere: string[];
+}
+
 /** One thing that a part tells of itself. */
 export interface DiagnosticValue {
   key: string;
@@ -765,6 +791,23 @@ export interface GetCollisions {
   file: string;
 }
 
+/** Ask what a demo printed, in its last run. */
+export interface GetDemoOutput {
+  request?: number;
+  document?: string;
+  type: "get_demo_output";
+  demo: string;
+  run?: number;
+  after?: number;
+}
+
+/** Ask which demos run. */
+export interface GetDemos {
+  request?: number;
+  document?: string;
+  type: "get_demos";
+}
+
 /** Ask how all parts are; they are heard from the first such question on. */
 export interface GetDiagnostics {
   request?: number;
@@ -816,6 +859,13 @@ export interface GetInterface {
   document?: string;
   type: "get_interface";
   name: string;
+}
+
+/** Ask which demos there are. */
+export interface GetLessons {
+  request?: number;
+  document?: string;
+  type: "get_lessons";
 }
 
 /** A link that opens this robot with its arguments and unsaved edits. */
@@ -1118,16 +1168,6 @@ export interface JointView {
   line: number;
 }
 
-/** Have a type that is not known here be told by the nodes that use it; refused with why not. */
-export interface LearnType {
-  request?: number;
-  document?: string;
-  type: "learn_type";
-  used_by: "service" | "action" | "topic";
-  name: string;
-  type_name: string;
-}
-
 /** Files below the served folders that are not open, and have unsaved work of an earlier run. */
 export interface LeftWork {
   type: "left_work";
@@ -1139,6 +1179,21 @@ export interface LeftWorkEntry {
   path: string;
   title: string;
   at: string;
+}
+
+/** A demo as a lesson. */
+export interface LessonView {
+  demo: string;
+  chapter: string;
+  node: string;
+  has_keys: boolean;
+}
+
+/** Answer to `get_lessons`: in the order in which they are taught, chapter by chapter. */
+export interface Lessons {
+  type: "lessons";
+  request: number;
+  lessons: LessonView[];
 }
 
 /** Answer to `get_link`: `text` goes behind `#robot=` of the studio's address. */
@@ -1670,6 +1725,15 @@ export interface Poses {
   trouble: string;
 }
 
+/** Press a key of a demo that is driven by keys. */
+export interface PressKey {
+  request?: number;
+  document?: string;
+  type: "press_key";
+  demo: string;
+  pressed: "up" | "down" | "left" | "right" | "g" | "t" | "r" | "e" | "d" | "c" | "v" | "b" | "f" | "q";
+}
+
 /**
  * One finding. `sentence` stands alone; `code` is stable, kebab-case, for tests and tools.
  *
@@ -2178,6 +2242,22 @@ export interface Sites {
   changed: SiteView[];
 }
 
+/** Start a demo as a process of its own, in the system that the studio is connected with. */
+export interface StartDemo {
+  request?: number;
+  document?: string;
+  type: "start_demo";
+  demo: string;
+}
+
+/** End a demo that was started from a page; done when it has ended. */
+export interface StopDemo {
+  request?: number;
+  document?: string;
+  type: "stop_demo";
+  demo: string;
+}
+
 /** Publish it no more; those of that number, or all. */
 export interface StopPublishing {
   request?: number;
@@ -2613,7 +2693,6 @@ export type Command =
   | GetServices
   | GetActions
   | ReadValues
-  | LearnType
   | FollowDeeds
   | CallService
   | CancelCall
@@ -2629,6 +2708,12 @@ export type Command =
   | LoadParameters
   | FollowParameters
   | Drive
+  | GetLessons
+  | GetDemos
+  | GetDemoOutput
+  | StartDemo
+  | StopDemo
+  | PressKey
   | ListRecent
   | OpenRecent
   | ForgetRecent
@@ -2717,6 +2802,9 @@ export type Event =
   | ParameterDump
   | ParametersLoaded
   | ParametersChanged
+  | Lessons
+  | Demos
+  | DemoOutput
   | Recent
   | Examples
   | Places

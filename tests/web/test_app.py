@@ -95,6 +95,8 @@ FIELDS: dict[str, object] = {
     **dict.fromkeys(("action_type", "message_type", "type_name"), "x/msg/X"),
     "used_by": "topic",
     "deeds": "calls",
+    "demo": "talker",
+    "pressed": "up",
 }
 """A value for each field that a command needs."""
 

@@ -12,12 +12,14 @@ from studio.engine.bridge.driving import DriveDesk
 from studio.engine.bridge.graph import GraphDesk
 from studio.engine.bridge.hearing import HearingDesk
 from studio.engine.bridge.interfaces import InterfaceDesk
+from studio.engine.bridge.lessons import LessonDesk
 from studio.engine.bridge.lifecycle import LifecycleDesk
 from studio.engine.bridge.logs import LogDesk
 from studio.engine.bridge.rates import RateDesk
 from studio.engine.bridge.topics import TopicDesk
 from studio.engine.messages import calls as k
 from studio.engine.messages import goals as g
+from studio.engine.messages import lessons as le
 from studio.engine.messages import parameters as p
 from studio.engine.messages import publishing as pub
 from studio.engine.messages.diagnostics import GetDiagnostics
@@ -62,6 +64,7 @@ class BridgeDesk:
         self.diagnostics = DiagnosticsDesk(wire)
         self.deeds = DeedDesk(wire, self.interfaces)
         self.driving = DriveDesk(wire)
+        self.lessons = LessonDesk(wire)
 
     async def carry_out(self, command: m.BridgeCommand, listener: Listener) -> m.BridgeEvent | None:
         """Carry out one command and give its answer, if it has one.
@@ -87,6 +90,7 @@ class BridgeDesk:
             self.hearing.let_go(),
             self.deeds.let_go(),
             self.driving.let_go(),
+            self.lessons.let_go(),
             self.logs.let_go(),
             self.lifecycle.let_go(),
             self.diagnostics.let_go(),
@@ -98,6 +102,7 @@ class BridgeDesk:
             self.hearing.close(),
             self.deeds.close(),
             self.driving.let_go(),
+            self.lessons.close(),
             self.lifecycle.let_go(),
         )
 
@@ -112,7 +117,6 @@ _DEEDS: Final = (
     _row(k.GetServices, lambda d, c, _: d.deeds.offers.services(c)),
     _row(k.GetActions, lambda d, c, _: d.deeds.offers.actions(c)),
     _row(k.ReadValues, lambda d, c, _: d.deeds.offers.read(c)),
-    _row(k.LearnType, lambda d, c, _: d.deeds.offers.learn(c)),
     _row(k.FollowDeeds, lambda d, c, who: d.deeds.follow(c, who)),
     _row(k.CallService, lambda d, c, _: d.deeds.calls.begin(c)),
     _row(k.CancelCall, lambda d, c, _: d.deeds.calls.cancel(c)),
@@ -143,5 +147,14 @@ _GRAPH: Final = (
     _row(ChangeState, lambda d, c, _: d.lifecycle.change(c)),
     _row(GetDiagnostics, lambda d, c, _: d.diagnostics.diagnostics(c)),
 )
-WORK: Final = dict((*_GRAPH, *_LOGS, *_INTERFACES, *_RATES, *_DEEDS, *_PARAMETERS, *_TOPICS))
+_LESSONS: Final = (
+    _row(le.GetLessons, lambda d, c, _: d.lessons.lessons(c)),
+    _row(le.GetDemos, lambda d, c, _: d.lessons.demos(c)),
+    _row(le.GetDemoOutput, lambda d, c, _: d.lessons.output(c)),
+    _row(le.StartDemo, lambda d, c, _: d.lessons.start(c)),
+    _row(le.StopDemo, lambda d, c, _: d.lessons.stop(c)),
+    _row(le.PressKey, lambda d, c, _: d.lessons.press(c)),
+)
+_SEEN: Final = (*_GRAPH, *_LOGS, *_INTERFACES, *_RATES, *_TOPICS)
+WORK: Final = dict((*_SEEN, *_DEEDS, *_PARAMETERS, *_LESSONS))
 """What each command of the bridge does."""

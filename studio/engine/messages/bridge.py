@@ -9,6 +9,7 @@ from studio.engine.messages.diagnostics import DiagnosticsCommand, DiagnosticsEv
 from studio.engine.messages.driving import DriveCommand
 from studio.engine.messages.graph import GraphCommand, GraphEvent
 from studio.engine.messages.interfaces import InterfaceCommand, InterfaceEvent
+from studio.engine.messages.lessons import LessonCommand, LessonEvent
 from studio.engine.messages.lifecycle import LifecycleCommand, LifecycleEvent
 from studio.engine.messages.logs import LogCommand, LogEvent
 from studio.engine.messages.topic_rates import RatesCommand, RatesEvent
@@ -24,6 +25,7 @@ BridgeCommand: TypeAlias = (
     | TopicsCommand
     | DeedCommand
     | DriveCommand
+    | LessonCommand
 )
 """Each concerns the connection, and none a document: the bridge desk carries them out."""
 BridgeEvent: TypeAlias = (
@@ -35,4 +37,5 @@ BridgeEvent: TypeAlias = (
     | RatesEvent
     | TopicsEvent
     | DeedEvent
+    | LessonEvent
 )

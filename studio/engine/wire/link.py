@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from studio.ros.qos import QoSProfile
     from studio.ros.types.classes import MessageValue
     from studio.ros.types.library import TypeLibrary
+    from studio.ros.wire.settings import WireSettings
     from studio.settings import WireChoice
 
 _log = logging.getLogger(__name__)
@@ -74,6 +75,11 @@ class WireLink:
     def has_own_router(self) -> bool:
         """Whether the router is one that this process started."""
         return self._wire.router is not None
+
+    @property
+    def settings(self) -> WireSettings:
+        """How it was reached, for others who are to meet it."""
+        return self._wire.settings
 
     @property
     def endpoint(self) -> str:

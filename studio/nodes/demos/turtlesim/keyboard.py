@@ -1,4 +1,4 @@
-"""Keys: one press at a time from the terminal, named as the arrows are."""
+"""Keys: one press at a time, named as the arrows are, from the terminal or from a page."""
 
 from __future__ import annotations
 
@@ -10,10 +10,17 @@ from studio.errors import SettingsError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator
+    from queue import SimpleQueue
 
 _ARROWS = {"A": "up", "B": "down", "C": "right", "D": "left"}
 _ESCAPE = "\x1b"
 _WINDOWS_ARROWS = {"H": "up", "P": "down", "M": "right", "K": "left"}
+_sent: list[SimpleQueue[str]] = []
+
+
+def take_keys_from(sent: SimpleQueue[str]) -> None:
+    """Have the keys of this process come from a queue, not from a terminal."""
+    _sent[:] = [sent]
 
 
 @contextmanager
@@ -23,6 +30,9 @@ def key_presses() -> Generator[Callable[[], str]]:
     Raises:
         SettingsError: Nobody types: the input is no terminal.
     """
+    if _sent:
+        yield _sent[0].get
+        return
     if not sys.stdin.isatty():
         raise SettingsError("Keys come from a terminal: start this in one, in the foreground.")
     if sys.platform == "win32":
