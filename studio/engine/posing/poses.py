@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 from studio.description.poses.named_poses import NamedPose
 from studio.description.poses.poses_file import POSE_LIMIT, read_poses, rounded, write_poses
 from studio.engine.keeping.shelf import Shelf, ShelfKind
-from studio.engine.listeners import encode
+from studio.engine.listeners import LastTold
 from studio.engine.lookout import Lookout
 from studio.engine.messages.poses import Poses, PoseView
 from studio.engine.posing.pose_reading import FoundPoses, read_poses_around
@@ -44,7 +44,7 @@ class PoseDesk:
         self._found = FoundPoses()
         self._made_from: object = None
         """Arguments, packages and robot that they were looked for with; None: look anew."""
-        self._told: Poses | None = None
+        self._told = LastTold[Poses](document.board.audience)
         self._watch = FileWatch(self._changed_on_disk, may_name_poses)
         self._watch.watch({str(self._shelf.path)})
         self._lookout = Lookout(self._look, pause_s=_PAUSE_S)
@@ -176,10 +176,7 @@ class PoseDesk:
         )
 
     def _tell(self) -> None:
-        news = self._list()
-        if news != self._told:
-            self._told = news
-            self._document.board.audience.post(encode(news))
+        self._told.tell(self._list())
 
 
 def _key(kind: _Kind, pose: NamedPose) -> str:

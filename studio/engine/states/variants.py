@@ -10,7 +10,7 @@ from studio.description.editing.sources import Change
 from studio.description.editing.variants_file import VARIANT_LIMIT, read_variants, write_variants
 from studio.engine import messages as m
 from studio.engine.keeping.shelf import Shelf, ShelfKind
-from studio.engine.listeners import encode
+from studio.engine.listeners import LastTold
 from studio.engine.lookout import Lookout
 from studio.engine.messages.variants import shown
 from studio.engine.states.comparison_desk import ComparisonDesk
@@ -54,7 +54,7 @@ class VariantDesk:
         )
         self._active, self._modified = "", False
         self._steps = 0
-        self._told: m.Variants | None = None
+        self._told = LastTold[m.Variants](document.board.audience)
         self._watch = FileWatch(self._changed_on_disk)
         self._watch.watch({str(self._shelf.path)})
         self._lookout = Lookout(self._look, first_s=_FIRST_S, pause_s=_PAUSE_S)
@@ -228,10 +228,7 @@ class VariantDesk:
         )
 
     def _tell(self) -> None:
-        news = self._list()
-        if news != self._told:
-            self._told = news
-            self._document.board.audience.post(encode(news))
+        self._told.tell(self._list())
 
 
 def _view(variant: Variant) -> m.VariantView:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
-from studio.engine.listeners import Audience, tell
+from studio.engine.listeners import Audience, LastTold, tell
 from studio.engine.lookout import Lookout
 from studio.engine.messages.wire import WireState
 from studio.engine.wire.plan import planned_wire
@@ -40,7 +40,7 @@ class WireDesk:
         self._opening: asyncio.Task[WireLink] | None = None
         self._phase: _Phase = "off"
         self._trouble = ""
-        self._told: WireState | None = None
+        self._told = LastTold[WireState](self._audience)
         self._lookout = Lookout(self._look, pause_s=_PAUSE_S)
         self._closed = False
         self._turn = asyncio.Lock()
@@ -149,10 +149,7 @@ class WireDesk:
                 self._tell(seen)
 
     def _tell(self, seen: WireState | None = None) -> None:
-        news = seen or self._state()
-        if news != self._told:
-            self._told = news
-            self._audience.tell(news)
+        self._told.tell(seen or self._state())
 
     def _state(self) -> WireState:
         return self._state_without() if self._link is None else _state_with(self._link)
