@@ -1,14 +1,13 @@
 /** The data lane as panels use it: topics are looked at, or traced as numbers, until they are left. */
 
-/** @import { MessageView } from "../types/wire.d.ts" */
 /** @import { Range } from "../lib/image-pixels.js" */
 /** @import { FromPage } from "../workers/data.js" */
 /** @import { Pictured } from "../workers/pictures.js" */
 /** @import { Heard, Looked, Points, ToPage } from "../workers/wishes.js" */
 
 import { effect, signal } from "vendor/preact.js";
+import { typeOf, whenTypesChange } from "./message-types.js";
 import { connection } from "./state/connection.js";
-import { RefusedError, send } from "./wire.js";
 
 /** @typedef {{reliable?: boolean | null, latched?: boolean | null, depth?: number | null, typeName?: string, mostHz?: number}} Ways null: as fits its publishers */
 /** @typedef {{onState: (heard: Heard) => void, onMessage: (message: Looked) => void}} Onlooker */
@@ -44,6 +43,7 @@ function begun() {
   effect(() => {
     if (connection.value === "connected") made.postMessage({ kind: "retry" });
   });
+  whenTypesChange(tell);
   return made;
 }
 
@@ -69,28 +69,6 @@ function takeHeard(message) {
   else if (message.kind === "message" && "onMessage" in listener) listener.onMessage(message);
   else if (message.kind === "points" && "onPoints" in listener) listener.onPoints(message);
   else if (message.kind === "picture" && "onPicture" in listener) listener.onPicture(message);
-}
-
-/** @type {Map<string, Promise<{messages: readonly MessageView[] | null, reason: string}>>} */
-const types = new Map();
-
-/** @param {string} name @returns {Promise<{messages: readonly MessageView[] | null, reason: string}>} what a type is made of, or why that is not known */
-export function typeOf(name) {
-  const known = types.get(name) ?? askType(name);
-  types.set(name, known);
-  return known;
-}
-
-/** @param {string} name */
-async function askType(name) {
-  try {
-    const answer = await send({ type: "get_interface", name });
-    if (answer.type === "interface") return { messages: answer.messages, reason: "" };
-    return { messages: null, reason: "" };
-  } catch (error) {
-    types.delete(name); // somebody may tell it later
-    return { messages: null, reason: error instanceof RefusedError ? error.message : "…" };
-  }
 }
 
 /** @param {string} typeName tell the worker */

@@ -1,7 +1,7 @@
 /** Which number is drawn, by hand: a topic, and a path into its messages. */
 
 import { html, useEffect, useSignal } from "vendor/preact.js";
-import { typeOf } from "../app/data.js";
+import { typeOf } from "../app/message-types.js";
 import { addSeries } from "../app/state/plot.js";
 import { topics } from "../app/state/topics.js";
 import { followTopics } from "../app/topics.js";

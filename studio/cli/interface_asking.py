@@ -12,8 +12,6 @@ from studio.errors import UnknownTypeError, WireError
 if TYPE_CHECKING:
     import argparse
 
-    from studio.ros.graph.endpoints import GraphEndpoint
-    from studio.ros.graph.graph import Graph
     from studio.ros.types.library import TypeLibrary
 
 
@@ -38,24 +36,14 @@ def _asked(options: argparse.Namespace, name: str) -> TypeLibrary | None:
     """Ask the nodes that use a type; None when there are none, or none says what it is."""
     from studio.cli.acting import acting
     from studio.cli.learning import learn_type
+    from studio.ros.remote.known_types import users_of
 
     if any(is_pasted(path) for path in options.interfaces):
         return None  # what was pasted is read, and cannot be again
     try:
         with acting(options) as actor:
-            learn_type(actor, _users(actor.graph, name))
+            learn_type(actor, users_of(actor.graph, name))
             actor.types.hash_of(name)
             return actor.types
     except WireError:
         return None
-
-
-def _users(graph: Graph, name: str) -> list[GraphEndpoint]:
-    """Who uses a type, or the parts of it that actions are made of."""
-    ends = (end for node in graph.nodes() for end in graph.endpoints_of(node))
-    is_action = "/action/" in name
-    return [
-        end
-        for end in ends
-        if end.type_name == name or (is_action and end.type_name.startswith(f"{name}_"))
-    ]

@@ -4,14 +4,13 @@
 
 import { computed, signal } from "vendor/preact.js";
 import { blank, fromPlain, isWrong, yamlOf } from "../../lib/message-form.js";
-import { mayEdit } from "./connection.js";
 import { askOrKeepWhy } from "./refusals.js";
 
 /** @typedef {{name: string, type: string}} Chosen a service, an action or a topic, and its type */
 /** @typedef {ReturnType<typeof messageForm>} MessageForm */
 
-/** A form of its own for each panel: what is typed stays while the panel is behind another one. @param {"service" | "action" | "topic"} usedBy */
-export function messageForm(usedBy) {
+/** A form of its own for each panel: what is typed stays while the panel is behind another one. */
+export function messageForm() {
   const chosen = signal(/** @type {Chosen | null} */ (null));
   const types = signal(/** @type {Types} */ (new Map()));
   /** The message that is filled in: of a call its request, of an action its goal. */
@@ -27,18 +26,13 @@ export function messageForm(usedBy) {
 
   /** @param {Chosen} choice */
   const ofType = ({ type }) => askOrKeepWhy({ type: "get_interface", name: type }, trouble);
-  /** Have the nodes that use the type tell it. @param {Chosen} choice */
-  const learn = ({ name, type }) =>
-    mayEdit.value
-      ? askOrKeepWhy({ type: "learn_type", used_by: usedBy, name, type_name: type }, trouble)
-      : null;
 
   /** @param {Chosen} choice @param {string} [yaml] empty: all defaults */
   async function open(choice, yaml = "") {
     chosen.value = choice;
     [types.value, root.value, value.value, text.value] = [new Map(), "", {}, yaml];
     [trouble.value, inYaml.value, written] = ["", false, null];
-    const told = (await ofType(choice)) ?? ((await learn(choice)) && (await ofType(choice)));
+    const told = await ofType(choice);
     if (chosen.peek() !== choice) return;
     if (told?.type !== "interface") {
       inYaml.value = true;
@@ -84,9 +78,9 @@ export function messageForm(usedBy) {
   };
 }
 
-export const serviceForm = messageForm("service");
-export const goalForm = messageForm("action");
-export const publishForm = messageForm("topic");
+export const serviceForm = messageForm();
+export const goalForm = messageForm();
+export const publishForm = messageForm();
 /** Seconds that a service has for its answer. */
 export const callTimeout = signal(10);
 /** How a message is published: so often a second, and with which quality of service. */

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 from typing import TYPE_CHECKING, Literal, cast
 
+from studio.engine.bridge.type_learning import TypeLearner
 from studio.engine.messages.interfaces import (
     AddedInterface,
     AddInterfaces,
@@ -30,14 +31,19 @@ class InterfaceDesk:
 
     def __init__(self, wire: WireDesk) -> None:
         self._wire = wire
+        self._learner = TypeLearner(wire)
 
     async def interface(self, command: GetInterface) -> InterfaceAnswer:
-        """Tell what a type is made of.
+        """Tell what a type is made of; what is not known here, nodes that use it are asked for.
 
         Raises:
             RosNameError: No type is named so.
-            UnknownTypeError: It, or what it is made of, is not known.
+            UnknownTypeError: It, or what it is made of, is not known, nor told by a node.
         """
+        try:
+            return await asyncio.to_thread(self._answer, command)
+        except UnknownTypeError:
+            await self._learner.learn(command.name)
         return await asyncio.to_thread(self._answer, command)
 
     async def names(self, command: ListInterfaces) -> InterfacesAnswer:

@@ -10,7 +10,6 @@ from studio.engine.messages.calls import (
     Actions,
     GetActions,
     GetServices,
-    LearnType,
     OfferView,
     ReadValues,
     Services,
@@ -54,17 +53,6 @@ class OfferDesk:
             graph = link.graph
             found = await asyncio.to_thread(lambda: _offers(graph.actions(), graph.action_servers))
         return Actions(request=command.request, actions=found)
-
-    async def learn(self, command: LearnType) -> None:
-        """Have a type be known that only other nodes know.
-
-        Raises:
-            StudioError: They do not tell it.
-        """
-        from studio.engine.bridge.requests import learn  # noqa: PLC0415 - imports zenoh
-
-        link = await self._wire.link()
-        await asyncio.to_thread(learn, link, command)
 
     async def read(self, command: ReadValues) -> ValuesRead:
         """Read YAML as values of a type.

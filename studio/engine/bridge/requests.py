@@ -9,16 +9,16 @@ import asyncio
 import time
 from typing import TYPE_CHECKING, Any, Final
 
-from studio.errors import CommandError, NoAnswerError, NotServedError, UnknownTypeError
+from studio.errors import CommandError, NoAnswerError, NotServedError
 from studio.ros.names import check_full_name, full_type_name
-from studio.ros.remote.known_types import known_action, known_message, known_service
+from studio.ros.remote.known_types import known_service
 from studio.ros.types.json_texts import to_json
 from studio.ros.types.plain import from_yaml
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from studio.engine.messages.calls import CallService, LearnType
+    from studio.engine.messages.calls import CallService
     from studio.engine.wire.link import WireLink
     from studio.ros.node.future import Future
 
@@ -69,21 +69,6 @@ class ServiceRequest:
     def close(self) -> None:
         """Take the client back."""
         self._link.node.destroy_client(self._client)
-
-
-def learn(link: WireLink, asked: LearnType) -> None:
-    """Have a type be known; in a thread.
-
-    Raises:
-        CommandError: The nodes that use it do not tell it; what they say is told.
-        RosNameError: Nothing can be named so.
-    """
-    said: list[str] = []
-    know = {"service": known_service, "action": known_action, "topic": known_message}
-    try:
-        know[asked.used_by](link.node, wire_name(asked.name), asked.type_name, said.append)
-    except UnknownTypeError as error:
-        raise CommandError(" ".join([str(error), *said])) from error
 
 
 def wire_name(text: str) -> str:

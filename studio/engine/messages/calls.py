@@ -41,16 +41,6 @@ class ReadValues(CommandMessage):
     text: Yaml
 
 
-class LearnType(CommandMessage):
-    """Have a type that is not known here be told by the nodes that use it; refused with why not."""
-
-    type: Literal["learn_type"] = "learn_type"
-    used_by: Literal["service", "action", "topic"]
-    name: Name
-    """Of the service, the action or the topic."""
-    type_name: Name
-
-
 class FollowDeeds(CommandMessage):
     """Be told what runs and ran of a kind, for any page, from now on; or no more."""
 
@@ -145,6 +135,6 @@ class Calls(Message):
 
 
 CallCommand: TypeAlias = (
-    GetServices | GetActions | ReadValues | LearnType | FollowDeeds | CallService | CancelCall
+    GetServices | GetActions | ReadValues | FollowDeeds | CallService | CancelCall
 )
 CallEvent: TypeAlias = Services | Actions | ValuesRead | Begun | Calls

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from studio.ros.graph.endpoints import GraphEndpoint
+    from studio.ros.graph.graph import Graph
     from studio.ros.node.node import Node
     from studio.ros.types.classes import MessageValue
     from studio.ros.types.library import ActionType, ServiceType
@@ -64,6 +65,17 @@ def learn_from_any(node: Node, endpoints: Iterable[GraphEndpoint], say: Say) -> 
             say(f"{path}: {error}")
         else:
             return
+
+
+def users_of(graph: Graph, name: str) -> list[GraphEndpoint]:
+    """Tell who uses a type, or the parts of it that actions are made of."""
+    ends = (end for node in graph.nodes() for end in graph.endpoints_of(node))
+    is_action = "/action/" in name
+    return [
+        end
+        for end in ends
+        if end.type_name == name or (is_action and end.type_name.startswith(f"{name}_"))
+    ]
 
 
 def _known(

@@ -9,23 +9,11 @@ from studio.engine.bridge.interfaces import InterfaceDesk
 from studio.engine.messages.interfaces import AddInterfaces, GetInterface, ListInterfaces
 from studio.engine.wire.desk import WireDesk
 from studio.errors import InterfaceTextError, StudioError
-from studio.ros.types.library import TypeLibrary
 from studio.settings import WireChoice
 
 if TYPE_CHECKING:
     from studio.engine.messages.interfaces import InterfaceAnswer, InterfacesAdded
-
-
-@pytest.fixture
-def library(monkeypatch: pytest.MonkeyPatch) -> TypeLibrary:
-    """Of this test alone: what is added is gone after it."""
-    made = TypeLibrary("jazzy")
-
-    def types_of(_: str) -> TypeLibrary:
-        return made
-
-    monkeypatch.setattr("studio.ros.messages.shared.types_of", types_of)
-    return made
+    from studio.ros.types.library import TypeLibrary
 
 
 def added(texts: dict[str, str]) -> InterfacesAdded:

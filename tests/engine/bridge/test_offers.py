@@ -7,11 +7,10 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.engine.bridge.desk import BridgeDesk
-from studio.engine.messages.calls import GetActions, GetServices, LearnType, ReadValues
+from studio.engine.messages.calls import GetActions, GetServices, ReadValues
 from studio.engine.wire.desk import WireDesk
-from studio.errors import CommandError, StudioError
+from studio.errors import StudioError
 from studio.settings import WireChoice
-from tests.support.bridged import bridged
 from tests.support.open_documents import Ear
 
 if TYPE_CHECKING:
@@ -68,15 +67,3 @@ def test_what_a_field_does_not_take_is_named(text: str, words: str):
 def test_a_type_or_a_part_that_there_is_not_is_said(name: str, place: int):
     with pytest.raises(StudioError, match=r"nowhere_at|no part 1"):
         read("{}", name, place)
-
-
-@pytest.mark.network
-def test_a_type_that_nobody_tells_is_refused_with_a_sentence(endpoint: str):
-    async def run() -> None:
-        async with bridged(endpoint) as page:
-            for used_by in ("service", "action", "topic"):
-                ask = LearnType(used_by=used_by, name="/x", type_name="nowhere_at/srv/All")
-                with pytest.raises(CommandError, match=r"nowhere_at.*cannot be used"):
-                    await page.do(ask)
-
-    asyncio.run(run())

@@ -1,0 +1,80 @@
+"""Types that only other nodes know are told to pages like all others."""
+
+from __future__ import annotations
+
+import asyncio
+from contextlib import asynccontextmanager
+from typing import TYPE_CHECKING
+
+import pytest
+
+from studio.engine.bridge.interfaces import InterfaceDesk
+from studio.engine.messages.interfaces import GetInterface
+from studio.engine.wire.desk import WireDesk
+from studio.errors import UnknownTypeError
+from studio.ros.types.library import TypeLibrary
+from studio.settings import WireChoice
+from tests.support.demos import node_at
+from tests.support.open_documents import until
+
+if TYPE_CHECKING:
+    from collections.abc import AsyncGenerator
+
+    from studio.engine.wire.link import WireLink
+
+pytestmark = pytest.mark.network
+WHOLE, ASK = "odd_msgs/msg/Whole", "odd_msgs/srv/Ask"
+TEXTS = {
+    "odd_msgs/msg/Part": "string name\n",
+    WHOLE: "# All of it.\n\nPart[] parts\n",
+    ASK: "string question\n---\nPart part\n",
+}
+
+
+def foreign_types() -> TypeLibrary:
+    made = TypeLibrary("jazzy")
+    made.add_texts(TEXTS)
+    return made
+
+
+@asynccontextmanager
+async def joined(endpoint: str) -> AsyncGenerator[tuple[InterfaceDesk, WireLink]]:
+    wire = WireDesk(WireChoice("off", (endpoint,)))
+    try:
+        link = await wire.link()
+        yield InterfaceDesk(wire), link
+    finally:
+        await wire.close()
+
+
+@pytest.mark.usefixtures("library")
+def test_a_type_that_a_node_tells_is_known_with_its_parts_and_comments(endpoint: str):
+    types = foreign_types()
+
+    async def run() -> None:
+        with node_at(endpoint, "odd_one", types) as odd:
+            odd.create_publisher(types.message(WHOLE), "/whole", 10)
+            odd.create_service(types.service(ASK), "/ask", lambda _, reply: reply)
+            async with joined(endpoint) as (desk, link):
+                await until(lambda: bool(link.graph.servers("/ask")))
+                await until(lambda: bool(link.graph.publishers("/whole")))
+                asked = [desk.interface(GetInterface(name=name)) for name in (WHOLE, ASK, WHOLE)]
+                told = await asyncio.gather(*asked)
+        assert [one.hash for one in told] == [types.hash_of(one.name) for one in told]
+        whole = told[0].messages[0]
+        assert (whole.comment, whole.fields[0].base) == ("All of it.", "odd_msgs/msg/Part")
+
+    asyncio.run(run())
+
+
+@pytest.mark.usefixtures("library")
+def test_a_type_that_nobody_tells_is_refused_with_what_to_do(endpoint: str):
+    async def run() -> None:
+        async with joined(endpoint) as (desk, _):
+            for _ in range(2):
+                with pytest.raises(
+                    UnknownTypeError, match=r"node .* tells it; drop its \.srv file"
+                ):
+                    await desk.interface(GetInterface(name=ASK))
+
+    asyncio.run(run())
