@@ -1,8 +1,7 @@
 /** The data lane as panels use it: topics are looked at, or traced as numbers, until they are left. */
 
-/** @import { Range } from "../lib/image-pixels.js" */
 /** @import { FromPage } from "../workers/data.js" */
-/** @import { Pictured } from "../workers/pictures.js" */
+/** @import { Pictured, PictureAsked, SavedPicture } from "../workers/pictures.js" */
 /** @import { Heard, Looked, Points, ToPage } from "../workers/wishes.js" */
 
 import { effect, signal } from "vendor/preact.js";
@@ -12,10 +11,12 @@ import { connection } from "./state/connection.js";
 /** @typedef {{reliable?: boolean | null, latched?: boolean | null, depth?: number | null, typeName?: string, mostHz?: number}} Ways null: as fits its publishers */
 /** @typedef {{onState: (heard: Heard) => void, onMessage: (message: Looked) => void}} Onlooker */
 /** @typedef {{onState: (heard: Heard) => void, onPoints: (points: Points) => void}} Tracer */
-/** @typedef {{onState: (heard: Heard) => void, onPicture: (pictured: Pictured) => void}} Watcher */
+/** @typedef {{onState: (heard: Heard) => void, onPicture: (pictured: Pictured) => void, onSaved: (file: Blob) => void}} Watcher */
 
 /** What is looked at is read by people. */
 const LOOK_HZ = 10;
+/** As often as most screens show another picture. */
+const WATCH_HZ = 60;
 
 /** Messages that this page was too slow for, since the lane was opened. */
 export const dropped = signal(0);
@@ -30,10 +31,10 @@ const listeners = new Map();
 /** @type {Map<number, (text: string) => void>} */
 const texts = new Map();
 
-/** @param {FromPage} message */
-function post(message) {
+/** @param {FromPage} message @param {Transferable[]} moved what the worker gets and the page gives away */
+function post(message, moved = []) {
   worker ??= begun();
-  worker.postMessage(message);
+  worker.postMessage(message, moved);
 }
 
 /** @returns {Worker} */
@@ -61,7 +62,7 @@ function takeLane(message) {
   dropped.value = message.dropped;
 }
 
-/** @param {import("../workers/wishes.js").State | Looked | Points | Pictured} message */
+/** @param {import("../workers/wishes.js").State | Looked | Points | Pictured | SavedPicture} message */
 function takeHeard(message) {
   const listener = listeners.get(message.wish);
   if (!listener) return;
@@ -69,6 +70,7 @@ function takeHeard(message) {
   else if (message.kind === "message" && "onMessage" in listener) listener.onMessage(message);
   else if (message.kind === "points" && "onPoints" in listener) listener.onPoints(message);
   else if (message.kind === "picture" && "onPicture" in listener) listener.onPicture(message);
+  else if (message.kind === "saved" && "onSaved" in listener) listener.onSaved(message.file);
 }
 
 /** @param {string} typeName tell the worker */
@@ -155,20 +157,20 @@ export function trace(topic, paths, ways, tracer) {
 }
 
 /**
- * Look at the newest image of a topic, as a picture.
+ * Look at the newest image of a topic, which the worker paints on a canvas.
  *
  * @param {string} topic
  * @param {Ways} ways
- * @param {Range | null} range of numbers such as depths; null: from the least to the largest
+ * @param {OffscreenCanvas} canvas given away
  * @param {Watcher} watcher
  */
-export function watch(topic, ways, range, watcher) {
-  const wish = wishFor(topic, "newest", { mostHz: 30, ...ways });
+export function watch(topic, ways, canvas, watcher) {
+  const wish = wishFor(topic, "newest", { mostHz: WATCH_HZ, ...ways });
   listeners.set(wish.wish, watcher);
-  post({ kind: "watch", wish, range });
+  post({ kind: "watch", wish, canvas }, [canvas]);
   return {
-    /** @param {Range | null} chosen */
-    shade: (chosen) => post({ kind: "shade", wish: wish.wish, range: chosen }),
+    /** @param {PictureAsked} asked */
+    ask: (asked) => post({ kind: "of_picture", wish: wish.wish, asked }),
     leave: () => leave(wish.wish),
   };
 }

@@ -1,70 +1,110 @@
 /** Images in which pixels share their colours: pairs of YUV 4:2:2, and squares of a Bayer sensor. */
 
-/** @import { Rows } from "./image-pixels.js" */
+/** @import { Ink, Rows } from "./image-pixels.js" */
+/** @import { Window } from "./image-window.js" */
+
+import { BLUE, GREEN, OPAQUE, RED } from "./image-colors.js";
+
+/** Full range BT.601, as cameras send it over USB; in parts of 65,536, by a byte of U or V. */
+const SHARES = [1.402, 0.714136, 0.344136, 1.772].map((share) =>
+  Int32Array.from({ length: 256 }, (_, byte) => Math.round((byte - 128) * share * 65_536)),
+);
+const [RED_V, GREEN_V, GREEN_U, BLUE_U] =
+  /** @type {[Int32Array, Int32Array, Int32Array, Int32Array]} */ (SHARES);
+const HALF = 32_768;
+/** No sum is farther below a byte's least. */
+const BELOW = 256;
+/** What a sum becomes in a byte. */
+const BYTES = Uint8Array.from({ length: 1024 }, (_, n) => Math.max(0, Math.min(255, n - BELOW)));
 
 /**
- * Full range BT.601, as cameras send it over USB.
- *
  * @param {Rows} rows of two bytes for each pixel
  * @param {number} luma where the brightness is in them
- * @returns {Uint8ClampedArray<ArrayBuffer>} RGBA
+ * @returns {Ink}
  */
-export function pairPixels({ raw: { width, height, data }, row }, luma) {
-  const rgba = new Uint8ClampedArray(width * height * 4).fill(255);
+export function pairInk({ raw: { width, data }, row }, luma) {
   const last = Math.max(0, (width & ~1) - 2);
-  for (let y = 0; y < height; y += 1)
-    for (let x = 0; x < width; x += 1) {
-      // A row of odd width ends amid a pair: its last pixel has the colour of the pair before.
-      const pair = y * row + 2 * Math.min(x & ~1, last) + 1 - luma;
-      const brightness = data[y * row + 2 * x + luma] ?? 0;
-      const u = (data[pair] ?? 128) - 128;
-      const v = (data[pair + 2] ?? 128) - 128;
-      const at = 4 * (y * width + x);
-      rgba[at] = brightness + 1.402 * v;
-      rgba[at + 1] = brightness - 0.344136 * u - 0.714136 * v;
-      rgba[at + 2] = brightness + 1.772 * u;
+  // A row of odd width ends amid a pair: its last pixel has the colour of the pair before.
+  const pairOf = (/** @type {number} */ x) => 2 * Math.min(x & ~1, last) + 1 - luma;
+  return colorInk(({ columns, rows }, packed) => {
+    const pairs = columns.map(pairOf);
+    let to = 0;
+    for (const line of rows) {
+      const begin = line * row;
+      for (let n = 0; n < pairs.length; n += 1) {
+        const pair = begin + (pairs[n] ?? 0);
+        const luminance = data[begin + 2 * (columns[n] ?? 0) + luma] ?? 0;
+        // One pixel alone has no V.
+        packed[to] = colorOf(luminance, data[pair] ?? 128, data[pair + 2] ?? 128);
+        to += 1;
+      }
     }
-  return rgba;
+  });
 }
+
+/** @param {number} luminance @param {number} u @param {number} v @returns {number} RGBA */
+function colorOf(luminance, u, v) {
+  const y = (luminance << 16) + HALF;
+  const red = (y + (RED_V[v] ?? 0)) >> 16;
+  const green = (y - (GREEN_U[u] ?? 0) - (GREEN_V[v] ?? 0)) >> 16;
+  const blue = (y + (BLUE_U[u] ?? 0)) >> 16;
+  return OPAQUE | (byteOf(red) << RED) | (byteOf(green) << GREEN) | (byteOf(blue) << BLUE);
+}
+
+/** @param {number} sum @returns {number} */
+const byteOf = (sum) => BYTES[sum + BELOW] ?? 0;
 
 /**
  * Every square of 2 x 2 pixels gets the colour that its four measure: nothing is guessed.
  *
  * @param {Rows} rows
  * @param {string} pattern the colours of a square, row by row
- * @param {number} bytes of a pixel
- * @param {number} upper which of them is shown
- * @returns {Uint8ClampedArray<ArrayBuffer>} RGBA
+ * @param {number} bytes of a pixel; of two the upper is shown
+ * @returns {Ink}
  */
-export function mosaicPixels({ raw: { width, height, data }, row }, pattern, bytes, upper) {
-  const rgba = new Uint8ClampedArray(width * height * 4).fill(255);
-  const [red, blue] = [pattern.indexOf("r"), pattern.indexOf("b")];
-  const square = new Uint8Array(4);
-  for (let y = 0; y < height; y += 1)
-    for (let x = 0; x < width; x += 1) {
-      const left = startOf(x, width);
-      const top = startOf(y, height);
-      for (let n = 0; n < 4; n += 1) {
-        const column = Math.min(left + (n & 1), width - 1);
-        const line = Math.min(top + (n >> 1), height - 1);
-        square[n] = data[line * row + column * bytes + upper] ?? 0;
+export function mosaicInk({ raw: { width, height, data, is_bigendian }, row }, pattern, bytes) {
+  const upper = is_bigendian ? 0 : bytes - 1;
+  const red = pattern.indexOf("r");
+  const [redColumn, redRow] = [red & 1, red >> 1];
+  const placeIn = (/** @type {number} */ x, /** @type {number} */ n) =>
+    squareAt(x, n, width) * bytes + upper;
+  return colorInk(({ columns, rows }, packed) => {
+    // The others of a square are beside and below the red one: blue is across.
+    const reds = columns.map((x) => placeIn(x, redColumn));
+    const blues = columns.map((x) => placeIn(x, 1 - redColumn));
+    let to = 0;
+    for (const line of rows) {
+      const upperRow = squareAt(line, redRow, height) * row;
+      const lowerRow = squareAt(line, 1 - redRow, height) * row;
+      for (let n = 0; n < reds.length; n += 1) {
+        const ofRed = reds[n] ?? 0;
+        const ofBlue = blues[n] ?? 0;
+        const green = ((data[upperRow + ofBlue] ?? 0) + (data[lowerRow + ofRed] ?? 0)) >> 1;
+        packed[to] =
+          OPAQUE |
+          ((data[upperRow + ofRed] ?? 0) << RED) |
+          (green << GREEN) |
+          ((data[lowerRow + ofBlue] ?? 0) << BLUE);
+        to += 1;
       }
-      const r = square[red] ?? 0;
-      const b = square[blue] ?? 0;
-      const at = 4 * (y * width + x);
-      rgba[at] = r;
-      rgba[at + 1] = (sumOf(square) - r - b) >> 1;
-      rgba[at + 2] = b;
     }
-  return rgba;
+  });
 }
 
-/** @param {number} at @param {number} length @returns {number} where its square begins: a whole one, where there is any */
-const startOf = (at, length) => Math.min(at & ~1, Math.max(0, (length & ~1) - 2));
-
-/** @param {Uint8Array} square @returns {number} */
-function sumOf(square) {
-  let sum = 0;
-  for (let n = 0; n < square.length; n += 1) sum += square[n] ?? 0;
-  return sum;
+/** @param {number} at @param {number} n of two @param {number} length @returns {number} a column or row of the square that `at` is in: a whole one, where there is any */
+function squareAt(at, n, length) {
+  const begin = Math.min(at & ~1, Math.max(0, (length & ~1) - 2));
+  return Math.min(begin + n, length - 1);
+}
+/** @param {(window: Pick<Window, "columns" | "rows">, packed: Uint32Array) => void} paint @returns {Ink} whose pixels are what is shown of them */
+function colorInk(paint) {
+  return {
+    numbers: null,
+    paint,
+    at(x, y) {
+      const packed = new Uint32Array(1);
+      paint({ columns: Int32Array.of(x), rows: Int32Array.of(y) }, packed);
+      return [...new Uint8Array(packed.buffer).subarray(0, 3)];
+    },
+  };
 }

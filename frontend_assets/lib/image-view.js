@@ -23,6 +23,14 @@ export function pixelUnder(view, point) {
   };
 }
 
+/** More pixels than a large screen has are not painted: what they would show is not seen. */
+const PIXELS_MAX = 4_000_000;
+
+/** @param {Size} frame @param {number} device pixels of the screen to one px @returns {number} pixels of the canvas to one px */
+export function ratioFor({ width, height }, device) {
+  return Math.min(device, Math.sqrt(PIXELS_MAX / Math.max(width * height, 1)));
+}
+
 /** @param {readonly number[]} times_s of what came last, the oldest first @returns {number | null} how many come in a second; null: that cannot be told */
 export function rateOf(times_s) {
   const span_s = (times_s.at(-1) ?? 0) - (times_s[0] ?? 0);

@@ -1,14 +1,11 @@
-/** A picture that can be moved and looked at closely, down to each pixel. */
+/** A picture that can be moved and looked at closely, down to each pixel; the worker paints it. */
 
-/** @import { Picture } from "../lib/image-pixels.js" */
 /** @import { Size, View } from "../lib/pan-zoom.js" */
-/** @import { Signal } from "vendor/preact.js" */
+/** @import { PictureAsked } from "../workers/pictures.js" */
 
 import { html, useEffect, useLayoutEffect, useRef, useSignal } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
-import { pixelAt } from "../lib/image-pixels.js";
-import { CLOSEST, filling, pixelUnder } from "../lib/image-view.js";
-import { formatNumber } from "../lib/numbers.js";
+import { CLOSEST, filling, pixelUnder, ratioFor } from "../lib/image-view.js";
 import { zoomed } from "../lib/pan-zoom.js";
 import { IconButton } from "../lib/ui.js";
 
@@ -16,22 +13,21 @@ const STEP = 1.5;
 const WHEEL = 0.002;
 
 /** @typedef {{x: number, y: number}} Point px, in the frame */
+/** @typedef {{canvas: {current: HTMLCanvasElement | null}, size: Size | null, label: string, ask: (asked: PictureAsked) => void}} Props `size` of the picture; null: there is none */
 
-/** @param {{picture: Picture, label: string, pointed: Signal<string>}} props `pointed`: what is said of the pixel under the pointer */
-export function ImageCanvas({ picture, label, pointed }) {
+/** @param {Props} props */
+export function ImageCanvas({ canvas, size, label, ask }) {
   const frame = useRef(/** @type {HTMLElement | null} */ (null));
-  const canvas = useRef(/** @type {HTMLCanvasElement | null} */ (null));
-  const size = useSize(frame);
+  const room = useSize(frame);
   /** As a person moved it; null: all of it is seen. */
   const moved = useSignal(/** @type {View | null} */ (null));
   const pointer = useSignal(/** @type {Point | null} */ (null));
-  const view = moved.value ?? filling(picture, size);
-  useLayoutEffect(() => draw(canvas.current, picture), [picture]);
-  useEffect(() => {
-    pointed.value = pointer.value ? pixelWords(picture, pixelUnder(view, pointer.value)) : "";
-  }, [picture, pointer.value, moved.value]);
-  const zoom = (/** @type {number} */ factor, at = { x: size.width / 2, y: size.height / 2 }) => {
-    moved.value = zoomed(moved.value ?? filling(picture, size), factor, at, CLOSEST);
+  const shown = size ?? { width: 0, height: 0 };
+  const view = moved.value ?? filling(shown, room);
+  usePainted(ask, room, moved.value);
+  usePointed(ask, view, pointer.value);
+  const zoom = (/** @type {number} */ factor, at = { x: room.width / 2, y: room.height / 2 }) => {
+    moved.value = zoomed(view, factor, at, CLOSEST);
   };
   const latestZoom = useRef(zoom);
   latestZoom.current = zoom;
@@ -41,11 +37,10 @@ export function ImageCanvas({ picture, label, pointed }) {
     if ((event.buttons & 1) === 0) return;
     moved.value = { ...view, x: view.x + event.movementX, y: view.y + event.movementY };
   };
-  const style = `transform: translate(${view.x}px, ${view.y}px) scale(${view.scale})`;
-  return html`<div class="image-place">
+  return html`<div class="image-place" hidden=${size === null}>
     <div ref=${frame} class="image-frame" onPointerMove=${onPointerMove} onPointerDown=${capture} onPointerLeave=${() => {
       pointer.value = null;
-    }}><canvas ref=${canvas} role="img" aria-label=${label} style=${style}></canvas></div>
+    }}><div class="image-sheet" style=${placeOf(view, shown)}></div><canvas ref=${canvas} role="img" aria-label=${label}></canvas></div>
     <div class="image-tools"><${IconButton} icon="plus" label=${t("image.closer")} onClick=${() => zoom(STEP)} />
       <${IconButton} icon="minus" label=${t("image.farther")} onClick=${() => zoom(1 / STEP)} />
       <${IconButton} icon="fit" label=${t("image.fit")} pressed=${moved.value === null} onClick=${() => {
@@ -54,11 +49,24 @@ export function ImageCanvas({ picture, label, pointed }) {
   </div>`;
 }
 
-/** @param {HTMLCanvasElement | null} canvas @param {Picture} picture */
-function draw(canvas, { width, height, rgba }) {
-  if (!canvas) return;
-  if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
-  canvas.getContext("2d")?.putImageData(new ImageData(rgba, width, height), 0, 0);
+/** @param {View} view @param {Size} size @returns {string} where the picture lies */
+function placeOf({ x, y, scale }, { width, height }) {
+  return `translate: ${x}px ${y}px; width: ${width * scale}px; height: ${height * scale}px`;
+}
+
+/** Have what is seen painted. @param {Props["ask"]} ask @param {Size} room @param {View | null} view */
+function usePainted(ask, { width, height }, view) {
+  useEffect(() => {
+    const ratio = ratioFor({ width, height }, devicePixelRatio);
+    const pixels = { width: Math.round(width * ratio), height: Math.round(height * ratio) };
+    ask({ kind: "sight", sight: { ...pixels, ratio, view } });
+  }, [width, height, view]);
+}
+
+/** Ask for the pixel under the pointer. @param {Props["ask"]} ask @param {View} view @param {Point | null} point */
+function usePointed(ask, view, point) {
+  const pixel = point && pixelUnder(view, point);
+  useEffect(() => ask({ kind: "point", pixel }), [pixel?.x, pixel?.y]);
 }
 
 /** @param {{current: Element | null}} element @returns {Size} */
@@ -98,14 +106,4 @@ function capture(event) {
 function pointOf(element, { clientX, clientY }) {
   const place = element?.getBoundingClientRect();
   return { x: clientX - (place?.left ?? 0), y: clientY - (place?.top ?? 0) };
-}
-
-/** @param {Picture} picture @param {Point} pixel @returns {string} empty: no pixel is there */
-function pixelWords(picture, { x, y }) {
-  const numbers = pixelAt(picture, x, y);
-  if (numbers.length === 0) return "";
-  const place = `${x}, ${y}`;
-  if (numbers.some(Number.isNaN)) return t("image.pixel.none", { place });
-  const value = numbers.map((one) => formatNumber(one, 6)).join(" ");
-  return t("image.pixel", { place, value: picture.unit ? `${value} ${picture.unit}` : value });
 }

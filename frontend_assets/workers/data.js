@@ -4,9 +4,12 @@
  */
 
 /** @import { MessageView } from "../types/wire.d.ts" */
-/** @import { Range } from "../lib/image-pixels.js" */
+/** @import { PictureAsked } from "./pictures.js" */
+/** @import { Came } from "./frames.js" */
 /** @import { Heard, ToPage, Wish } from "./wishes.js" */
 
+import { Bulk } from "./bulk.js";
+import { Easel } from "./easel.js";
 import { readFrame } from "./frames.js";
 import { Pictures } from "./pictures.js";
 import { Look, Trace, Types } from "./wishes.js";
@@ -14,14 +17,14 @@ import { Look, Trace, Types } from "./wishes.js";
 /**
  * @typedef {{kind: "look", wish: Wish}} StartLook
  * @typedef {{kind: "trace", wish: Wish, paths: readonly string[]}} StartTrace
- * @typedef {{kind: "watch", wish: Wish, range: Range | null}} StartWatch
- * @typedef {{kind: "shade", wish: number, range: Range | null}} Shade
+ * @typedef {{kind: "watch", wish: Wish, canvas: OffscreenCanvas}} StartWatch
+ * @typedef {{kind: "of_picture", wish: number, asked: PictureAsked}} AskOfPicture
  * @typedef {{kind: "leave", wish: number}} Leave
  * @typedef {{kind: "learn", typeName: string, messages: readonly MessageView[] | null, reason: string}} Learn
  * @typedef {{kind: "unfold", wish: number, path: string, count: number}} Unfold
  * @typedef {{kind: "text", wish: number, path: string, request: number}} AskText
  * @typedef {{kind: "retry"}} Retry
- * @typedef {StartLook | StartTrace | StartWatch | Shade | Leave | Learn | Unfold | AskText | Retry} FromPage
+ * @typedef {StartLook | StartTrace | StartWatch | AskOfPicture | Leave | Learn | Unfold | AskText | Retry} FromPage
  */
 
 const RETRY_MS = 1500;
@@ -35,6 +38,16 @@ let socket = null;
 /** @type {ReturnType<typeof setTimeout> | undefined} */
 let retry;
 const types = new Types(post);
+/** For how many messages this page was too slow, on either lane. */
+let slow = { data: 0, bulk: 0 };
+const bulk = new Bulk({
+  askKey: () => say({ type: "ask_bulk" }),
+  take: takeBulk,
+  lost: hearAnew,
+  locks: self.navigator.locks,
+  fetch: (address, options) => self.fetch(address, options),
+  now_ms: () => performance.now(),
+});
 
 /** @param {ToPage} message */
 function post(message) {
@@ -43,11 +56,8 @@ function post(message) {
 
 /** @param {ToPage} message @returns {Transferable[]} what the page gets and the worker gives away */
 function movedWith(message) {
-  if (message.kind === "points")
-    return [message.times.buffer, ...message.values.map(({ buffer }) => buffer)];
-  if (message.kind !== "picture" || !message.picture) return [];
-  const { rgba, values } = message.picture;
-  return values ? [rgba.buffer, values.buffer] : [rgba.buffer];
+  if (message.kind !== "points") return [];
+  return [message.times.buffer, ...message.values.map(({ buffer }) => buffer)];
 }
 
 /** @param {object} message */
@@ -64,6 +74,7 @@ function open() {
   socket = opened;
   opened.binaryType = "arraybuffer";
   opened.onopen = () => {
+    slow = { data: 0, bulk: 0 };
     for (const { wish } of wishes.values()) say({ type: "hear", ...wish });
     post({ kind: "lane", open: true, dropped: 0 });
   };
@@ -75,19 +86,30 @@ function open() {
 function lose(closed) {
   if (socket !== closed) return;
   socket = null;
-  channels.clear();
+  forgetChannels();
   post({ kind: "lane", open: false, dropped: 0 });
   retry = setTimeout(open, RETRY_MS);
+}
+
+function forgetChannels() {
+  channels.clear();
+  bulk.forget();
 }
 
 /** @param {string | ArrayBuffer} data */
 function take(data) {
   if (typeof data === "string") takeWords(JSON.parse(data));
-  else takeFrame(data);
+  else takeData(data);
+}
+
+/** @param {Heard | {type: "not_heard", wish: number, reason: string} | {type: "bulk_key", key: string}} told */
+function takeWords(told) {
+  if (told.type === "bulk_key") bulk.open(told.key);
+  else takeState(told);
 }
 
 /** @param {Heard | {type: "not_heard", wish: number, reason: string}} told */
-function takeWords(told) {
+function takeState(told) {
   const one = wishes.get(told.wish);
   if (!one) return;
   const heard = told.type === "heard" ? told : refused(told);
@@ -115,19 +137,56 @@ const refused = ({ wish, reason }) => ({
   reason,
 });
 
-/** @param {ArrayBuffer} data */
-function takeFrame(data) {
-  const { dropped, messages } = readFrame(data);
-  /** @type {Map<number, import("./frames.js").Came[]>} */
+/** @param {ArrayBuffer} frame */
+function takeData(frame) {
+  const { dropped, messages } = readFrame(frame);
+  for (const came of messages) bulk.notice(came);
+  tellSlow("data", dropped);
+  takeMessages(messages);
+}
+
+/** @param {ArrayBuffer} frame */
+function takeBulk(frame) {
+  const { dropped, messages } = readFrame(frame);
+  tellSlow("bulk", dropped);
+  takeMessages(messages);
+}
+
+/** @param {"data" | "bulk"} lane @param {number} dropped */
+function tellSlow(lane, dropped) {
+  if (dropped === slow[lane]) return;
+  slow[lane] = dropped;
+  post({ kind: "lane", open: true, dropped: slow.data + slow.bulk });
+}
+
+/** @param {readonly Came[]} messages */
+function takeMessages(messages) {
+  /** @type {Map<number, Came[]>} */
   const byChannel = new Map();
   for (const came of messages) {
     const others = byChannel.get(came.channel);
     if (others) others.push(came);
     else byChannel.set(came.channel, [came]);
   }
-  for (const [channel, came] of byChannel)
-    for (const wish of channels.get(channel) ?? []) wishes.get(wish)?.take(came);
-  if (dropped > 0) post({ kind: "lane", open: true, dropped });
+  for (const [channel, came] of byChannel) takeChannel(channel, came);
+}
+
+/** @param {number} channel @param {readonly Came[]} came */
+function takeChannel(channel, came) {
+  const inOrder = came.filter((one) => !bulk.isOvertaken(one));
+  for (const wish of channels.get(channel) ?? []) {
+    const one = wishes.get(wish);
+    const taken = one?.wish.mode === "every" ? came : inOrder;
+    if (taken.length > 0) one?.take(taken);
+  }
+}
+
+/** @param {readonly number[]} lost channels: what they told once and for all may have been on its way */
+function hearAnew(lost) {
+  for (const wish of new Set(lost.flatMap((channel) => channels.get(channel) ?? []))) {
+    const one = wishes.get(wish);
+    if (one?.wish.mode === "newest") say({ type: "hear", ...one.wish });
+  }
 }
 
 /** @param {StartLook | StartTrace | StartWatch} asked */
@@ -144,26 +203,36 @@ function start(asked) {
   else open();
 }
 
+/** When the screen is ready for another picture. @param {() => void} paint */
+const nextFrame = (paint) => requestAnimationFrame(paint);
+
 /** @param {StartLook | StartTrace | StartWatch} asked */
 function wished(asked) {
   if (asked.kind === "look") return new Look(asked.wish, types, post);
-  if (asked.kind === "watch") return new Pictures(asked.wish, types, post, asked.range);
+  if (asked.kind === "watch")
+    return new Pictures(asked.wish, types, post, new Easel(asked.canvas), nextFrame);
   return new Trace(asked.wish, types, post, asked.paths);
 }
 
 /** @param {number} wish */
 function leave(wish) {
+  const left = wishes.get(wish);
+  if (left instanceof Pictures) left.leave();
   wishes.delete(wish);
   for (const [channel, all] of channels) {
-    const left = all.filter((one) => one !== wish);
-    if (left.length > 0) channels.set(channel, left);
-    else channels.delete(channel);
+    const others = all.filter((one) => one !== wish);
+    if (others.length > 0) channels.set(channel, others);
+    else {
+      channels.delete(channel);
+      bulk.leave(channel);
+    }
   }
   say({ type: "leave", wish });
   if (wishes.size > 0) return;
   // Nobody looks: the lane costs nothing then.
   const closing = socket;
   socket = null;
+  forgetChannels();
   closing?.close();
 }
 
@@ -179,14 +248,14 @@ function carryOut(asked) {
   else if (asked.kind === "leave") leave(asked.wish);
   else if (asked.kind === "learn") learn(asked);
   else if (asked.kind === "retry") open();
-  else if (asked.kind === "shade") shade(asked);
+  else if (asked.kind === "of_picture") carryOutPicture(asked);
   else carryOutLook(asked);
 }
 
-/** @param {Shade} asked */
-function shade({ wish, range }) {
+/** @param {AskOfPicture} told */
+function carryOutPicture({ wish, asked }) {
   const one = wishes.get(wish);
-  if (one instanceof Pictures) one.shade(range);
+  if (one instanceof Pictures) one.carryOut(asked);
 }
 
 /** @param {Unfold | AskText} asked */

@@ -1,95 +1,240 @@
-/** A topic of which images are looked at: of what comes, the newest is made to a picture. */
+/**
+ * A topic of which images are looked at: of what comes, the newest is painted, once for each frame
+ * that the screen shows. What came between is passed over; nothing queues.
+ */
 
-/** @import { Picture, Range, RawImage } from "../lib/image-pixels.js" */
+/** @import { Numbers, Range, RawImage } from "../lib/image-pixels.js" */
+/** @import { Sight } from "../lib/image-window.js" */
+/** @import { Easel, Motif } from "./easel.js" */
 /** @import { Came } from "./frames.js" */
 /** @import { ToPage, Types, Wish } from "./wishes.js" */
 
-import { sizeOfFile } from "../lib/image-file.js";
-import { checkSize, flatPicture, ImageError, pictureOf } from "../lib/image-pixels.js";
+import { checkSize, ImageError, inkOf } from "../lib/image-pixels.js";
+import { rateOf } from "../lib/image-view.js";
+import { fileOf } from "./easel.js";
+import { pixelOf, unpacked } from "./picture-files.js";
 import { readWith } from "./wishes.js";
 
 /** @typedef {{key: string, words: Record<string, string | number>}} PictureTrouble a text of the catalogue, and what stands in it */
-/** @typedef {{kind: "picture", wish: number, received_s: number, lost: number, bytes: number, encoding: string, picture: Picture | null, trouble: PictureTrouble | null}} Pictured */
+/** @typedef {{x: number, y: number}} Pixel column and row */
+
+/**
+ * @typedef {object} Pictured what is said of the picture that is shown
+ * @property {"picture"} kind
+ * @property {number} wish
+ * @property {number} painted how many were, since it is looked at
+ * @property {number | null} rate_hz of those; null: that cannot be told yet
+ * @property {number} bytes of the message
+ * @property {string} encoding
+ * @property {{width: number, height: number} | null} size null: there is no picture
+ * @property {Numbers | null} numbers null: its pixels are colours
+ * @property {(Pixel & {values: number[]}) | null} pointed the pixel that was pointed at
+ * @property {PictureTrouble | null} trouble
+ */
+
+/** @typedef {{kind: "saved", wish: number, file: Blob}} SavedPicture as PNG */
+
+/**
+ * @typedef {{kind: "sight", sight: Sight}} AskSight
+ * @typedef {{kind: "shade", range: Range | null}} AskShade null: from the least number to the largest
+ * @typedef {{kind: "point", pixel: Pixel | null}} AskPoint
+ * @typedef {{kind: "save"}} AskSave
+ * @typedef {AskSight | AskShade | AskPoint | AskSave} PictureAsked
+ */
 
 const RAW = "sensor_msgs/msg/Image";
 const COMPRESSED = "sensor_msgs/msg/CompressedImage";
 const NAME_MAX = 60;
+const TIMES_MAX = 30;
+/** What is said of pictures is read by people. */
+const SAY_EVERY_MS = 150;
+const FROM_BYTES = { low: 0, high: 255 };
+
+/** @typedef {{bytes: number, encoding: string, motif: Motif | null, trouble: PictureTrouble | null}} Read what became of a message */
 
 export class Pictures {
-  /** @param {Wish} wish @param {Types} types @param {(message: ToPage) => void} post @param {Range | null} range of numbers, null: from the least to the largest */
-  constructor(wish, types, post, range) {
+  /**
+   * @param {Wish} wish @param {Types} types @param {(message: ToPage) => void} post @param {Easel} easel
+   * @param {(paint: () => void) => void} nextFrame calls when the screen is ready for another one
+   */
+  constructor(wish, types, post, easel, nextFrame) {
     this.wish = wish;
     this.types = types;
     this.post = post;
-    this.range = range;
+    this.easel = easel;
+    this.nextFrame = nextFrame;
     this.typeName = "";
-    /** @type {Came | null} */
-    this.last = null;
-    this.isBusy = false;
-    this.isStale = false;
+    /** @type {Sight} */
+    this.sight = { width: 0, height: 0, ratio: 1, view: null };
+    /** @type {Range | null} */
+    this.range = null;
+    /** @type {Pixel | null} */
+    this.pixel = null;
+    /** The newest that came, until it is read. @type {Came | null} */
+    this.waiting = null;
+    /** @type {Read | null} */
+    this.shown = null;
+    this.painted = 0;
+    /** @type {number[]} */
+    this.times_s = [];
+    this.isAsked = false;
+    this.said_ms = Number.NEGATIVE_INFINITY;
+    /** @type {ReturnType<typeof setTimeout> | undefined} */
+    this.saying = undefined;
   }
 
   /** @param {readonly Came[]} messages */
   take(messages) {
-    this.last = messages.at(-1) ?? this.last;
+    this.waiting = messages.at(-1) ?? this.waiting;
     this.show();
   }
 
-  /** @param {Range | null} range */
-  shade(range) {
-    this.range = range;
-    this.show();
+  /** Paint with the next frame. */
+  show() {
+    if (this.isAsked) return;
+    this.isAsked = true;
+    this.nextFrame(() => this.step());
   }
 
-  /** Files are unpacked one after the other; those that come meanwhile give way to the newest. */
-  async show() {
-    this.isStale = true;
-    if (this.isBusy) return;
-    this.isBusy = true;
-    while (this.isStale) {
-      this.isStale = false;
-      await this.showNewest();
+  /** @param {PictureAsked} asked */
+  carryOut(asked) {
+    if (asked.kind === "save") this.save();
+    else if (asked.kind === "point") {
+      this.pixel = asked.pixel;
+      this.say();
+    } else {
+      if (asked.kind === "sight") this.sight = asked.sight;
+      else this.range = asked.range;
+      this.show();
     }
-    this.isBusy = false;
   }
 
-  async showNewest() {
-    const { last, typeName } = this;
-    const type = typeName ? this.types.find(typeName) : null;
-    if (!last || !type) return;
-    const { value, trouble } = readWith(type, last.cdr);
-    const made =
-      value === undefined
-        ? { picture: null, trouble: { key: "topics.unread", words: { reason: trouble } } }
-        : await tried(typeName, value, this.range);
+  leave() {
+    clearTimeout(this.saying);
+    this.shown?.motif?.bitmap?.close();
+    this.shown = null;
+  }
+
+  async step() {
+    const type = this.typeName ? this.types.find(this.typeName) : null;
+    if (type) await this.read(type);
+    this.paint();
+    this.isAsked = false;
+    // More came while a file was unpacked.
+    if (type && this.waiting) this.show();
+  }
+
+  /** @param {{read: ((cdr: Uint8Array) => any) | null, trouble: string}} type */
+  async read(type) {
+    const came = this.waiting;
+    this.waiting = null;
+    if (!came) return;
+    const read = await readImage(this.typeName, readWith(type, came.cdr), came.cdr.length);
+    this.change(read, came.received_s);
+  }
+
+  /** @param {Read} read @param {number} received_s */
+  change(read, received_s) {
+    const before = this.shown;
+    before?.motif?.bitmap?.close();
+    this.shown = read;
+    if (read.motif) {
+      this.painted += 1;
+      this.times_s = [...this.times_s.slice(1 - TIMES_MAX), received_s];
+    }
+    if (areAlike(before, read)) this.sayLater();
+    else this.say();
+  }
+
+  paint() {
+    const motif = this.shown?.motif;
+    if (motif) this.easel.paint(motif, this.sight, this.rangeOf(motif));
+  }
+
+  /** @param {Motif} motif @returns {Range} from black to white */
+  rangeOf({ ink }) {
+    return this.range ?? ink?.numbers?.range ?? FROM_BYTES;
+  }
+
+  async save() {
+    const motif = this.shown?.motif;
+    if (!motif) return;
+    const file = await fileOf(motif, this.rangeOf(motif));
+    this.post({ kind: "saved", wish: this.wish.wish, file });
+  }
+
+  sayLater() {
+    const wait_ms = this.said_ms + SAY_EVERY_MS - performance.now();
+    if (wait_ms <= 0) this.say();
+    else this.saying ??= setTimeout(() => this.say(), wait_ms);
+  }
+
+  say() {
+    clearTimeout(this.saying);
+    this.saying = undefined;
+    const read = this.shown;
+    if (!read) return;
+    this.said_ms = performance.now();
+    const { motif, bytes, encoding, trouble } = read;
     this.post({
       kind: "picture",
       wish: this.wish.wish,
-      received_s: last.received_s,
-      lost: last.lost,
-      bytes: last.cdr.length,
-      encoding: `${value?.encoding ?? value?.format ?? ""}`.slice(0, NAME_MAX),
-      ...made,
+      painted: this.painted,
+      rate_hz: rateOf(this.times_s),
+      bytes,
+      encoding,
+      size: motif && { width: motif.width, height: motif.height },
+      numbers: motif?.ink?.numbers ?? null,
+      pointed: motif && this.pixel && pointedOf(motif, this.pixel),
+      trouble,
     });
   }
 }
 
-/** @param {string} typeName @param {any} value @param {Range | null} range @returns {Promise<{picture: Picture | null, trouble: PictureTrouble | null}>} */
-async function tried(typeName, value, range) {
+/** @param {Read | null} before @param {Read} read @returns {boolean} whether what is said of them is the same, but for numbers */
+function areAlike(before, read) {
+  return (
+    before?.encoding === read.encoding &&
+    before.trouble?.key === read.trouble?.key &&
+    before.motif?.width === read.motif?.width &&
+    before.motif?.height === read.motif?.height
+  );
+}
+
+/** @param {Motif} motif @param {Pixel} pixel @returns {(Pixel & {values: number[]}) | null} null: it is outside of the picture */
+function pointedOf({ width, height, ink, bitmap }, { x, y }) {
+  if (x < 0 || y < 0 || x >= width || y >= height) return null;
+  const values = ink?.at(x, y) ?? (bitmap ? pixelOf(bitmap, x, y) : []);
+  return { x, y, values };
+}
+
+/** @param {string} typeName @param {{value: any, trouble: string}} found @param {number} bytes @returns {Promise<Read>} */
+async function readImage(typeName, { value, trouble }, bytes) {
+  if (value === undefined) {
+    const unread = { key: "topics.unread", words: { reason: trouble } };
+    return { bytes, encoding: "", motif: null, trouble: unread };
+  }
+  const encoding = `${value.encoding ?? value.format ?? ""}`.slice(0, NAME_MAX);
   try {
-    return { picture: await made(typeName, value, range), trouble: null };
+    return { bytes, encoding, motif: await motifOf(typeName, value), trouble: null };
   } catch (error) {
     if (!(error instanceof ImageError)) throw error;
-    return { picture: null, trouble: { key: error.key, words: error.words } };
+    return { bytes, encoding, motif: null, trouble: { key: error.key, words: error.words } };
   }
 }
 
-/** @param {string} typeName @param {any} value @param {Range | null} range @returns {Picture | Promise<Picture>} */
-function made(typeName, value, range) {
-  if (typeName === RAW && isRaw(value)) return pictureOf(value, range);
+/** @param {string} typeName @param {any} value @returns {Promise<Motif>} @throws {ImageError} */
+async function motifOf(typeName, value) {
+  if (typeName === RAW && isRaw(value)) {
+    const { width, height } = value;
+    checkSize(width, height);
+    return { width, height, ink: inkOf(value), bitmap: null };
+  }
   const isFile = value.data instanceof Uint8Array && typeof value.format === "string";
-  if (typeName === COMPRESSED && isFile) return unpacked(value);
-  throw new ImageError("image.trouble.type", { type: typeName });
+  if (typeName !== COMPRESSED || !isFile)
+    throw new ImageError("image.trouble.type", { type: typeName });
+  const bitmap = await unpacked(value);
+  return { width: bitmap.width, height: bitmap.height, ink: null, bitmap };
 }
 
 /** What a type is made of is told by others. @param {any} value @returns {value is RawImage} */
@@ -98,28 +243,4 @@ function isRaw(value) {
   const numbers = [width, height, step, is_bigendian];
   const areCounts = numbers.every((one) => Number.isInteger(one) && one >= 0);
   return areCounts && typeof encoding === "string" && data instanceof Uint8Array;
-}
-
-/** @param {{format: string, data: Uint8Array<ArrayBuffer>}} message @returns {Promise<Picture>} */
-async function unpacked({ format, data }) {
-  const name = format.slice(0, NAME_MAX);
-  if (format.includes("compressedDepth"))
-    throw new ImageError("image.trouble.depth", { format: name });
-  const size = sizeOfFile(data);
-  if (!size) throw new ImageError("image.trouble.file", { format: name });
-  checkSize(size.width, size.height);
-  const bitmap = await createImageBitmap(new Blob([data])).catch(() => null);
-  if (!bitmap) throw new ImageError("image.trouble.broken", { format: name });
-  return pixelsOf(bitmap);
-}
-
-/** @param {ImageBitmap} bitmap @returns {Picture} */
-function pixelsOf(bitmap) {
-  const { width, height } = bitmap;
-  const context = new OffscreenCanvas(width, height).getContext("2d", { willReadFrequently: true });
-  context?.drawImage(bitmap, 0, 0);
-  bitmap.close();
-  const pixels = context?.getImageData(0, 0, width, height).data;
-  if (!pixels) throw new ImageError("image.trouble.large", { width, height, side: 0 });
-  return flatPicture(width, height, new Uint8ClampedArray(pixels.buffer), false);
 }

@@ -3,7 +3,7 @@
 /** @import { MessageView } from "../types/wire.d.ts" */
 /** @import { Came } from "./frames.js" */
 /** @import { Step } from "./message-paths.js" */
-/** @import { Pictured } from "./pictures.js" */
+/** @import { Pictured, SavedPicture } from "./pictures.js" */
 
 import { CdrError, readerOf } from "./cdr.js";
 import { folded, hexRows, wholeText } from "./folding.js";
@@ -43,7 +43,7 @@ import { numberAt, stepsOf, valueAt } from "./message-paths.js";
  * @typedef {{kind: "need", typeName: string}} Need
  * @typedef {{kind: "text", request: number, text: string}} TextAnswer
  * @typedef {{kind: "lane", open: boolean, dropped: number}} LaneState
- * @typedef {Looked | Points | Pictured | State | Need | TextAnswer | LaneState} ToPage
+ * @typedef {Looked | Points | Pictured | SavedPicture | State | Need | TextAnswer | LaneState} ToPage
  */
 
 /** A sender's clock that jumps so far is set anew. */

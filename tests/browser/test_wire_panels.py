@@ -33,7 +33,11 @@ GREEN_PNG = base64.b64decode(
     "DUlEQVR4nGNgOMEARAAFfwGRkkj6EgAAAABJRU5ErkJggg=="
 )
 """Two pixels of (0, 200, 0)."""
-_FIRST_PIXEL = "canvas => [...canvas.getContext('2d').getImageData(0, 0, 1, 1).data]"
+_MIDDLE_PIXEL = """canvas => {
+  const copy = new OffscreenCanvas(1, 1).getContext("2d");
+  copy.drawImage(canvas, canvas.width >> 1, canvas.height >> 1, 1, 1, 0, 0, 1, 1);
+  return [...copy.getImageData(0, 0, 1, 1).data];
+}"""
 
 
 def panel(tab: StudioPage, name: str) -> Locator:
@@ -120,14 +124,14 @@ def see_pictures(tab: StudioPage) -> None:
     images = panel(tab, "image")
     images.get_by_text("· bgr8").wait_for()
     picture = images.get_by_role("img", name="Picture of /eye/image_raw")
-    assert picture.evaluate(_FIRST_PIXEL) == [10, 20, 30, 255]
+    wait_until("its pixels", lambda: picture.evaluate(_MIDDLE_PIXEL) == [10, 20, 30, 255])
     picture.hover()
     images.get_by_text(": 10 20 30").wait_for()
     images.get_by_role("button", name="Topic of the picture").click()
     tab.page.get_by_text("/eye/packed", exact=True).click()
     images.get_by_text("· png").wait_for()
     picture = images.get_by_role("img", name="Picture of /eye/packed")
-    assert picture.evaluate(_FIRST_PIXEL) == [0, 200, 0, 255]
+    wait_until("its pixels", lambda: picture.evaluate(_MIDDLE_PIXEL) == [0, 200, 0, 255])
 
 
 def test_a_system_is_joined_read_drawn_and_given_a_type(browser: Browser, tmp_path: Path):

@@ -1,31 +1,37 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { sizeOfFile } from "../../frontend_assets/lib/image-file.js";
-import { ImageError, pictureOf, pixelAt, rangeOf } from "../../frontend_assets/lib/image-pixels.js";
-import { CLOSEST, filling, pixelUnder, rateOf } from "../../frontend_assets/lib/image-view.js";
+import { ImageError, inkOf } from "../../frontend_assets/lib/image-pixels.js";
+import {
+  CLOSEST,
+  filling,
+  pixelUnder,
+  rateOf,
+  ratioFor,
+} from "../../frontend_assets/lib/image-view.js";
+import { wholeOf, windowOf } from "../../frontend_assets/lib/image-window.js";
 import { zoomed } from "../../frontend_assets/lib/pan-zoom.js";
-import { Pictures } from "../../frontend_assets/workers/pictures.js";
-import { Types } from "../../frontend_assets/workers/wishes.js";
+import { PNG, raw } from "./support/images.js";
 
-/** @import { Pictured } from "../../frontend_assets/workers/pictures.js" */
+/** @import { RawImage, Range } from "../../frontend_assets/lib/image-pixels.js" */
 
-/** @param {string} encoding @param {number} width @param {number} height @param {number[]} bytes @param {{step?: number, is_bigendian?: number}} [more] */
-const raw = (encoding, width, height, bytes, { step = 0, is_bigendian = 0 } = {}) => ({
-  encoding,
-  width,
-  height,
-  step,
-  is_bigendian,
-  data: Uint8Array.from(bytes),
-});
+const FROM_BYTES = { low: 0, high: 255 };
 
 /** @param {Parameters<typeof raw>} image @returns {number[][]} every pixel, row by row */
 function pixels(...image) {
-  const picture = pictureOf(raw(...image), null);
-  const { width, height } = picture;
-  return Array.from({ length: width * height }, (_, n) =>
-    pixelAt(picture, n % width, Math.floor(n / width)),
+  const read = raw(...image);
+  const ink = inkOf(read);
+  return Array.from({ length: read.width * read.height }, (_, n) =>
+    ink.at(n % read.width, Math.floor(n / read.width)),
   );
+}
+
+/** @param {RawImage} read @param {Range} [range] @returns {number[]} RGBA of all of it */
+function painted(read, range) {
+  const ink = inkOf(read);
+  const packed = new Uint32Array(read.width * read.height);
+  ink.paint(wholeOf(read), packed, range ?? ink.numbers?.range ?? FROM_BYTES);
+  return [...new Uint8Array(packed.buffer)];
 }
 
 for (const [encoding, bytes] of /** @type {[string, number[]][]} */ ([
@@ -35,14 +41,15 @@ for (const [encoding, bytes] of /** @type {[string, number[]][]} */ ([
   ["rgba8", [10, 20, 30, 9, 40, 50, 60, 9]],
   ["bgra8", [30, 20, 10, 9, 60, 50, 40, 9]],
   ["8UC4", [30, 20, 10, 9, 60, 50, 40, 9]],
-  ["rgb16", [1, 10, 1, 20, 1, 30, 1, 40, 1, 50, 1, 60]],
+  ["rgb16", [10, 0, 20, 0, 30, 0, 40, 0, 50, 0, 60, 0]],
 ]))
   test(`${encoding} gives red, green and blue, and hides nothing`, () => {
     assert.deepEqual(pixels(encoding, 2, 1, bytes), [
       [10, 20, 30],
       [40, 50, 60],
     ]);
-    assert.equal(pictureOf(raw(encoding, 2, 1, bytes), null).rgba[7], 255);
+    const opaque = painted(raw(encoding, 2, 1, bytes)).filter((_, n) => n % 4 === 3);
+    assert.deepEqual(opaque, [255, 255]);
   });
 
 test("rows may be longer than their pixels, and the last may end with them", () => {
@@ -57,35 +64,40 @@ test("rows may be longer than their pixels, and the last may end with them", () 
 test("numbers of two bytes are read in the order that the message says", () => {
   assert.deepEqual(pixels("mono16", 2, 1, [1, 2, 3, 4]), [[0x0201], [0x0403]]);
   assert.deepEqual(pixels("mono16", 2, 1, [1, 2, 3, 4], { is_bigendian: 1 }), [[0x0102], [0x0304]]);
-  assert.deepEqual(pixels("rgb16", 1, 1, [9, 1, 8, 1, 7, 1], { is_bigendian: 1 }), [[9, 8, 7]]);
+  assert.deepEqual(pixels("rgb16", 1, 1, [9, 1, 8, 1, 7, 1], { is_bigendian: 1 }), [
+    [0x0901, 0x0801, 0x0701],
+  ]);
+  assert.deepEqual(painted(raw("rgb16", 1, 1, [1, 9, 1, 8, 1, 7])), [9, 8, 7, 255]);
   assert.deepEqual(pixels("16SC1", 1, 1, [0xff, 0xff]), [[-1]]);
 });
 
 test("depth in millimetres has no value where nothing was measured, and is shaded between the others", () => {
-  const picture = pictureOf(raw("16UC1", 3, 1, [0, 0, 0xe8, 3, 0xd0, 7]), null);
-  assert.deepEqual(picture.range, { low: 1000, high: 2000 });
-  assert.equal(picture.unit, "mm");
-  assert.deepEqual(pixelAt(picture, 0, 0), [Number.NaN]);
-  assert.deepEqual([...picture.rgba], [0, 0, 0, 0, 0, 0, 0, 255, 255, 255, 255, 255]);
+  const depth = raw("16UC1", 3, 1, [0, 0, 0xe8, 3, 0xd0, 7]);
+  const ink = inkOf(depth);
+  assert.deepEqual(ink.numbers, { range: { low: 1000, high: 2000 }, unit: "mm" });
+  assert.deepEqual(ink.at(0, 0), [Number.NaN]);
+  assert.deepEqual(painted(depth), [0, 0, 0, 0, 0, 0, 0, 255, 255, 255, 255, 255]);
 });
 
 test("depth in metres may be anything, and a chosen range holds", () => {
-  const bytes = new Uint8Array(
-    Float32Array.of(0.5, Number.NaN, 3, Number.POSITIVE_INFINITY).buffer,
-  );
-  const image = raw("32FC1", 4, 1, [...bytes]);
-  assert.deepEqual(pictureOf(image, null).range, { low: 0.5, high: 3 });
-  const picture = pictureOf(image, { low: 0, high: 1 });
-  assert.equal(picture.unit, "m");
+  const metres = Float32Array.of(0.5, Number.NaN, 3, Infinity, -Infinity, 0.75);
+  const depth = raw("32FC1", 6, 1, [...new Uint8Array(metres.buffer)]);
+  assert.deepEqual(inkOf(depth).numbers, { range: { low: 0.5, high: 3 }, unit: "m" });
+  const bytes = painted(depth, { low: 0, high: 1 });
   assert.deepEqual(
-    [picture.rgba[0], picture.rgba[7], picture.rgba[8], picture.rgba[15]],
-    [128, 0, 255, 0],
+    bytes.filter((_, n) => n % 4 === 0),
+    [128, 0, 255, 0, 0, 191],
+  );
+  assert.deepEqual(
+    bytes.filter((_, n) => n % 4 === 3),
+    [255, 0, 255, 0, 0, 255],
   );
 });
 
 test("where all numbers are one, or none is there, there still is a range", () => {
-  assert.deepEqual(rangeOf(Float32Array.of(Number.NaN)), { low: 0, high: 1 });
-  assert.deepEqual([...pictureOf(raw("16UC1", 1, 1, [7, 0]), null).rgba], [0, 0, 0, 255]);
+  const nothing = raw("32FC1", 1, 1, [...new Uint8Array(Float32Array.of(Number.NaN).buffer)]);
+  assert.deepEqual(inkOf(nothing).numbers?.range, { low: 0, high: 1 });
+  assert.deepEqual(painted(raw("16UC1", 1, 1, [7, 0])), [0, 0, 0, 255]);
 });
 
 test("two pixels share the colour of yuv422, in both orders", () => {
@@ -140,14 +152,11 @@ for (const [why, image] of /** @type {[string, Parameters<typeof raw>][]} */ ([
 ]))
   test(`an image of ${image[1]} x ${image[2]} ${image[0]} is refused: ${why}`, () => {
     assert.throws(
-      () => pictureOf(raw(...image), null),
+      () => inkOf(raw(...image)),
       (error) => error instanceof ImageError && error.key === `image.trouble.${why}`,
     );
   });
 
-const PNG = [
-  0x89, 0x50, 0x4e, 0x47, 13, 10, 26, 10, 0, 0, 0, 13, 73, 72, 68, 82, 0, 0, 2, 128, 0, 0, 1, 224,
-];
 const JPEG = [
   0xff, 0xd8, 0xff, 0xe0, 0, 4, 1, 2, 0xff, 0xff, 0xc4, 0, 3, 0, 0xff, 0xc2, 0, 17, 8, 1, 224, 2,
   128,
@@ -175,68 +184,47 @@ test("a picture fills its frame, and each of its pixels can be found", () => {
   assert.deepEqual(pixelUnder(close, { x: 200, y: 200 }), { x: 50, y: 25 });
 });
 
+test("a canvas has the pixels of the screen, up to as many as a large one has", () => {
+  assert.equal(ratioFor({ width: 0, height: 0 }, 1.5), 1.5);
+  assert.equal(ratioFor({ width: 800, height: 600 }, 2), 2);
+  assert.equal(ratioFor({ width: 4000, height: 4000 }, 3), 0.5);
+});
+
+test("each pixel of the screen shows the one of the picture that is under its middle", () => {
+  const picture = { width: 4, height: 2 };
+  const sight = { width: 8, height: 8, ratio: 1, view: null };
+  const seen = windowOf(picture, sight);
+  assert.deepEqual(
+    [seen.left, seen.top, [...seen.columns], [...seen.rows]],
+    [0, 2, [0, 0, 1, 1, 2, 2, 3, 3], [0, 0, 1, 1]],
+  );
+  assert.deepEqual([...windowOf(picture, { ...sight, width: 2 }).columns], [1, 3]);
+  const fine = windowOf(picture, { ...sight, width: 16, height: 16, ratio: 2 });
+  assert.deepEqual([fine.columns.length, fine.top], [16, 4]);
+});
+
+test("of a picture that was moved, what is outside of the frame is not painted", () => {
+  const picture = { width: 100, height: 100 };
+  const at = (/** @type {number} */ x, /** @type {number} */ scale) =>
+    windowOf(picture, { width: 10, height: 10, ratio: 1, view: { x, y: 0, scale } });
+  assert.deepEqual([...at(-30, 1).columns], [30, 31, 32, 33, 34, 35, 36, 37, 38, 39]);
+  assert.deepEqual([at(7, 1).left, ...at(7, 1).columns], [7, 0, 1, 2]);
+  assert.deepEqual([...at(-6390, 64).columns], new Array(10).fill(99));
+  for (const x of [10, 1e9, -101, -1e9, Number.NaN])
+    assert.equal(at(x, 1).columns.length, 0, `${x}`);
+});
+
+test("what is thinner than a pixel of the screen is seen nevertheless", () => {
+  const seen = windowOf(
+    { width: 16_384, height: 1 },
+    { width: 100, height: 100, ratio: 1, view: null },
+  );
+  assert.deepEqual([seen.columns.length, [...seen.rows]], [100, [0]]);
+});
+
 test("a rate is told from two moments on", () => {
   assert.equal(rateOf([]), null);
   assert.equal(rateOf([4]), null);
   assert.equal(rateOf([4, 4]), null);
   assert.equal(rateOf([4, 4.1, 4.2])?.toFixed(3), "10.000");
 });
-
-const WISH = {
-  wish: 5,
-  topic: "/camera",
-  type_name: "",
-  mode: /** @type {const} */ ("newest"),
-  most_hz: 30,
-  reliable: null,
-  latched: null,
-  depth: null,
-};
-
-/** @param {string} typeName @param {any} message what is read; an Error: nothing can be @returns {Promise<Pictured>} what the page is told */
-function told(typeName, message) {
-  return new Promise((resolve) => {
-    const post = (/** @type {any} */ one) => one.kind === "picture" && resolve(one);
-    const types = new Types(post);
-    types.known.set(typeName, { read: () => message, trouble: "" });
-    const pictures = new Pictures(WISH, types, post, null);
-    pictures.typeName = typeName;
-    pictures.take([{ channel: 1, cdr: new Uint8Array(9), received_s: 2, sent_s: 1, lost: 0 }]);
-  });
-}
-
-test("an image becomes a picture with what is said of it", async () => {
-  const found = await told("sensor_msgs/msg/Image", raw("mono8", 1, 1, [77]));
-  assert.deepEqual([found.wish, found.encoding, found.bytes, found.trouble], [5, "mono8", 9, null]);
-  assert.deepEqual([...(found.picture?.rgba ?? [])], [77, 77, 77, 255]);
-});
-
-for (const [key, typeName, message] of /** @type {[string, string, any][]} */ ([
-  ["encoding", "sensor_msgs/msg/Image", raw("h264", 1, 1, [1])],
-  ["type", "sensor_msgs/msg/Image", { data: "text" }],
-  ["type", "std_msgs/msg/String", { data: "text" }],
-  ["type", "sensor_msgs/msg/CompressedImage", { data: "text", format: 3 }],
-  [
-    "depth",
-    "sensor_msgs/msg/CompressedImage",
-    { data: new Uint8Array(9), format: "16UC1; compressedDepth png" },
-  ],
-  ["file", "sensor_msgs/msg/CompressedImage", { data: new Uint8Array(9), format: "webp" }],
-  [
-    "large",
-    "sensor_msgs/msg/CompressedImage",
-    { data: Uint8Array.from([...PNG.slice(0, 16), 9, 9, 9, 9, 9, 9, 9, 9]), format: "png" },
-  ],
-  ["broken", "sensor_msgs/msg/CompressedImage", { data: Uint8Array.from(PNG), format: "png" }],
-]))
-  test(`what cannot be shown says why: ${key} in ${typeName}`, async (context) => {
-    // Node has no pictures; a browser says the same of bytes that are none.
-    const unpack = async () => {
-      throw new DOMException("no image");
-    };
-    Object.assign(globalThis, { createImageBitmap: unpack });
-    context.after(() => Reflect.deleteProperty(globalThis, "createImageBitmap"));
-    const { picture, trouble } = await told(typeName, message);
-    assert.equal(picture, null);
-    assert.equal(trouble?.key, `image.trouble.${key}`);
-  });
