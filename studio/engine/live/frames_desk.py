@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from studio.engine.live.own_frames import PosedRobot
     from studio.engine.live.placing import Pose
     from studio.ros.graph.endpoints import GraphEndpoint
-    from studio.ros.node.info import MessageInfo
+    from studio.ros.node.info import MessageInfo, TakeBytes
     from studio.tf.columns import TransformColumns
     from studio.tf.frames_now import FramesNow
     from studio.tf.report import FrameReport
@@ -226,9 +226,7 @@ class FramesDesk:
             return None, str(error)
         return TfPose(wxyz=pose.wxyz, xyz=pose.xyz, chain=chain), ""
 
-    def _taker(
-        self, graph: KnowsPublishers, *, static: bool
-    ) -> Callable[[bytes, MessageInfo], None]:
+    def _taker(self, graph: KnowsPublishers, *, static: bool) -> TakeBytes:
         codec, epoch = TransformCodec(), self._epoch
 
         def take(data: bytes, info: MessageInfo) -> None:
