@@ -6,7 +6,7 @@ import asyncio
 import contextlib
 from typing import TYPE_CHECKING, Final
 
-from starlette.websockets import WebSocketState
+from starlette.websockets import WebSocketDisconnect, WebSocketState
 
 from studio.web.protocol import Framer, socket_of
 
@@ -19,6 +19,8 @@ SERVER_ENDS: Final = 1012
 """The close code with which uvicorn ends its websockets; the page waits for the return."""
 _FRAMER: Final = Framer()
 """One for all lanes, because one message goes to many of them in a row."""
+_GOODBYE_S: Final = 5.0
+"""For the closing handshake, and for what is still to be sent before it."""
 
 
 def text_frame(payload: bytes) -> bytes:
@@ -78,7 +80,9 @@ class Lane:
             await self._closing
 
     async def _close(self, code: int) -> None:
-        with contextlib.suppress(RuntimeError):  # the other side went first
+        # Saying goodbye waits for a browser that takes nothing any more.
+        self._socket.give_up_within(_GOODBYE_S)
+        with contextlib.suppress(RuntimeError, WebSocketDisconnect):  # the other side went first
             await self._websocket.close(code)
 
 

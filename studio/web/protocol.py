@@ -40,6 +40,15 @@ class StudioSocket(WebSocketsSansIOProtocol):
         if self.on_drain is not None:
             self.on_drain()
 
+    def keepalive_timeout(self) -> None:
+        """End a socket of which the other side answers no ping: it sleeps, or is gone unsaid."""
+        super().keepalive_timeout()
+        self.transport.abort()  # an orderly end waits until all is sent, maybe for ever
+
+    def give_up_within(self, time_s: float) -> None:
+        """End it then, if it is not closed by itself: its other side may never take the rest."""
+        self.loop.call_later(time_s, self.transport.abort)
+
     def write_frame(self, frame: bytes) -> None:
         """Write one whole frame; nothing happens when the socket is no longer open."""
         if self.conn.state is State.OPEN and not self.transport.is_closing():

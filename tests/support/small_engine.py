@@ -108,6 +108,7 @@ class SmallHearing:
     def __init__(self) -> None:
         self.hearers: list[Hearer] = []
         self.wishes: list[Wish] = []
+        self.flooded = 0
 
     def attach(self, hearer: Hearer, /) -> None:
         self.hearers.append(hearer)
@@ -122,6 +123,7 @@ class SmallHearing:
                 sample = RawSample(b"%d" % number + bytes(1 << 20), Attachment(1, 1, b""), 1)
                 both = (chunk_of(at, [sample], 0, keeps_all=at == 1) for at in (1, 2))
                 hearer.take(Tick(tuple(both)))
+                self.flooded += 1
         hearer.say(NotHeard(wish=wish.wish, reason="there is nothing to hear"))
 
 

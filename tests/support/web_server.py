@@ -15,6 +15,7 @@ from studio.web.app import make_app
 from studio.web.assets import Assets
 from studio.web.credentials import Credentials
 from studio.web.ports import bind, port_of
+from studio.web.protocol import StudioSocket
 from studio.web.server import Server
 from tests.support.small_engine import SmallEngine
 
@@ -27,14 +28,23 @@ if TYPE_CHECKING:
 
 KEY = bytes(32)
 TOKEN = "the-presenters-token"
+_PING_S = 0.1
 
 
 class RunningWeb:
     """Where it runs and how to reach it."""
 
-    def __init__(self, engine: SmallEngine, credentials: Credentials, port: int) -> None:
+    def __init__(
+        self, engine: SmallEngine, credentials: Credentials, port: int, server: Server
+    ) -> None:
         self.engine, self.credentials, self.port = engine, credentials, port
         self.origin = f"http://127.0.0.1:{port}"
+        self._server = server
+
+    def pending_bytes(self) -> list[int]:
+        """What the system has not yet taken, of every websocket that is open."""
+        found = tuple(self._server.server_state.connections)
+        return [one.pending_bytes() for one in found if isinstance(one, StudioSocket)]
 
     def cookie(self, role: Role) -> str:
         """The `Cookie` header of a role."""
@@ -90,19 +100,25 @@ class _Life:
 
 @contextmanager
 def running_web(
-    assets: Path, *, token: str | None = TOKEN, host: str = "127.0.0.1"
+    assets: Path,
+    *,
+    token: str | None = TOKEN,
+    host: str = "127.0.0.1",
+    patience_s: float | None = None,
 ) -> Generator[RunningWeb]:
-    """Serve until the block ends."""
+    """Serve until the block ends; with a patience, browsers are always asked if they are there."""
     engine, credentials, life = SmallEngine(), Credentials(token, KEY), _Life()
     listener: socket.socket = bind("127.0.0.1", 0)
     port = port_of(listener)
     app = make_app(engine, Assets(assets), credentials, "session", (host, port))
     server = Server(app, life)
+    if patience_s is not None:
+        server.config.ws_ping_interval, server.config.ws_ping_timeout = _PING_S, patience_s
     thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
     thread.start()
     assert life.answers.wait(60)
     try:
-        yield RunningWeb(engine, credentials, port)
+        yield RunningWeb(engine, credentials, port, server)
     finally:
         server.should_exit = True
         thread.join(60)
