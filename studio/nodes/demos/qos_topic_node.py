@@ -1,8 +1,7 @@
 """Quality of service: keeps its last messages on /reliable_topic for those who come late.
 
-Try: start it, wait, then
-`studio topic echo --once --qos-durability transient_local /reliable_topic`: the last message is
-there at once. Without the option, one waits for the next.
+Try: start it, wait, then `studio topic echo /reliable_topic`: up to ten messages that it kept are
+there at once. With `--qos-durability volatile` one waits for the next.
 """
 
 from __future__ import annotations
