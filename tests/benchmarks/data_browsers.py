@@ -16,7 +16,8 @@ import struct
 import sys
 import time
 from dataclasses import asdict, dataclass, field
-from typing import TYPE_CHECKING, Final
+from functools import partial
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 from studio.engine.bridge.hearing_frames import FRAME_HEAD, MESSAGE_HEAD
 
@@ -29,6 +30,8 @@ STAMP_DIGITS: Final = 20
 _WHOLE_BYTES: Final = 1 << 20
 _BEGINNING_BYTES: Final = 256
 _BUFFER_BYTES: Final = 1 << 22
+HEAD_MAX: Final = 16
+_BULK_HEAD: Final = 4
 _FOXGLOVE_HEAD: Final = 13
 _FOXGLOVE_MESSAGE: Final = 1
 _BINARY: Final = 2
@@ -48,6 +51,8 @@ class Job:
     headers: str = ""
     words: tuple[str, ...] = ()
     """What each says first."""
+    bulk: bool = False
+    """Whether large messages are taken from the studio's bulk lane."""
     sips_bytes_per_s: int = 0
     """How slowly they read; 0: as fast as they can."""
 
@@ -64,14 +69,44 @@ class Counted:
     """What this process took, in cores."""
 
 
-class Frames:
-    """Takes the frames of a websocket apart as bytes come, wherever those are cut."""
+class Head(NamedTuple):
+    """What the beginning of a frame says."""
 
-    def __init__(self, take: Callable[[int, memoryview | bytearray], None]) -> None:
-        self._take = take
-        self._head = bytearray()
-        self._body = bytearray()
-        self._length = self._missing = 0
+    size: int
+    """Of the head itself."""
+    length: int
+    """Of the body behind it."""
+    opcode: int = _BINARY
+
+
+def websocket_head(data: memoryview | bytearray, at: int) -> Head | None:
+    """Of a websocket's frame (RFC 6455 section 5.2); None while it is not all there."""
+    have = len(data) - at
+    short = data[at + 1] & 127 if have > 1 else 0
+    size = {126: 4, 127: 10}.get(short, 2)
+    if have < size:
+        return None
+    length = short if size == 2 else int.from_bytes(data[at + 2 : at + size], "big")
+    return Head(size, length, data[at] & 15)
+
+
+def chunk_head(data: memoryview | bytearray, at: int) -> Head | None:
+    """Of a chunk (RFC 9112 section 7.1), whose body ends with a new line of its own."""
+    line, ended, _ = bytes(data[at : at + HEAD_MAX]).partition(b"\r\n")
+    return Head(len(line) + 2, int(line, 16) + 2) if ended else None
+
+
+class Frames:
+    """Takes frames apart as bytes come, wherever those are cut."""
+
+    def __init__(
+        self,
+        read_head: Callable[[memoryview | bytearray, int], Head | None],
+        take: Callable[[int, memoryview | bytearray], None],
+    ) -> None:
+        self._read_head, self._take = read_head, take
+        self._begun, self._body = bytearray(), bytearray()
+        self._opcode = self._length = self._missing = 0
 
     def feed(self, came: memoryview) -> None:
         """Take in what came."""
@@ -79,25 +114,21 @@ class Frames:
         while at < end:
             if self._missing:
                 at = self._go_on(came, at)
-            elif self._head or end - at < 10:
-                self._head.append(came[at])
+            elif self._begun or end - at < HEAD_MAX:  # a head may be cut
+                self._begun.append(came[at])
                 at += 1
-                self._begin(self._head, 0)
+                self._begin(self._begun, 0)
             else:
                 at = self._begin(came, at)
 
     def _begin(self, data: memoryview | bytearray, at: int) -> int:
         """Read a head if all of it is there; give where the body begins."""
-        have = len(data) - at
-        short = data[at + 1] & 127 if have > 1 else 0
-        size = {126: 4, 127: 10}.get(short, 2)
-        if have < size:
+        head = self._read_head(data, at)
+        if head is None:
             return at
-        self._opcode = data[at] & 15
-        self._length = short if size == 2 else int.from_bytes(data[at + 2 : at + size], "big")
-        self._missing = self._length
-        self._head, self._body = bytearray(), bytearray()
-        return at + size
+        self._opcode, self._length, self._missing = head.opcode, head.length, head.length
+        self._begun, self._body = bytearray(), bytearray()
+        return at + head.size
 
     def _go_on(self, came: memoryview, at: int) -> int:
         part = came[at : at + self._missing]
@@ -106,34 +137,40 @@ class Frames:
             self._take(self._opcode, part)
         else:
             room = self._length if self._length <= _WHOLE_BYTES else _BEGINNING_BYTES
-            self._body += part[: room - len(self._body)]
+            self._body += part[: max(0, room - len(self._body))]
             if not self._missing:
                 self._take(self._opcode, self._body)
         return at + len(part)
 
 
 class Browser:
-    """One socket, and what came on it since it was asked last."""
+    """One browser's sockets, and what came on them since it was asked last."""
 
     def __init__(self, job: Job, delays_ms: list[float]) -> None:
-        self.socket = _shaken(job)
         self.count = 0
         self._delays_ms = delays_ms
+        first = _shaken(job)
         takes = {
             "studio": self._take_studio,
             "naive": self._take_naive,
             "foxglove": self._take_foxglove,
         }
-        self._frames = Frames(takes[job.kind])
+        self.sockets = {first: Frames(websocket_head, takes[job.kind])}
+        if job.bulk:
+            self.sockets[_bulk_lane(job, first)] = Frames(chunk_head, self._take_bulk)
         for words in job.words:
-            self.socket.sendall(_text_frame(words.encode()))
-        self.socket.setblocking(False)
+            first.sendall(_text_frame(words.encode()))
+        for one in self.sockets:
+            one.setblocking(False)
 
-    def read(self, buffer: memoryview) -> None:
+    def read(self, one: socket.socket, buffer: memoryview) -> None:
         """Take in what waits, as much as there is room for."""
-        length = self.socket.recv_into(buffer)
+        length = one.recv_into(buffer)
         assert length, "the server hung up"
-        self._frames.feed(buffer[:length])
+        self.sockets[one].feed(buffer[:length])
+
+    def _take_bulk(self, opcode: int, body: memoryview | bytearray) -> None:
+        self._take_studio(opcode, body[_BULK_HEAD:])
 
     def _take_naive(self, opcode: int, body: memoryview | bytearray) -> None:
         if opcode == _BINARY:
@@ -163,21 +200,35 @@ class Browser:
 
 
 def _shaken(job: Job) -> socket.socket:
-    made = socket.create_connection(("127.0.0.1", job.port))
     key = base64.b64encode(os.urandom(16)).decode()
-    made.sendall(
-        (
-            f"GET {job.path} HTTP/1.1\r\nHost: 127.0.0.1:{job.port}\r\n"
-            "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
-            f"Sec-WebSocket-Key: {key}\r\n{job.headers}\r\n"
-        ).encode()
+    return _asked(
+        job,
+        job.path,
+        "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+        f"Sec-WebSocket-Key: {key}\r\n",
+        b" 101 ",
     )
+
+
+def _bulk_lane(job: Job, lane: socket.socket) -> socket.socket:
+    """The studio's bulk lane of a data lane that was opened just now."""
+    lane.sendall(_text_frame(json.dumps({"type": "ask_bulk"}).encode()))
+    head = lane.recv(2, socket.MSG_WAITALL)
+    assert head[1] < 126, "the key is told in a short text"
+    key = json.loads(lane.recv(head[1], socket.MSG_WAITALL))["key"]
+    return _asked(job, f"/bulk?key={key}", "", b" 200 ")
+
+
+def _asked(job: Job, path: str, headers: str, status: bytes) -> socket.socket:
+    made = socket.create_connection(("127.0.0.1", job.port))
+    host = f"127.0.0.1:{job.port}"
+    made.sendall(f"GET {path} HTTP/1.1\r\nHost: {host}\r\n{headers}{job.headers}\r\n".encode())
     head = b""
     while not head.endswith(b"\r\n\r\n"):  # by one byte, so that none of a frame is taken
         byte = made.recv(1)
         assert byte, head
         head += byte
-    assert b" 101 " in head, head
+    assert status in head, head
     return made
 
 
@@ -196,7 +247,8 @@ def read_all(job: Job) -> None:
     window = _Window(browsers, counted)
     with selectors.DefaultSelector() as selector:
         for browser in browsers:
-            selector.register(browser.socket, selectors.EVENT_READ, browser.read)
+            for one in browser.sockets:
+                selector.register(one, selectors.EVENT_READ, partial(browser.read, one))
         selector.register(sys.stdin, selectors.EVENT_READ, window.hear)
         say("ready")
         while not window.is_over:
@@ -235,9 +287,9 @@ def sip(job: Job) -> None:
     mouthful = memoryview(bytearray(int(job.sips_bytes_per_s * _SIP_S)))
     while True:
         time.sleep(_SIP_S)
-        for browser in browsers:
+        for one in (each for browser in browsers for each in browser.sockets):
             try:
-                browser.socket.recv_into(mouthful)
+                one.recv_into(mouthful)
             except BlockingIOError:
                 continue
 

@@ -45,6 +45,7 @@ CELLS: Final = (
     Cell("4 topics of 5 KB at 50 Hz x 50", 5_000, 50, 50, topics=4, cpu_at_most=0.85),
     Cell("4.8 MB at 10 Hz x 10", 4_800_000, 10, 10, processes=2, wish=_NEWEST, cpu_at_most=0.42),
     Cell("6.2 MB at 30 Hz x 10", 6_200_000, 30, 10, processes=5, wish=_NEWEST, cpu_at_most=0.42),
+    Cell("500 B at 1 kHz x 200", 500, 1_000, 200, processes=4, cpu_at_most=0.3),
     Cell("500 B at 5 kHz x 10", 500, 5_000, 10, processes=2, cpu_at_most=0.3, over_empty=True),
 )
 SLOW: Final = Cell("6.2 MB at 30 Hz, 1 of 10 slow", 6_200_000, 30, 10, processes=3, wish=_NEWEST)

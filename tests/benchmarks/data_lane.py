@@ -19,6 +19,7 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Final, cast
 
+from studio.engine.bridge.hearing_frames import LARGE_BYTES
 from tests.benchmarks import data_browsers, data_server
 from tests.benchmarks.data_browsers import Counted, Job
 from tests.benchmarks.data_cells import BUSY, CELLS, SLOW, SLOW_BYTES_PER_S, Cell
@@ -143,7 +144,7 @@ def _watch(server: Server, cell: Cell) -> Seen:
         return Seen(_idle(server), 0.0, 0.0, 0.0, 0.0)
     with ExitStack() as stack:
         each, processes = cell.browsers // cell.processes, cell.processes
-        job = replace(server.job, browsers=each, words=_words(server, cell))
+        job = replace(_job(server, cell), browsers=each)
         heard = [stack.enter_context(_browsers(job)) for _ in range(processes)]
         return _window(server, heard, cell, WINDOW_S)
 
@@ -173,6 +174,11 @@ def _window(
     )
 
 
+def _job(server: Server, cell: Cell) -> Job:
+    bulk = server.name == "studio" and cell.size > LARGE_BYTES
+    return replace(server.job, words=_words(server, cell), bulk=bulk)
+
+
 def _words(server: Server, cell: Cell) -> tuple[str, ...]:
     """What a browser says first."""
     numbers = range(cell.topics)
@@ -189,7 +195,7 @@ def _words(server: Server, cell: Cell) -> tuple[str, ...]:
 
 def _slow(server: Server, port: int) -> None:
     """One of the browsers reads slowly: what that takes from the others, and how much memory."""
-    job = replace(server.job, words=_words(server, SLOW))
+    job = _job(server, SLOW)
     fast = replace(job, browsers=(SLOW.browsers - 1) // SLOW.processes)
     slow = replace(job, browsers=1, sips_bytes_per_s=SLOW_BYTES_PER_S)
     with _publishing(port, SLOW), ExitStack() as stack:
