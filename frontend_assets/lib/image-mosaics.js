@@ -12,6 +12,8 @@ const SHARES = [1.402, 0.714136, 0.344136, 1.772].map((share) =>
 const [RED_V, GREEN_V, GREEN_U, BLUE_U] =
   /** @type {[Int32Array, Int32Array, Int32Array, Int32Array]} */ (SHARES);
 const HALF = 32_768;
+/** U or V of a grey. */
+const NO_COLOR = 128;
 /** No sum is farther below a byte's least. */
 const BELOW = 256;
 /** What a sum becomes in a byte. */
@@ -24,6 +26,7 @@ const BYTES = Uint8Array.from({ length: 1024 }, (_, n) => Math.max(0, Math.min(2
  */
 export function pairInk({ raw: { width, data }, row }, luma) {
   const last = Math.max(0, (width & ~1) - 2);
+  const hasV = width > 1;
   // A row of odd width ends amid a pair: its last pixel has the colour of the pair before.
   const pairOf = (/** @type {number} */ x) => 2 * Math.min(x & ~1, last) + 1 - luma;
   return colorInk(({ columns, rows }, packed) => {
@@ -34,8 +37,8 @@ export function pairInk({ raw: { width, data }, row }, luma) {
       for (let n = 0; n < pairs.length; n += 1) {
         const pair = begin + (pairs[n] ?? 0);
         const luminance = data[begin + 2 * (columns[n] ?? 0) + luma] ?? 0;
-        // One pixel alone has no V.
-        packed[to] = colorOf(luminance, data[pair] ?? 128, data[pair + 2] ?? 128);
+        const v = hasV ? (data[pair + 2] ?? NO_COLOR) : NO_COLOR;
+        packed[to] = colorOf(luminance, data[pair] ?? NO_COLOR, v);
         to += 1;
       }
     }
