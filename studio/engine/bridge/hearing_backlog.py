@@ -23,6 +23,7 @@ class Backlog:
         self._newest: OrderedDict[int, Chunk] = OrderedDict()
         self._all: deque[Chunk] = deque()
         self._bytes = self._newest_bytes = 0
+        self._was_newest = False
         self.dropped = 0
         """Messages that were given up since the beginning."""
 
@@ -43,13 +44,14 @@ class Backlog:
             self.dropped += given_up.count
 
     def pop(self) -> Chunk:
-        """Take the oldest out; there is one."""
-        if self._all:
-            chunk = self._all.popleft()
-            self._bytes -= chunk.size
-        else:
+        """Take one out: the oldest of either kind, in turn, so that neither waits for the other."""
+        self._was_newest = bool(self._newest) and not (self._all and self._was_newest)
+        if self._was_newest:
             _, chunk = self._newest.popitem(last=False)
             self._newest_bytes -= chunk.size
+        else:
+            chunk = self._all.popleft()
+            self._bytes -= chunk.size
         return chunk
 
     def take_all(self) -> tuple[Chunk, ...]:

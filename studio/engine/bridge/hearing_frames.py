@@ -99,5 +99,5 @@ class Tick:
         """The rest, once for all who have these from elsewhere."""
         if channels not in self._without:
             left = tuple(one for one in self.chunks if one.channel not in channels)
-            self._without[channels] = self if left == self.chunks else Tick(left)
+            self._without[channels] = self if len(left) == len(self.chunks) else Tick(left)
         return self._without[channels]
