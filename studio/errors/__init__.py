@@ -30,6 +30,7 @@ StudioError
     WireError
         WireSettingsError
         NoRouterError
+        RouterGoneError
         ForeignEndpointError
         NotAdmittedError
         RouterNotStartedError
@@ -53,6 +54,7 @@ StudioError
             NotServedError
             NoAnswerError
             DroppedError
+            ServiceServerGoneError
             ActionServerGoneError
             CallRefusedError
             ForeignAnswerError
@@ -106,6 +108,7 @@ from studio.errors.calls import (
     ParameterImmutableError,
     ParameterNotDeclaredError,
     ParameterUninitializedError,
+    ServiceServerGoneError,
     TransitionError,
     TypeDescriptionError,
 )
@@ -184,6 +187,7 @@ from studio.errors.wire import (
     NoRouterError,
     NotAdmittedError,
     RosNameError,
+    RouterGoneError,
     RouterNotStartedError,
     TokenError,
     UnknownTypeError,
@@ -250,9 +254,11 @@ __all__ = [
     "RobotError",
     "RosArgumentError",
     "RosNameError",
+    "RouterGoneError",
     "RouterNotStartedError",
     "SaveConflictError",
     "SceneError",
+    "ServiceServerGoneError",
     "SettingsError",
     "StaleEditError",
     "StaleTextError",

@@ -107,6 +107,17 @@ class DroppedError(CallError):
         self.what, self.name = what, name
 
 
+class ServiceServerGoneError(CallError):
+    """The server of a service ended while a call of ours was under way."""
+
+    def __init__(self, name: str) -> None:
+        super().__init__(
+            f"The node that served the service {name} ended before it answered: "
+            "start it and call again."
+        )
+        self.name = name
+
+
 class ActionServerGoneError(CallError):
     """The server of an action ended while a goal of ours was under way."""
 

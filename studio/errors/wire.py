@@ -26,6 +26,17 @@ class NoRouterError(WireError):
         )
 
 
+class RouterGoneError(WireError):
+    """The router that was joined is away, so that nothing goes out and nothing comes."""
+
+    def __init__(self, endpoint: str) -> None:
+        super().__init__(
+            f"The router at {endpoint} is gone, so nobody can be asked or told anything: start it "
+            "there again (studio router), then try once more."
+        )
+        self.endpoint = endpoint
+
+
 class ForeignEndpointError(WireError):
     """The endpoint of a router is held by a program that does not speak Zenoh."""
 

@@ -16,6 +16,7 @@ from studio.engine.bridge.lessons import LessonDesk
 from studio.engine.bridge.lifecycle import LifecycleDesk
 from studio.engine.bridge.logs import LogDesk
 from studio.engine.bridge.rates import RateDesk
+from studio.engine.bridge.reach import check_reach
 from studio.engine.bridge.topics import TopicDesk
 from studio.engine.messages import calls as k
 from studio.engine.messages import goals as g
@@ -54,6 +55,7 @@ class BridgeDesk:
     """Holds one desk for each subject; all run on the loop."""
 
     def __init__(self, wire: WireDesk) -> None:
+        self._wire = wire
         self.interfaces = InterfaceDesk(wire)
         self.hearing = HearingDesk(wire)
         self.topics = TopicDesk(wire)
@@ -72,6 +74,7 @@ class BridgeDesk:
         Raises:
             StudioError: It cannot be done.
         """
+        check_reach(command, self._wire.current)
         answer = WORK[type(command)](self, command, listener)
         return await answer if isawaitable(answer) else answer
 

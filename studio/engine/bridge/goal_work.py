@@ -15,9 +15,10 @@ from studio.engine.bridge.requests import (
     SHOWN_CHARACTERS,
     came_true,
     known_in_time,
+    why_ended,
     wire_name,
 )
-from studio.errors import CommandError, NoAnswerError, NotServedError
+from studio.errors import CallError, CommandError, NoAnswerError, NotServedError
 from studio.ros.action.client import ActionClient
 from studio.ros.action.states import GoalStatus
 from studio.ros.names import full_type_name
@@ -85,6 +86,7 @@ class GoalRequest:
         )
         why: list[str] = []
         kind = known_action(link.node, self.name, self.type_name, why.append)
+        self._link = link
         self._goal = from_yaml(kind.Goal, asked.text, now_ns=time.time_ns())
         self._clients, self._client = clients, clients.take(kind, self.name)
         self._handle: ClientGoalHandle | None = None
@@ -104,6 +106,7 @@ class GoalRequest:
 
         Raises:
             NotServedError: Nobody serves the action.
+            RouterGoneError: The router ended meanwhile.
             NoAnswerError: The server says nothing in time.
         """
         is_ready = self._client.server_is_ready
@@ -116,6 +119,8 @@ class GoalRequest:
             handle: ClientGoalHandle = await known_in_time(sent, timeout_s)
         except TimeoutError:
             raise NoAnswerError("action", self.name, timeout_s) from None
+        except CallError as error:
+            raise await why_ended(self._link, error) from None
         if handle.accepted:
             self._handle = handle
         return handle.accepted
@@ -144,6 +149,8 @@ class GoalRequest:
             answer = await known_in_time(self._handle.cancel_goal_async(), _CANCEL_S)
         except TimeoutError:
             raise NoAnswerError("action", self.name, _CANCEL_S) from None
+        except CallError as error:
+            raise await why_ended(self._link, error) from None
         if answer.return_code:
             why = _REFUSALS.get(answer.return_code, "its server says no")
             raise CommandError(f"The goal of {self.name} goes on: {why}.")

@@ -9,7 +9,15 @@ import asyncio
 import time
 from typing import TYPE_CHECKING, Any, Final
 
-from studio.errors import CommandError, NoAnswerError, NotServedError
+from studio.errors import (
+    CommandError,
+    DroppedError,
+    NoAnswerError,
+    NotServedError,
+    RouterGoneError,
+    ServiceServerGoneError,
+    WireError,
+)
 from studio.ros.names import check_full_name, full_type_name
 from studio.ros.remote.known_types import known_service
 from studio.ros.types.json_texts import to_json
@@ -27,6 +35,8 @@ SHOWN_CHARACTERS: Final = 60_000
 SERVER_PATIENCE_S: Final = 3.0
 """For somebody who serves: it was listed, or it comes up at this moment."""
 _LOOK_S: Final = 0.05
+_ROUTER_SEEN_S: Final = 0.5
+"""A call ends as its router does, which is told a moment later."""
 
 
 class ServiceRequest:
@@ -51,7 +61,9 @@ class ServiceRequest:
         """Ask, and give the reply as JSON.
 
         Raises:
-            NotServedError: Nobody serves it, or not any more.
+            NotServedError: Nobody serves it.
+            ServiceServerGoneError: Its server ended meanwhile.
+            RouterGoneError: The router did.
             NoAnswerError: No reply came in time.
         """
         end_s = time.monotonic() + timeout_s
@@ -64,6 +76,11 @@ class ServiceRequest:
             reply = await known_in_time(asked, left_s)
         except TimeoutError:
             raise NoAnswerError("service", self.name, timeout_s) from None
+        except NotServedError:
+            is_there = is_ready()
+            let_fall = DroppedError("service", self.name)
+            gone = let_fall if is_there else ServiceServerGoneError(self.name)
+            raise await why_ended(self._link, gone) from None
         return await asyncio.to_thread(to_json, reply, SHOWN_CHARACTERS)
 
     def close(self) -> None:
@@ -88,6 +105,12 @@ async def came_true(holds: Callable[[], bool], timeout_s: float) -> bool:
             return False
         await asyncio.sleep(_LOOK_S)
     return True
+
+
+async def why_ended(link: WireLink, otherwise: WireError) -> WireError:
+    """Say what ended a question that was under way: the end of the router, or something else."""
+    is_away = await came_true(lambda: not link.is_connected, _ROUTER_SEEN_S)
+    return RouterGoneError(link.endpoint) if is_away else otherwise
 
 
 async def known_in_time(future: Future[Any], timeout_s: float) -> Any:  # noqa: ANN401
