@@ -26,7 +26,8 @@ const BYTES = Uint8Array.from({ length: 1024 }, (_, n) => Math.max(0, Math.min(2
  */
 export function pairInk({ raw: { width, data }, row }, luma) {
   const last = Math.max(0, (width & ~1) - 2);
-  const hasV = width > 1;
+  // One pixel alone has no V, whatever follows it.
+  const toV = width > 1 ? 2 : data.length;
   // A row of odd width ends amid a pair: its last pixel has the colour of the pair before.
   const pairOf = (/** @type {number} */ x) => 2 * Math.min(x & ~1, last) + 1 - luma;
   return colorInk(({ columns, rows }, packed) => {
@@ -37,8 +38,7 @@ export function pairInk({ raw: { width, data }, row }, luma) {
       for (let n = 0; n < pairs.length; n += 1) {
         const pair = begin + (pairs[n] ?? 0);
         const luminance = data[begin + 2 * (columns[n] ?? 0) + luma] ?? 0;
-        const v = hasV ? (data[pair + 2] ?? NO_COLOR) : NO_COLOR;
-        packed[to] = colorOf(luminance, data[pair] ?? NO_COLOR, v);
+        packed[to] = colorOf(luminance, data[pair] ?? NO_COLOR, data[pair + toV] ?? NO_COLOR);
         to += 1;
       }
     }
