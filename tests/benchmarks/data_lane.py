@@ -14,7 +14,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Final, cast
@@ -247,19 +247,21 @@ def _publishing(zenoh_port: int, cell: Cell) -> Generator[None]:
 
 @contextmanager
 def _browsers(job: Job) -> Generator[subprocess.Popen[str]]:
-    with _process(data_browsers.__name__) as process:
+    with _process(data_browsers.__name__, noise=None) as process:
         _order(process, json.dumps(asdict(job)))
         assert _line(process) == "ready"
         yield process
 
 
 @contextmanager
-def _process(module: str, *words: object) -> Generator[subprocess.Popen[str]]:
+def _process(
+    module: str, *words: object, noise: int | None = subprocess.DEVNULL
+) -> Generator[subprocess.Popen[str]]:
     process = subprocess.Popen(
         [sys.executable, "-m", module, *map(str, words)],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
-        stderr=subprocess.DEVNULL,  # servers complain of browsers that leave
+        stderr=noise,  # servers complain of browsers that leave
         text=True,
     )
     try:
@@ -268,7 +270,8 @@ def _process(module: str, *words: object) -> Generator[subprocess.Popen[str]]:
         process.kill()
         process.wait()
         for pipe in (process.stdin, process.stdout):
-            cast("IO[str]", pipe).close()
+            with suppress(BrokenPipeError):
+                cast("IO[str]", pipe).close()
 
 
 def _order(process: subprocess.Popen[str], line: str) -> None:

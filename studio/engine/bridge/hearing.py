@@ -1,16 +1,22 @@
-"""HearingDesk: hears topics for browsers, and hands on what came as it came, at most 60 Hz."""
+"""HearingDesk: hears topics for browsers, and hands on what came as it came.
+
+That is done 60 times in a second, and at once where a browser waits for it.
+"""
 
 from __future__ import annotations
 
 import asyncio
 import itertools
 import logging
+from functools import partial
 from typing import TYPE_CHECKING, Final, Protocol, TypeAlias
 
 from studio.engine.bridge.hearing_frames import Tick
 from studio.engine.messages.hearing import Hear, Leave, NotHeard
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from pydantic import BaseModel
 
     from studio.engine.bridge.hearing_channels import Channel
@@ -81,7 +87,7 @@ class HearingDesk:
         self._ticking: asyncio.Task[None] | None = None
         self._listening = asyncio.Lock()
         self._looked_s = 0.0
-        self._closed = False
+        self._closed = self._is_woken = False
 
     def attach(self, hearer: Hearer) -> None:
         """A data lane was opened."""
@@ -130,9 +136,10 @@ class HearingDesk:
 
         browser.forget(wish.wish)
         key = tuple(wish.model_dump(exclude={"wish"}).values())
+        wake = partial(self._wake, asyncio.get_running_loop())
         channel = self._channels.get(key)
         if channel is None:
-            channel = self._channels[key] = Channel(next(self._numbers), wish)
+            channel = self._channels[key] = Channel(next(self._numbers), wish, wake)
         browser.hear(wish.wish, channel)
         browser.tell()
         if kept := channel.kept():
@@ -148,7 +155,7 @@ class HearingDesk:
                 if began_s - self._looked_s >= _LOOK_EVERY_S:
                     self._looked_s = began_s
                     await self._look()
-                self._hand_on(loop.time())
+                self._hand_on(self._all(), loop.time())
             except Exception:  # noqa: BLE001 - one topic that fails must not silence the others
                 _log.exception("A tick of the data lane failed.")
             await asyncio.sleep(max(0.0, began_s + _TICK_S - loop.time()))
@@ -168,10 +175,20 @@ class HearingDesk:
         for browser in self._browsers.values():
             browser.tell()
 
-    def _hand_on(self, now_s: float) -> None:
+    def _wake(self, loop: asyncio.AbstractEventLoop) -> None:
+        """Something is to be handed on at once; of the drain's thread."""
+        if not self._is_woken and not loop.is_closed():
+            self._is_woken = True
+            loop.call_soon_threadsafe(self._hand_on_at_once, loop)
+
+    def _hand_on_at_once(self, loop: asyncio.AbstractEventLoop) -> None:
+        self._is_woken = False  # before it is taken: what comes from now on wakes again
+        self._hand_on([one for one in self._all() if one.is_at_once], loop.time())
+
+    def _hand_on(self, channels: Iterable[Channel], now_s: float) -> None:
         """Give every browser what came for it; those that hear the same share one frame."""
         chunks: dict[int, Chunk] = {}
-        for channel in self._all():
+        for channel in channels:
             if (chunk := channel.take(now_s)) is not None:
                 chunks[channel.number] = chunk
         if not chunks:

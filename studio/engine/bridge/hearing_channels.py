@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections import deque
 from typing import TYPE_CHECKING, Final, NamedTuple
 
@@ -12,7 +13,7 @@ from studio.ros.node.overhearing import Overheard
 from studio.ros.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from studio.engine.messages.hearing import Hear, HeardState
     from studio.engine.wire.link import WireLink
@@ -49,10 +50,14 @@ class Way(NamedTuple):
 
 
 class Channel:
-    """One topic as some browsers wish to hear it; of the loop, but for `open` and `close`."""
+    """One topic as some browsers wish to hear it; of the loop, but for `listen` and `close`.
 
-    def __init__(self, number: int, wish: Hear) -> None:
-        self.number, self.wish = number, wish
+    `wake` is called in another thread when something came that is to be handed on at once.
+    """
+
+    def __init__(self, number: int, wish: Hear, wake: Callable[[], object]) -> None:
+        self.number, self.wish, self._wake = number, wish, wake
+        self.is_at_once = wish.pace == "at_once"
         self.keeps_all = wish.mode == "every"
         self.state = self._told("not_connected")
         self._link: WireLink | None = None
@@ -133,8 +138,15 @@ class Channel:
             self._heard = Overheard(
                 link.node, self.wish.topic, way.type_name, way.type_hash, way.qos
             )
+            if self.is_at_once:
+                self._heard.wait_for(self._arrived)
         except StudioError as error:
             self.state = self._told("refused", way, publishers, str(error))
+
+    def _arrived(self) -> None:
+        """Of the drain's thread; what is not due yet goes with a tick."""
+        if time.monotonic() >= self._due_s:
+            self._wake()
 
     def _told_of(self, way: Way | None, publishers: Sequence[GraphEndpoint]) -> Heard:
         if not publishers:

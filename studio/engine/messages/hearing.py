@@ -29,6 +29,8 @@ class Hear(Message):
     """Every message as far as a bound, for plots; or the newest, for what is looked at."""
     most_hz: Annotated[float, Field(ge=1, le=60)] = 60
     """How often the newest is sent; of every message none is left out."""
+    pace: Literal["tick", "at_once"] = "tick"
+    """With the next tick, which costs least; or as soon as it comes, for what is waited for."""
     reliable: bool | None = None
     latched: bool | None = None
     depth: Annotated[int, Field(ge=1, le=DEPTH_MAX)] | None = None

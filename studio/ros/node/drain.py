@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Protocol, runtime_checkable
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
+PROMPT_LOOK_S = 0.0005
+"""Between two looks into what somebody waits for."""
 LOOK_S = 0.002
 """Between two looks while data flows."""
 STREAM_LOOK_S = 0.004
@@ -36,12 +38,15 @@ class Source(Protocol):
 class Drain:
     """Looks into every ring in turn: every 2 ms where data flows, else every 10 ms.
 
+    Those that somebody waits for are looked into every half millisecond besides.
+
     No Python runs on Zenoh's threads, so that a slow callback or a busy interpreter blocks no
     other topic of the link.
     """
 
     def __init__(self) -> None:
         self._sources: tuple[Source, ...] = ()
+        self._prompt: tuple[Source, ...] = ()
         self._flowing: dict[Source, float] = {}
         self._failed: set[Source] = set()
         self._lock = threading.Lock()
@@ -59,6 +64,7 @@ class Drain:
         """Leave a ring alone; again is harmless."""
         with self._lock:
             self._sources = tuple(one for one in self._sources if one is not source)
+            self._prompt = tuple(one for one in self._prompt if one is not source)
             self._flowing.pop(source, None)
             self._failed.discard(source)
 
@@ -66,6 +72,12 @@ class Drain:
         """Look into a ring often for a while: something is expected."""
         with self._lock:
             self._flowing[source] = time.monotonic() + _FLOWS_S
+
+    def wait_for(self, source: Source) -> None:
+        """Look into a ring as often as can be, until it is removed: it takes a fiftieth core."""
+        with self._lock:
+            if source in self._sources:
+                self._prompt = (*self._prompt, source)
 
     @property
     def is_flowing(self) -> bool:
@@ -79,11 +91,16 @@ class Drain:
             self._thread.join()
 
     def _run(self) -> None:
-        look_at_all_s, taken = 0.0, 0
+        look_at_all_s, look_s, taken = 0.0, 0.0, 0
         while not self._stopped.is_set():
+            pause_s = _pause_s(taken) if self._flowing else IDLE_LOOK_S
             # To wait for the event would take twice the processor of a plain sleep.
-            time.sleep(_pause_s(taken) if self._flowing else IDLE_LOOK_S)
+            time.sleep(PROMPT_LOOK_S if self._prompt else pause_s)
             now_s = time.monotonic()
+            if self._prompt and now_s < look_s:
+                self._look_into(self._prompt, now_s)
+                continue
+            look_s = now_s + pause_s
             if now_s < look_at_all_s:
                 taken = self._look_into(tuple(self._flowing), now_s)
             else:

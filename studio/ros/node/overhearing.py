@@ -8,6 +8,8 @@ from studio.ros.node.subscription import Subscription
 from studio.ros.tokens import EndpointKind
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from studio.ros.node.base import NodeBase
     from studio.ros.node.inbox import RawSample
     from studio.ros.qos import QoSProfile
@@ -48,6 +50,11 @@ class Overheard:
         """Messages that were sent and did not come here, or not in time."""
         losses = self._subscription.losses
         return losses.lost + losses.overwritten
+
+    def wait_for(self, on_arrival: Callable[[], object]) -> None:
+        """Have what comes be told at once, in another thread: `on_arrival` must be quick."""
+        self._subscription.on_arrival = on_arrival
+        self._node.context.drain.wait_for(self._subscription)
 
     def take(self) -> list[RawSample]:
         """Take what came since it was asked for last."""

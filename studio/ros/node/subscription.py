@@ -66,6 +66,7 @@ class Subscription(Work):
     Attributes:
         events: What calls back on events of it, work of its node.
         lost_event: That of them which is told of lost messages.
+        on_arrival: Called whenever samples came, in the drain's thread: it must be quick.
     """
 
     def __init__(
@@ -90,6 +91,7 @@ class Subscription(Work):
         self._arrived: Future[None] | None = None
         self.events: list[Work] = []
         self.lost_event: CountEvent | None = None
+        self.on_arrival: Callable[[], object] | None = None
         self._incoming: Incoming[zenoh.Sample] | None = _declared(endpoint, ring)
         endpoint.show()
 
@@ -174,6 +176,8 @@ class Subscription(Work):
             arrived.set_result(None)
         if self.callback is not None:
             self.announce()
+        if self.on_arrival is not None:
+            self.on_arrival()
 
     def _received(self, sample: zenoh.Sample, now_ns: int) -> RawSample | None:
         attachment = sample.attachment

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from contextlib import asynccontextmanager
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import pytest
 
@@ -105,6 +105,27 @@ def test_the_newest_comes_as_often_as_was_wished_and_what_is_left_ends(endpoint:
             assert len(hearer.came) <= 3
             desk.wish(hearer, Leave(wish=1))
             await until(lambda: out.get_subscription_count() == 0)
+
+    asyncio.run(run())
+
+
+@pytest.mark.parametrize("mode", ["every", "newest"])
+def test_what_is_waited_for_comes_between_two_ticks(
+    endpoint: str, tester: Node, monkeypatch: pytest.MonkeyPatch, mode: Literal["every", "newest"]
+):
+    monkeypatch.setattr("studio.engine.bridge.hearing._TICK_S", 3_600)
+    out = tester.create_publisher(message(STRING), "/prompt", 10)
+
+    async def run() -> None:
+        async with hearing(endpoint) as desk:
+            waiting, patient = browser(desk), browser(desk)
+            desk.wish(waiting, Hear(wish=1, topic="/prompt", mode=mode, pace="at_once"))
+            desk.wish(patient, Hear(wish=1, topic="/prompt", mode=mode))
+            await heard(waiting, patient)
+            await until(lambda: out.get_subscription_count() == 2)
+            out.publish(said("now"))
+            await until(lambda: texts(waiting) == ["now"])
+            assert not patient.came
 
     asyncio.run(run())
 

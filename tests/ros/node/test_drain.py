@@ -82,6 +82,23 @@ def test_where_data_flows_it_looks_more_often(drain: Drain):
     assert idle_after - idle_before < busy.looks - busy_before
 
 
+def test_what_is_waited_for_is_looked_into_more_often_until_it_is_removed(drain: Drain):
+    idle, awaited = CountingSource(), CountingSource()
+    for source in (idle, awaited):
+        drain.add(source)
+    drain.wait_for(awaited)
+    wait_until("nothing is expected any more", lambda: not drain.is_flowing)
+    idle_before, awaited_before = idle.looks, awaited.looks
+    wait_until(
+        "it was looked into more often",
+        lambda: awaited.looks - awaited_before > 2 * (idle.looks - idle_before) + 10,
+    )
+    drain.remove(awaited)
+    looks, idle_before = awaited.looks, idle.looks
+    wait_until("the other is looked into", lambda: idle.looks > idle_before + 10)
+    assert awaited.looks <= looks + 1
+
+
 def test_one_that_was_stopped_looks_no_more():
     drain, source = Drain(), CountingSource()
     drain.add(source)
