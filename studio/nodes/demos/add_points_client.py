@@ -42,12 +42,11 @@ class AddPointsServiceClientNode(Node):
         self.future.add_done_callback(self.process_response)
 
     def process_response(self, future: Future[Any]) -> None:
-        """Log the answer; a question that was given up has none."""
-        response = None if future.cancelled() else future.result()
-        if response is not None:
-            self.get_logger().info(f"The result was {_said(response.result)}")
-        else:
+        """Log the answer; a question that was given up, or that nobody takes, has none."""
+        if future.cancelled() or future.exception() is not None:
             self.get_logger().info("The response was None.")
+        else:
+            self.get_logger().info(f"The result was {_said(future.result().result)}")
 
 
 def _said(point: Point) -> str:

@@ -34,6 +34,9 @@ class DistanceClient(Node):
         place = Distance.Request(x=random.uniform(-FAR, FAR), y=random.uniform(-FAR, FAR))
 
         def answered(future: Future[Any]) -> None:
+            if future.exception() is not None:
+                self.get_logger().warn(f"No answer. {future.exception()}")
+                return
             distance = future.result().distance
             said = f"({place.x:.2f}, {place.y:.2f}) is {distance:.2f} m away from Jerry"
             self.get_logger().info(said)
