@@ -45,6 +45,9 @@ function begun() {
     if (connection.value === "connected") made.postMessage({ kind: "retry" });
   });
   whenTypesChange(tell);
+  const see = () => made.postMessage({ kind: "seen", isSeen: !document.hidden });
+  document.addEventListener("visibilitychange", see);
+  see();
   return made;
 }
 

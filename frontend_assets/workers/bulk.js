@@ -34,10 +34,7 @@ export class FrameJoiner {
     let at = 0;
     while (at < piece.length) {
       const end = Math.min(piece.length, at + this.filling.length - this.filled);
-      this.filling.set(
-        at === 0 && end === piece.length ? piece : piece.subarray(at, end),
-        this.filled,
-      );
+      this.filling.set(piece.subarray(at, end), this.filled);
       this.filled += end - at;
       at = end;
       if (this.filled === this.filling.length) this.finish();
@@ -156,21 +153,14 @@ export class Bulk {
     }
   }
 
-  /** Until it ends: what is large then opens another. @param {string} key @param {AbortSignal} signal */
+  /** @param {string} key @param {AbortSignal} signal */
   async read(key, signal) {
     const address = `/bulk?key=${encodeURIComponent(key)}`;
-    const answer = await this.surroundings
-      .fetch(address, { signal, cache: "no-store" })
-      .catch(none);
+    const asked = this.surroundings.fetch(address, { signal, cache: "no-store" });
+    const answer = await asked.catch(none);
     if (!answer?.ok || !answer.body) return;
     const joiner = new FrameJoiner(this.surroundings.take);
-    const reader = answer.body.getReader();
-    for (
-      let piece = await reader.read().catch(none);
-      piece?.value;
-      piece = await reader.read().catch(none)
-    )
-      joiner.push(piece.value);
+    for await (const piece of piecesOf(answer.body)) joiner.push(piece);
   }
 
   /** A channel is heard no more. @param {number} channel */
@@ -188,6 +178,16 @@ export class Bulk {
     const { stream } = this;
     this.stream = null;
     stream?.abort();
+  }
+}
+
+/** Until it ends or is lost. @param {ReadableStream<Uint8Array>} body */
+async function* piecesOf(body) {
+  const reader = body.getReader();
+  let piece = await reader.read().catch(none);
+  while (piece?.value) {
+    yield piece.value;
+    piece = await reader.read().catch(none);
   }
 }
 

@@ -24,7 +24,8 @@ import { Look, Trace, Types } from "./wishes.js";
  * @typedef {{kind: "unfold", wish: number, path: string, count: number}} Unfold
  * @typedef {{kind: "text", wish: number, path: string, request: number}} AskText
  * @typedef {{kind: "retry"}} Retry
- * @typedef {StartLook | StartTrace | StartWatch | AskOfPicture | Leave | Learn | Unfold | AskText | Retry} FromPage
+ * @typedef {{kind: "seen", isSeen: boolean}} Seen whether anybody can look at the page
+ * @typedef {StartLook | StartTrace | StartWatch | AskOfPicture | Leave | Learn | Unfold | AskText | Retry | Seen} FromPage
  */
 
 const RETRY_MS = 1500;
@@ -37,6 +38,7 @@ const channels = new Map();
 let socket = null;
 /** @type {ReturnType<typeof setTimeout> | undefined} */
 let retry;
+let isSeen = true;
 const types = new Types(post);
 /** For how many messages this page was too slow, on either lane. */
 let slow = { data: 0, bulk: 0 };
@@ -75,7 +77,7 @@ function open() {
   opened.binaryType = "arraybuffer";
   opened.onopen = () => {
     slow = { data: 0, bulk: 0 };
-    for (const { wish } of wishes.values()) say({ type: "hear", ...wish });
+    for (const one of wishes.values()) hear(one);
     post({ kind: "lane", open: true, dropped: 0 });
   };
   opened.onmessage = ({ data }) => take(data);
@@ -181,11 +183,40 @@ function takeChannel(channel, came) {
   }
 }
 
+/** What is only looked at is not heard while nobody can. @param {Look | Trace | Pictures} one */
+function hear({ wish }) {
+  if (isSeen || wish.mode === "every") say({ type: "hear", ...wish });
+}
+
+/** @param {Seen} told */
+function see(told) {
+  if (isSeen === told.isSeen) return;
+  isSeen = told.isSeen;
+  for (const one of wishes.values()) {
+    if (one.wish.mode === "every") continue;
+    if (isSeen) hear(one);
+    else unheard(one.wish.wish);
+  }
+}
+
+/** @param {number} wish */
+function unheard(wish) {
+  for (const [channel, all] of channels) {
+    const others = all.filter((one) => one !== wish);
+    if (others.length > 0) channels.set(channel, others);
+    else {
+      channels.delete(channel);
+      bulk.leave(channel);
+    }
+  }
+  say({ type: "leave", wish });
+}
+
 /** @param {readonly number[]} lost channels: what they told once and for all may have been on its way */
 function hearAnew(lost) {
   for (const wish of new Set(lost.flatMap((channel) => channels.get(channel) ?? []))) {
     const one = wishes.get(wish);
-    if (one?.wish.mode === "newest") say({ type: "hear", ...one.wish });
+    if (one?.wish.mode === "newest") hear(one);
   }
 }
 
@@ -197,9 +228,10 @@ function start(asked) {
     before.choose(asked.paths);
     return;
   }
-  wishes.set(wish.wish, wished(asked));
+  const one = wished(asked);
+  wishes.set(wish.wish, one);
   types.doubt();
-  if (socket) say({ type: "hear", ...wish });
+  if (socket) hear(one);
   else open();
 }
 
@@ -219,15 +251,7 @@ function leave(wish) {
   const left = wishes.get(wish);
   if (left instanceof Pictures) left.leave();
   wishes.delete(wish);
-  for (const [channel, all] of channels) {
-    const others = all.filter((one) => one !== wish);
-    if (others.length > 0) channels.set(channel, others);
-    else {
-      channels.delete(channel);
-      bulk.leave(channel);
-    }
-  }
-  say({ type: "leave", wish });
+  unheard(wish);
   if (wishes.size > 0) return;
   // Nobody looks: the lane costs nothing then.
   const closing = socket;
@@ -248,6 +272,7 @@ function carryOut(asked) {
   else if (asked.kind === "leave") leave(asked.wish);
   else if (asked.kind === "learn") learn(asked);
   else if (asked.kind === "retry") open();
+  else if (asked.kind === "seen") see(asked);
   else if (asked.kind === "of_picture") carryOutPicture(asked);
   else carryOutLook(asked);
 }
