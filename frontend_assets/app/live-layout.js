@@ -5,6 +5,7 @@
 /** Its name among the layouts; one that a person gives never begins with a space. */
 export const LIVE = " live";
 
+const MIDDLE = ["scene", "turtlesim", "jerry"];
 const LEFT = ["displays", "frames", "joints"];
 const BELOW = ["plot", "log", "image", "diagnostics"];
 const UPPER = ["graph", "interfaces", "lifecycle"];
@@ -24,7 +25,7 @@ export function liveLayout(kind, width, height, isPanel) {
     [LEFT, BELOW, UPPER, LOWER].map((ids) => ids.filter(isPanel))
   );
   const low = Math.round(height * LOW_SHARE);
-  const middle = [{ tabs: ["scene"], size: height - low }, ...tabs(below, low)];
+  const middle = [{ tabs: MIDDLE.filter(isPanel), size: height - low }, ...tabs(below, low)];
   if (kind === "medium") {
     const right = Math.round(Math.min(380, width * 0.44));
     return [{ split: middle, size: width - right }, ...tabs([...lower, ...left, ...upper], right)];

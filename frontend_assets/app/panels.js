@@ -105,6 +105,14 @@ export const PANELS = {
     icon: "compass",
     load: wired(async () => (await import("../panels/teleop.js")).TeleopPanel),
   },
+  turtlesim: {
+    icon: "route",
+    load: wired(async () => (await import("../panels/turtlesim.js")).TurtlesimPanel),
+  },
+  jerry: {
+    icon: "grid",
+    load: wired(async () => (await import("../panels/jerry.js")).JerryPanel),
+  },
   urdf: { icon: "urdf", load: async () => (await import("../panels/urdf.js")).UrdfPanel },
 };
 

@@ -8,6 +8,7 @@ const FILES = [
   "styles/deeds.css",
   "styles/message-form.css",
   "styles/teleop.css",
+  "styles/fields.css",
   "styles/log.css",
   "styles/lifecycle.css",
   "styles/interfaces.css",

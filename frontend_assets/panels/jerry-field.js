@@ -60,11 +60,14 @@ function Grid({ view: { low, size, step } }) {
   const kind = (/** @type {number} */ at) => (at === 0 ? "jerry-axis" : "jerry-line");
   const ahead = gridLines(low.x, size, step);
   const aside = gridLines(low.y, size, step);
+  // The corner where both would stand has none, and no number is cut off by an edge.
+  const isRoom = (/** @type {number} */ from, /** @type {number} */ at) =>
+    at !== 0 && at - from > 4 * letters && from + size - at > 2 * letters;
   return html`<g>
     ${ahead.map((x) => html`<line key=${`x${x}`} class=${kind(x)} x1=${-low.y - size} x2=${-low.y} y1=${-x} y2=${-x} />`)}
     ${aside.map((y) => html`<line key=${`y${y}`} class=${kind(y)} y1=${-low.x - size} y2=${-low.x} x1=${-y} x2=${-y} />`)}
-    ${ahead.map((x) => html`<text key=${`t${x}`} class="jerry-number" font-size=${letters} x=${-low.y - letters / 3} y=${-x - letters / 4} text-anchor="end">${x === 0 || low.x + size - x < 2 * letters ? "" : `x ${x}`}</text>`)}
-    ${aside.map((y) => html`<text key=${`u${y}`} class="jerry-number" font-size=${letters} x=${-y + letters / 4} y=${-low.x - letters / 3}>${y === 0 ? "" : `y ${y}`}</text>`)}
+    ${ahead.filter((x) => isRoom(low.x, x)).map((x) => html`<text key=${`t${x}`} class="jerry-number" font-size=${letters} x=${-low.y - letters / 3} y=${-x - letters / 4} text-anchor="end">x ${x}</text>`)}
+    ${aside.filter((y) => isRoom(low.y, y)).map((y) => html`<text key=${`u${y}`} class="jerry-number" font-size=${letters} x=${-y + letters / 4} y=${-low.x - letters / 3}>y ${y}</text>`)}
   </g>`;
 }
 
