@@ -18,10 +18,10 @@ const SHAPE = 1.7;
 /** Width where an arrow crosses a layer. */
 const CROSSING = 10;
 
-/** @param {readonly Sized[]} boxes @param {readonly Joined[]} arrows both ends are among the boxes @returns {Layout} */
-export function layOut(boxes, arrows) {
+/** @param {readonly Sized[]} boxes @param {readonly Joined[]} arrows both ends are among the boxes @param {number} [shape] width by height that it would best have @returns {Layout} */
+export function layOut(boxes, arrows, shape = SHAPE) {
   const parts = partsOf(boxes, arrows).map((part) => layOutPart(part.boxes, part.arrows));
-  return placed(parts);
+  return placed(parts, shape);
 }
 
 /** @param {readonly Sized[]} boxes @param {readonly Joined[]} arrows @returns {{boxes: Sized[], arrows: Joined[]}[]} what hangs together, the largest first */
@@ -228,19 +228,22 @@ function measured(boxes, layers, ways) {
   };
 }
 
-/** @param {readonly Layout[]} parts @returns {Layout} in rows that together are about as wide as a screen is */
-function placed(parts) {
+/** @param {readonly Layout[]} parts @param {number} shape @returns {Layout} in rows that together have about that shape */
+function placed(parts, shape) {
   const area = parts.reduce(
     (sum, { width, height }) => sum + (width + GAP_PARTS) * (height + GAP_PARTS),
     0,
   );
-  const widest = Math.max(Math.sqrt(area * SHAPE), ...parts.map(({ width }) => width), 0);
+  const widest = Math.max(Math.sqrt(area * shape), ...parts.map(({ width }) => width), 0);
   /** @type {Layout} */
   const whole = { boxes: new Map(), arrows: new Map(), width: 0, height: 0 };
   let [x, y, rowHeight] = [0, 0, 0];
   for (const part of parts) {
     if (x > 0 && x + part.width > widest) [x, y, rowHeight] = [0, y + rowHeight + GAP_PARTS, 0];
-    const moved = (/** @type {Point} */ point) => ({ x: point.x + x, y: point.y + y });
+    const moved = (/** @type {Point} */ point) => ({
+      x: point.x + x,
+      y: point.y + y,
+    });
     for (const [id, point] of part.boxes) whole.boxes.set(id, moved(point));
     for (const [id, way] of part.arrows) whole.arrows.set(id, way.map(moved));
     whole.width = Math.max(whole.width, x + part.width);

@@ -18,23 +18,23 @@ const SHORT = 96;
  * @property {(item: any) => boolean} isKept stays drawn wherever the view is: what has the focus or is chosen
  * @property {string | ((piece: any[]) => string)} row how tall a row, or a piece, that was never drawn is taken to be, as CSS writes it
  * @property {number} [short] lists up to this length are drawn whole
- * @property {number} [columns] of a table, whose bodies the pieces then are
+ * @property {boolean} [inTable] the pieces are bodies of a table then
  */
 
 /** @param {LongListProps} props */
-export function LongList({ items, keyOf, draw, isKept, row, short = SHORT, columns }) {
+export function LongList({ items, keyOf, draw, isKept, row, short = SHORT, inTable = false }) {
   let first = 0;
   return inPieces(items).map((piece) => {
     const from = first;
     first += piece.length;
     const kept = items.length <= short || piece.some(isKept);
-    return html`<${Piece} key=${keyOf(piece[0])} count=${piece.length} kept=${kept} room=${typeof row === "string" ? `calc(${piece.length} * ${row})` : row(piece)} columns=${columns}
+    return html`<${Piece} key=${keyOf(piece[0])} count=${piece.length} kept=${kept} room=${typeof row === "string" ? `calc(${piece.length} * ${row})` : row(piece)} inTable=${inTable}
       draw=${() => piece.map((item, n) => draw(item, from + n))} />`;
   });
 }
 
-/** @param {{count: number, kept: boolean, room: string, columns: number | undefined, draw: () => ComponentChildren}} props */
-function Piece({ count, kept, room, columns, draw }) {
+/** @param {{count: number, kept: boolean, room: string, inTable: boolean, draw: () => ComponentChildren}} props */
+function Piece({ count, kept, room, inTable, draw }) {
   const element = useRef(/** @type {HTMLElement | null} */ (null));
   const [near, setNear] = useState(false);
   const drawnCount = useRef(0);
@@ -59,8 +59,9 @@ function Piece({ count, kept, room, columns, draw }) {
   drawnCount.current = drawn ? count : 0;
   const known = measured.current.count === count;
   const height = known ? measured.current.height : room;
-  if (columns) {
-    const empty = html`<tr aria-hidden="true"><td colspan=${columns} style=${`padding:0;border:0;height:${height}`}></td></tr>`;
+  if (inTable) {
+    // One cell is enough, and spans no column that a narrow panel hides: that would take room.
+    const empty = html`<tr aria-hidden="true"><td style=${`padding:0;border:0;height:${height}`}></td></tr>`;
     return html`<tbody ref=${element}>${drawn ? draw() : empty}</tbody>`;
   }
   return html`<div role="none" ref=${element} style=${drawn ? "" : `height:${height}`}>${drawn && draw()}</div>`;

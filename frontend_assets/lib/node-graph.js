@@ -2,6 +2,8 @@
 
 /** @import { GraphLinkView, GraphNodeView } from "../types/wire.d.ts" */
 
+import { byNamespace, isNamespace } from "./graph-groups.js";
+
 /** @typedef {{nodes: readonly GraphNodeView[], links: readonly GraphLinkView[]}} Graph */
 /**
  * @typedef {object} GraphOptions
@@ -9,11 +11,13 @@
  * @property {boolean} noise what every node has is shown, too, and what is hidden
  * @property {boolean} sinks topics that nobody publishes or nobody hears are shown, too
  * @property {boolean} services calls and goals are shown, too
+ * @property {boolean} spaces nodes of one namespace are one box, where nothing is sought
+ * @property {ReadonlySet<string>} opened namespaces whose nodes are shown all the same
  * @property {string} words in a name of what is shown
  * @property {string} focus id of a box: only what is near it is shown; empty: all
  */
-/** @typedef {"node" | "topic" | "service" | "action"} BoxKind */
-/** @typedef {{id: string, kind: BoxKind, name: string, count: number}} Box `count`: nodes of that name */
+/** @typedef {"node" | "space" | "topic" | "service" | "action"} BoxKind `space`: a namespace */
+/** @typedef {{id: string, kind: BoxKind, name: string, count: number}} Box `count`: nodes of that name, or in that namespace */
 /** @typedef {{id: string, from: string, to: string, names: readonly string[]}} Arrow `names` of what it carries */
 
 /** @type {GraphOptions} */
@@ -22,6 +26,8 @@ export const USUAL = {
   noise: false,
   sinks: false,
   services: false,
+  spaces: false,
+  opened: new Set(),
   words: "",
   focus: "",
 };
@@ -35,8 +41,14 @@ const NEAR_STEPS = 2;
 /** @param {BoxKind} kind @param {string} name */
 export const boxId = (kind, name) => `${kind}:${name}`;
 
+/** @param {Graph} whole @param {GraphOptions} options @returns {{boxes: Box[], arrows: Arrow[]}} */
+export function drawnGraph(whole, options) {
+  const { spaces, opened, words, focus } = options;
+  return drawnNodes(spaces && !words && !focus ? byNamespace(whole, opened) : whole, options);
+}
+
 /** @param {Graph} graph @param {GraphOptions} options @returns {{boxes: Box[], arrows: Arrow[]}} */
-export function drawnGraph(graph, options) {
+function drawnNodes(graph, options) {
   const links = graph.links.filter((link) => isShown(link, options));
   const whole = options.form === "links" ? withLinks(graph, links) : nodesOnly(graph, links);
   const kept = keptIds(whole, options);
@@ -66,7 +78,12 @@ function withLinks(graph, links) {
     for (const at of sources) arrows.push(arrow(nameOf(at), id, [name]));
     for (const at of targets) arrows.push(arrow(id, nameOf(at), [name]));
   }
-  const boxes = links.map(({ kind, name }) => ({ id: boxId(kind, name), kind, name, count: 1 }));
+  const boxes = links.map(({ kind, name }) => ({
+    id: boxId(kind, name),
+    kind,
+    name,
+    count: 1,
+  }));
   return { boxes: [...nodeBoxes(graph, arrows), ...boxes], arrows };
 }
 
@@ -94,10 +111,18 @@ const arrow = (from, to, names) => ({ id: `${from} ${to}`, from, to, names });
 function nodeBoxes(graph, arrows) {
   const speaking = new Set(arrows.flatMap(({ from, to }) => [from, to]));
   return graph.nodes
-    .map(({ name, count, own }) => ({ id: boxId("node", name), own, name, count }))
+    .map(({ name, count, own }) => ({
+      id: boxId("node", name),
+      own,
+      name,
+      count,
+    }))
     .filter(({ id, own }) => !own || speaking.has(id))
-    .map(({ id, name, count }) => ({ id, kind: /** @type {const} */ ("node"), name, count }));
+    .map(({ id, name, count }) => ({ id, kind: nodeKind(name), name, count }));
 }
+
+/** @param {string} name @returns {BoxKind} */
+const nodeKind = (name) => (isNamespace(name) ? "space" : "node");
 
 /** @param {{boxes: readonly Box[], arrows: readonly Arrow[]}} whole @param {GraphOptions} options @returns {Set<string>} what is near the focus, or near what has the words in its name */
 function keptIds({ boxes, arrows }, { words, focus }) {

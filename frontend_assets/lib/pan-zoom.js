@@ -1,11 +1,13 @@
 /** How a drawing is moved and scaled in its frame: pure steps from one view to the next. */
 
+import { clamp } from "./numbers.js";
+
 /** @typedef {{x: number, y: number, scale: number}} View where the drawing's corner is in the frame, px */
 /** @typedef {{width: number, height: number}} Size px */
 
 const SCALE_MIN = 0.12;
 const SCALE_MAX = 3;
-/** Below it no name can be read: a large drawing begins at its corner rather. */
+/** Below it no name can be read: of a large drawing a part is shown rather. */
 const FIT_MIN = 0.55;
 const MARGIN = 34;
 
@@ -16,16 +18,23 @@ export function zoomed(view, factor, at, closest = SCALE_MAX) {
   return { x: at.x - (at.x - view.x) * ratio, y: at.y - (at.y - view.y) * ratio, scale };
 }
 
-/** @param {Size} drawing @param {Size} frame @returns {View} all of it, in the middle, as far as it can be read then */
-export function fitted(drawing, frame) {
+/** @param {Size} drawing @param {Size} frame @param {{x: number, y: number}} [heart] of the drawing: where all of it has no room, what is around this @returns {View} in the middle, as large as can be read */
+export function fitted(drawing, frame, heart = { x: 0, y: 0 }) {
   const wide = (frame.width - 2 * MARGIN) / Math.max(drawing.width, 1);
   const high = (frame.height - 2 * MARGIN) / Math.max(drawing.height, 1);
   const scale = Math.max(FIT_MIN, Math.min(1, wide, high));
-  const place = (/** @type {number} */ inner, /** @type {number} */ outer) =>
-    Math.max(MARGIN, (outer - inner * scale) / 2);
+  const place = (
+    /** @type {number} */ inner,
+    /** @type {number} */ outer,
+    /** @type {number} */ middle,
+  ) => {
+    const room = outer - inner * scale;
+    if (room >= 2 * MARGIN) return room / 2;
+    return clamp(outer / 2 - middle * scale, room - MARGIN, MARGIN);
+  };
   return {
-    x: place(drawing.width, frame.width),
-    y: place(drawing.height, frame.height),
+    x: place(drawing.width, frame.width, heart.x),
+    y: place(drawing.height, frame.height, heart.y),
     scale,
   };
 }

@@ -10,6 +10,7 @@ import { showInterface } from "../app/state/interfaces.js";
 import { askOrKeepWhy } from "../app/state/refusals.js";
 import { notify } from "../app/state/view.js";
 import { copyText } from "../lib/clipboard.js";
+import { isNamespace, namesWithin } from "../lib/graph-groups.js";
 import { t } from "../lib/i18n.js";
 import { Icon, IconButton } from "../lib/ui.js";
 
@@ -22,12 +23,13 @@ const GROUPS = /** @type {const} */ ([
   "action_clients",
 ]);
 
-/** @typedef {{chosen: Signal<string>, focus: Signal<string>, rates: ReadonlyMap<string, TopicRate>}} Props */
+/** @typedef {{chosen: Signal<string>, focus: Signal<string>, opened: Signal<ReadonlySet<string>>, rates: ReadonlyMap<string, TopicRate>}} Props */
 
 /** @param {Props} props */
-export function GraphDetails({ chosen, focus, rates }) {
+export function GraphDetails({ chosen, focus, opened, rates }) {
   const [, kind = "", name = ""] = /^(\w+):(.*)$/s.exec(chosen.value) ?? [];
   const isFocus = focus.value === chosen.value;
+  const isSpace = isNamespace(name);
   const close = () => {
     chosen.value = "";
   };
@@ -41,10 +43,23 @@ export function GraphDetails({ chosen, focus, rates }) {
   return html`<section class="graph-details scroll" aria-label=${t("graph.details", { name })}>
     <header><${Icon} name=${kind === "node" ? "node" : "link"} size=${15} /><h3>${name}</h3>
       <${IconButton} icon="copy" label=${t("graph.copy_name")} size=${14} onClick=${copy} />
-      <${IconButton} icon="fit" label=${t("graph.focus_on")} size=${14} pressed=${isFocus} onClick=${toggle} />
+      ${!isSpace && html`<${IconButton} icon="fit" label=${t("graph.focus_on")} size=${14} pressed=${isFocus} onClick=${toggle} />`}
       <${IconButton} icon="close" label=${t("close")} size=${14} onClick=${close} /></header>
-    ${kind === "node" ? html`<${NodeParts} name=${name} rates=${rates} />` : html`<${LinkParts} kind=${kind} name=${name} rates=${rates} chosen=${chosen} />`}
+    ${isSpace && html`<${SpaceParts} name=${name} chosen=${chosen} opened=${opened} />`}
+    ${kind === "node" && !isSpace && html`<${NodeParts} name=${name} rates=${rates} />`}
+    ${kind !== "node" && html`<${LinkParts} kind=${kind} name=${name} rates=${rates} chosen=${chosen} />`}
   </section>`;
+}
+
+/** @param {{name: string, chosen: Signal<string>, opened: Signal<ReadonlySet<string>>}} props a namespace, and who is in it */
+function SpaceParts({ name, chosen, opened }) {
+  const names = namesWithin(graph.value.nodes, name);
+  const open = () => {
+    opened.value = new Set([...opened.value, name]);
+    chosen.value = "";
+  };
+  return html`<button type="button" class="button small" onClick=${open}>${t("graph.space.open")}</button>
+    <${NodeNames} title=${t("graph.space.nodes")} names=${names} chosen=${chosen} />`;
 }
 
 /** @param {{name: string, rates: ReadonlyMap<string, TopicRate>}} props */
@@ -91,9 +106,14 @@ function LinkParts({ kind, name, rates, chosen }) {
     <${Ends} title=${t(`graph.targets.${link.kind}`)} places=${link.targets} chosen=${chosen} />`;
 }
 
-/** @param {{title: string, places: GraphLinkView["sources"], chosen: Signal<string>}} props nodes, each a way to it */
+/** @param {{title: string, places: GraphLinkView["sources"], chosen: Signal<string>}} props */
 function Ends({ title, places, chosen }) {
   const names = places.map((at) => graph.value.nodes[at]?.name ?? "");
+  return html`<${NodeNames} title=${title} names=${names} chosen=${chosen} />`;
+}
+
+/** @param {{title: string, names: readonly string[], chosen: Signal<string>}} props of nodes, each a way to it */
+function NodeNames({ title, names, chosen }) {
   return html`<h4>${title} <span class="muted">${names.length}</span></h4>
     <ul>${names.map(
       (name) =>

@@ -4,11 +4,12 @@
 /** @import { Box, GraphOptions } from "../lib/node-graph.js" */
 /** @import { Signal } from "vendor/preact.js" */
 
-import { html, useEffect, useMemo, useRef, useSignal } from "vendor/preact.js";
+import { computed, html, useEffect, useMemo, useRef, useSignal } from "vendor/preact.js";
 import { ConnectFirst, isUnconnected } from "../app/connect-first.js";
 import { useLooking } from "../app/looking.js";
 import { followGraph, graph, graphRefused } from "../app/state/graph.js";
 import { useTopicRates } from "../app/topic-rates.js";
+import { READABLE_NODES } from "../lib/graph-groups.js";
 import { t } from "../lib/i18n.js";
 import { drawnGraph, USUAL } from "../lib/node-graph.js";
 import { remembered } from "../lib/remembered.js";
@@ -18,8 +19,19 @@ import { GraphDrawing } from "./graph-drawing.js";
 
 /** More topics than this are not heard for the sake of a number on an arrow. */
 const RATES_MAX = 60;
-const FILTERS = /** @type {const} */ (["services", "sinks", "noise"]);
+/** More boxes than this nobody can read, and the page would stand still to lay them out. */
+const BOXES_MAX = 600;
+const FILTERS = /** @type {const} */ (["spaces", "services", "sinks", "noise"]);
+/** @type {ReadonlySet<string>} */
+const NONE = new Set();
 const kept = remembered("graph.options", /** @type {Partial<GraphOptions>} */ ({}));
+/** How it is drawn: as somebody chose, else as can be read. */
+const options = computed(() => {
+  const isLarge = graph.value.nodes.length > READABLE_NODES;
+  /** @type {Partial<GraphOptions>} */
+  const readable = isLarge ? { form: "nodes", spaces: true } : {};
+  return { ...USUAL, ...readable, ...kept.value };
+});
 
 export function GraphPanel() {
   const { panel, looking } = useLooking(followGraph);
@@ -33,41 +45,37 @@ function Content({ looking }) {
   const words = useSignal("");
   const focus = useSignal("");
   const chosen = useSignal("");
+  const opened = useSignal(NONE);
   const rates = useSignal(/** @type {ReadonlyMap<string, TopicRate>} */ (new Map()));
-  const { form, noise, sinks, services } = { ...USUAL, ...kept.value };
   const whole = graph.value;
-  const drawn = useMemo(
-    () =>
-      drawnGraph(whole, {
-        form,
-        noise,
-        sinks,
-        services,
-        words: words.value,
-        focus: focus.value,
-      }),
-    [whole, form, noise, sinks, services, words.value, focus.value],
-  );
+  const asked = {
+    ...options.value,
+    opened: opened.value,
+    words: words.value,
+    focus: focus.value,
+  };
+  const key = JSON.stringify({ ...asked, opened: [...opened.value] });
+  const drawn = useMemo(() => drawnGraph(whole, asked), [whole, key]);
+  const onFocus = (/** @type {Box} */ { kind, id, name }) => {
+    if (kind === "space") opened.value = new Set([...opened.value, name]);
+    else focus.value = id;
+  };
   const topics = drawn.arrows.flatMap(({ names }) => names);
-  return html`<${Bar} words=${words} focus=${focus} />
+  return html`<${Bar} words=${words} focus=${focus} opened=${opened} />
     ${graphRefused.value && html`<p class="note bad padded" role="alert">${graphRefused.value}</p>`}
     <${Warnings} />
     ${looking && html`<${Rates} topics=${[...new Set(topics)].slice(0, RATES_MAX)} rates=${rates} />`}
     ${
-      drawn.boxes.length === 0
-        ? html`<${Nothing} words=${words.value} />`
-        : html`<div class="graph-parts"><${GraphDrawing} drawn=${drawn} rates=${rates.value} chosen=${chosen} onFocus=${(
-            /** @type {Box} */ { id },
-          ) => {
-            focus.value = id;
-          }} />
-        ${chosen.value && html`<${GraphDetails} chosen=${chosen} focus=${focus} rates=${rates.value} />`}</div>`
+      drawn.boxes.length === 0 || drawn.boxes.length > BOXES_MAX
+        ? html`<${Nothing} words=${words.value} count=${drawn.boxes.length} />`
+        : html`<div class="graph-parts"><${GraphDrawing} drawn=${drawn} asked=${key} rates=${rates.value} chosen=${chosen} onFocus=${onFocus} />
+        ${chosen.value && html`<${GraphDetails} chosen=${chosen} focus=${focus} opened=${opened} rates=${rates.value} />`}</div>`
     }`;
 }
 
-/** @param {{words: Signal<string>, focus: Signal<string>}} props */
-function Bar({ words, focus }) {
-  const options = { ...USUAL, ...kept.value };
+/** @param {{words: Signal<string>, focus: Signal<string>, opened: Signal<ReadonlySet<string>>}} props */
+function Bar({ words, focus, opened }) {
+  const now = options.value;
   const change = (/** @type {Partial<GraphOptions>} */ news) => {
     kept.value = { ...kept.value, ...news };
   };
@@ -79,17 +87,27 @@ function Bar({ words, focus }) {
     ) => {
       words.value = text;
     }} />
-    <select class="box" aria-label=${t("graph.form")} value=${options.form} onChange=${(/** @type {any} */ event) => change({ form: event.currentTarget.value })}>
+    <select class="box" aria-label=${t("graph.form")} value=${now.form} onChange=${(/** @type {any} */ event) => change({ form: event.currentTarget.value })}>
       <option value="links">${t("graph.form.links")}</option><option value="nodes">${t("graph.form.nodes")}</option></select>
     <div class="chips" role="group" aria-label=${t("graph.show")}>${FILTERS.map(
       (
         name,
-      ) => html`<button key=${name} type="button" class="chip" aria-pressed=${options[name]} title=${t(`graph.show.${name}.hint`)}
-        onClick=${() => change({ [name]: !options[name] })}>${t(`graph.show.${name}`)}</button>`,
+      ) => html`<button key=${name} type="button" class="chip" aria-pressed=${now[name]} title=${t(`graph.show.${name}.hint`)}
+        onClick=${() => change({ [name]: !now[name] })}>${t(`graph.show.${name}`)}</button>`,
     )}
-    ${focus.value && html`<button type="button" class="chip graph-focus" aria-pressed="true" onClick=${() => unfocus(focus)}>${t("graph.focus", { name: focus.value.replace(/^\w+:/, "") })}<${Icon} name="close" size=${12} /></button>`}</div>
+    ${now.spaces && [...opened.value].map((name) => html`<${Chip} key=${name} words=${name} label=${t("graph.space.close", { name })} onClose=${() => close(opened, name)} />`)}
+    ${focus.value && html`<${Chip} words=${t("graph.focus", { name: focus.value.replace(/^\w+:/, "") })} onClose=${() => unfocus(focus)} />`}</div>
     <span class="push"></span><span class="muted graph-count" role="status">${t("graph.count", { count: others })}${more > 0 && html` · ${t("graph.more", { count: more })}`}</span>
   </div>`;
+}
+
+/** @param {{words: string, label?: string, onClose: () => void}} props what is seen differently, until it is clicked */
+const Chip = ({ words, label, onClose }) =>
+  html`<button type="button" class="chip graph-focus" aria-pressed="true" aria-label=${label} onClick=${onClose}>${words}<${Icon} name="close" size=${12} /></button>`;
+
+/** @param {Signal<ReadonlySet<string>>} opened @param {string} namespace with those in it */
+function close(opened, namespace) {
+  opened.value = new Set([...opened.value].filter((name) => !name.startsWith(namespace)));
 }
 
 /** @param {Signal<string>} focus */
@@ -100,10 +118,13 @@ function unfocus(focus) {
 /** Two nodes of one name are a fault that is hard to see otherwise. */
 function Warnings() {
   const doubled = graph.value.nodes.filter(({ count }) => count > 1);
-  return doubled.map(
-    ({ name, count }) =>
-      html`<p key=${name} class="note graph-warning" role="alert"><${Icon} name="alert" size=${14} /><span>${t("graph.doubled", { count, name })}</span></p>`,
-  );
+  const [first] = doubled;
+  if (!first) return null;
+  const words =
+    doubled.length === 1
+      ? t("graph.doubled", { count: first.count, name: first.name })
+      : t("graph.doubled.many", { count: doubled.length, name: first.name });
+  return html`<p class="graph-warning" role="alert"><${Icon} name="alert" size=${14} /><span>${words}</span></p>`;
 }
 
 /** @param {{topics: readonly string[], rates: Signal<ReadonlyMap<string, TopicRate>>}} props asks while it is there */
@@ -117,8 +138,10 @@ function Rates({ topics, rates }) {
   return null;
 }
 
-/** @param {{words: string}} props */
-function Nothing({ words }) {
+/** @param {{words: string, count: number}} props of boxes, more than can be drawn */
+function Nothing({ words, count }) {
+  if (count > 0)
+    return html`<${EmptyState} icon="graph" title=${t("graph.too_many", { count })}><p>${t("graph.too_many.hint")}</p><//>`;
   const show = () => {
     kept.value = { ...kept.value, noise: true, sinks: true };
   };

@@ -93,8 +93,6 @@ function Sum({ masses: found }) {
   </dl>`;
 }
 
-const COLUMNS = 7;
-
 /** @param {MassRow} row */
 const nameOf = ({ mass }) => mass.link;
 
@@ -114,7 +112,7 @@ function Table({ rows, order }) {
       <${SortHead} order=${order} by="moment" words=${t("masses.moments")} unit="kg m²" class="number" />
       <th scope="col" class="where">${t("masses.place")}</th>
     </tr></thead>
-    <${LongList} items=${rows} keyOf=${nameOf} row="var(--row)" columns=${COLUMNS}
+    <${LongList} items=${rows} keyOf=${nameOf} row="var(--row)" inTable
       isKept=${(/** @type {MassRow} */ { mass }) => selected.value === mass.link}
       draw=${(/** @type {MassRow} */ row, /** @type {number} */ at) =>
         html`<${Row} key=${row.mass.link} row=${row} number=${at + 2} />`} />

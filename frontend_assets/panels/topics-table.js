@@ -14,8 +14,6 @@ import { ageWords, bandWords } from "../lib/topic-rates.js";
 import { shortTypes } from "../lib/topic-rows.js";
 import { Icon, LongName } from "../lib/ui.js";
 
-const COLUMNS = 6;
-
 /** @param {string} name */
 const rowId = (name) => `topic-${name}`;
 
@@ -56,7 +54,7 @@ export function TopicTable({ rows, rates, order }) {
       <${Head} order=${order} by="band" words=${t("topics.band")} class="number band" />
       <th scope="col" class="number age">${t("topics.age")}</th>
     </tr></thead>
-    <${LongList} items=${rows} keyOf=${(/** @type {TopicRow} */ { name }) => name} row="var(--row)" columns=${COLUMNS}
+    <${LongList} items=${rows} keyOf=${(/** @type {TopicRow} */ { name }) => name} row="var(--row)" inTable
       isKept=${(/** @type {TopicRow} */ { name }) => name === focusable}
       draw=${(/** @type {TopicRow} */ row) =>
         html`<${Row} key=${row.name} row=${row} rate=${rates.get(row.name)} focusable=${row.name === focusable} />`} />

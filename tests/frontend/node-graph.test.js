@@ -1,7 +1,9 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { byNamespace, namespacesOf } from "../../frontend_assets/lib/graph-groups.js";
 import { layOut } from "../../frontend_assets/lib/graph-layout.js";
 import { drawnGraph, USUAL } from "../../frontend_assets/lib/node-graph.js";
+import { fitted } from "../../frontend_assets/lib/pan-zoom.js";
 
 /** @param {string} name @param {boolean} [own] */
 const node = (name, own = false) => ({ name, count: 1, own });
@@ -69,6 +71,60 @@ test("a search and a focus leave what is near", () => {
   const carried = drawnGraph(graph, { ...USUAL, form: "nodes", words: "CD" });
   assert.deepEqual(ids(carried), ["node:/c", "node:/d"]);
   assert.equal(drawnGraph(graph, { ...USUAL, focus: "node:/gone" }).boxes.length, 7);
+});
+
+const FLEET = {
+  nodes: ["/a/arm/left", "/a/arm/right", "/a/eye", "/b/eye", "/pilot"].map((name) => node(name)),
+  links: [
+    link("/a/joints", [0], [1]),
+    link("/a/seen", [2], [0, 4]),
+    link("/b/seen", [3], [4]),
+    link("/go", [4], [0, 2, 3]),
+  ],
+};
+
+test("nodes of one namespace are one box, until it is opened", () => {
+  assert.deepEqual(namespacesOf("/a/arm/left"), ["/a/", "/a/arm/"]);
+  assert.deepEqual(namespacesOf("/a/arm/"), ["/a/"]);
+  const fleet = { ...USUAL, form: /** @type {const} */ ("nodes"), spaces: true };
+  const { boxes, arrows } = drawnGraph(FLEET, fleet);
+  assert.deepEqual(
+    boxes.map(({ kind, name, count }) => [kind, name, count]),
+    [
+      ["space", "/a/", 3],
+      ["node", "/b/eye", 1],
+      ["node", "/pilot", 1],
+    ],
+  );
+  const toPilot = arrows.find(({ from }) => from === "node:/a/");
+  assert.deepEqual(toPilot?.names, ["/a/seen"], "what only its own nodes hear is not seen");
+  const opened = drawnGraph(FLEET, { ...fleet, opened: new Set(["/a/"]) });
+  assert.ok(ids(opened).includes("node:/a/arm/") && ids(opened).includes("node:/a/eye"));
+  const found = drawnGraph(FLEET, { ...fleet, words: "left" });
+  assert.ok(ids(found).includes("node:/a/arm/left"), "who seeks a node finds it");
+});
+
+test("a topic that a namespace publishes to itself and to others keeps both of its ends", () => {
+  const { links } = byNamespace(FLEET, new Set());
+  assert.deepEqual(
+    links.map(({ name, sources, targets }) => [name, sources, targets]),
+    [
+      ["/a/seen", [0], [0, 2]],
+      ["/b/seen", [1], [2]],
+      ["/go", [2], [0, 1]],
+    ],
+  );
+});
+
+test("a drawing too large to be read whole shows what is around its heart", () => {
+  const frame = { width: 400, height: 300 };
+  const small = fitted({ width: 200, height: 100 }, frame);
+  assert.deepEqual([small.x, small.y, small.scale], [100, 100, 1]);
+  const wide = fitted({ width: 4000, height: 100 }, frame, { x: 2000, y: 50 });
+  assert.equal(wide.scale, 0.55);
+  assert.equal(wide.x + 2000 * wide.scale, 200, "it is in the middle");
+  const corner = fitted({ width: 4000, height: 100 }, frame, { x: 0, y: 0 });
+  assert.ok(corner.x > 0 && corner.x < 100, "no more is empty than around it");
 });
 
 /** @param {string} id */
