@@ -8,6 +8,18 @@ import { mayEdit } from "./state/connection.js";
 import { ros } from "./state/ros.js";
 import { dialog } from "./state/view.js";
 
+/** @returns {boolean} it was connected, and its router is away: nobody is seen, heard or told anything */
+export const isRouterAway = () => ros.value.state === "lost";
+
+/** What a panel says while the router is away, above what it shows. */
+export function RouterAway() {
+  if (!isRouterAway()) return null;
+  return html`<p class="note bad router-away" role="status">${t("ros.lost.at", { endpoint: ros.value.endpoint })}</p>`;
+}
+
+/** @param {Parameters<typeof EmptyState>[0]} props what a list says in which nothing is; nothing, while nobody can be seen */
+export const NothingThere = (props) => (isRouterAway() ? null : EmptyState(props));
+
 /** @returns {boolean} nothing of the wire can be told now */
 export const isUnconnected = () => ros.value.state !== "connected" && ros.value.state !== "lost";
 

@@ -73,6 +73,11 @@ export class Samples {
     return apart(nearest) <= GAP_S ? (this.values[nearest] ?? null) : null;
   }
 
+  /** @param {number} most @returns {Float64Array} times of the last that came */
+  last(most) {
+    return this.times.subarray(Math.max(this.begin, this.end - most), this.end);
+  }
+
   /** @returns {number | null} the newest value */
   newest() {
     return this.end > this.begin ? (this.values[this.end - 1] ?? null) : null;

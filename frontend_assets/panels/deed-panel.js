@@ -6,14 +6,14 @@
 /** @import { MessageForm } from "../app/state/message-forms.js" */
 
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
-import { ConnectFirst, isUnconnected } from "../app/connect-first.js";
+import { ConnectFirst, isUnconnected, NothingThere, RouterAway } from "../app/connect-first.js";
 import { Refusal } from "../app/refusal.js";
 import { mayEdit } from "../app/state/connection.js";
 import { matchingOffers } from "../lib/deeds.js";
 import { t } from "../lib/i18n.js";
 import { readLine } from "../lib/pasted-line.js";
 import { useSeen } from "../lib/seen.js";
-import { EmptyState, Icon, IconButton, SearchBox } from "../lib/ui.js";
+import { Icon, IconButton, SearchBox } from "../lib/ui.js";
 import { FormOfMessage } from "./message-form.js";
 
 /** @type {Record<string, string>} */
@@ -60,6 +60,7 @@ export function DeedPanel({ id, icon, kind, follow, onLine, children }) {
       event.preventDefault();
   };
   return html`<section ref=${panel} class="panel-body deeds" aria-label=${t(`panel.${id}`)} onPaste=${onPaste}>
+    <${RouterAway} />
     ${isUnconnected() ? html`<${ConnectFirst} icon=${icon} />` : children(take)}
   </section>`;
 }
@@ -92,7 +93,7 @@ export function Offers({ id, icon, offers, refused, again, form, paste, noisy = 
     <div class="panel-bar"><${SearchBox} label=${t(`${id}.filter`)} value=${filter.value} onInput=${onInput} />
       ${noisy && html`<${IconButton} icon=${all.value ? "eye" : "eyeOff"} label=${t(`${id}.all`)} pressed=${all.value} onClick=${toggle} />`}</div>
     ${refused && html`<${Refusal} sentence=${refused} again=${again} />`}
-    ${offers && shown.length === 0 && html`<${EmptyState} icon=${icon} title=${t(offers.length > 0 ? "deeds.filtered" : `${id}.none`)} />`}
+    ${offers && shown.length === 0 && html`<${NothingThere} icon=${icon} title=${t(offers.length > 0 ? "deeds.filtered" : `${id}.none`)} />`}
     ${shown.length > 0 && html`<ul class="scroll offers" aria-label=${t(`panel.${id}`)}>${shown.map((one) => html`<${OfferRow} key=${one.name} offer=${one} form=${form} />`)}</ul>`}
     ${children}
   </div>`;

@@ -5,13 +5,13 @@
 /** @import { Signal } from "vendor/preact.js" */
 
 import { html, useSignal } from "vendor/preact.js";
-import { ConnectFirst, isUnconnected } from "../app/connect-first.js";
+import { ConnectFirst, isUnconnected, NothingThere, RouterAway } from "../app/connect-first.js";
 import { useLooking } from "../app/looking.js";
 import { diagnostics, diagnosticsRefused, followDiagnostics } from "../app/state/diagnostics.js";
 import { byHardware, LEVELS, levelCounts, levelOf, shownParts } from "../lib/diagnostics.js";
 import { t } from "../lib/i18n.js";
 import { shortTime } from "../lib/short-time.js";
-import { EmptyState, Icon, ProgressBar, SearchBox } from "../lib/ui.js";
+import { Icon, ProgressBar, SearchBox } from "../lib/ui.js";
 
 const ICONS = { ok: "check", warn: "alert", error: "error", stale: "help" };
 
@@ -20,6 +20,7 @@ export function DiagnosticsPanel() {
   const told = diagnostics.value;
   const isEmpty = (told?.parts.length ?? 0) === 0;
   return html`<section ref=${panel} class="panel-body diagnostics" aria-label=${t("panel.diagnostics")}>
+    <${RouterAway} />
     ${isEmpty && isUnconnected() ? html`<${ConnectFirst} icon="diagnostics" />` : html`<${Content} told=${told} />`}
   </section>`;
 }
@@ -32,7 +33,7 @@ function Content({ told }) {
     return html`<p class="note bad padded" role="alert">${diagnosticsRefused.value}</p>`;
   if (!told) return html`<${ProgressBar} label=${t("loading")} done=${0} total=${0} />`;
   if (told.parts.length === 0)
-    return html`<${EmptyState} icon="diagnostics" title=${t("diagnostics.none")}><p>${t("diagnostics.none.hint")}</p><//>`;
+    return html`<${NothingThere} icon="diagnostics" title=${t("diagnostics.none")}><p>${t("diagnostics.none.hint")}</p><//>`;
   const shown = shownParts(told.parts, filter.value);
   return html`<${Bar} parts=${told.parts} filter=${filter} />
     <div class="scroll diagnostics-list">

@@ -4,13 +4,13 @@
 
 import { html, useSignal } from "vendor/preact.js";
 import { ask } from "../app/actions.js";
-import { ConnectFirst, isUnconnected } from "../app/connect-first.js";
+import { ConnectFirst, isUnconnected, NothingThere, RouterAway } from "../app/connect-first.js";
 import { useLooking } from "../app/looking.js";
 import { Refusal } from "../app/refusal.js";
 import { mayEdit } from "../app/state/connection.js";
 import { askManaged, followManaged, managed, managedRefused } from "../app/state/lifecycle.js";
 import { t } from "../lib/i18n.js";
-import { EmptyState, Icon, ProgressBar } from "../lib/ui.js";
+import { Icon, ProgressBar } from "../lib/ui.js";
 
 /** The states that a node stays in, in the order of its life. */
 const PRIMARY = /** @type {const} */ (["unconfigured", "inactive", "active", "finalized"]);
@@ -18,6 +18,7 @@ const PRIMARY = /** @type {const} */ (["unconfigured", "inactive", "active", "fi
 export function LifecyclePanel() {
   const { panel } = useLooking(followManaged);
   return html`<section ref=${panel} class="panel-body lifecycle" aria-label=${t("panel.lifecycle")}>
+    <${RouterAway} />
     ${isUnconnected() ? html`<${ConnectFirst} icon="lifecycle" />` : html`<${Content} />`}
   </section>`;
 }
@@ -28,7 +29,7 @@ function Content() {
     return html`<${Refusal} sentence=${managedRefused.value} again=${askManaged} />`;
   if (!told) return html`<${ProgressBar} label=${t("loading")} done=${0} total=${0} />`;
   if (told.nodes.length === 0)
-    return html`<${EmptyState} icon="lifecycle" title=${t("lifecycle.none")}><p>${t("lifecycle.none.hint")}</p><//>`;
+    return html`<${NothingThere} icon="lifecycle" title=${t("lifecycle.none")}><p>${t("lifecycle.none.hint")}</p><//>`;
   return html`<div class="scroll lifecycle-list">
     ${told.nodes.map((node) => html`<${ManagedNode} key=${node.name} node=${node} />`)}
     ${told.more > 0 && html`<p class="note padded">${t("lifecycle.more", { count: told.more })}</p>`}

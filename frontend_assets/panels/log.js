@@ -5,7 +5,7 @@
 /** @import { Signal } from "vendor/preact.js" */
 
 import { html, useEffect, useLayoutEffect, useRef, useSignal } from "vendor/preact.js";
-import { ConnectFirst, isUnconnected } from "../app/connect-first.js";
+import { ConnectFirst, isUnconnected, NothingThere, RouterAway } from "../app/connect-first.js";
 import { useLooking } from "../app/looking.js";
 import { clearLog, followLog, logLines, logRefused, missed } from "../app/state/log.js";
 import { notify } from "../app/state/view.js";
@@ -21,7 +21,7 @@ import {
   matchingLines,
   nodesOf,
 } from "../lib/log-lines.js";
-import { EmptyState, Icon, IconButton, SearchBox } from "../lib/ui.js";
+import { Icon, IconButton, SearchBox } from "../lib/ui.js";
 
 const ICONS = { debug: "info", info: "info", warn: "alert", error: "error", fatal: "error" };
 /** So far from its end a list still counts as scrolled to it. */
@@ -34,6 +34,7 @@ export function LogPanel() {
   const frozen = useSignal(/** @type {readonly LogLine[] | null} */ (null));
   const lines = frozen.value ?? logLines.value;
   return html`<section ref=${panel} class="panel-body log" aria-label=${t("panel.log")}>
+    <${RouterAway} />
     ${lines.length === 0 && isUnconnected() ? html`<${ConnectFirst} icon="log" />` : html`<${Content} lines=${lines} filter=${filter} frozen=${frozen} />`}
   </section>`;
 }
@@ -128,7 +129,7 @@ function Lines({ shown, chosen, nothing }) {
       ${above}
       ${shown.slice(from, to).map((line) => html`<${Line} key=${line.number} line=${line} chosen=${chosen} />`)}
       <div style=${`height:${(shown.length - to) * row_px}px`}></div>
-      ${nothing && html`<${EmptyState} icon="log" title=${nothing} />`}
+      ${nothing && html`<${NothingThere} icon="log" title=${nothing} />`}
     </div>
     ${!follows.value && html`<button type="button" class="button small log-follow" onClick=${toEnd}><${Icon} name="chevronDown" size=${13} />${t("log.follow")}</button>`}
   </div>`;

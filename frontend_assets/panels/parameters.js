@@ -4,6 +4,7 @@
 
 import { html, useEffect, useSignal } from "vendor/preact.js";
 import { ask } from "../app/actions.js";
+import { NothingThere } from "../app/connect-first.js";
 import { Refusal } from "../app/refusal.js";
 import { mayEdit } from "../app/state/connection.js";
 import { chosenNode, parameters, setRefused } from "../app/state/parameter-values.js";
@@ -23,7 +24,7 @@ import { plainOf } from "../lib/deeds.js";
 import { saveAsFile } from "../lib/files.js";
 import { t } from "../lib/i18n.js";
 import { TextBox } from "../lib/slider.js";
-import { EmptyState, Icon, IconButton, SearchBox, Switch } from "../lib/ui.js";
+import { Icon, IconButton, SearchBox, Switch } from "../lib/ui.js";
 import { DeedPanel } from "./deed-panel.js";
 
 const FOLLOW = [followNodes, followParameters];
@@ -48,7 +49,7 @@ function Nodes() {
       filter.value = text;
     }} /></div>
     ${nodesRefused.value && html`<${Refusal} sentence=${nodesRefused.value} again=${askNodes} />`}
-    ${nodes && shown.length === 0 && html`<${EmptyState} icon="parameters" title=${t(nodes.length > 0 ? "deeds.filtered" : "parameters.none")} />`}
+    ${nodes && shown.length === 0 && html`<${NothingThere} icon="parameters" title=${t(nodes.length > 0 ? "deeds.filtered" : "parameters.none")} />`}
     ${
       shown.length > 0 &&
       html`<ul class="scroll offers" aria-label=${t("parameters.nodes")}>${shown.map(

@@ -4,15 +4,20 @@
 /** @import { Series } from "../app/state/plot.js" */
 
 import { html, useEffect, useSignal } from "vendor/preact.js";
-import { heardTopics, samplesOf, unreadTopics } from "../app/plotting.js";
+import { laneOpen } from "../app/data.js";
+import { heardTopics, nowOfSamples, samplesOf, unreadTopics } from "../app/plotting.js";
 import { keyOf, removeSeries, series } from "../app/state/plot.js";
 import { t } from "../lib/i18n.js";
 import { formatNumber } from "../lib/numbers.js";
+import { overdue_s } from "../lib/overdue.js";
+import { shortTime } from "../lib/short-time.js";
 import { IconButton } from "../lib/ui.js";
 import { colorOf } from "./plot-chart.js";
 
 const REFRESH_MS = 200;
 const DIGITS = 5;
+/** So many of the last tell how often they come. */
+const LOOKED_BACK = 10;
 
 /** @param {{hidden: Signal<ReadonlySet<string>>, pointed_s: Signal<number | null>}} props */
 export function PlotLegend({ hidden, pointed_s }) {
@@ -62,13 +67,20 @@ function valueText(one, at_s) {
   return value === null ? "–" : formatNumber(value, DIGITS);
 }
 
-/** @param {Series} one @returns {string} why there is no line; empty: there is one */
+/** @param {Series} one @returns {string} why there is no line, or it goes on no more; empty: all is well */
 function troubleOf(one) {
   const heard = heardTopics.value.get(one.topic);
   const unread = unreadTopics.value.get(one.topic);
-  const { count, others } = samplesOf(one);
+  if (!laneOpen.value) return t("plot.state.lane");
   if (heard?.state === "refused") return heard.reason;
   if (heard && heard.state !== "hearing") return t(`plot.state.${heard.state}`);
   if (unread) return t("plot.unread", { reason: unread });
-  return count === 0 && others > 0 ? t("plot.no_number") : "";
+  return heard ? troubleOfSamples(samplesOf(one), heard.latched) : "";
+}
+
+/** @param {ReturnType<typeof samplesOf>} samples @param {boolean} latched what is latched is said once and holds */
+function troubleOfSamples(samples, latched) {
+  if (samples.count === 0) return t(samples.others > 0 ? "plot.no_number" : "plot.state.waiting");
+  const silent_s = overdue_s(samples.last(LOOKED_BACK), nowOfSamples());
+  return silent_s > 0 && !latched ? t("plot.state.silent", { time: shortTime(silent_s) }) : "";
 }

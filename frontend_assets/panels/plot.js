@@ -1,7 +1,7 @@
 /** Numbers of messages over time: every one of them, as many lines as are wished. */
 
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
-import { ConnectFirst, isUnconnected } from "../app/connect-first.js";
+import { ConnectFirst, isUnconnected, RouterAway } from "../app/connect-first.js";
 import { dropped } from "../app/data.js";
 import { followSeries, forgetOthers, nowOfSamples, samplesOf } from "../app/plotting.js";
 import { addSeries, series, span_s } from "../app/state/plot.js";
@@ -43,6 +43,7 @@ export function PlotPanel() {
   const isTarget = dragged.value !== null && dragged.value.path !== "";
   return html`<section ref=${panel} class=${`panel-body plot ${isTarget ? "drop-here" : ""}`} aria-label=${t("panel.plot")}
     onDragOver=${(/** @type {DragEvent} */ event) => isTarget && takesDrop(event)} onDrop=${onDrop}>
+    <${RouterAway} />
     ${isUnconnected() ? html`<${ConnectFirst} icon="plot" />` : html`<${Content} seen=${seen.value} />`}
   </section>`;
 }

@@ -1,7 +1,7 @@
 /** Driving by hand: a stick, buttons or keys become speeds on a topic for as long as they are held. */
 
 import { html, useEffect } from "vendor/preact.js";
-import { ConnectFirst, isUnconnected } from "../app/connect-first.js";
+import { ConnectFirst, isUnconnected, RouterAway } from "../app/connect-first.js";
 import { halt } from "../app/driving.js";
 import { useLooking } from "../app/looking.js";
 import { mayEdit } from "../app/state/connection.js";
@@ -35,6 +35,7 @@ export function TeleopPanel() {
   }, [looking]);
   useEffect(stopsWithPage, []);
   return html`<section ref=${panel} class="panel-body teleop" aria-label=${t("panel.teleop")}>
+    <${RouterAway} />
     ${isUnconnected() ? html`<${ConnectFirst} icon="compass" />` : html`<${Content} />`}
   </section>`;
 }

@@ -11,6 +11,8 @@ import { chosenTopic, listening } from "../app/state/topics.js";
 import { notify } from "../app/state/view.js";
 import { copyText } from "../lib/clipboard.js";
 import { t } from "../lib/i18n.js";
+import { shortTime } from "../lib/short-time.js";
+import { useSilence } from "../lib/silence.js";
 import { Icon, IconButton, MenuButton } from "../lib/ui.js";
 import { EchoTree } from "./topics-echo-tree.js";
 import { TopicEnds } from "./topics-ends.js";
@@ -24,6 +26,8 @@ export function TopicEcho({ topic, row }) {
   const paused = useSignal(false);
   const showsEnds = useSignal(false);
   const look = useRef(/** @type {Look | null} */ (null));
+  const silence = useSilence();
+  const newest_s = useRef(0);
   const { reliable, latched } = listening.value;
   useEffect(() => {
     const made = lookAt(
@@ -34,6 +38,8 @@ export function TopicEcho({ topic, row }) {
           heard.value = told;
         },
         onMessage: (came) => {
+          if (came.received_s !== newest_s.current) silence.came();
+          newest_s.current = came.received_s;
           if (!paused.value) message.value = came;
         },
       },
@@ -59,7 +65,7 @@ export function TopicEcho({ topic, row }) {
       }} />
     </div>
     ${showsEnds.value && html`<${TopicEnds} topic=${topic} />`}
-    <${Said} heard=${heard.value} message=${message.value} />
+    <${Said} heard=${heard.value} message=${message.value} silent_s=${silence.silent_s} />
     ${
       message.value?.value &&
       html`<${EchoTree} topic=${topic} type=${heard.value?.type_name ?? ""} value=${message.value.value}
@@ -109,10 +115,10 @@ const qosWords = ({ reliable, latched }) =>
     .filter(Boolean)
     .join(", ");
 
-/** @param {{heard: Heard | null, message: Looked | null}} props what is heard, or what is in the way and what to do */
-function Said({ heard, message }) {
+/** @param {{heard: Heard | null, message: Looked | null, silent_s: number}} props what is heard, or what is in the way and what to do */
+function Said({ heard, message, silent_s }) {
   if (heard === null) return html`<p class="topics-said muted" role="status">${t("loading")}</p>`;
-  const trouble = troubleOf(heard, message);
+  const trouble = troubleOf(heard, message, silent_s);
   const words = [
     heard.type_name,
     message ? t("topics.bytes", { count: message.bytes }) : "",
@@ -122,12 +128,16 @@ function Said({ heard, message }) {
     ${trouble && html`<span class="topics-trouble"><${Icon} name="alert" size=${13} /><span>${trouble}</span></span>`}</p>`;
 }
 
-/** @param {Heard} heard @param {Looked | null} message @returns {string} empty: all is well */
-function troubleOf(heard, message) {
+/** @param {Heard} heard @param {Looked | null} message @param {number} silent_s @returns {string} empty: all is well */
+function troubleOf(heard, message, silent_s) {
   if (!laneOpen.value) return t("topics.state.lane");
   if (heard.state === "refused") return heard.reason;
   if (heard.state !== "hearing")
     return t(`topics.state.${heard.state}`, { types: heard.types.join(", ") });
-  if (message?.trouble) return t("topics.unread", { reason: message.trouble });
-  return message ? "" : t("topics.state.waiting");
+  if (message?.trouble) return t("topics.unread", { reason: message.trouble.replace(/\.$/, "") });
+  if (!message) return t("topics.state.waiting");
+  // What is latched is said once and holds.
+  return silent_s > 0 && !heard.latched
+    ? t("topics.state.silent", { time: shortTime(silent_s) })
+    : "";
 }

@@ -1,7 +1,7 @@
 /** The topics of a ROS 2 system: how each comes, who is at its ends, and what it says now. */
 
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
-import { ConnectFirst, isUnconnected } from "../app/connect-first.js";
+import { ConnectFirst, isUnconnected, NothingThere, RouterAway } from "../app/connect-first.js";
 import { ros } from "../app/state/ros.js";
 import { chosenTopic, showsNoise, topics } from "../app/state/topics.js";
 import { useTopicRates } from "../app/topic-rates.js";
@@ -9,7 +9,7 @@ import { followTopics } from "../app/topics.js";
 import { t } from "../lib/i18n.js";
 import { useSeen } from "../lib/seen.js";
 import { isNoise, shownTopics } from "../lib/topic-rows.js";
-import { EmptyState, IconButton, ProgressBar, SearchBox } from "../lib/ui.js";
+import { IconButton, ProgressBar, SearchBox } from "../lib/ui.js";
 import { TopicEcho } from "./topics-echo.js";
 import { TopicTable } from "./topics-table.js";
 
@@ -25,6 +25,7 @@ export function TopicsPanel() {
   const looks = seen.value && !isUnconnected();
   useEffect(() => (looks ? followTopics() : undefined), [looks]);
   return html`<section ref=${panel} class="panel-body topics" aria-label=${t("panel.topics")}>
+    <${RouterAway} />
     ${isUnconnected() ? html`<${ConnectFirst} icon="topics" />` : html`<${Content} seen=${looks} />`}
   </section>`;
 }
@@ -67,9 +68,9 @@ function NoiseButton({ all }) {
 function Nothing({ all, words }) {
   if (words !== "") return html`<p class="nothing">${t("filter.nothing", { words })}</p>`;
   if (all.length === 0)
-    return html`<${EmptyState} icon="topics" title=${t("live.add.no_topics", { endpoint: ros.value.endpoint })}><p>${t("live.add.demo")}</p><//>`;
+    return html`<${NothingThere} icon="topics" title=${t("live.add.no_topics", { endpoint: ros.value.endpoint })}><p>${t("live.add.demo")}</p><//>`;
   const show = () => {
     showsNoise.value = true;
   };
-  return html`<${EmptyState} icon="topics" title=${t("topics.only_noise", { count: all.length })}><button type="button" class="button" onClick=${show}>${t("topics.noise")}</button><//>`;
+  return html`<${NothingThere} icon="topics" title=${t("topics.only_noise", { count: all.length })}><button type="button" class="button" onClick=${show}>${t("topics.noise")}</button><//>`;
 }
