@@ -1,19 +1,17 @@
 /** The help at one side of the window: a page, the list of all, or what a search finds. */
 
-/** @import { Block, Part } from "../lib/help-text.js" */
+/** @import { Block } from "../lib/help-text.js" */
 /** @import { Found, HelpText } from "../lib/help-search.js" */
 
 import { html, useEffect, useId, useLayoutEffect, useRef, useSignal } from "vendor/preact.js";
 import { searchHelp } from "../lib/help-search.js";
 import { plainHelp } from "../lib/help-text.js";
 import { language, t } from "../lib/i18n.js";
-import { shortcutText } from "../lib/keys.js";
 import { Icon, IconButton, SearchBox } from "../lib/ui.js";
-import { onMac } from "./commands.js";
 import { closeHelp, goBackInHelp, goToHelp, helpGroups, helpIcon, helpTitle } from "./help.js";
-import { helpBlocks, helpPicture } from "./help-texts.js";
+import { drawnBlock } from "./help-drawing.js";
+import { helpBlocks } from "./help-texts.js";
 import { help, helpTrail } from "./state/help.js";
-import { theme } from "./state/view.js";
 
 /** @param {{page: string, side: string, modal: boolean}} props */
 export function HelpSheet({ page, side, modal }) {
@@ -153,42 +151,6 @@ function Page({ page, onChoose }) {
   if (blocks.value.length === 0)
     return html`<p class="nothing" role="status">${t("help.lost")}</p>`;
   return html`<article>${blocks.value.map((block) => drawnBlock(block, onChoose))}</article>`;
-}
-
-/** @param {Block} block @param {(page: string) => void} onChoose */
-function drawnBlock(block, onChoose) {
-  const drawn = (/** @type {readonly Part[]} */ parts) =>
-    parts.map((part) => drawnPart(part, onChoose));
-  switch (block.kind) {
-    case "picture":
-      return html`<img src=${helpPicture(block.name, theme.value)} alt=${block.alt} />`;
-    case "heading":
-      return html`<h3>${drawn(block.parts)}</h3>`;
-    case "list":
-      return html`<ul>${block.entries.map((entry) => html`<li>${drawn(entry)}</li>`)}</ul>`;
-    default:
-      return html`<p>${drawn(block.parts)}</p>`;
-  }
-}
-
-/** @param {Part} part @param {(page: string) => void} onChoose */
-function drawnPart(part, onChoose) {
-  switch (part.kind) {
-    case "strong":
-      return html`<strong>${part.text}</strong>`;
-    case "code":
-      return html`<code>${part.text}</code>`;
-    case "key":
-      return html`<kbd>${shortcutText(part.text, onMac)}</kbd>`;
-    case "icon":
-      return html`<${Icon} name=${part.text} size=${15} />`;
-    case "mark":
-      return html`<span class=${`help-mark ${part.text}`} aria-hidden="true"></span>`;
-    case "link":
-      return html`<button type="button" class="text-button" onClick=${() => onChoose(part.page)}>${part.text}</button>`;
-    default:
-      return part.text;
-  }
 }
 
 /** The sheet, where it is asked for; a window opened since then has it drawn anew over itself. */

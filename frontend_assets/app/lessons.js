@@ -22,6 +22,62 @@
  * a test looks whether the demo's code, or that of one which it needs, has them.
  */
 
-/**
- * @typedef {{title: string, needs: readonly string[], blocks: readonly import("../lib/help-text.js").Block[]}} Lesson
- */
+/** @import { Asked } from "./wire.js" */
+/** @import { Command, PressKey } from "../types/wire.d.ts" */
+/** @import { MessageForm } from "./state/message-forms.js" */
+
+import { readLesson } from "../lib/lesson-text.js";
+import { textFiles } from "../lib/text-files.js";
+import { ask } from "./actions.js";
+import { commandById } from "./commands.js";
+import { askLessons, chosenLesson, lessonTexts, underWay } from "./state/lessons.js";
+import { goalForm, publishForm, serviceForm } from "./state/message-forms.js";
+import { chooseNode } from "./state/parameters.js";
+import { chosenTopic } from "./state/topics.js";
+
+const known = textFiles(new URL("../lessons/", import.meta.url).href, (text) => ({
+  ...readLesson(text),
+  text,
+}));
+
+/** Have the texts of some demos in a language. @param {string} language @param {readonly string[]} demos */
+export async function fetchLessons(language, demos) {
+  const texts = await Promise.all(demos.map((demo) => known(`${language}/${demo}.md`)));
+  lessonTexts.value = new Map(texts.map((text, at) => [demos[at] ?? "", text]));
+}
+
+/** @param {Asked<Command>} command and look what became of it */
+async function askAndLook(command) {
+  await ask(command);
+  await askLessons();
+}
+
+/** Start demos one after the other, until one is refused. @param {readonly string[]} demos */
+export async function startDemos(demos) {
+  for (const demo of demos) if (!(await ask({ type: "start_demo", demo }))) break;
+  await askLessons();
+}
+
+/** @param {string} demo */
+export const stopDemo = (demo) => askAndLook({ type: "stop_demo", demo });
+
+/** All that run. */
+export async function stopAllDemos() {
+  await Promise.all(underWay.peek().map((demo) => ask({ type: "stop_demo", demo })));
+  await askLessons();
+}
+
+/** @param {string} demo @param {PressKey["pressed"]} pressed */
+export const pressKey = (demo, pressed) => ask({ type: "press_key", demo, pressed });
+
+/** @type {Record<string, MessageForm>} */
+const FORMS = { services: serviceForm, actions: goalForm, publish: publishForm };
+
+/** Where a link of a lesson leads. @param {string} panel @param {readonly string[]} about a name, and perhaps its type */
+export function followLink(panel, [name = "", type = ""]) {
+  if (name !== "" && panel === "lessons") chosenLesson.value = name;
+  if (name !== "" && panel === "topics") chosenTopic.value = name;
+  if (name !== "" && panel === "parameters") chooseNode(name);
+  if (type !== "") void FORMS[panel]?.open({ name, type });
+  commandById(`panel.${panel}`)?.run();
+}

@@ -6,7 +6,7 @@
 export const LIVE = " live";
 
 const MIDDLE = ["scene", "turtlesim", "jerry"];
-const LEFT = ["displays", "frames", "joints"];
+const LEFT = ["displays", "frames", "joints", "lessons"];
 const BELOW = ["plot", "log", "image", "diagnostics"];
 const UPPER = ["graph", "interfaces", "lifecycle"];
 const LOWER = ["topics", "services", "actions", "parameters", "publish", "teleop"];

@@ -76,6 +76,10 @@ export const PANELS = {
     icon: "interfaces",
     load: wired(async () => (await import("../panels/interfaces.js")).InterfacesPanel),
   },
+  lessons: {
+    icon: "lessons",
+    load: wired(async () => (await import("../panels/lessons.js")).LessonsPanel),
+  },
   lifecycle: {
     icon: "lifecycle",
     load: wired(async () => (await import("../panels/lifecycle.js")).LifecyclePanel),

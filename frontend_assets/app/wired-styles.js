@@ -10,6 +10,7 @@ const FILES = [
   "styles/teleop.css",
   "styles/fields.css",
   "styles/log.css",
+  "styles/lessons.css",
   "styles/lifecycle.css",
   "styles/interfaces.css",
   "styles/graph.css",

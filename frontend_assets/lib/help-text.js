@@ -2,11 +2,12 @@
  * The texts of the help: a small part of Markdown, with keys, icons and marks.
  *
  * A line `![what it shows](name)` is a picture, `## Words` a heading, `- words` an entry of a list;
- * all else is text. In a text: `**name of a control**`, code in backticks, `[words](page)`,
- * `{key Mod+K}`, `{icon eye}`, and `{mark amber}` for a dot of that tone.
+ * all else is text. In a text: `**name of a control**`, code in backticks, `[words](page)` or, with
+ * what is to be seen there, `[words](page /name type)`, `{key Mod+K}`, `{icon eye}`, and
+ * `{mark amber}` for a dot of that tone.
  */
 
-/** @typedef {{kind: "text" | "strong" | "code" | "key" | "icon" | "mark", text: string} | {kind: "link", text: string, page: string}} Part */
+/** @typedef {{kind: "text" | "strong" | "code" | "key" | "icon" | "mark", text: string} | {kind: "link", text: string, page: string, about: readonly string[]}} Part */
 /**
  * @typedef {{kind: "picture", name: string, alt: string} | {kind: "heading" | "text", parts: readonly Part[]} |
  *   {kind: "list", entries: readonly (readonly Part[])[]}} Block
@@ -14,7 +15,7 @@
 
 const PICTURE = /^!\[([^\]]+)\]\((\w+)\)$/;
 const INLINE =
-  /\*\*(?<strong>[^*]+)\*\*|`(?<code>[^`]+)`|\[(?<link>[^\]]+)\]\((?<page>\w+)\)|\{(?<sign>key|icon|mark) (?<name>[^}]+)\}/g;
+  /\*\*(?<strong>[^*]+)\*\*|`(?<code>[^`]+)`|\[(?<link>[^\]]+)\]\((?<page>\w+)(?: (?<about>[^()]+))?\)|\{(?<sign>key|icon|mark) (?<name>[^}]+)\}/g;
 
 /** @param {string} text @returns {Block[]} */
 export function readHelp(text) {
@@ -51,10 +52,11 @@ function readParts(text) {
 }
 
 /** @param {Record<string, string | undefined>} found @returns {Part} */
-function partOf({ strong, code, link, page, sign, name = "" }) {
+function partOf({ strong, code, link, page, about = "", sign, name = "" }) {
   if (strong !== undefined) return { kind: "strong", text: strong };
   if (code !== undefined) return { kind: "code", text: code };
-  if (link !== undefined && page !== undefined) return { kind: "link", text: link, page };
+  if (link !== undefined && page !== undefined)
+    return { kind: "link", text: link, page, about: about.split(" ").filter(Boolean) };
   return { kind: /** @type {"key" | "icon" | "mark"} */ (sign), text: name };
 }
 

@@ -103,6 +103,7 @@ const ICONS = {
   jump: "CornerDownRight",
   keyboard: "Keyboard",
   layout: "LayoutDashboard",
+  lessons: "GraduationCap",
   lifecycle: "RefreshCcwDot",
   link: "Link2",
   list: "ListTree",

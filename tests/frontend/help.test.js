@@ -129,7 +129,7 @@ test("a text becomes headings, lists and parts of a line", () => {
       entries: [
         [
           { kind: "text", text: "one " },
-          { kind: "link", text: "page", page: "joints" },
+          { kind: "link", text: "page", page: "joints", about: [] },
           { kind: "text", text: " more" },
         ],
         [

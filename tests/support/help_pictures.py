@@ -33,6 +33,7 @@ PANELS_WINDOW = (1060, 940)
 DIALOGS_WINDOW = (720, 640)
 ON_THE_WIRE = (
     "graph", "interfaces", "log", "lifecycle", "diagnostics", "topics", "plot", "image", "teleop",
+    "lessons",
 )  # fmt: skip
 """Panels that show something only while a ROS 2 system is there."""
 _HIGHEST_PX = 380
@@ -199,6 +200,16 @@ def take_demo(browser: Browser, data: Path) -> None:
                 take_windows(Camera(tab, theme))
 
 
+def show_lesson(page: Page) -> None:
+    """That of the talker, which runs; of a picture before it runs already."""
+    page.get_by_role("navigation", name="Lessons").get_by_text("talker", exact=True).last.click()
+    start, stop = (page.get_by_role("button", name=f"{one} talker") for one in ("Start", "Stop"))
+    start.or_(stop).wait_for()
+    if start.is_visible():
+        start.click()
+    page.get_by_text("Publishing").first.wait_for()
+
+
 def take_wired(browser: Browser, data: Path) -> None:
     """Panels about ROS 2, with the graph of the demo."""
     with (
@@ -219,6 +230,8 @@ def take_wired(browser: Browser, data: Path) -> None:
                     tab.page.evaluate(_RUN, "maximize")
                     if panel == "interfaces":
                         show_type(tab.page)
+                    if panel == "lessons":
+                        show_lesson(tab.page)
                     tab.page.wait_for_timeout(_STILL_MS)
                     camera.take(panel, tab.page.evaluate(_DOCK_OF, panel))
                     tab.page.evaluate(_RUN, "maximize")

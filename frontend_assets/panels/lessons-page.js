@@ -1,0 +1,73 @@
+/** One lesson: its demo and those that it needs, what it says, and what they print. */
+
+/** @import { LessonView } from "../types/wire.d.ts" */
+
+import { html, useEffect, useLayoutEffect, useRef } from "vendor/preact.js";
+import { drawnBlock } from "../app/help-drawing.js";
+import { followLink } from "../app/lessons.js";
+import {
+  chosenLesson,
+  demos,
+  lessonTexts,
+  output,
+  shownOutput,
+  showOutput,
+} from "../app/state/lessons.js";
+import { t } from "../lib/i18n.js";
+import { IconButton } from "../lib/ui.js";
+import { LessonRuns } from "./lessons-runs.js";
+
+/** So far from its end a list still counts as scrolled to it. */
+const END_PX = 4;
+
+/** @param {{lesson: LessonView, all: readonly LessonView[]}} props */
+export function LessonPage({ lesson, all }) {
+  const { demo } = lesson;
+  const text = lessonTexts.value.get(demo);
+  const needed = (text?.needs ?? []).flatMap((name) => all.find((one) => one.demo === name) ?? []);
+  const parts = [...needed, lesson];
+  useEffect(() => {
+    showOutput(demo);
+    return () => showOutput("");
+  }, [demo]);
+  const close = () => {
+    chosenLesson.value = "";
+  };
+  return html`<div class="deeds-chosen lesson">
+    <header class="deed-head lesson-head"><${IconButton} icon="chevronRight" class="deed-back" label=${t("deeds.back")} onClick=${close} />
+      <h3>${text?.title || demo}</h3><span class="offer-type">${`studio demos ${demo}`}</span></header>
+    <div class="scroll lesson-scroll" tabindex="0" role="region" aria-label=${text?.title || demo}>
+      <${LessonRuns} parts=${parts} />
+      ${text?.blocks.length === 0 && html`<p class="note padded">${t("lessons.lost")}</p>`}
+      <article class="lesson-text">${text?.blocks.map((block) => drawnBlock(block, followLink))}</article>
+    </div>
+    <${Output} parts=${parts} />
+  </div>`;
+}
+
+/** What one of them printed. @param {{parts: readonly LessonView[]}} props */
+function Output({ parts }) {
+  const list = useRef(/** @type {HTMLElement | null} */ (null));
+  const follows = useRef(true);
+  const { lines } = output.value;
+  useLayoutEffect(() => {
+    if (follows.current) list.current?.scrollTo({ top: list.current.scrollHeight });
+  }, [lines]);
+  const started = parts.filter(({ demo }) => demos.value.has(demo));
+  if (started.length === 0) return null;
+  const onScroll = () => {
+    const { scrollHeight = 0, scrollTop = 0, clientHeight = 0 } = list.current ?? {};
+    follows.current = scrollHeight - scrollTop - clientHeight <= END_PX;
+  };
+  return html`<section class="lesson-output" aria-label=${t("lessons.output")}>
+    <header><h4>${t("lessons.output")}</h4>
+      ${
+        started.length > 1 &&
+        started.map(
+          ({ demo }) =>
+            html`<button key=${demo} type="button" class="text-button" aria-pressed=${shownOutput.value === demo} onClick=${() => showOutput(demo)}>${demo}</button>`,
+        )
+      }</header>
+    <pre ref=${list} class="scroll" tabindex="0" role="log" aria-live="off" onScroll=${onScroll}>${lines.join("\n") || t("lessons.output.none")}</pre>
+  </section>`;
+}

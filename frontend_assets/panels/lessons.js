@@ -1,0 +1,92 @@
+/** Lessons: every demo with one page about it, to be started and stopped beside what is read. */
+
+/** @import { LessonView } from "../types/wire.d.ts" */
+
+import { html, useEffect, useSignal } from "vendor/preact.js";
+import { fetchLessons, stopAllDemos } from "../app/lessons.js";
+import { useLooking } from "../app/looking.js";
+import { Refusal } from "../app/refusal.js";
+import { mayEdit } from "../app/state/connection.js";
+import {
+  askLessons,
+  chosenLesson,
+  demos,
+  elsewhere,
+  followLessons,
+  isUnderWay,
+  lessons,
+  lessonsRefused,
+  lessonTexts,
+  underWay,
+} from "../app/state/lessons.js";
+import { language, t } from "../lib/i18n.js";
+import { isSought } from "../lib/lesson-text.js";
+import { EmptyState, Icon, ProgressBar, SearchBox } from "../lib/ui.js";
+import { LessonPage } from "./lessons-page.js";
+
+export function LessonsPanel() {
+  const { panel } = useLooking(followLessons);
+  const all = lessons.value;
+  useEffect(() => {
+    if (all)
+      void fetchLessons(
+        language.value,
+        all.map(({ demo }) => demo),
+      );
+  }, [all, language.value]);
+  return html`<section ref=${panel} class="panel-body deeds lessons" aria-label=${t("panel.lessons")}>
+    ${lessonsRefused.value && html`<${Refusal} sentence=${lessonsRefused.value} again=${askLessons} />`}
+    ${!all && !lessonsRefused.value && html`<${ProgressBar} label=${t("loading")} done=${0} total=${0} />`}
+    ${all && html`<${Parts} all=${all} />`}
+  </section>`;
+}
+
+/** @param {{all: readonly LessonView[]}} props the list, and beside or in place of it a page */
+function Parts({ all }) {
+  const read = all.find(({ demo }) => demo === chosenLesson.value);
+  return html`<div class=${`deeds-parts ${read ? "chosen" : ""}`}>
+    <${List} all=${all} />${read && html`<${LessonPage} key=${read.demo} lesson=${read} all=${all} />`}
+  </div>`;
+}
+
+/** @param {{all: readonly LessonView[]}} props */
+function List({ all }) {
+  const words = useSignal("");
+  const shown = all.filter((one) =>
+    isSought(words.value, one, lessonTexts.value.get(one.demo)?.text ?? ""),
+  );
+  const chapters = [...new Set(shown.map(({ chapter }) => chapter))];
+  return html`<div class="deeds-list">
+    <div class="panel-bar"><${SearchBox} label=${t("lessons.search")} value=${words.value} onInput=${(
+      /** @type {string} */ text,
+    ) => {
+      words.value = text;
+    }} /></div>
+    <${RunningNow} />
+    ${shown.length === 0 && html`<${EmptyState} icon="lessons" title=${t("filter.nothing", { words: words.value })} />`}
+    <nav class="scroll lessons-list" aria-label=${t("panel.lessons")}>${chapters.map(
+      (chapter) => html`<section key=${chapter}><h3>${t(`lessons.chapter.${chapter}`)}</h3>
+        <ul class="offers">${shown.filter((one) => one.chapter === chapter).map(({ demo }) => html`<${Row} key=${demo} demo=${demo} />`)}</ul></section>`,
+    )}</nav>
+  </div>`;
+}
+
+/** How many run, and the end of them. */
+function RunningNow() {
+  const count = underWay.value.length;
+  if (count === 0) return null;
+  return html`<div class="lessons-now" role="status"><span class="lessons-dot"></span><span>${t("lessons.now", { count })}</span>
+    ${mayEdit.value && html`<button type="button" class="button small" onClick=${stopAllDemos}><${Icon} name="stop" size=${12} />${t("lessons.stop_all")}</button>`}</div>`;
+}
+
+/** @param {{demo: string}} props */
+function Row({ demo }) {
+  const runs = isUnderWay(demo) || elsewhere.value.includes(demo);
+  const choose = () => {
+    chosenLesson.value = demo;
+  };
+  return html`<li><button type="button" class="offer" aria-pressed=${chosenLesson.value === demo} onClick=${choose}>
+    <span class="lessons-title">${lessonTexts.value.get(demo)?.title || demo}</span>
+    ${runs && html`<span class=${`lessons-dot ${demos.value.get(demo)?.state ?? ""}`} role="img" aria-label=${t("lessons.runs")} title=${t("lessons.runs")}></span>`}
+    <span class="offer-type">${demo}</span></button></li>`;
+}
