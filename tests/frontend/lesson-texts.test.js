@@ -1,0 +1,104 @@
+import assert from "node:assert/strict";
+import { existsSync, readdirSync, readFileSync } from "node:fs";
+import { test } from "node:test";
+import { partsOf } from "../../frontend_assets/lib/help-text.js";
+import { readLesson } from "../../frontend_assets/lib/lesson-text.js";
+import { ICONS } from "../../frontend_assets/vendor/icons.js";
+
+/** @import { Part } from "../../frontend_assets/lib/help-text.js" */
+
+const ROOT = new URL("../../", import.meta.url);
+/** @param {string} path */
+const textOf = (path) => readFileSync(new URL(path, ROOT), "utf8");
+
+const CHAPTERS = textOf("studio/nodes/demos/chapters.py");
+const FOUND = [...CHAPTERS.matchAll(/Lesson\("(\w+)", "(\/\w+)"/g)];
+const DEMOS = FOUND.map(([, demo = ""]) => demo);
+const NODES = FOUND.map(([, , node = ""]) => node);
+const TABLE = textOf("frontend_assets/app/panels.js").matchAll(/^ {2}(\w+): \{/gm);
+const PANELS = [...TABLE].map(([, id = ""]) => id);
+/** How many words a link may have after the panel. @type {Record<string, readonly number[]>} */
+const ABOUT = {
+  ...{ topics: [0, 1], parameters: [0, 1], lessons: [0, 1] },
+  ...{ services: [0, 2], actions: [0, 2], publish: [0, 2] },
+};
+/** Names that are of no demo: every node's, or the studio's own. */
+const EVERYWHERE = ["/rosout", "/parameter_events", "/studio", "/tf", "/tf_static"];
+
+/** @param {string} language @param {string} demo */
+const lessonOf = (language, demo) =>
+  readLesson(textOf(`frontend_assets/lessons/${language}/${demo}.md`));
+
+/** @param {string} demo @returns {string} all that it is written in */
+function codeOf(demo) {
+  const [file, folder] = [
+    `studio/nodes/demos/${demo}.py`,
+    `studio/nodes/demos/${demo.split("_")[0]}/`,
+  ];
+  const inFolder = existsSync(new URL(folder, ROOT)) ? readdirSync(new URL(folder, ROOT)) : [];
+  const files = inFolder.filter((name) => name.endsWith(".py")).map((name) => folder + name);
+  return [file, ...files]
+    .filter((one) => existsSync(new URL(one, ROOT)))
+    .map(textOf)
+    .join("\n");
+}
+
+/** @param {Part} part @returns {boolean} it leads somewhere, or is drawn */
+function isKnown(part) {
+  if (part.kind === "link") return leadsSomewhere(part);
+  if (part.kind === "icon") return part.text in ICONS;
+  // What the reader did not understand would be shown as it was written.
+  return part.kind !== "text" || !/\*\*|\]\(|\{|`|^#|!\[/.test(part.text);
+}
+
+/** @param {Extract<Part, {kind: "link"}>} link */
+function leadsSomewhere({ page, about: [name, ...more] }) {
+  const words = name === undefined ? 0 : 1 + more.length;
+  const isThere = page !== "lessons" || name === undefined || DEMOS.includes(name);
+  return isThere && PANELS.includes(page) && (ABOUT[page] ?? [0]).includes(words);
+}
+
+/** @param {Part} part @returns {string} the first part of a name of ROS; empty: it is none */
+const rosName = ({ kind, text }) => (kind === "code" && /^\/[a-z]\w*/.exec(text)?.[0]) || "";
+
+test("the demos and the panels are found", () => {
+  assert.ok(DEMOS.length >= 38 && PANELS.includes("lessons"));
+});
+
+test("every demo has a lesson in each language, and they need the same others", () => {
+  for (const language of ["en", "de"]) {
+    const files = readdirSync(new URL(`frontend_assets/lessons/${language}/`, ROOT));
+    assert.deepEqual(files.sort(), DEMOS.map((demo) => `${demo}.md`).sort());
+  }
+  for (const demo of DEMOS) {
+    const [english, german] = [lessonOf("en", demo), lessonOf("de", demo)];
+    assert.ok(english.title && german.title && english.title !== demo, demo);
+    assert.deepEqual(english.needs, german.needs, demo);
+    assert.ok(
+      english.needs.every((needed) => needed !== demo && DEMOS.includes(needed)),
+      demo,
+    );
+  }
+});
+
+for (const language of ["en", "de"]) {
+  test(`links, icons and marks of the lessons in ${language} are known`, () => {
+    for (const demo of DEMOS)
+      for (const part of lessonOf(language, demo).blocks.flatMap(partsOf))
+        assert.ok(isKnown(part), `${language}/${demo}: ${part.text}`);
+  });
+
+  test(`names of ROS in the lessons in ${language} are those of the demos`, () => {
+    for (const demo of DEMOS) {
+      const { needs, blocks } = lessonOf(language, demo);
+      const parts = blocks.flatMap(partsOf);
+      const linked = parts.flatMap((part) => (part.kind === "link" ? part.about : []));
+      const code = [demo, ...needs, ...linked].map(codeOf).join("\n");
+      for (const name of parts.map(rosName).filter(Boolean))
+        assert.ok(
+          [...EVERYWHERE, ...NODES].includes(name) || code.includes(name.slice(1)),
+          `${language}/${demo}: ${name} is not in its code`,
+        );
+    }
+  });
+}
