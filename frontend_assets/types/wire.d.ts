@@ -2388,7 +2388,7 @@ export interface TopicRates {
   rates: TopicRate[];
 }
 
-/** One topic; the studio's own ends are not counted. */
+/** One topic; the studio's own subscriptions are not counted. */
 export interface TopicRow {
   name: string;
   types: string[];

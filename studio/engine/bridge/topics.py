@@ -64,7 +64,8 @@ def _rows(link: WireLink) -> tuple[TopicRow, ...]:
     found: list[TopicRow] = []
     for name, types in link.graph.topics():
         publishing, hearing = link.graph.publishers(name), link.graph.subscriptions(name)
-        publishers, subscribers = _others(publishing, link.zid), _others(hearing, link.zid)
+        # What the studio publishes somebody wanted; what it hears only serves to show it.
+        publishers, subscribers = len(publishing), _others(hearing, link.zid)
         if publishers or subscribers:
             carried = carried_types(publishing, hearing)
             found.append(

@@ -22,7 +22,7 @@ class GetTopicEnds(CommandMessage):
 
 
 class TopicRow(Message):
-    """One topic; the studio's own ends are not counted."""
+    """One topic; the studio's own subscriptions are not counted."""
 
     name: str
     types: tuple[str, ...]

@@ -70,3 +70,22 @@ def test_what_is_no_topic_has_no_ends(endpoint: str):
             await wire.close()
 
     asyncio.run(run())
+
+
+def test_what_the_studio_publishes_counts_and_by_what_it_listens_does_not(endpoint: str):
+    async def run() -> dict[str, tuple[int, int]]:
+        wire = WireDesk(WireChoice("off", (endpoint,)))
+        try:
+            link = await wire.link()
+            link.node.create_publisher(message(SCAN), "/told", 10)
+            link.node.create_subscription(message(SCAN), "/heard", print, 10)
+            await until(lambda: bool(link.graph.subscriptions("/heard")))
+            await until(lambda: bool(link.graph.publishers("/told")))
+            table = await TopicDesk(wire).table(ListTopics())
+            return {one.name: (one.publishers, one.subscribers) for one in table.topics}
+        finally:
+            await wire.close()
+
+    counts = asyncio.run(run())
+    assert counts["/told"] == (1, 0)
+    assert "/heard" not in counts
