@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import re
+import threading
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 import pytest
 
+from studio.ros.messages import service
 from tests.support.demos import call, heard, node_at, running_demo
 from tests.support.panel_pictures import SHOW_PANEL
 from tests.support.server import running_studio
@@ -14,7 +17,7 @@ from tests.support.studio_page import studio_page, wait_until
 from tests.support.wire import running_router
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Generator, Iterator
     from pathlib import Path
 
     from playwright.sync_api import Browser, Locator
@@ -36,6 +39,7 @@ PUB = (
     "ros2 topic pub --rate 20 /turtle1/cmd_vel geometry_msgs/msg/Twist "
     '"{linear: {x: 2.0, y: 0.0, z: 0.0}, angular: {x: 0.0, y: 0.0, z: 1.8}}"'
 )
+ADD_POINTS = "pkg_with_interfaces/srv/AddPoints"
 STEPS = ("--ros-args", "-p", "step_seconds:=2.0")
 """So slow that a busy page sees a song between its beginning and its end."""
 
@@ -90,6 +94,35 @@ def call_a_service(tab: StudioPage, line: str, *reply: str) -> None:
     hand.press("Back to the list")
 
 
+@contextmanager
+def slow_points(router: str) -> Generator[None]:
+    """A server of sums that takes its time: until it is told to."""
+    answer = threading.Event()
+
+    def add(_: object, response: object) -> object:
+        answer.wait()
+        return response
+
+    with node_at(router, "slow") as server:
+        server.create_service(service(ADD_POINTS), "/slow_points", add)
+        try:
+            yield
+        finally:
+            answer.set()
+
+
+def cancel_a_call(tab: StudioPage, router: str) -> None:
+    """And the panel goes on to be of use."""
+    hand = Hand(tab, "services", "Services")
+    with slow_points(router):
+        hand.paste(f"ros2 service call /slow_points {ADD_POINTS} {{}}")
+        hand.press("Call")
+        hand.press("Cancel")
+        hand.see("Cancelled after")
+        hand.press("Back to the list")
+    call_a_service(tab, CALL, "sum\n42")
+
+
 def send_and_cancel_a_goal(tab: StudioPage) -> None:
     hand = Hand(tab, "actions", "Actions")
     hand.click(hand.panel.get_by_role("button", name="/choose_song"))
@@ -141,7 +174,7 @@ def send_a_goal(tab: StudioPage) -> None:
     hand.see("Playing Yellow")
 
 
-def test_calls_goals_parameters_and_messages_go_out_and_what_is_in_the_way_is_said(
+def test_sv1_sv2_sv3_a1_a2_p1_p2_t2_what_is_done_from_the_page_and_what_is_in_the_way(
     browser: Browser, studio: RunningStudio, router: str
 ):
     with (
@@ -157,6 +190,7 @@ def test_calls_goals_parameters_and_messages_go_out_and_what_is_in_the_way_is_sa
         with running_demo(router, "radio_dj", *STEPS):
             call_a_service(tab, CALL, "sum\n42")
             call_a_service(tab, WHAT_PLAYS, *STATION)
+            cancel_a_call(tab, router)
             send_and_cancel_a_goal(tab)
             set_parameters(tab, node)
             publish_as_pasted(tab, node)
