@@ -3,7 +3,6 @@
 /** @import { DisplayKindView, TopicRate, TopicView } from "../types/wire.d.ts" */
 
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
-import { keepAsking } from "../lib/asking.js";
 import { t } from "../lib/i18n.js";
 import { foundTopics, iconOf, includesAll } from "../lib/live-displays.js";
 import { LongList } from "../lib/long-list.js";
@@ -11,6 +10,7 @@ import { remembered } from "../lib/remembered.js";
 import { ageWords, flowWords } from "../lib/topic-rates.js";
 import { Dialog, Icon, SearchBox } from "../lib/ui.js";
 import { addDisplay, needKinds, topicsNow } from "./live.js";
+import { useTold } from "./looking.js";
 import { connectRos } from "./ros.js";
 import { mayEdit } from "./state/connection.js";
 import { kinds, liveDisplays } from "./state/live.js";
@@ -100,12 +100,7 @@ function showNewest() {
 
 /** @returns {import("vendor/preact.js").Signal<readonly TopicView[] | null>} kept up to date; null: not known yet */
 function useTopics() {
-  const topics = useSignal(/** @type {readonly TopicView[] | null} */ (null));
-  const take = (/** @type {readonly TopicView[] | null} */ found) => {
-    if (found) topics.value = found;
-  };
-  useEffect(() => keepAsking(topicsNow, take, LOOK_EVERY_MS), []);
-  return topics;
+  return useTold(/** @type {readonly TopicView[] | null} */ (null), topicsNow, LOOK_EVERY_MS);
 }
 
 /** @param {TopicView} topic @returns {Offer} */

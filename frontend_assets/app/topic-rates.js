@@ -2,13 +2,14 @@
 
 /** @import { TopicRate } from "../types/wire.d.ts" */
 
-import { useEffect, useSignal } from "vendor/preact.js";
-import { keepAsking } from "../lib/asking.js";
+import { useTold } from "./looking.js";
 import { send } from "./wire.js";
 
 const LOOK_EVERY_MS = 1000;
 /** As many as the studio takes at once. */
 const TOPICS_MAX = 200;
+/** @type {ReadonlyMap<string, TopicRate>} */
+const NONE = new Map();
 
 /** @param {readonly string[]} topics full names @returns {Promise<readonly TopicRate[]>} */
 export async function topicRates(topics) {
@@ -29,10 +30,6 @@ export async function topicRates(topics) {
  * @returns {import("vendor/preact.js").Signal<ReadonlyMap<string, TopicRate>>} by name, of those that were seen last
  */
 export function useTopicRates(seen) {
-  const rates = useSignal(/** @type {ReadonlyMap<string, TopicRate>} */ (new Map()));
-  const take = (/** @type {readonly TopicRate[]} */ found) => {
-    rates.value = new Map(found.map((one) => [one.name, one]));
-  };
-  useEffect(() => keepAsking(() => topicRates(seen()), take, LOOK_EVERY_MS), []);
-  return rates;
+  const ask = async () => new Map((await topicRates(seen())).map((one) => [one.name, one]));
+  return useTold(NONE, ask, LOOK_EVERY_MS);
 }

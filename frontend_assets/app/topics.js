@@ -3,25 +3,23 @@
 /** @import { TopicEnds } from "../types/wire.d.ts" */
 
 import { effect } from "vendor/preact.js";
-import { keepAsking } from "../lib/asking.js";
+import { polled } from "./state/polling.js";
 import { ros } from "./state/ros.js";
 import { topics } from "./state/topics.js";
 import { send } from "./wire.js";
 
 const LOOK_EVERY_MS = 1000;
 
+const look = polled(async () => {
+  topics.value = (await topicTable()) ?? topics.value;
+}, LOOK_EVERY_MS);
+
 /** Keep the list up to date. @returns {() => void} the end of it */
 export function followTopics() {
   const forget = effect(() => {
     if (ros.value.state === "off") topics.value = null;
   });
-  const stop = keepAsking(
-    topicTable,
-    (found) => {
-      if (found) topics.value = found;
-    },
-    LOOK_EVERY_MS,
-  );
+  const stop = look();
   return () => {
     stop();
     forget();

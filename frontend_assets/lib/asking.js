@@ -1,25 +1,21 @@
 /** Something that is asked for again and again, for as long as somebody looks. */
 
 /**
- * @template T
- * @param {() => Promise<T>} ask
- * @param {(answer: T) => void} take
- * @param {number} every_ms between an answer and the next question
- * @returns {() => void} the end of it: what comes later is not taken
+ * @param {() => Promise<boolean | void>} ask gives whether there is more to be asked for at once
+ * @param {number} everyMs from an answer to the next question
+ * @returns {() => void} the end of it
  */
-export function keepAsking(ask, take, every_ms) {
-  let closed = false;
+export function keepAsking(ask, everyMs) {
+  let over = false;
   /** @type {ReturnType<typeof setTimeout> | undefined} */
   let timer;
   const look = async () => {
-    const answer = await ask();
-    if (closed) return;
-    take(answer);
-    if (!closed) timer = setTimeout(look, every_ms);
+    const more = await ask();
+    if (!over) timer = setTimeout(look, more ? 0 : everyMs);
   };
   look();
   return () => {
-    closed = true;
+    over = true;
     clearTimeout(timer);
   };
 }

@@ -1,6 +1,6 @@
 /** Which numbers a type of message holds, as paths that a plot takes. */
 
-/** @import { FieldView, MessageView } from "../types/wire.d.ts" */
+/** @import { MessageView } from "../types/wire.d.ts" */
 
 const DEPTH_MAX = 12;
 const PATHS_MAX = 400;
@@ -23,11 +23,16 @@ function walk(known, name, path, depth, found) {
     if (known.has(field.base)) walk(known, field.base, at, depth + 1, found);
     else if (!TEXTS.has(field.base)) found.push(at);
   }
-  if (path && isVector(known.get(name))) found.push(`${path}.@norm`);
+  if (path) found.push(...worked(known.get(name)).map((work) => path + work));
 }
 
-/** @param {MessageView | undefined} message */
-const isVector = (message) => message?.fields.length === 3 && message.fields.every(isAxis);
+/** @param {MessageView | undefined} message @returns {string[]} what is worked out of a vector, or a quaternion */
+function worked(message) {
+  if (hasAxes(message, "xyz")) return [".@norm"];
+  return hasAxes(message, "xyzw") ? [".@yaw.@deg"] : [];
+}
 
-/** @param {FieldView} field @param {number} n */
-const isAxis = ({ name, base }, n) => name === "xyz"[n] && base.startsWith("float");
+/** @param {MessageView | undefined} message @param {string} axes */
+const hasAxes = (message, axes) =>
+  message?.fields.length === axes.length &&
+  message.fields.every(({ name, base }, n) => name === axes[n] && base.startsWith("float"));

@@ -98,9 +98,10 @@ function afterKey(event, value, step, lower, upper) {
  * number. What is typed is the person's until then; else the box shows the studio's answer.
  *
  * @param {{label: string, text: string, class?: string, disabled?: boolean, step?: number | undefined,
- *   invalid?: boolean, number?: number | null, onWrite: (typed: string, options: {stepped: boolean}) => void}} props
+ *   invalid?: boolean, number?: number | null, takesEmpty?: boolean, onWrite: (typed: string, options: {stepped: boolean}) => void}} props
  */
-export function TextBox({ label, text, class: names, disabled, step, invalid, number, onWrite }) {
+export function TextBox(props) {
+  const { label, text, class: names, disabled, step, invalid, number, onWrite } = props;
   const typed = useSignal(/** @type {string | null} */ (null));
   useEffect(() => {
     if (typed.peek() === text) typed.value = null;
@@ -108,7 +109,8 @@ export function TextBox({ label, text, class: names, disabled, step, invalid, nu
   const write = () => {
     const now = typed.peek();
     typed.value = null;
-    if (now !== null && now.trim() !== "" && now !== text) onWrite(now, { stepped: false });
+    const isWritten = now !== null && (props.takesEmpty || now.trim() !== "");
+    if (isWritten && now !== text) onWrite(now, { stepped: false });
   };
   /** @param {KeyboardEvent} event */
   const onKeyDown = (event) => {

@@ -115,7 +115,7 @@ function Value({ parameter: { name, value, value_type: type, read_only: fixed, s
   const isNumber = type === "integer" || type === "double";
   const text = typeof plain === "string" ? plain : JSON.stringify(plain);
   return html`<${TextBox} label=${name} text=${text} class=${isNumber ? "number" : "wide"} disabled=${disabled} number=${isNumber ? Number(plain) : null}
-    step=${isNumber ? step || 1 : undefined} invalid=${setRefused.value.has(name)} onWrite=${write} />`;
+    step=${isNumber ? step || 1 : undefined} invalid=${setRefused.value.has(name)} takesEmpty=${type === "string"} onWrite=${write} />`;
 }
 
 /** All as a file: as it is, and one to be loaded. @param {{node: string}} props */

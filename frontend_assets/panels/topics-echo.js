@@ -64,7 +64,7 @@ export function TopicEcho({ topic, row }) {
         chosenTopic.value = null;
       }} />
     </div>
-    ${showsEnds.value && html`<${TopicEnds} topic=${topic} />`}
+    <${TopicEnds} topic=${topic} listed=${showsEnds.value} />
     <${Said} heard=${heard.value} message=${message.value} silent_s=${silence.silent_s} />
     ${
       message.value?.value &&

@@ -2,26 +2,23 @@
 
 /** @import { TopicEnd, Misfit, TopicEnds as Ends } from "../types/wire.d.ts" */
 
-import { html, useEffect, useSignal } from "vendor/preact.js";
+import { html } from "vendor/preact.js";
+import { useTold } from "../app/looking.js";
 import { topicEnds } from "../app/topics.js";
-import { keepAsking } from "../lib/asking.js";
 import { t } from "../lib/i18n.js";
 import { Icon } from "../lib/ui.js";
 
 const LOOK_EVERY_MS = 2000;
 
-/** @param {{topic: string}} props */
-export function TopicEnds({ topic }) {
-  const ends = useSignal(/** @type {Ends | null} */ (null));
-  const take = (/** @type {Ends | null} */ found) => {
-    if (found) ends.value = found;
-  };
-  useEffect(() => keepAsking(() => topicEnds(topic), take, LOOK_EVERY_MS), [topic]);
-  const told = ends.value;
-  if (!told) return html`<p class="note padded">${t("loading")}</p>`;
+/** @param {{topic: string, listed: boolean}} props what keeps them apart is said in any case */
+export function TopicEnds({ topic, listed }) {
+  const first = /** @type {Ends | null} */ (null);
+  const told = useTold(first, () => topicEnds(topic), LOOK_EVERY_MS, [topic]).value;
+  if (!told) return listed && html`<p class="note padded">${t("loading")}</p>`;
+  if (!listed && told.misfits.length === 0) return null;
   return html`<div class="topics-ends scroll">
-    <${Side} title=${t("topics.publishers", { count: told.publishers.length })} ends=${told.publishers} />
-    <${Side} title=${t("topics.subscribers", { count: told.subscribers.length })} ends=${told.subscribers} />
+    ${listed && html`<${Side} title=${t("topics.publishers", { count: told.publishers.length })} ends=${told.publishers} />`}
+    ${listed && html`<${Side} title=${t("topics.subscribers", { count: told.subscribers.length })} ends=${told.subscribers} />`}
     ${told.misfits.map((one) => html`<${Apart} key=${one.publisher + one.subscriber} misfit=${one} />`)}
   </div>`;
 }

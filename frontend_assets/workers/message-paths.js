@@ -1,13 +1,14 @@
 /**
- * Paths into a message: `.pose.position.x`, `.ranges[3]`, `.linear.@norm`, `.angle.@deg`.
+ * Paths into a message: `.pose.position.x`, `.ranges[3]`, `.linear.@norm`, `.orientation.@yaw.@deg`.
  *
- * What stands behind an `@` is worked out: the length of a vector, or an angle in another unit.
+ * What stands behind an `@` is worked out: the length of a vector, an angle in another unit, the
+ * angle of a quaternion about an axis (radians, as `tf2` names them).
  */
 
 /** @typedef {{field: string} | {index: number} | {work: Work}} Step */
-/** @typedef {"norm" | "deg" | "rad" | "length"} Work */
+/** @typedef {"norm" | "deg" | "rad" | "length" | "roll" | "pitch" | "yaw"} Work */
 
-const STEP = /\.@(norm|deg|rad|length)|\.([A-Za-z_]\w*)|\[(-?\d{1,9})\]/y;
+const STEP = /\.@(norm|deg|rad|length|roll|pitch|yaw)|\.([A-Za-z_]\w*)|\[(-?\d{1,9})\]/y;
 
 /** @param {string} path @returns {Step[] | null} null: it is none */
 export function stepsOf(path) {
@@ -48,8 +49,19 @@ function worked(value, work) {
   if (work === "rad") return (numberOf(value) * Math.PI) / 180;
   if (work === "length")
     return isList(value) || typeof value === "string" ? value.length : Number.NaN;
+  if (work !== "norm") return angleOf(value, work);
   const parts = typeof value === "object" ? Object.values(value).map(numberOf) : [Number.NaN];
   return Math.hypot(...parts.slice(0, 64));
+}
+
+/** @param {any} value a quaternion @param {"roll" | "pitch" | "yaw"} work @returns {number} rad; NaN of anything else */
+function angleOf(value, work) {
+  const part = (/** @type {string} */ axis) => numberOf(value[axis]);
+  const [x, y, z, w] = [part("x"), part("y"), part("z"), part("w")];
+  const norm = x * x + y * y + z * z + w * w;
+  if (work === "roll") return Math.atan2(2 * (w * x + y * z), norm - 2 * (x * x + y * y));
+  if (work === "yaw") return Math.atan2(2 * (w * z + x * y), norm - 2 * (y * y + z * z));
+  return Math.asin(Math.min(1, Math.max(-1, (2 * (w * y - z * x)) / norm)));
 }
 
 /** @param {any} message @param {readonly Step[]} steps @returns {any} undefined: it has none there */

@@ -101,7 +101,7 @@ test("a message is a tree: short things are open, lists are not", () => {
   );
 });
 
-test("the numbers of a type are offered, and the length of its vectors", () => {
+test("the numbers of a type are offered, and what is worked out of vectors and quaternions", () => {
   const field = (/** @type {string} */ name, /** @type {string} */ base, shape = "single") =>
     /** @type {any} */ ({ name, base, shape });
   const messages = /** @type {any} */ ([
@@ -109,9 +109,12 @@ test("the numbers of a type are offered, and the length of its vectors", () => {
       name: "T",
       fields: [field("v", "V"), field("name", "string"), field("data", "int8", "sequence")],
     },
+    { name: "Q", fields: ["x", "y", "z", "w"].map((one) => field(one, "float64")) },
+    { name: "R", fields: [field("q", "Q")] },
     { name: "V", fields: ["x", "y", "z"].map((one) => field(one, "float64")) },
   ]);
   assert.deepEqual(numberPaths(messages, "T"), [".v.x", ".v.y", ".v.z", ".v.@norm", ".data[0]"]);
+  assert.equal(numberPaths(messages, "R").at(-1), ".q.@yaw.@deg");
 });
 
 /** @param {string} name @param {string} type */

@@ -1,6 +1,7 @@
 /** Asking the studio again and again, while somebody looks and the page is to be seen. */
 
 import { effect, untracked } from "vendor/preact.js";
+import { keepAsking } from "../../lib/asking.js";
 import { connection } from "./connection.js";
 import { sharedLook } from "./frames.js";
 
@@ -12,23 +13,17 @@ import { sharedLook } from "./frames.js";
  */
 export const polled = (ask, everyMs, isOn = () => true) =>
   sharedLook(() => {
-    /** @type {ReturnType<typeof setTimeout> | undefined} */
-    let timer;
-    let turn = 0;
-    /** @param {number} mine a new connection begins another turn */
-    const go = async (mine) => {
-      const more = !document.hidden && (await ask());
-      if (mine === turn) timer = setTimeout(go, more ? 0 : everyMs, mine);
-    };
-    const end = effect(() => {
-      turn += 1;
-      clearTimeout(timer);
-      const mine = turn;
-      if (isOn() && connection.value === "connected") untracked(() => go(mine));
+    let end = () => {};
+    const forget = effect(() => {
+      end();
+      end = () => {};
+      if (!isOn() || connection.value !== "connected") return;
+      untracked(() => {
+        end = keepAsking(async () => !document.hidden && (await ask()), everyMs);
+      });
     });
     return () => {
-      turn += 1;
-      clearTimeout(timer);
+      forget();
       end();
     };
   });
