@@ -14,7 +14,7 @@ export const isRouterAway = () => ros.value.state === "lost";
 /** What a panel says while the router is away, above what it shows. */
 export function RouterAway() {
   if (!isRouterAway()) return null;
-  return html`<p class="note bad router-away" role="status">${t("ros.lost.at", { endpoint: ros.value.endpoint })}</p>`;
+  return html`<p class="note bad panel-said" role="status">${t("ros.lost.at", { endpoint: ros.value.endpoint })}</p>`;
 }
 
 /** @param {Parameters<typeof EmptyState>[0]} props what a list says in which nothing is; nothing, while nobody can be seen */

@@ -61,6 +61,7 @@ function Goal({ goal }) {
     <header class="goal-head"><${Stand} goal=${goal} />${!over && html`<${Cancel} goal=${goal} />`}</header>
     <p class="goal-asked" title=${goal.text}>${goal.text.trim().replace(/\s+/g, " ") || "{}"}</p>
     <${Progress} goal=${goal} />
+    ${goal.state === "rejected" && html`<p class="note bad" role="alert">${t("actions.rejected.do")}</p>`}
     ${goal.trouble && html`<p class="note bad" role="alert">${goal.trouble}</p>`}
     ${!over && last !== undefined && html`<${ValueTree} value=${last} label=${t("actions.feedback")} />`}
     ${result !== undefined && html`<${ValueTree} value=${result} label=${t("actions.result")} />`}

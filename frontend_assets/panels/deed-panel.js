@@ -8,7 +8,7 @@
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { ConnectFirst, isUnconnected, NothingThere, RouterAway } from "../app/connect-first.js";
 import { Refusal } from "../app/refusal.js";
-import { mayEdit } from "../app/state/connection.js";
+import { mayEdit, role } from "../app/state/connection.js";
 import { matchingOffers } from "../lib/deeds.js";
 import { t } from "../lib/i18n.js";
 import { readLine } from "../lib/pasted-line.js";
@@ -61,6 +61,7 @@ export function DeedPanel({ id, icon, kind, follow, onLine, children }) {
   };
   return html`<section ref=${panel} class="panel-body deeds" aria-label=${t(`panel.${id}`)} onPaste=${onPaste}>
     <${RouterAway} />
+    ${role.value === "viewer" && html`<p class="note panel-said">${t("deeds.viewer")}</p>`}
     ${isUnconnected() ? html`<${ConnectFirst} icon=${icon} />` : children(take)}
   </section>`;
 }

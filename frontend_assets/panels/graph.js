@@ -5,7 +5,7 @@
 /** @import { Signal } from "vendor/preact.js" */
 
 import { computed, html, useEffect, useMemo, useRef, useSignal } from "vendor/preact.js";
-import { ConnectFirst, isUnconnected } from "../app/connect-first.js";
+import { ConnectFirst, isUnconnected, NothingThere, RouterAway } from "../app/connect-first.js";
 import { useLooking } from "../app/looking.js";
 import { followGraph, graph, graphRefused } from "../app/state/graph.js";
 import { useTopicRates } from "../app/topic-rates.js";
@@ -36,6 +36,7 @@ const options = computed(() => {
 export function GraphPanel() {
   const { panel, looking } = useLooking(followGraph);
   return html`<section ref=${panel} class="panel-body graph" aria-label=${t("panel.graph")}>
+    <${RouterAway} />
     ${isUnconnected() ? html`<${ConnectFirst} icon="graph" />` : html`<${Content} looking=${looking} />`}
   </section>`;
 }
@@ -146,6 +147,6 @@ function Nothing({ words, count }) {
     kept.value = { ...kept.value, noise: true, sinks: true };
   };
   if (words !== "") return html`<p class="nothing">${t("filter.nothing", { words })}</p>`;
-  return html`<${EmptyState} icon="graph" title=${t("graph.none")}>
+  return html`<${NothingThere} icon="graph" title=${t("graph.none")}>
     <button type="button" class="button" onClick=${show}>${t("graph.show_all")}</button><//>`;
 }

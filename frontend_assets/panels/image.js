@@ -7,7 +7,7 @@
 /** @import { Signal } from "vendor/preact.js" */
 
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
-import { ConnectFirst, isUnconnected } from "../app/connect-first.js";
+import { ConnectFirst, isUnconnected, NothingThere, RouterAway } from "../app/connect-first.js";
 import { laneOpen, watch } from "../app/data.js";
 import { useLooking } from "../app/looking.js";
 import { topics } from "../app/state/topics.js";
@@ -15,7 +15,7 @@ import { followTopics } from "../app/topics.js";
 import { saveAsFile } from "../lib/files.js";
 import { t } from "../lib/i18n.js";
 import { formatNumber } from "../lib/numbers.js";
-import { EmptyState, Icon, IconButton, MenuButton, ProgressBar, Switch } from "../lib/ui.js";
+import { Icon, IconButton, MenuButton, ProgressBar, Switch } from "../lib/ui.js";
 import { ImageCanvas } from "./image-canvas.js";
 
 const TYPES = ["sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"];
@@ -24,6 +24,7 @@ export function ImagePanel() {
   const { panel, looking } = useLooking(followTopics);
   const chosen = useSignal("");
   return html`<section ref=${panel} class="panel-body image" aria-label=${t("panel.image")}>
+    <${RouterAway} />
     ${isUnconnected() ? html`<${ConnectFirst} icon="camera" />` : looking && html`<${Content} chosen=${chosen} />`}
   </section>`;
 }
@@ -34,7 +35,7 @@ function Content({ chosen }) {
   const choices = topics.value.filter(({ types }) => types.some((type) => TYPES.includes(type)));
   const topic = chosen.value || (choices[0]?.name ?? "");
   if (!topic)
-    return html`<${EmptyState} icon="camera" title=${t("image.none")}><p>${t("image.none.hint")}</p><//>`;
+    return html`<${NothingThere} icon="camera" title=${t("image.none")}><p>${t("image.none.hint")}</p><//>`;
   const type = choices.find(({ name }) => name === topic)?.types.find((one) => TYPES.includes(one));
   // A canvas is given away once: what is looked at otherwise has another one.
   return html`<${Watched} key=${`${topic} ${type}`} topic=${topic} type=${type ?? ""} choices=${choices} chosen=${chosen} />`;

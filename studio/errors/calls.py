@@ -91,7 +91,7 @@ class NoAnswerError(CallError):
     def __init__(self, what: str, name: str, timeout_s: float) -> None:
         super().__init__(
             f"The {what} {name} gave no answer within {timeout_s:g} s: "
-            "its node may be busy, or hang."
+            "its node may be busy, or hang; give it more time, or start it again."
         )
         self.what, self.name, self.timeout_s = what, name, timeout_s
 
