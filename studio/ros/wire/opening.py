@@ -16,6 +16,7 @@ from studio.ros.wire.endpoints import Endpoint, parse_endpoint
 from studio.ros.wire.probing import Answer, probe
 from studio.ros.wire.router import EmbeddedRouter, RouterChoice, router_choice, start_router
 from studio.ros.wire.session import WireSession, open_session
+from studio.ros.wire.threads import take_few_threads
 
 if TYPE_CHECKING:
     from studio.ros.types.library import TypeLibrary
@@ -45,6 +46,7 @@ def open_wire(
         RouterNotStartedError: None answers, and the endpoint cannot be listened at.
         WireSettingsError: The settings cannot be.
     """
+    take_few_threads()
     choice = router_choice(router)
     if choice.endpoint is not None:
         settings = replace(settings, connect=(choice.endpoint.text,))
