@@ -27,7 +27,6 @@ if TYPE_CHECKING:
 STAMP_AT: Final = 8
 """Where the text of a `std_msgs/msg/String` begins in its CDR: with the time it was sent at."""
 STAMP_DIGITS: Final = 20
-_WHOLE_BYTES: Final = 1 << 20
 _BEGINNING_BYTES: Final = 256
 _BUFFER_BYTES: Final = 1 << 22
 HEAD_MAX: Final = 16
@@ -51,8 +50,8 @@ class Job:
     headers: str = ""
     words: tuple[str, ...] = ()
     """What each says first."""
-    bulk: bool = False
-    """Whether large messages are taken from the studio's bulk lane."""
+    large: bool = False
+    """Whether each frame is one large message: of it only the beginning is kept."""
     sips_bytes_per_s: int = 0
     """How slowly they read; 0: as fast as they can."""
 
@@ -103,8 +102,9 @@ class Frames:
         self,
         read_head: Callable[[memoryview | bytearray, int], Head | None],
         take: Callable[[int, memoryview | bytearray], None],
+        most_bytes: int | None,
     ) -> None:
-        self._read_head, self._take = read_head, take
+        self._read_head, self._take, self._most_bytes = read_head, take, most_bytes
         self._begun, self._body = bytearray(), bytearray()
         self._opcode = self._length = self._missing = 0
 
@@ -136,8 +136,8 @@ class Frames:
         if len(part) == self._length:
             self._take(self._opcode, part)
         else:
-            room = self._length if self._length <= _WHOLE_BYTES else _BEGINNING_BYTES
-            self._body += part[: max(0, room - len(self._body))]
+            most = self._length if self._most_bytes is None else self._most_bytes
+            self._body += part[: max(0, most - len(self._body))]
             if not self._missing:
                 self._take(self._opcode, self._body)
         return at + len(part)
@@ -155,9 +155,11 @@ class Browser:
             "naive": self._take_naive,
             "foxglove": self._take_foxglove,
         }
-        self.sockets = {first: Frames(websocket_head, takes[job.kind])}
-        if job.bulk:
-            self.sockets[_bulk_lane(job, first)] = Frames(chunk_head, self._take_bulk)
+        most_bytes = _BEGINNING_BYTES if job.large else None
+        self.sockets = {first: Frames(websocket_head, takes[job.kind], most_bytes)}
+        if job.large and job.kind == "studio":
+            bulk = _bulk_lane(job, first)
+            self.sockets[bulk] = Frames(chunk_head, self._take_bulk, most_bytes)
         for words in job.words:
             first.sendall(_text_frame(words.encode()))
         for one in self.sockets:

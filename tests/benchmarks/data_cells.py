@@ -38,11 +38,14 @@ class Cell:
 
 
 _NEWEST: Final[dict[str, object]] = {"mode": "newest", "most_hz": 60}
+_AT_ONCE: Final[dict[str, object]] = {"mode": "every", "pace": "at_once"}
 
 CELLS: Final = (
     Cell("500 B at 1 kHz x 10", 500, 1_000, 10, cpu_at_most=0.6),
     Cell("500 B at 1 kHz x 30", 500, 1_000, 30, processes=2, cpu_at_most=0.6),
     Cell("4 topics of 5 KB at 50 Hz x 50", 5_000, 50, 50, topics=4, cpu_at_most=0.85),
+    Cell("500 B at 1 kHz x 10, at once", 500, 1_000, 10, wish=_AT_ONCE, p50_at_most=0.3),
+    Cell("5 KB at 50 Hz x 10, at once", 5_000, 50, 10, 4, wish=_AT_ONCE, p50_at_most=0.3),
     Cell("4.8 MB at 10 Hz x 10", 4_800_000, 10, 10, processes=2, wish=_NEWEST, cpu_at_most=0.42),
     Cell("6.2 MB at 30 Hz x 10", 6_200_000, 30, 10, processes=5, wish=_NEWEST, cpu_at_most=0.42),
     Cell("500 B at 1 kHz x 200", 500, 1_000, 200, processes=4, cpu_at_most=0.3),

@@ -175,8 +175,7 @@ def _window(
 
 
 def _job(server: Server, cell: Cell) -> Job:
-    bulk = server.name == "studio" and cell.size > LARGE_BYTES
-    return replace(server.job, words=_words(server, cell), bulk=bulk)
+    return replace(server.job, words=_words(server, cell), large=cell.size > LARGE_BYTES)
 
 
 def _words(server: Server, cell: Cell) -> tuple[str, ...]:
