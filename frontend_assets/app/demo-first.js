@@ -22,6 +22,6 @@ export function DemoFirst({ icon, title, demo }) {
         ${isBusy.value ? html`<span class="spinner"></span>` : html`<${Icon} name="animate" />`}${t("demo_first.start", { demo })}</button></p>`
     }
     ${refused.value && html`<p class="note bad" role="alert">${refused.value}</p>`}
-    <p class="note">${t("demo_first.command")} <code>studio demos ${demo}</code></p>
+    <p class="note">${t("demo_first.command")} <code>${`studio demos ${demo}`}</code></p>
   <//>`;
 }

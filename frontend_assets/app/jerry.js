@@ -2,42 +2,22 @@
 
 /** @import { Jerry, Place } from "../lib/jerry.js" */
 
-import { computed, signal } from "vendor/preact.js";
+import { signal } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
 import { distanceOf, isSame, jerriesOf } from "../lib/jerry.js";
 import { Walk } from "../lib/jerry-walk.js";
 import { called } from "./calling.js";
 import { lookAt, trace } from "./data.js";
-import { followServices, services } from "./state/offers.js";
+import { inNamespaces, keptFor } from "./namespaces.js";
 import { askOrKeepWhy } from "./state/refusals.js";
-import { topics } from "./state/topics.js";
-import { followTopics } from "./topics.js";
 
 const WALKS_MAX = 8;
 const RUNS_MAX = 20;
 const EXPIRE_MS = 500;
 
-/** The namespace that a person chose. */
-export const chosenJerry = signal("");
-/** Null: not told yet. */
-export const jerries = computed(() =>
-  topics.value && services.value ? jerriesOf(topics.value, services.value) : null,
-);
-/** Null: there is none. */
-export const jerry = computed(
-  () =>
-    jerries.value?.find(({ prefix }) => prefix === chosenJerry.value) ?? jerries.value?.[0] ?? null,
-);
+export const jerries = inNamespaces(jerriesOf);
 /** Why what was asked for last was not done; empty: it was. */
 export const jerryTrouble = signal("");
-
-/** Know which there are, while somebody looks; gives the end of it. */
-export function followJerries() {
-  const ends = [followTopics(), followServices()];
-  return () => {
-    for (const end of ends) end();
-  };
-}
 
 /**
  * @typedef {{number: number, place: Place, from: Place, answer: number, right: number, isExact: boolean}} Run
@@ -46,17 +26,11 @@ export function followJerries() {
  *   `newest_s`: when the last command came, by the studio's clock; `turn` changes whenever something does
  */
 
-/** By namespace. @type {Map<string, Seen>} */
-const seen = new Map();
+/** @returns {Seen} */
+const nothing = () => ({ walk: new Walk(), runs: [], newest_s: 0, turn: signal(0) });
 
-/** @param {string} prefix @returns {Seen} what was seen of a Jerry so far */
-export function seenOf(prefix) {
-  const known = seen.get(prefix) ?? { walk: new Walk(), runs: [], newest_s: 0, turn: signal(0) };
-  seen.delete(prefix);
-  seen.set(prefix, known);
-  for (const oldest of [...seen.keys()].slice(0, -WALKS_MAX)) seen.delete(oldest);
-  return known;
-}
+/** What was seen of a Jerry so far, by his namespace. */
+export const seenOf = keptFor(nothing, WALKS_MAX);
 
 const now_s = () => performance.now() / 1000;
 

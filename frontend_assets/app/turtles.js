@@ -3,54 +3,31 @@
 /** @import { CallView } from "../types/wire.d.ts" */
 /** @import { Turtle } from "../lib/turtles.js" */
 
-import { computed, effect, signal } from "vendor/preact.js";
+import { effect } from "vendor/preact.js";
 import { Paper } from "../lib/turtle-field.js";
 import { World } from "../lib/turtle-world.js";
 import { groundsOf, penOf } from "../lib/turtles.js";
 import { trace } from "./data.js";
+import { followNamespaces, inNamespaces, keptFor } from "./namespaces.js";
 import { followDeeds } from "./state/deed-following.js";
 import { calls } from "./state/deeds.js";
-import { followServices, services } from "./state/offers.js";
-import { topics } from "./state/topics.js";
-import { followTopics } from "./topics.js";
 
 const WORLDS_MAX = 4;
 const POSE = [".x", ".y", ".theta", ".linear_velocity", ".angular_velocity"];
 const COLOR = [".r", ".g", ".b"];
 
-/** The namespace of the ground that a person chose. */
-export const chosenGround = signal("");
-/** Null: not told yet. */
-export const grounds = computed(() =>
-  topics.value && services.value ? groundsOf(topics.value, services.value) : null,
-);
-/** The ground that is looked at; null: there is none. */
-export const ground = computed(
-  () =>
-    grounds.value?.find(({ prefix }) => prefix === chosenGround.value) ??
-    grounds.value?.[0] ??
-    null,
-);
+export const grounds = inNamespaces(groundsOf);
 
-/** Know which there are, while somebody looks; gives the end of it. */
+/** Know which there are, and what is asked of them, while somebody looks; gives the end of it. */
 export function followGrounds() {
-  const ends = [followTopics(), followServices(), followDeeds("calls")];
+  const ends = [followNamespaces(), followDeeds("calls")];
   return () => {
     for (const end of ends) end();
   };
 }
 
-/** By namespace, the one looked at last is the last. @type {Map<string, World>} */
-const worlds = new Map();
-
-/** @param {string} prefix @returns {World} what was seen of a ground so far */
-export function worldOf(prefix) {
-  const world = worlds.get(prefix) ?? new World(new Paper());
-  worlds.delete(prefix);
-  worlds.set(prefix, world);
-  for (const oldest of [...worlds.keys()].slice(0, -WORLDS_MAX)) worlds.delete(oldest);
-  return world;
-}
+/** What was seen of a ground so far, by its namespace. */
+export const worldOf = keptFor(() => new World(new Paper()), WORLDS_MAX);
 
 /** @typedef {{leave: () => void}} Lane */
 

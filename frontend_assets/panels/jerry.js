@@ -5,52 +5,40 @@
 /** @import { Run, Seen } from "../app/jerry.js" */
 
 import { html, useEffect, useMemo, useSignal } from "vendor/preact.js";
-import { ConnectFirst, isUnconnected } from "../app/connect-first.js";
-import { DemoFirst } from "../app/demo-first.js";
 import {
-  chosenJerry,
   clearWalk,
   command,
-  followJerries,
   hearCommands,
   hearPlaces,
   jerries,
-  jerry,
   jerryTrouble,
   measure,
   seenOf,
 } from "../app/jerry.js";
-import { useLooking } from "../app/looking.js";
+import { followNamespaces } from "../app/namespaces.js";
 import { mayEdit } from "../app/state/connection.js";
 import { t } from "../lib/i18n.js";
 import { DIRECTIONS, formulaText, placeText } from "../lib/jerry.js";
-import { Icon, MenuButton, ProgressBar } from "../lib/ui.js";
+import { Icon } from "../lib/ui.js";
+import { FieldPanel, Troubles } from "./field-panel.js";
 import { JerryField } from "./jerry-field.js";
 
-const ICON = "grid";
 const STEPS_MAX = 1000;
 /** @type {Record<string, string>} */
 const FATES = { pending: "dots", followed: "check", ignored: "alert", unknown: "help" };
 
-export function JerryPanel() {
-  const { panel, looking } = useLooking(followJerries);
-  return html`<section ref=${panel} class="panel-body jerry" aria-label=${t("panel.jerry")}>
-    ${isUnconnected() ? html`<${ConnectFirst} icon=${ICON} />` : looking && html`<${Content} />`}
-  </section>`;
-}
+/** @param {Jerry} one */
+const nameOf = ({ prefix }) => prefix || "/";
 
-function Content() {
-  const shown = jerry.value;
-  if (!jerries.value) return html`<${ProgressBar} label=${t("loading")} done=${0} total=${0} />`;
-  if (!shown)
-    return html`<${DemoFirst} icon=${ICON} title=${t("jerry.none")} demo="jerry_robot" />`;
-  return html`<${Shown} key=${shown.prefix} jerry=${shown} />`;
+export function JerryPanel() {
+  const parts = { follow: followNamespaces, worlds: jerries, nameOf, world: Shown };
+  return html`<${FieldPanel} id="jerry" icon="grid" demo="jerry_robot" ...${parts} />`;
 }
 
 /** @typedef {{jerry: Jerry, known: Seen}} Parts */
 
-/** @param {{jerry: Jerry}} props one of them, who is heard from now on */
-function Shown({ jerry: shown }) {
+/** @param {{world: Jerry}} props one of them, who is heard from now on */
+function Shown({ world: shown }) {
   const known = useMemo(() => seenOf(shown.prefix), [shown.prefix]);
   useEffect(() => hearPlaces(shown.pose, known), [known, shown.pose?.name]);
   useEffect(() => hearCommands(shown.command, known), [known, shown.command?.name]);
@@ -64,9 +52,7 @@ function Shown({ jerry: shown }) {
     place.value = at;
     if (mayEdit.peek()) measure(shown, known, at);
   };
-  return html`${(jerries.value?.length ?? 0) > 1 && html`<${Choice} prefix=${shown.prefix} />`}
-    ${!mayEdit.value && html`<p class="note padded">${t("jerry.viewer")}</p>`}
-    <div class="field-parts">
+  return html`<div class="field-parts">
       <${JerryField} known=${known} go=${go} ask=${ask} />
       <div class="field-tools scroll">
         <${Standing} jerry=${shown} known=${known} />
@@ -74,21 +60,7 @@ function Shown({ jerry: shown }) {
         <${Distances} jerry=${shown} known=${known} ask=${ask} place=${place} />
       </div>
     </div>
-    ${jerryTrouble.value && html`<p class="note bad padded" role="alert">${jerryTrouble.value}</p>`}`;
-}
-
-/** @param {{prefix: string}} props which of them is shown, where there are several */
-function Choice({ prefix }) {
-  const items = () =>
-    (jerries.value ?? []).map((one) => ({
-      label: one.prefix || "/",
-      checked: one.prefix === prefix,
-      run: () => {
-        chosenJerry.value = one.prefix;
-      },
-    }));
-  return html`<div class="panel-bar row"><${MenuButton} label=${t("jerry.choose")} class="button" items=${items}>
-    <span class="turtle-node">${prefix || "/"}</span><${Icon} name="chevronDown" size=${12} /><//></div>`;
+    <${Troubles} troubles=${[jerryTrouble.value]} />`;
 }
 
 /** @param {Parts} props */
