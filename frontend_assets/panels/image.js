@@ -15,6 +15,7 @@ import { followTopics } from "../app/topics.js";
 import { saveAsFile } from "../lib/files.js";
 import { t } from "../lib/i18n.js";
 import { formatNumber } from "../lib/numbers.js";
+import { useSilence } from "../lib/silence.js";
 import { Icon, IconButton, MenuButton, ProgressBar, Switch } from "../lib/ui.js";
 import { ImageCanvas } from "./image-canvas.js";
 
@@ -51,6 +52,7 @@ function Watched({ topic, type, choices, chosen }) {
   const range = useSignal(/** @type {Range | null} */ (null));
   const canvas = useRef(/** @type {HTMLCanvasElement | null} */ (null));
   const watching = useRef(/** @type {ReturnType<typeof watch> | null} */ (null));
+  const silence = useSilence();
   const ask = (/** @type {PictureAsked} */ asked) => watching.current?.ask(asked);
   useEffect(() => {
     if (!canvas.current) return;
@@ -60,6 +62,7 @@ function Watched({ topic, type, choices, chosen }) {
         heard.value = told;
       },
       onPicture: (told) => {
+        if (told.painted !== pictured.value?.painted) silence.came();
         pictured.value = told;
       },
       onSaved: (file) => saveAsFile(`${topic.slice(1).replaceAll("/", "_")}.png`, file, file.type),
@@ -67,13 +70,15 @@ function Watched({ topic, type, choices, chosen }) {
     return watching.current.leave;
   }, []);
   const size = pictured.value?.size ?? null;
+  const isSilent = silence.silent_s > 0 && !heard.value?.latched;
+  const isStill = isSilent || heard.value?.state !== "hearing" || !laneOpen.value;
   const numbers = pictured.value?.numbers;
   return html`<${Bar} topic=${topic} choices=${choices} chosen=${chosen} isThere=${size !== null} ask=${ask} />
     ${numbers && html`<${RangeRow} numbers=${numbers} range=${range} ask=${ask} />`}
     <${ImageCanvas} canvas=${canvas} size=${size} label=${t("image.of", { topic })} ask=${ask} />
     ${
       size && pictured.value
-        ? html`<${Facts} pictured=${pictured.value} size=${size} isStill=${heard.value?.state !== "hearing" || !laneOpen.value} />`
+        ? html`<${Facts} pictured=${pictured.value} size=${size} isStill=${isStill} />`
         : html`<p class="image-said" role="status">${stateWords(heard.value, pictured.value)}</p>`
     }`;
 }
