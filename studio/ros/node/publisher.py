@@ -10,7 +10,6 @@ from studio.errors import DestroyedError
 from studio.ros.attachment import packed
 from studio.ros.node.codecs import check_kind, codec_of
 from studio.ros.qos import DEPTH_DEFAULT, DurabilityPolicy, HistoryPolicy, ReliabilityPolicy
-from studio.ros.tokens import EndpointKind
 from studio.ros.types.classes import definition_of
 from studio.ros.wire.door import declare_publisher
 
@@ -69,8 +68,12 @@ class Publisher:
             outgoing.put(payload, attachment=packed(number, time.time_ns(), self._gid))
 
     def get_subscription_count(self) -> int:
-        """Count who subscribes to the topic."""
-        return self.endpoint.graph().count(EndpointKind.SUBSCRIPTION, self.topic_name)
+        """Count who hears it: who subscribes to the topic with another type does not."""
+        own = self.endpoint.token
+        there = self.endpoint.graph().subscriptions(own.name)
+        return sum(
+            (one.type_name, one.type_hash) == (own.type_name, own.type_hash) for one in there
+        )
 
     def destroy(self) -> None:
         """Take it back; again is harmless."""
