@@ -120,23 +120,23 @@ def _middle(runs: list[Seen]) -> Seen:
 
 
 def _judge(middle: dict[str, Seen], cell: Cell) -> None:
-    ours = middle["studio"]
-    for name in ("foxglove", "naive"):
-        other = middle.get(name)
-        if other is None:
-            continue
-        if max(other.load, ours.load) > BUSY:
-            say(f"    against {name}: not measurable here")
-            continue
-        if cell.cpu_at_most:
-            what = f"{cell}: CPU over {name}"
-            judge(what, ours.cpu / other.cpu, at_most=cell.cpu_at_most, unit="times")
-        if cell.p50_at_most and name == "foxglove":
-            what = f"{cell}: p50 over {name}"
-            judge(what, ours.p50_ms / other.p50_ms, at_most=cell.p50_at_most, unit="times")
+    ours, naive, sdk = middle["studio"], middle["naive"], middle.get("foxglove")
+    say(f"    of the CPU of a plain loop: {ours.cpu / naive.cpu:.2f}")
+    if sdk is not None:
+        _judge_beside(ours, sdk, cell)
     if cell.over_empty:
         over = ours.cpu / middle["empty"].cpu
         judge(f"{cell}: CPU over an empty callback", over, at_most=OVER_EMPTY, unit="times")
+
+
+def _judge_beside(ours: Seen, sdk: Seen, cell: Cell) -> None:
+    if max(sdk.load, ours.load) > BUSY:
+        say(f"    {cell}: not measurable here")
+        return
+    if cell.cpu_at_most:
+        judge(f"{cell}: CPU", ours.cpu / sdk.cpu, at_most=cell.cpu_at_most, unit="times")
+    if cell.p50_at_most:
+        judge(f"{cell}: p50", ours.p50_ms / sdk.p50_ms, at_most=cell.p50_at_most, unit="times")
 
 
 def _watch(server: Server, cell: Cell) -> Seen:
