@@ -39,6 +39,13 @@ _MIDDLE_PIXEL = """canvas => {
   return [...copy.getImageData(0, 0, 1, 1).data];
 }"""
 
+_DROP = """([name, text]) => {
+  const held = new DataTransfer();
+  held.items.add(new File([text], name));
+  const options = { dataTransfer: held, bubbles: true, cancelable: true };
+  document.body.dispatchEvent(new DragEvent("drop", options));
+}"""
+
 
 def panel(tab: StudioPage, name: str) -> Locator:
     """Bring a panel to the front; what it shows."""
@@ -99,6 +106,26 @@ def give_a_type(tab: StudioPage) -> None:
     assert "RIHS01_" in types.inner_text()
 
 
+def use_a_dropped_type(tab: StudioPage) -> None:
+    """A file becomes a type that is published and echoed at once (T11)."""
+    tab.page.evaluate(_DROP, ["Level.msg", "float32 litres\n"])
+    types = panel(tab, "interfaces")
+    wait_until("a name is proposed", lambda: types.get_by_label("Name").count() == 1)
+    assert types.get_by_label("Name").input_value() == "my_interfaces/msg/Level"
+    types.get_by_role("button", name="Take it").click()
+    types.get_by_role("heading", name="my_interfaces/msg/Level").wait_for()
+    tab.page.evaluate(SHOW_PANEL, "publish")
+    out = tab.page.locator("section.deeds[aria-label='Publish']")
+    out.get_by_label("Topic", exact=True).fill("/tank")
+    out.get_by_label("Type of the messages").fill("my_interfaces/msg/Level")
+    out.get_by_role("button", name="Take", exact=True).click()
+    out.get_by_label("litres").fill("7.25")
+    out.get_by_role("button", name="Once a second").click()
+    topics = panel(tab, "topics")
+    topics.get_by_role("row", name="/tank").click()
+    topics.get_by_role("treeitem", name="litres 7.25").wait_for()
+
+
 def change_a_state(tab: StudioPage) -> None:
     arm = panel(tab, "lifecycle").get_by_role("region", name="/arm")
     arm.get_by_role("button", name="configure", exact=True).click()
@@ -156,6 +183,7 @@ def test_a_system_is_joined_read_drawn_and_given_a_type(browser: Browser, tmp_pa
             read_the_log(tab)
             see_who_speaks_with_whom(tab)
             give_a_type(tab)
+            use_a_dropped_type(tab)
             change_a_state(tab)
             see_pictures(tab)
             assert tab.errors == []
