@@ -57,7 +57,7 @@ function Run({ lesson }) {
   const view = demos.value.get(demo);
   const isStranger = elsewhere.value.includes(demo) && !isUnderWay(demo);
   return html`<li class="lesson-run"><div class="lesson-run-line">
-      <div class="lesson-run-names"><strong>${demo}</strong><span class="muted">${node}</span></div>
+      <div class="lesson-run-names"><strong>${demo}</strong><span class="muted" title=${node}>${node}</span></div>
       ${!isStranger && html`<${Buttons} demo=${demo} />`}</div>
     ${isStranger ? html`<p class="note">${t("lessons.elsewhere", { node })}</p>` : html`<${State} view=${view} />`}
     ${hasKeys && mayEdit.value && view?.state === "running" && html`<${Keys} demo=${demo} />`}</li>`;
