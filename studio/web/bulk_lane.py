@@ -103,6 +103,7 @@ class BulkAnswer(Response):
             self._lane.close_bulk(bulk)
         if connection.pending_bytes():
             connection.abort()  # who reads slowly would be waited for
+            await _left(receive)
         else:
             await send({"type": "http.response.body", "body": b"", "more_body": False})
 

@@ -129,6 +129,17 @@ def test_it_ends_with_its_data_lane(web: RunningWeb):
         assert list(frames(bulk)) == []
 
 
+def test_who_reads_slowly_is_not_waited_for_at_the_end(
+    web: RunningWeb, caplog: pytest.LogCaptureFixture
+):
+    with web.websocket("/data") as lane, bulk_lane(web, ask_key(lane)) as bulk:
+        flood(lane)
+        lane.close()
+        with pytest.raises(httpx2.TransportError):
+            list(frames(bulk))
+    assert caplog.messages == []
+
+
 def test_another_one_takes_its_place(web: RunningWeb):
     with (
         web.websocket("/data") as lane,
