@@ -46,22 +46,27 @@ import { numberAt, stepsOf, valueAt } from "./message-paths.js";
  * @typedef {Looked | Points | Pictured | SavedPicture | State | Need | TextAnswer | LaneState} ToPage
  */
 
+/** Of a type that is not known it is asked so often whether somebody told it since. */
+const ASK_AGAIN_MS = 2000;
 /** A sender's clock that jumps so far is set anew. */
 const JUMP_S = 0.5;
 
 /** How types are read, as far as the studio told them. */
 export class Types {
-  /** @param {(message: ToPage) => void} post */
-  constructor(post) {
+  /** @param {(message: ToPage) => void} post @param {() => number} now_ms */
+  constructor(post, now_ms = () => performance.now()) {
     this.post = post;
+    this.now_ms = now_ms;
     /** @type {Map<string, {read: ((cdr: Uint8Array) => any) | null, trouble: string} | null>} null: asked for */
     this.known = new Map();
+    /** When each was told. @type {Map<string, number>} */
+    this.told_ms = new Map();
   }
 
   /** @param {string} name @returns {{read: ((cdr: Uint8Array) => any) | null, trouble: string} | null} null: not yet */
   find(name) {
     const found = this.known.get(name);
-    if (found !== undefined) return found;
+    if (found !== undefined && !(found && this.isDoubtful(name, found))) return found;
     this.known.set(name, null);
     this.post({ kind: "need", typeName: name });
     return null;
@@ -69,12 +74,19 @@ export class Types {
 
   /** @param {string} name @param {readonly MessageView[] | null} messages @param {string} reason why there are none */
   learn(name, messages, reason) {
+    this.told_ms.set(name, this.now_ms());
     try {
       const read = messages && readerOf(messages, name);
       this.known.set(name, { read, trouble: reason });
     } catch (error) {
       this.known.set(name, { read: null, trouble: String(/** @type {Error} */ (error).message) });
     }
+  }
+
+  /** @param {string} name @param {{read: unknown}} told @returns {boolean} it was not known, and may be now */
+  isDoubtful(name, { read }) {
+    const since_ms = this.now_ms() - (this.told_ms.get(name) ?? 0);
+    return !read && since_ms > ASK_AGAIN_MS;
   }
 
   /** Ask again for those that were not known: somebody may have told them since. */

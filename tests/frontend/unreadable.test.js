@@ -41,15 +41,15 @@ const NUMBER_MESSAGE = {
 /** @param {Uint8Array} cdr */
 const came = (cdr) => ({ channel: 1, cdr, received_s: 1, sent_s: 0, lost: 0 });
 
-/** @param {string} type @param {readonly MessageView[] | null} messages @param {string} [reason] */
-function looking(type, messages, reason = "") {
+/** @param {string} type @param {readonly MessageView[]} messages */
+function looking(type, messages) {
   /** @type {any[]} */
   const told = [];
   const types = new Types((message) => told.push(message));
-  types.learn(type, messages, reason);
+  types.learn(type, messages, "");
   const look = new Look(WISH, types, (message) => told.push(message));
   look.typeName = type;
-  return { look, told, types };
+  return { look, told };
 }
 
 for (const [n, { type, little }] of GOLDEN.cases.entries())
@@ -85,14 +85,28 @@ test("what cannot be read among what can leaves a gap in its line, and says why"
   assert.equal(told[1].trouble, "");
 });
 
-test("a type that nobody tells is shown as bytes with the reason, and read once somebody told it", () => {
-  const { look, told, types } = looking(NUMBER, null, "no known package defines it.");
+test("a type that nobody tells is shown as bytes with the reason, asked for now and then, and read once it is told", () => {
+  let now_ms = 0;
+  /** @type {any[]} */
+  const told = [];
+  const post = (/** @type {any} */ message) => told.push(message);
+  const types = new Types(post, () => now_ms);
+  const look = new Look(WISH, types, post);
+  look.typeName = NUMBER;
   const cdr = new Uint8Array(12);
   cdr[1] = 1;
   look.take([came(cdr)]);
-  assert.equal(told.at(-1).trouble, "no known package defines it.");
-  assert.match(told.at(-1).hex, /^0000 {2}00 01 /);
+  types.learn(NUMBER, null, "no known package defines it.");
+  look.take([came(cdr)]);
+  look.take([came(cdr)]);
+  now_ms = 2001;
+  look.take([came(cdr)]);
   types.learn(NUMBER, [NUMBER_MESSAGE], "");
   look.take([came(cdr)]);
-  assert.deepEqual(told.at(-1).value, { data: 0 });
+  const need = { kind: "need", typeName: NUMBER };
+  assert.deepEqual([told[0], told[3]], [need, need]);
+  assert.equal(told[1].trouble, "no known package defines it.");
+  assert.match(told[2].hex, /^0000 {2}00 01 /);
+  assert.deepEqual(told[4].value, { data: 0 });
+  assert.equal(told.length, 5);
 });
