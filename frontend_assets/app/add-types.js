@@ -3,7 +3,7 @@
 /** @import { DroppedFile } from "../lib/dropped.js" */
 
 import { t } from "../lib/i18n.js";
-import { typesAmong } from "../lib/interface-texts.js";
+import { definesType, kindOf, typesAmong } from "../lib/interface-texts.js";
 import { commandById } from "./commands.js";
 import { askInterfaces, draft, showInterface } from "./state/interfaces.js";
 import { notify } from "./state/view.js";
@@ -30,6 +30,14 @@ export async function addTypes(texts) {
   } catch (error) {
     return error instanceof RefusedError ? error.message : "…";
   }
+}
+
+/** @param {string} text that was pasted @returns {boolean} it defines a type, whose name is to be given */
+export function takePastedType(text) {
+  if (!definesType(text)) return false;
+  commandById("panel.interfaces")?.run();
+  draft.value = { name: `my_interfaces/${kindOf(text)}/`, text };
+  return true;
 }
 
 /** @param {readonly DroppedFile[]} files @returns {Promise<boolean>} they are types, not a robot */

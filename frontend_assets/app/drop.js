@@ -1,4 +1,4 @@
-/** Files dropped anywhere on the page, and texts pasted outside of a text box, open as robots. */
+/** Files dropped anywhere on the page, and texts pasted outside of a text box, open as robots, or as types of ROS. */
 
 import { effect, html } from "vendor/preact.js";
 import { chosenFiles, droppedFiles, holdsFiles } from "../lib/dropped.js";
@@ -6,7 +6,7 @@ import { t } from "../lib/i18n.js";
 import { takesText } from "../lib/keys.js";
 import { Icon, ProgressBar } from "../lib/ui.js";
 import { ask, goTo } from "./actions.js";
-import { takeDroppedTypes } from "./add-types.js";
+import { takeDroppedTypes, takePastedType } from "./add-types.js";
 import { mayEdit } from "./state/connection.js";
 import { dropping, sending } from "./state/sending.js";
 import { dialog, notify } from "./state/view.js";
@@ -73,7 +73,7 @@ async function onPaste(event) {
   if (files.length === 0 && text === "") return;
   event.preventDefault();
   if (files.length > 0) await takeFiles(chosenFiles(files));
-  else await openText(text);
+  else if (!takePastedType(text)) await openText(text);
 }
 
 /** @param {string} text @returns {Promise<boolean>} it is open, as an untitled robot */

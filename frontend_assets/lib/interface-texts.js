@@ -9,6 +9,11 @@ const FILE =
   /(?:^|\/)(?:(?<folder>[^/]+)\/)?(?:msg|srv|action)\/(?<name>[^/]+)\.(?<kind>msg|srv|action)$/;
 const LOOSE = /(?:^|\/)(?<name>[^/]+)\.(?<kind>msg|srv|action)$/;
 const ROBOT = /\.(xacro|urdf|sdf|zip|rviz)$/i;
+/** A line of a text, and one that stands nowhere else. */
+const FIELD =
+  /^[A-Za-z]\w*(\/[A-Za-z]\w*){0,2}(<=\d+)?(\[(<=)?\d*\])?\s+[A-Za-z]\w*(\s*=.+|\s+(-?[\d.][\w.+-]*|"[^"]*"|'[^']*'|\[.*\]|true|false))?$/i;
+const SURE =
+  /^(bool|byte|char|float32|float64|u?int(8|16|32|64)|w?string|[a-z]\w*(\/msg)?\/[A-Z]\w*)(<=\d+)?(\[(<=)?\d*\])?\s+[A-Za-z]\w*/;
 const NAME = /^(?<package>[a-z][a-z0-9_]*)\/(?<kind>msg|srv|action)\/(?<type>[A-Z][A-Za-z0-9]*)$/;
 
 /** @param {string} name @returns {{package: string, kind: Kind, type: string} | null} parts of a full name */
@@ -58,6 +63,13 @@ export function valueText(value) {
 export function kindOf(text) {
   const rules = text.split("\n").filter((line) => /^---\s*$/.test(line)).length;
   return KINDS[Math.min(rules, 2)] ?? "msg";
+}
+
+/** @param {string} text @returns {boolean} it defines a type: each of its lines does, and one names what no other text does */
+export function definesType(text) {
+  const lines = text.split("\n").map((line) => line.replace(/#.*/, "").trim());
+  const said = lines.filter((line) => line !== "" && line !== "---");
+  return said.every((line) => FIELD.test(line)) && said.some((line) => SURE.test(line));
 }
 
 /**

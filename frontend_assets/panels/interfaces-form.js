@@ -1,6 +1,6 @@
 /** A type of one's own as text: named, checked by the studio, and usable at once. */
 
-import { html, useSignal } from "vendor/preact.js";
+import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { addTypes } from "../app/add-types.js";
 import { mayEdit } from "../app/state/connection.js";
 import { draft } from "../app/state/interfaces.js";
@@ -10,6 +10,7 @@ import { kindOf, nameParts } from "../lib/interface-texts.js";
 const EXAMPLE = "string robot_name\nfloat32 battery_percent\n";
 
 export function InterfaceForm() {
+  const box = useRef(/** @type {HTMLInputElement | null} */ (null));
   const name = useSignal(draft.value?.name ?? "");
   const text = useSignal(draft.value?.text ?? "");
   const busy = useSignal(false);
@@ -17,6 +18,7 @@ export function InterfaceForm() {
   const close = () => {
     draft.value = null;
   };
+  useEffect(() => box.current?.focus(), []);
   /** @param {Event} event */
   const add = async (event) => {
     event.preventDefault();
@@ -30,7 +32,7 @@ export function InterfaceForm() {
   const isOdd = parts !== null && text.value !== "" && parts.kind !== kind;
   return html`<form class="interfaces-form" aria-label=${t("interfaces.add")} onSubmit=${add}>
     <label class="field"><span>${t("interfaces.name")}</span>
-      <input type="text" class="box wide" maxlength="300" spellcheck=${false} autocapitalize="off" value=${name.value} onInput=${(
+      <input ref=${box} type="text" class="box wide" maxlength="300" spellcheck=${false} autocapitalize="off" value=${name.value} onInput=${(
         /** @type {any} */ event,
       ) => {
         name.value = event.currentTarget.value;

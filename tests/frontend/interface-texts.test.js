@@ -2,6 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import {
   byPackage,
+  definesType,
   fieldType,
   foundNames,
   kindOf,
@@ -40,6 +41,25 @@ test("what a text defines is told by its lines of dashes", () => {
   assert.equal(kindOf("int32 x\n"), "msg");
   assert.equal(kindOf("int32 x\n---\nint32 y"), "srv");
   assert.equal(kindOf("---\n---\n"), "action");
+});
+
+test("a pasted text defines a type where each of its lines does", () => {
+  for (const text of [
+    "# How it is.\nstring robot_name\nfloat32 battery_percent # of all\n",
+    "int64 a\nint64 b\n---\nint64 sum\n",
+    "uint8 OK=0\nstring<=10[<=3] names\ngeometry_msgs/Pose[] poses\nfloat64 x 1.5",
+    "std_msgs/msg/Header header\nTemperature warm",
+  ])
+    assert.ok(definesType(text), text);
+  for (const text of [
+    "",
+    "hello world",
+    "The robot moves",
+    "<robot name='x'/>",
+    "ros2 topic pub /cmd_vel geometry_msgs/msg/Twist",
+    "int32 x\nand some more, in words.",
+  ])
+    assert.ok(!definesType(text), text);
 });
 
 test("a full name has three parts, each as ROS wants it", () => {

@@ -31,7 +31,10 @@ export async function showInterface(name) {
   if (name === "") return;
   const told = await askOrKeepWhy({ type: "get_interface", name }, interfaceRefused);
   // Another one may be looked at since.
-  if (told?.type === "interface" && told.name === interfaceName.value) interfaceShown.value = told;
+  if (told?.type !== "interface" || told.name !== interfaceName.value) return;
+  interfaceShown.value = told;
+  // A node may just have told it.
+  if (interfaces.value && !interfaces.value.names.includes(name)) await askInterfaces();
 }
 
 // A studio that was started anew has forgotten what was added.
