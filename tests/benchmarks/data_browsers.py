@@ -66,6 +66,8 @@ class Counted:
     """From when it was sent to its last byte."""
     load: float = 0.0
     """What this process took, in cores."""
+    hung_up: int = 0
+    """On how many browsers the server hung up."""
 
 
 class Head(NamedTuple):
@@ -165,11 +167,14 @@ class Browser:
         for one in self.sockets:
             one.setblocking(False)
 
-    def read(self, one: socket.socket, buffer: memoryview) -> None:
-        """Take in what waits, as much as there is room for."""
-        length = one.recv_into(buffer)
-        assert length, "the server hung up"
+    def read(self, one: socket.socket, buffer: memoryview) -> bool:
+        """Take in what waits, as much as there is room for; False when the server hung up."""
+        try:
+            length = one.recv_into(buffer)
+        except ConnectionResetError:
+            return False
         self.sockets[one].feed(buffer[:length])
+        return length > 0
 
     def _take_bulk(self, opcode: int, body: memoryview | bytearray) -> None:
         self._take_studio(opcode, body[_BULK_HEAD:])
@@ -255,7 +260,9 @@ def read_all(job: Job) -> None:
         say("ready")
         while not window.is_over:
             for key, _ in selector.select():
-                key.data(buffer)
+                if not key.data(buffer):
+                    selector.unregister(key.fileobj)
+                    counted.hung_up += 1
     say(json.dumps(asdict(counted)))
 
 
@@ -267,7 +274,7 @@ class _Window:
         self._began = (0.0, 0.0)
         self.is_over = False
 
-    def hear(self, _: memoryview) -> None:
+    def hear(self, _: memoryview) -> bool:
         """Take an order."""
         now = (time.perf_counter(), time.process_time())
         if sys.stdin.readline() == "begin\n":
@@ -280,6 +287,7 @@ class _Window:
             self._counted.load = processor_s / took_s
             self._counted.messages = [browser.count for browser in self._browsers]
             self.is_over = True
+        return True
 
 
 def sip(job: Job) -> None:
