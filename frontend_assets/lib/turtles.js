@@ -37,8 +37,13 @@ export function groundsOf(topics, services) {
   for (const topic of topics)
     if (topic.publishers > 0 && topic.types.some((type) => POSE.test(type)))
       addTurtle(at(parentOf(pathOf(topic.name))).turtles, topic.name, byName);
+  for (const { turtles } of found.values()) turtles.sort(byNumber);
   return [...found.values()].sort((a, b) => (a.prefix < b.prefix ? -1 : 1));
 }
+
+const { compare } = new Intl.Collator("en", { numeric: true });
+/** `turtle10` comes after `turtle9`. @param {Turtle} a @param {Turtle} b */
+const byNumber = (a, b) => compare(a.name, b.name);
 
 /** @param {Turtle[]} turtles @param {string} pose @param {ReadonlyMap<string, TopicRow>} topics */
 function addTurtle(turtles, pose, topics) {

@@ -87,7 +87,7 @@ function useSquare(frame) {
 /** @param {World} world @param {number} size_px @param {string} chosen @param {{current: Drawn | null}} moved @returns {{current: HTMLCanvasElement | null}} on which the world is drawn whenever it looks otherwise */
 function useDrawing(world, size_px, chosen, moved) {
   const canvas = useRef(/** @type {HTMLCanvasElement | null} */ (null));
-  useEffect(() => {
+  useLayoutEffect(() => {
     const element = canvas.current;
     const context = element?.getContext("2d");
     if (!element || !context || size_px <= 0) return undefined;

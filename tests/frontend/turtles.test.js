@@ -67,6 +67,12 @@ test("of more turtles than a page can hear the first are taken", () => {
   assert.equal(groundsOf(many, [])[0]?.turtles.length, 60);
 });
 
+test("turtles are listed as they are counted", () => {
+  const names = [10, 9, 1].map((n) => topic(`/turtle${n}/pose`, "turtlesim/msg/Pose"));
+  const listed = groundsOf(names, [])[0]?.turtles.map(({ name }) => name);
+  assert.deepEqual(listed, ["turtle1", "turtle9", "turtle10"]);
+});
+
 test("a service is called with the type that it has", () => {
   assert.equal(serviceNamed(SERVICES, "/left/spawn")?.type, "turtlesim_msgs/srv/Spawn");
   assert.equal(serviceNamed(SERVICES, "/right/spawn"), null);

@@ -86,17 +86,22 @@ PANELS: dict[str, tuple[str, Callable[[Locator], None]]] = {
 }
 
 
+def take_large(page: Page, camera: Camera, name: str, panel: Locator, highest_px: int) -> None:
+    """A panel that has the whole window for as long as its picture is taken."""
+    page.evaluate(_RUN, "maximize")
+    box = panel.bounding_box()
+    assert box is not None
+    camera.take(name, box, highest_px=highest_px)
+    page.evaluate(_RUN, "maximize")
+
+
 def take(page: Page, camera: Camera) -> None:
     page.evaluate(_CONNECT)
     for name, (title, do) in PANELS.items():
         page.evaluate(SHOW_PANEL, name)
         panel = page.locator(f"section.deeds[aria-label='{title}']")
         do(panel)
-        page.evaluate(_RUN, "maximize")
-        box = panel.bounding_box()
-        assert box is not None
-        camera.take(name, box, highest_px=_HIGHEST_PX)
-        page.evaluate(_RUN, "maximize")
+        take_large(page, camera, name, panel, _HIGHEST_PX)
 
 
 def main() -> None:

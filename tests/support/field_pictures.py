@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tests.support.browser import open_browser
+from tests.support.deed_pictures import take_large
 from tests.support.demos import running_demo
 from tests.support.help_pictures import Camera
 from tests.support.panel_pictures import SHOW_PANEL, THEMES, tab_of
@@ -23,10 +24,6 @@ WINDOW = (860, 640)
 _HIGHEST_PX = 560
 _TURN_MS = 2600
 _STEP_MS = 1500
-_RUN = """async (id) => {
-  const script = document.querySelector('script[type="module"]').src;
-  (await import(new URL("commands.js", script))).commandById(id).run();
-}"""
 
 
 def draw_lines(panel: Locator) -> None:
@@ -65,13 +62,9 @@ PANELS: dict[str, Callable[[Locator], None]] = {"turtlesim": draw_lines, "jerry"
 def take(page: Page, camera: Camera) -> None:
     for name, do in PANELS.items():
         page.evaluate(SHOW_PANEL, name)
-        page.evaluate(_RUN, "maximize")
         panel = page.locator(f"section.{name}")
         do(panel)
-        box = panel.bounding_box()
-        assert box is not None
-        camera.take(name, box, highest_px=_HIGHEST_PX)
-        page.evaluate(_RUN, "maximize")
+        take_large(page, camera, name, panel, _HIGHEST_PX)
 
 
 def main() -> None:
