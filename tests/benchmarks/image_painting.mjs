@@ -28,11 +28,11 @@ function measured(encoding, pixel) {
   const step = SIZE.width * pixel;
   const data = Uint8Array.from({ length: step * SIZE.height }, (_, n) => (n * 7) & 127);
   const image = { ...SIZE, encoding, is_bigendian: 0, step, data };
-  return SIGHTS.map((sight) => paintingOf(image, { ...sight, ratio: 1, view: null }));
+  return SIGHTS.map((sight) => paintingOf(image, sight));
 }
 
 function paintingOf(image, sight) {
-  const window = windowOf(image, sight);
+  const window = windowOf(image, { x: 0, y: 0, scale: sight.width / image.width }, sight);
   const packed = new Uint32Array(window.columns.length * window.rows.length);
   const times = Array.from({ length: RUNS }, () => {
     const began = performance.now();

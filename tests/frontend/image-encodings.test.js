@@ -95,7 +95,7 @@ for (const encoding of Object.keys(ENCODINGS))
       const where = `${width} x ${height}, step ${step}, ${is_bigendian ? "big" : "little"} end first`;
       const whole = wholeOf(image);
       assertNear(painted(image, whole), expected(image, whole), where);
-      const zoomed = windowOf(image, { width: 11, height: 4, ratio: 1, view: null });
+      const zoomed = windowOf(image, { x: -1, y: 0.4, scale: 1.7 }, { width: 11, height: 4 });
       assertNear(painted(image, zoomed), expected(image, zoomed), `zoomed ${where}`);
     }
   });

@@ -2,6 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { sizeOfFile } from "../../frontend_assets/lib/image-file.js";
 import { ImageError, inkOf } from "../../frontend_assets/lib/image-pixels.js";
+import { average } from "../../frontend_assets/lib/image-smoothing.js";
 import {
   CLOSEST,
   filling,
@@ -9,7 +10,7 @@ import {
   rateOf,
   ratioFor,
 } from "../../frontend_assets/lib/image-view.js";
-import { wholeOf, windowOf } from "../../frontend_assets/lib/image-window.js";
+import { viewIn, wholeOf, windowOf } from "../../frontend_assets/lib/image-window.js";
 import { zoomed } from "../../frontend_assets/lib/pan-zoom.js";
 import { PNG, raw } from "./support/images.js";
 
@@ -193,20 +194,26 @@ test("a canvas has the pixels of the screen, up to as many as a large one has", 
 test("each pixel of the screen shows the one of the picture that is under its middle", () => {
   const picture = { width: 4, height: 2 };
   const sight = { width: 8, height: 8, ratio: 1, view: null };
-  const seen = windowOf(picture, sight);
+  const seen = windowOf(picture, viewIn(picture, sight), sight);
   assert.deepEqual(
     [seen.left, seen.top, [...seen.columns], [...seen.rows]],
     [0, 2, [0, 0, 1, 1, 2, 2, 3, 3], [0, 0, 1, 1]],
   );
-  assert.deepEqual([...windowOf(picture, { ...sight, width: 2 }).columns], [1, 3]);
-  const fine = windowOf(picture, { ...sight, width: 16, height: 16, ratio: 2 });
-  assert.deepEqual([fine.columns.length, fine.top], [16, 4]);
+  const small = { ...sight, width: 2 };
+  assert.deepEqual([...windowOf(picture, viewIn(picture, small), small).columns], [1, 3]);
+  const fine = { ...sight, width: 16, height: 16, ratio: 2 };
+  assert.deepEqual(viewIn(picture, fine), { x: 0, y: 4, scale: 4 });
+});
+
+test("a picture that a person moved lies there on a screen of any fineness", () => {
+  const sight = { width: 20, height: 20, ratio: 2, view: { x: 3, y: -1, scale: 0.5 } };
+  assert.deepEqual(viewIn({ width: 9, height: 9 }, sight), { x: 6, y: -2, scale: 1 });
 });
 
 test("of a picture that was moved, what is outside of the frame is not painted", () => {
   const picture = { width: 100, height: 100 };
   const at = (/** @type {number} */ x, /** @type {number} */ scale) =>
-    windowOf(picture, { width: 10, height: 10, ratio: 1, view: { x, y: 0, scale } });
+    windowOf(picture, { x, y: 0, scale }, { width: 10, height: 10 });
   assert.deepEqual([...at(-30, 1).columns], [30, 31, 32, 33, 34, 35, 36, 37, 38, 39]);
   assert.deepEqual([at(7, 1).left, ...at(7, 1).columns], [7, 0, 1, 2]);
   assert.deepEqual([...at(-6390, 64).columns], new Array(10).fill(99));
@@ -215,11 +222,29 @@ test("of a picture that was moved, what is outside of the frame is not painted",
 });
 
 test("what is thinner than a pixel of the screen is seen nevertheless", () => {
-  const seen = windowOf(
-    { width: 16_384, height: 1 },
-    { width: 100, height: 100, ratio: 1, view: null },
-  );
+  const picture = { width: 16_384, height: 1 };
+  const sight = { width: 100, height: 100, ratio: 1, view: null };
+  const seen = windowOf(picture, viewIn(picture, sight), sight);
   assert.deepEqual([seen.columns.length, [...seen.rows]], [100, [0]]);
+});
+
+test("of a picture that is made smaller, each pixel of the screen is the middle of four", () => {
+  const picture = { width: 12, height: 4 };
+  const view = { x: 1, y: 0, scale: 0.25 };
+  const canvas = { width: 9, height: 9 };
+  const seen = windowOf(picture, view, canvas, 2);
+  assert.deepEqual(
+    [seen.left, [...seen.columns], [...seen.rows]],
+    [1, [1, 3, 5, 7, 9, 11], [1, 3]],
+  );
+  const bytes = (/** @type {number[]} */ ...each) => new Uint32Array(new Uint8Array(each).buffer);
+  const fine = bytes(
+    ...[0, 10, 255, 255, 1, 20, 255, 255, 200, 0, 0, 255, 200, 0, 0, 255],
+    ...[2, 30, 255, 255, 4, 41, 255, 255, 100, 0, 0, 255, 100, 0, 0, 255],
+  );
+  const packed = new Uint32Array(2);
+  average(fine, packed, 2);
+  assert.deepEqual([...new Uint8Array(packed.buffer)], [2, 25, 255, 255, 150, 0, 0, 255]);
 });
 
 test("a rate is told from two moments on", () => {

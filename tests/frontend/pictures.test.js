@@ -33,8 +33,8 @@ class Looked {
     this.asked = [];
     const post = (/** @type {any} */ message) =>
       message.kind === "picture" && this.told.push(message);
-    const types = new Types(post);
-    types.known.set(typeName, { read, trouble: "" });
+    const known = () => ({ read, trouble: "" });
+    const types = Object.assign(new Types(post), { find: known });
     const easel = /** @type {Easel} */ (
       /** @type {any} */ ({
         paint: (/** @type {any} */ { ink }) => this.painted.push(ink.at(0, 0)),
