@@ -8,7 +8,7 @@ import { effect, signal } from "vendor/preact.js";
 import { typeOf, whenTypesChange } from "./message-types.js";
 import { connection } from "./state/connection.js";
 
-/** @typedef {{reliable?: boolean | null, latched?: boolean | null, depth?: number | null, typeName?: string, mostHz?: number}} Ways null: as fits its publishers */
+/** @typedef {{reliable?: boolean | null, latched?: boolean | null, depth?: number | null, typeName?: string, mostHz?: number, pace?: "tick" | "at_once"}} Ways null: as fits its publishers; at once: between two ticks, for what somebody waits for */
 /** @typedef {{onState: (heard: Heard) => void, onMessage: (message: Looked) => void}} Onlooker */
 /** @typedef {{onState: (heard: Heard) => void, onPoints: (points: Points) => void}} Tracer */
 /** @typedef {{onState: (heard: Heard) => void, onPicture: (pictured: Pictured) => void, onSaved: (file: Blob) => void}} Watcher */
@@ -85,7 +85,7 @@ async function tell(typeName) {
 function wishFor(
   topic,
   mode,
-  { reliable = null, latched = null, depth = null, typeName = "", mostHz = LOOK_HZ },
+  { reliable = null, latched = null, depth = null, typeName = "", mostHz = LOOK_HZ, pace = "tick" },
 ) {
   lastNumber += 1;
   return {
@@ -94,6 +94,7 @@ function wishFor(
     type_name: typeName,
     mode,
     most_hz: mostHz,
+    pace,
     reliable,
     latched,
     depth,

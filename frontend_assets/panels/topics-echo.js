@@ -32,7 +32,7 @@ export function TopicEcho({ topic, row }) {
   useEffect(() => {
     const made = lookAt(
       topic,
-      { reliable, latched },
+      { reliable, latched, pace: "at_once" },
       {
         onState: (told) => {
           heard.value = told;

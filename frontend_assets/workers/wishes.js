@@ -16,6 +16,7 @@ import { numberAt, stepsOf, valueAt } from "./message-paths.js";
  * @property {string} type_name
  * @property {"every" | "newest"} mode
  * @property {number} most_hz
+ * @property {"tick" | "at_once"} [pace]
  * @property {boolean | null} reliable
  * @property {boolean | null} latched
  * @property {number | null} depth
