@@ -2,17 +2,10 @@
 
 /** @import { LessonView } from "../types/wire.d.ts" */
 
-import { html, useEffect, useLayoutEffect, useRef } from "vendor/preact.js";
+import { html, useEffect, useLayoutEffect, useRef, useSignal } from "vendor/preact.js";
 import { drawnBlock } from "../app/help-drawing.js";
 import { followLink } from "../app/lessons.js";
-import {
-  chosenLesson,
-  demos,
-  lessonTexts,
-  output,
-  shownOutput,
-  showOutput,
-} from "../app/state/lessons.js";
+import { chosenLesson, demos, lessonTexts, output, showOutput } from "../app/state/lessons.js";
 import { t } from "../lib/i18n.js";
 import { IconButton } from "../lib/ui.js";
 import { LessonRuns } from "./lessons-runs.js";
@@ -26,10 +19,6 @@ export function LessonPage({ lesson, all }) {
   const text = lessonTexts.value.get(demo);
   const needed = (text?.needs ?? []).flatMap((name) => all.find((one) => one.demo === name) ?? []);
   const parts = [...needed, lesson];
-  useEffect(() => {
-    showOutput(demo);
-    return () => showOutput("");
-  }, [demo]);
   const close = () => {
     chosenLesson.value = "";
   };
@@ -41,19 +30,25 @@ export function LessonPage({ lesson, all }) {
       ${text?.blocks.length === 0 && html`<p class="note padded">${t("lessons.lost")}</p>`}
       <article class="lesson-text">${text?.blocks.map((block) => drawnBlock(block, followLink))}</article>
     </div>
-    <${Output} parts=${parts} />
+    <${Output} own=${demo} parts=${parts} />
   </div>`;
 }
 
-/** What one of them printed. @param {{parts: readonly LessonView[]}} props */
-function Output({ parts }) {
+/** What one of them printed: that of the lesson itself, until another is chosen. @param {{own: string, parts: readonly LessonView[]}} props */
+function Output({ own, parts }) {
+  const chosen = useSignal("");
   const list = useRef(/** @type {HTMLElement | null} */ (null));
   const follows = useRef(true);
   const { lines } = output.value;
   useLayoutEffect(() => {
     if (follows.current) list.current?.scrollTo({ top: list.current.scrollHeight });
   }, [lines]);
-  const started = parts.filter(({ demo }) => demos.value.has(demo));
+  const started = parts.map(({ demo }) => demo).filter((demo) => demos.value.has(demo));
+  const shown = [chosen.value, own].find((demo) => started.includes(demo)) ?? started[0] ?? "";
+  useEffect(() => {
+    showOutput(shown);
+    return () => showOutput("");
+  }, [shown]);
   if (started.length === 0) return null;
   const onScroll = () => {
     const { scrollHeight = 0, scrollTop = 0, clientHeight = 0 } = list.current ?? {};
@@ -64,8 +59,10 @@ function Output({ parts }) {
       ${
         started.length > 1 &&
         started.map(
-          ({ demo }) =>
-            html`<button key=${demo} type="button" class="text-button" aria-pressed=${shownOutput.value === demo} onClick=${() => showOutput(demo)}>${demo}</button>`,
+          (demo) =>
+            html`<button key=${demo} type="button" class="text-button" aria-pressed=${shown === demo} onClick=${() => {
+              chosen.value = demo;
+            }}>${demo}</button>`,
         )
       }</header>
     <pre ref=${list} class="scroll" tabindex="0" role="log" aria-live="off" onScroll=${onScroll}>${lines.join("\n") || t("lessons.output.none")}</pre>

@@ -2,7 +2,7 @@
 
 /** @import { LessonView } from "../types/wire.d.ts" */
 
-import { html, useEffect, useSignal } from "vendor/preact.js";
+import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { fetchLessons, stopAllDemos } from "../app/lessons.js";
 import { useLooking } from "../app/looking.js";
 import { Refusal } from "../app/refusal.js";
@@ -44,7 +44,17 @@ export function LessonsPanel() {
 /** @param {{all: readonly LessonView[]}} props the list, and beside or in place of it a page */
 function Parts({ all }) {
   const read = all.find(({ demo }) => demo === chosenLesson.value);
-  return html`<div class=${`deeds-parts ${read ? "chosen" : ""}`}>
+  const parts = useRef(/** @type {HTMLElement | null} */ (null));
+  const before = useRef(read);
+  useEffect(() => {
+    const last = before.current;
+    before.current = read;
+    // Where the page takes the place of the list, what had the focus is hidden: it goes on with what came.
+    if (last === read || (document.activeElement ?? document.body) !== document.body) return;
+    const next = read ? ".lesson-scroll" : `[data-demo="${last?.demo}"]`;
+    /** @type {HTMLElement | null | undefined} */ (parts.current?.querySelector(next))?.focus();
+  }, [read]);
+  return html`<div ref=${parts} class=${`deeds-parts ${read ? "chosen" : ""}`}>
     <${List} all=${all} />${read && html`<${LessonPage} key=${read.demo} lesson=${read} all=${all} />`}
   </div>`;
 }
@@ -85,7 +95,7 @@ function Row({ demo }) {
   const choose = () => {
     chosenLesson.value = demo;
   };
-  return html`<li><button type="button" class="offer" aria-pressed=${chosenLesson.value === demo} onClick=${choose}>
+  return html`<li><button type="button" class="offer" data-demo=${demo} aria-pressed=${chosenLesson.value === demo} onClick=${choose}>
     <span class="lessons-title">${lessonTexts.value.get(demo)?.title || demo}</span>
     ${runs && html`<span class=${`lessons-dot ${demos.value.get(demo)?.state ?? ""}`} role="img" aria-label=${t("lessons.runs")} title=${t("lessons.runs")}></span>`}
     <span class="offer-type">${demo}</span></button></li>`;

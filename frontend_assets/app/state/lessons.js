@@ -25,10 +25,11 @@ export const lessonsRefused = signal("");
 export const chosenLesson = remembered("lessons.chosen", "");
 /** The texts by demo, in the language of the page. @type {Signal<ReadonlyMap<string, Lesson & {text: string}>>} */
 export const lessonTexts = signal(new Map());
-/** The demo whose output is shown; empty: none is. */
-export const shownOutput = signal("");
-/** What it printed. @type {Signal<Pick<DemoOutput, "run" | "lines" | "last">>} */
+/** What the demo that is looked at printed. @type {Signal<Pick<DemoOutput, "run" | "lines" | "last">>} */
 export const output = signal({ run: 0, lines: [], last: 0 });
+
+/** The demo whose output is asked for; empty: none is. */
+let heard = "";
 
 const UNDER_WAY = ["starting", "running", "stopping"];
 /** @param {string} demo @returns {boolean} it was started from a page, and has not ended */
@@ -54,20 +55,20 @@ export async function askLessons() {
 }
 
 async function askOutput() {
-  const demo = shownOutput.peek();
+  const demo = heard;
   if (!demos.peek().has(demo)) return;
   const { run, last: after, lines } = output.peek();
   const told = await askOrKeepWhy({ type: "get_demo_output", demo, run, after }, lessonsRefused);
-  if (told?.type !== "demo_output" || shownOutput.peek() !== demo) return;
+  if (told?.type !== "demo_output" || heard !== demo) return;
   const before = told.run === run ? lines : [];
   if (told.run === run && told.lines.length === 0) return;
   output.value = { ...told, lines: [...before, ...told.lines].slice(-LINES_MAX) };
 }
 
-/** Show what a demo prints. @param {string} demo empty: of none */
+/** Have what a demo prints be told. @param {string} demo empty: of none */
 export function showOutput(demo) {
-  if (shownOutput.peek() === demo) return;
-  shownOutput.value = demo;
+  if (heard === demo) return;
+  heard = demo;
   output.value = { run: 0, lines: [], last: 0 };
 }
 

@@ -38,6 +38,7 @@ class LessonDesk:
         self._runs: dict[str, DemoRun] = {}
         """The last run of each demo."""
         self._numbers = itertools.count(1)
+        self._sessions = _Sessions()
         self._closed = False
 
     def lessons(self, command: GetLessons) -> Lessons:
@@ -136,7 +137,7 @@ class LessonDesk:
     async def _look(self) -> tuple[str, ...]:
         """See whose nodes are there; gives the demos that others started."""
         link = self._wire.current
-        there = await asyncio.to_thread(_sessions_by_node, link) if link else {}
+        there = await self._sessions.by_node(link) if link else {}
         for run in self._runs.values():
             run.see(there.get(run.lesson.node, frozenset()))
         return tuple(demo for demo in LESSONS if self._strangers(demo, there))
@@ -153,8 +154,24 @@ def _lesson(name: str) -> Lesson:
     return found
 
 
+class _Sessions:
+    """Sessions that nodes are of, by their full names; looked up anew when the graph changed."""
+
+    def __init__(self) -> None:
+        self._of: tuple[str, int] | None = None
+        self._by_node: dict[str, frozenset[str]] = {}
+
+    async def by_node(self, link: WireLink) -> dict[str, frozenset[str]]:
+        """Tell them for a connection."""
+        now = link.zid, link.graph.version
+        if now != self._of:
+            # Of thousands of nodes it takes its time.
+            self._by_node = await asyncio.to_thread(_sessions_by_node, link)
+            self._of = now
+        return self._by_node
+
+
 def _sessions_by_node(link: WireLink) -> dict[str, frozenset[str]]:
-    """Sessions that nodes are of, by their full names; of thousands it takes its time."""
     found: dict[str, set[str]] = {}
     for node in link.graph.nodes():
         found.setdefault(node.path, set()).add(node.zid)
