@@ -13,7 +13,7 @@ import { READABLE_NODES } from "../lib/graph-groups.js";
 import { t } from "../lib/i18n.js";
 import { drawnGraph, USUAL } from "../lib/node-graph.js";
 import { remembered } from "../lib/remembered.js";
-import { EmptyState, Icon, SearchBox } from "../lib/ui.js";
+import { EmptyState, Icon, ProgressBar, SearchBox } from "../lib/ui.js";
 import { GraphDetails } from "./graph-details.js";
 import { GraphDrawing } from "./graph-drawing.js";
 
@@ -141,6 +141,8 @@ function Rates({ topics, rates }) {
 
 /** @param {{words: string, count: number}} props of boxes, more than can be drawn */
 function Nothing({ words, count }) {
+  if (graph.value.version < 0)
+    return html`<${ProgressBar} label=${t("loading")} done=${0} total=${0} />`;
   if (count > 0)
     return html`<${EmptyState} icon="graph" title=${t("graph.too_many", { count })}><p>${t("graph.too_many.hint")}</p><//>`;
   const show = () => {
