@@ -117,9 +117,12 @@ export class Pictures {
 
   async step() {
     const type = this.typeName ? this.types.find(this.typeName) : null;
-    if (type) await this.read(type);
-    this.paint();
-    this.isAsked = false;
+    try {
+      if (type) await this.read(type);
+      this.paint();
+    } finally {
+      this.isAsked = false;
+    }
     // More came while a file was unpacked.
     if (type && this.waiting) this.show();
   }
