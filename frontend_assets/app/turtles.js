@@ -77,7 +77,11 @@ const traced = (topic, paths, take) =>
     {
       // A turtle that is not heard stays where it was; that nobody publishes is seen by the list of topics.
       onState: () => {},
-      onPoints: ({ times, values }) => take(times, values),
+      onPoints: ({ times, values, ahead_s }) => {
+        // By the clock of the node, which tells pose and colour as one: they come apart.
+        const told_s = times.map((time_s) => time_s - (ahead_s || 0));
+        take(told_s, values);
+      },
     },
   );
 

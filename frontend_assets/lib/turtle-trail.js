@@ -13,7 +13,7 @@
  * @typedef {{time: number, color: number}} Seen
  */
 
-/** The colour counts that is told so much later: what was sent at once comes apart by as much. */
+/** The colour counts that is told so much later: it is that of where the turtle then is. */
 const LATER_S = 0.03;
 /** So long a colour is waited for. */
 const PATIENCE_S = 0.15;
@@ -22,7 +22,7 @@ const BRIDGE_S = 0.1;
 /** What was not heard for so long is not known. */
 const GAP_S = 0.5;
 /** Who stood for so long and has bare ground below it now was not moved: the ground was wiped. */
-const STANDING_S = 0.3;
+const STANDING_S = 0.1;
 const KEPT = 4000;
 
 export class Trail {

@@ -39,7 +39,7 @@ import { numberAt, stepsOf, valueAt } from "./message-paths.js";
 
 /**
  * @typedef {{kind: "message", wish: number, received_s: number, lost: number, bytes: number, value: any, hex: string, trouble: string}} Looked
- * @typedef {{kind: "points", wish: number, times: Float64Array, values: Float64Array[], paths: readonly string[], lost: number, trouble: string}} Points
+ * @typedef {{kind: "points", wish: number, times: Float64Array, values: Float64Array[], paths: readonly string[], lost: number, ahead_s: number, trouble: string}} Points `ahead_s`: so far the times are ahead of the sender's clock; NaN: it told none
  * @typedef {{kind: "state", wish: number, heard: Heard}} State
  * @typedef {{kind: "need", typeName: string}} Need
  * @typedef {{kind: "text", request: number, text: string}} TextAnswer
@@ -216,6 +216,7 @@ export class Trace {
       values,
       paths: this.paths ?? [],
       lost,
+      ahead_s: this.clock.offset_s,
       trouble: said,
     });
   }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from typing import TYPE_CHECKING, Any
 
@@ -28,6 +29,7 @@ pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(600)
 FIELD_M = 11.088889
 MINUS = "\N{MINUS SIGN}"
 PEN = (179, 184, 255)
+GROUND = (200, 120, 60)
 PUB = (
     "ros2 topic pub --rate 10 /turtle1/cmd_vel geometry_msgs/msg/Twist "
     '"{linear: {x: 0.0, y: 0.0, z: 0.0}, angular: {x: 0.0, y: 0.0, z: 1.8}}"'
@@ -79,7 +81,7 @@ def p1_the_ground_takes_the_colour_of_the_parameters(turtles: Turtles) -> None:
     parameter = from_dict(message("rcl_interfaces/msg/Parameter"), values)
     kind = "rcl_interfaces/srv/SetParameters"
     call(turtles.node, kind, "/turtlesim/set_parameters", parameters=[parameter])
-    wait_until("that of another, too", lambda: turtles.pixel(1, 1) == (200, 120, 60))
+    wait_until("that of another, too", lambda: turtles.pixel(1, 1) == GROUND)
 
 
 def n10_the_arrow_keys_drive_it_and_it_draws(turtles: Turtles) -> None:
@@ -91,7 +93,31 @@ def n10_the_arrow_keys_drive_it_and_it_draws(turtles: Turtles) -> None:
     wait_until("it stands", lambda: turtles.pose.linear_velocity == 0.0)
     y_m = turtles.pose.y
     wait_until("its line", lambda: is_near(turtles.pixel(start_m + 0.4, y_m), PEN))
-    assert turtles.pixel(start_m - 1.2, y_m) == (200, 120, 60)
+    assert turtles.pixel(start_m - 1.2, y_m) == GROUND
+    # Nobody tells of it: the turtle stands on bare ground where it stood on its line.
+    wait_until("it sees its line", lambda: is_near(colour_of(turtles.colors[-1]), PEN))
+    call(turtles.node, "std_srvs/srv/Empty", "/clear")
+    wait_until("the line is gone", lambda: turtles.pixel(start_m + 0.4, y_m) == GROUND)
+
+
+def it_is_dragged_to_another_place(turtles: Turtles) -> None:
+    box = turtles.field.bounding_box()
+    assert box is not None
+    metre = box["width"] / FIELD_M
+
+    def pointer_to(x_m: float, y_m: float) -> None:
+        x, y = box["x"] + x_m * metre, box["y"] + (FIELD_M - y_m) * metre
+        turtles.page.mouse.move(x, y, steps=4)
+
+    pointer_to(turtles.pose.x, turtles.pose.y)
+    turtles.page.mouse.down()
+    pointer_to(2.0, 9.0)
+    turtles.page.mouse.up()
+    wait_until("it is there", lambda: math.dist((turtles.pose.x, turtles.pose.y), (2, 9)) < 0.1)
+
+
+def colour_of(color: Any) -> tuple[int, int, int]:  # noqa: ANN401
+    return color.r, color.g, color.b
 
 
 def t2_the_slides_yaml_turns_it(turtles: Turtles) -> None:
@@ -146,6 +172,7 @@ def test_turtles_and_jerry_are_drawn_and_do_what_their_panels_say(browser: Brows
             turtles.panel.get_by_text("x 5.54 · y 5.54 · 0° · 0.0 m/s").wait_for()
             p1_the_ground_takes_the_colour_of_the_parameters(turtles)
             n10_the_arrow_keys_drive_it_and_it_draws(turtles)
+            it_is_dragged_to_another_place(turtles)
             t2_the_slides_yaml_turns_it(turtles)
             sv4_a_second_turtle_appears(turtles)
         turtles.panel.get_by_text("No turtlesim is running here.").wait_for()
