@@ -26,11 +26,17 @@ if TYPE_CHECKING:
 
     from playwright.sync_api import Browser, Locator
 
+    from tests.support.demos import RunningDemo
     from tests.support.studio_page import StudioPage
 
 pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(400)]
 SIZE, RATE_HZ = (1920, 1080), 30.0
 PICTURES = 60
+HIDE = """(isHidden) => {
+  Object.defineProperty(document, "hidden", { get: () => isHidden, configurable: true });
+  document.dispatchEvent(new Event("visibilitychange"));
+}"""
+STREAMS = "navigator.locks.query().then(({ held }) => held.map(({ name }) => name))"
 ROUTERLESS = ["demo", "--router", "off", "--connect"]
 
 
@@ -71,6 +77,24 @@ def save(tab: StudioPage, panel: Locator, file: Path) -> None:
     number_of([one for corner in corners for one in corner[:3]])
 
 
+def hear(camera: RunningDemo, listeners: int) -> None:
+    wait_until("listeners", lambda: camera.lines[-1:] == [f"listeners {listeners}\n"])
+
+
+def sleep_a_while(tab: StudioPage, camera: RunningDemo) -> None:
+    """A tab that nobody can see leaves its stream to others, and hears nothing."""
+
+    def hears(streams: list[str]) -> None:
+        wait_until(f"{streams}", lambda: tab.page.evaluate(STREAMS) == streams)
+        hear(camera, len(streams))
+
+    hears(["studio-bulk-1"])
+    tab.page.evaluate(HIDE, arg=True)
+    hears([])
+    tab.page.evaluate(HIDE, arg=False)
+    hears(["studio-bulk-1"])
+
+
 def test_a_camera_of_1080p_at_30_hz_is_seen_picture_after_picture(browser: Browser, tmp_path: Path):
     with (
         running_router() as endpoint,
@@ -86,6 +110,7 @@ def test_a_camera_of_1080p_at_30_hz_is_seen_picture_after_picture(browser: Brows
         assert all(before < after for before, after in pairwise(numbers))
         look_at_a_pixel(panel)
         save(tab, panel, tmp_path / "saved.png")
+        sleep_a_while(tab, camera)
         tab.page.evaluate(SHOW_PANEL, "plot")
-        camera.wait_for("listeners 0\n")
+        hear(camera, 0)
         assert tab.errors == []
