@@ -148,11 +148,7 @@ def _judge_beside(ours: Seen, sdk: Seen, cell: Cell) -> None:
 def _watch(server: Server, cell: Cell) -> Seen:
     if server.name == "empty":
         return Seen(_idle(server), 0.0, 0.0, 0.0, 0.0)
-    with ExitStack() as stack:
-        each, processes = cell.browsers // cell.processes, cell.processes
-        job = replace(_job(server, cell), browsers=each)
-        heard = [stack.enter_context(_browsers(job)) for _ in range(processes)]
-        return _window(server, heard, cell, WINDOW_S)
+    return _watch_many(server, cell, cell.browsers, WINDOW_S)
 
 
 def _window(
@@ -202,20 +198,28 @@ def _words(server: Server, cell: Cell) -> tuple[str, ...]:
 
 def _slow(server: Server, port: int) -> None:
     """One of the browsers reads slowly: what that takes from the others, and how much memory."""
-    job = _job(server, SLOW)
-    fast = replace(job, browsers=(SLOW.browsers - 1) // SLOW.processes)
-    slow = replace(job, browsers=1, sips_bytes_per_s=SLOW_BYTES_PER_S)
-    with _publishing(port, SLOW), ExitStack() as stack:
-        heard = [stack.enter_context(_browsers(fast)) for _ in range(SLOW.processes)]
+    slow = replace(_job(server, SLOW), browsers=1, sips_bytes_per_s=SLOW_BYTES_PER_S)
+    with _publishing(port, SLOW):
+        alone = _watch_many(server, SLOW, SLOW.browsers - 1, _SLOW_WINDOW_S)
         before = _memory_bytes(server.pid)
-        stack.enter_context(_browsers(slow))
-        seen = _window(server, heard, SLOW, _SLOW_WINDOW_S)
-        grown = (_memory_bytes(server.pid) - before) / _MEGABYTE
-    say(f"    {server.name:<10}one slow: others {seen.hz:.1f} Hz, memory {grown:+.0f} MB"
-        f"   load {seen.load:4.0%}")  # fmt: skip
-    if server.name == "studio" and seen.load <= BUSY:
+        with _browsers(slow):
+            seen = _watch_many(server, SLOW, SLOW.browsers - 1, _SLOW_WINDOW_S)
+            grown = (_memory_bytes(server.pid) - before) / _MEGABYTE
+    say(
+        f"    {server.name:<10}{alone.hz:5.1f} Hz to 9, {seen.hz:5.1f} Hz beside a slow one,"
+        f" memory {grown:+.0f} MB   load {max(alone.load, seen.load):4.0%}"
+    )
+    if server.name == "studio" and max(alone.load, seen.load) <= BUSY:
         judge("one slow browser: memory", grown, at_most=64, unit="MB")
-        judge_ratio("one slow browser: rate of the others", seen.hz / SLOW.rate_hz, at_least=0.85)
+        judge_ratio("one slow browser: rate of the others", seen.hz / alone.hz, at_least=0.85)
+
+
+def _watch_many(server: Server, cell: Cell, browsers: int, window_s: float) -> Seen:
+    """What browsers get that read as fast as they can."""
+    job = replace(_job(server, cell), browsers=browsers // cell.processes)
+    with ExitStack() as stack:
+        heard = [stack.enter_context(_browsers(job)) for _ in range(cell.processes)]
+        return _window(server, heard, cell, window_s)
 
 
 def _memory_bytes(pid: int) -> int:
