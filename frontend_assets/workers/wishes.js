@@ -48,7 +48,7 @@ import { numberAt, stepsOf, valueAt } from "./message-paths.js";
  */
 
 /** Of a type that is not known it is asked so often whether somebody told it since. */
-const ASK_AGAIN_MS = 2000;
+const ASK_AGAIN_MS = 5000;
 /** A sender's clock that jumps so far is set anew. */
 const JUMP_S = 0.5;
 

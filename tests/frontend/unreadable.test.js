@@ -99,7 +99,7 @@ test("a type that nobody tells is shown as bytes with the reason, asked for now 
   types.learn(NUMBER, null, "no known package defines it.");
   look.take([came(cdr)]);
   look.take([came(cdr)]);
-  now_ms = 2001;
+  now_ms = 5001;
   look.take([came(cdr)]);
   types.learn(NUMBER, [NUMBER_MESSAGE], "");
   look.take([came(cdr)]);
