@@ -859,6 +859,7 @@ export interface GetInterface {
   document?: string;
   type: "get_interface";
   name: string;
+  with_text?: boolean;
 }
 
 /** Ask which demos there are. */

@@ -32,6 +32,8 @@ class InterfaceDesk:
     def __init__(self, wire: WireDesk) -> None:
         self._wire = wire
         self._learner = TypeLearner(wire)
+        self._texts: dict[str, str] = {}
+        """Of types that only a distribution has, as nodes told them: with comments."""
 
     async def interface(self, command: GetInterface) -> InterfaceAnswer:
         """Tell what a type is made of; what is not known here, nodes that use it are asked for.
@@ -41,9 +43,13 @@ class InterfaceDesk:
             UnknownTypeError: It, or what it is made of, is not known, nor told by a node.
         """
         try:
-            return await asyncio.to_thread(self._answer, command)
+            answer = await asyncio.to_thread(self._answer, command)
         except UnknownTypeError:
             await self._learner.learn(command.name)
+        else:
+            if answer.text or not command.with_text:
+                return answer
+            self._texts |= await self._learner.texts(command.name)
         return await asyncio.to_thread(self._answer, command)
 
     async def names(self, command: ListInterfaces) -> InterfacesAnswer:
@@ -98,10 +104,25 @@ class InterfaceDesk:
             name=command.name,
             kind=cast("Literal['msg', 'srv', 'action']", kind),
             parts=tuple(one.name for one in parts),
-            messages=tuple(_message_view(one) for one in _all_of(parts, library)),
+            messages=tuple(
+                _message_view(self._commented(one, library)) for one in _all_of(parts, library)
+            ),
             hash=library.hash_of(command.name),
-            text=library.text_of(command.name) or "",
+            text=library.text_of(command.name) or self._texts.get(command.name, ""),
         )
+
+    def _commented(self, message: Message, library: TypeLibrary) -> Message:
+        """Give the same message with the comments that a node told."""
+        from studio.ros.types.definitions import messages_of  # noqa: PLC0415
+        from studio.ros.types.learning import owner_of  # noqa: PLC0415
+        from studio.ros.types.parser import parse_interface  # noqa: PLC0415
+
+        owner = owner_of(message.name)
+        text = self._texts.get(owner)
+        if text is None or library.text_of(owner) is not None:
+            return message
+        parts = messages_of(parse_interface(owner, text))
+        return next((one for one in parts if one.name == message.name), message)
 
 
 def _added(library: TypeLibrary, name: str) -> AddedInterface:

@@ -14,6 +14,7 @@ from studio.errors import UnknownTypeError
 if TYPE_CHECKING:
     from studio.engine.wire.desk import WireDesk
     from studio.engine.wire.link import WireLink
+    from studio.ros.graph.endpoints import GraphEndpoint
 
 _NODES_MAX: Final = 8
 """So many nodes are asked for one type: each may be silent for as long as one waits."""
@@ -48,6 +49,16 @@ class TypeLearner:
         if why:
             raise UnknownTypeError(name, f"{why}; {_ADVICE.format(kind=_kind_of(name))}")
 
+    async def texts(self, name: str) -> dict[str, str]:
+        """Have how a known type, and what it is made of, are written; empty: nobody tells it."""
+        async with self._turn:
+            asked_s, _ = self._untold.get(name, (float("-inf"), ""))
+            if time.monotonic() - asked_s < _PAUSE_S:
+                return {}
+            told = await asyncio.to_thread(_texts, self._wire.current, name)
+            self._keep(name, "" if told else "nobody tells its text")
+            return told
+
     def _keep(self, name: str, why: str) -> None:
         self._untold.pop(name, None)
         if why:
@@ -60,17 +71,32 @@ def _ask(link: WireLink | None, name: str) -> str:
     """Ask the nodes that use it; why it is not known then, empty: it is. In a thread."""
     if link is None:
         return _NOBODY
-    from studio.ros.remote.known_types import learn_from_any, users_of  # noqa: PLC0415
+    from studio.ros.remote.known_types import learn_from_any  # noqa: PLC0415
 
     said: list[str] = []
-    others = {one.node: one for one in users_of(link.graph, name) if one.node.zid != link.zid}
-    learn_from_any(link.node, list(others.values())[:_NODES_MAX], said.append)
+    learn_from_any(link.node, _others(link, name), said.append)
     try:
         link.types.hash_of(name)
     except UnknownTypeError as error:
         reasons = [one.rstrip(".") for one in said[:_REASONS_SHOWN]]
         return "; ".join(reasons) or error.reason or _NOBODY
     return ""
+
+
+def _texts(link: WireLink | None, name: str) -> dict[str, str]:
+    if link is None:
+        return {}
+    from studio.ros.remote.known_types import texts_of_any  # noqa: PLC0415
+
+    return texts_of_any(link.node, _others(link, name))
+
+
+def _others(link: WireLink, name: str) -> list[GraphEndpoint]:
+    """One endpoint of each node that uses a type, of a few nodes; not the studio's own."""
+    from studio.ros.remote.known_types import users_of  # noqa: PLC0415
+
+    others = {one.node: one for one in users_of(link.graph, name) if one.node.zid != link.zid}
+    return list(others.values())[:_NODES_MAX]
 
 
 def _kind_of(name: str) -> str:

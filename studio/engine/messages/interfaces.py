@@ -19,6 +19,8 @@ class GetInterface(CommandMessage):
     type: Literal["get_interface"] = "get_interface"
     name: str = Field(max_length=NAME_MAX)
     """In full: `geometry_msgs/msg/Twist`, `std_srvs/srv/SetBool`."""
+    with_text: bool = False
+    """Of what only a distribution has, nodes that use it are asked for its text and comments."""
 
 
 class FieldView(Message):
@@ -68,7 +70,7 @@ class InterfaceAnswer(Message):
     hash: str
     """RIHS01, as it stands in the keys of the wire."""
     text: str
-    """As it was written; empty where only the distribution has it."""
+    """As it was written; empty where only the distribution has it, and no node told it."""
 
 
 class ListInterfaces(CommandMessage):

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from typing import TYPE_CHECKING, TypeVar
 
 from studio.errors import StudioError, UnknownTypeError
 from studio.ros.describing import SERVICE_NAME
 from studio.ros.graph.actions import goal_service
-from studio.ros.remote.type_asking import learn_from
+from studio.ros.remote.type_asking import learn_from, texts_from
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -65,6 +66,15 @@ def learn_from_any(node: Node, endpoints: Iterable[GraphEndpoint], say: Say) -> 
             say(f"{path}: {error}")
         else:
             return
+
+
+def texts_of_any(node: Node, endpoints: Iterable[GraphEndpoint]) -> dict[str, str]:
+    """Ask the nodes of endpoints in turn until one tells how its type is written; by name."""
+    for endpoint in endpoints:
+        if node.graph.has_server(f"{endpoint.node.path}/{SERVICE_NAME}"):
+            with suppress(StudioError):
+                return texts_from(node, endpoint)
+    return {}
 
 
 def users_of(graph: Graph, name: str) -> list[GraphEndpoint]:

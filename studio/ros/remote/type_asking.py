@@ -8,7 +8,7 @@ from studio.errors import TypeDescriptionError
 from studio.ros.describing import SERVICE_NAME, SERVICE_TYPE
 from studio.ros.profiles import NO_HASH
 from studio.ros.remote.waiting import TIMEOUT_S, asked
-from studio.ros.types.learning import ACTION_QUESTIONS, learn, owner_of
+from studio.ros.types.learning import ACTION_QUESTIONS, learn, owner_of, written
 
 if TYPE_CHECKING:
     from studio.ros.graph.endpoints import GraphEndpoint
@@ -26,6 +26,25 @@ def learn_from(node: Node, endpoint: GraphEndpoint, timeout_s: float = TIMEOUT_S
         NotServedError: It does not describe its types.
         NoAnswerError: It is silent.
     """
+    descriptions, texts = _told(node, endpoint, timeout_s)
+    return learn(node.wire.types, endpoint.type_name, descriptions, texts)
+
+
+def texts_from(node: Node, endpoint: GraphEndpoint, timeout_s: float = TIMEOUT_S) -> dict[str, str]:
+    """Ask the node of an endpoint how its type and all that it is made of are written.
+
+    Those that say what is known here are given, by name: they hold the comments.
+
+    Raises:
+        TypeDescriptionError, NotServedError, NoAnswerError: As `learn_from`.
+    """
+    return written(node.wire.types, _told(node, endpoint, timeout_s)[1])
+
+
+def _told(
+    node: Node, endpoint: GraphEndpoint, timeout_s: float
+) -> tuple[dict[str, tuple[str, MessageValue]], list[MessageValue]]:
+    """Give descriptions with their hashes by what was asked, and the sources of all."""
     name = endpoint.type_name
     if endpoint.type_hash == NO_HASH:
         raise TypeDescriptionError(name, "nodes of Humble do not describe their types")
@@ -46,7 +65,7 @@ def learn_from(node: Node, endpoint: GraphEndpoint, timeout_s: float = TIMEOUT_S
             texts += response.type_sources
     finally:
         node.destroy_client(client)
-    return learn(node.wire.types, name, descriptions, texts)
+    return descriptions, texts
 
 
 def _questions(node: Node, endpoint: GraphEndpoint) -> dict[str, str]:

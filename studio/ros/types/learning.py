@@ -100,6 +100,20 @@ def learn(
     return types.add_texts(texts) if texts else []
 
 
+def written(types: TypeLibrary, source_texts: Iterable[MessageValue]) -> dict[str, str]:
+    """Give those TypeSources, by name, that say what the library has; others are passed over."""
+    found: dict[str, str] = {}
+    for one in source_texts:
+        text = one.raw_file_contents
+        try:
+            known = types.interface(one.type_name)
+        except (InterfaceError, RosNameError):
+            continue
+        if len(text) <= TEXT_BYTES_MAX and _says(text, known):
+            found[one.type_name] = text
+    return found
+
+
 def _interface(whole: str, owner: str, parts: Mapping[str, Message]) -> Interface | None:
     """Put the parts of a text together; None where only some of an action were described."""
     kind = split_type_name(owner)[1]
@@ -136,14 +150,15 @@ def _is_known(types: TypeLibrary, whole: str, interface: Interface) -> bool:
 
 
 def _text(interface: Interface, given: str | None) -> str:
-    if given is not None:
-        try:
-            parsed = parse_interface(interface.name, given)
-        except (InterfaceError, RosNameError):
-            parsed = None
-        if parsed is not None and _shapes(parsed) == _shapes(interface):
-            return given
-    return text_of(interface)
+    return given if given is not None and _says(given, interface) else text_of(interface)
+
+
+def _says(text: str, interface: Interface) -> bool:
+    """Whether a text defines a type as it is known."""
+    try:
+        return _shapes(parse_interface(interface.name, text)) == _shapes(interface)
+    except (InterfaceError, RosNameError):
+        return False
 
 
 def _try(

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 pytestmark = pytest.mark.network
 WHOLE, ASK = "odd_msgs/msg/Whole", "odd_msgs/srv/Ask"
+POINT, STAMPED = "geometry_msgs/msg/Point", "geometry_msgs/msg/PointStamped"
 TEXTS = {
     "odd_msgs/msg/Part": "string name\n",
     WHOLE: "# All of it.\n\nPart[] parts\n",
@@ -63,6 +64,28 @@ def test_a_type_that_a_node_tells_is_known_with_its_parts_and_comments(endpoint:
         assert [one.hash for one in told] == [types.hash_of(one.name) for one in told]
         whole = told[0].messages[0]
         assert (whole.comment, whole.fields[0].base) == ("All of it.", "odd_msgs/msg/Part")
+
+    asyncio.run(run())
+
+
+@pytest.mark.usefixtures("library")
+def test_comments_of_a_type_that_all_know_are_asked_of_a_node_that_has_its_text(endpoint: str):
+    types = TypeLibrary("jazzy")
+    types.add_texts({POINT: "# Where it is.\n\nfloat64 x # ahead\nfloat64 y\nfloat64 z\n"})
+
+    async def run() -> None:
+        with node_at(endpoint, "odd_one", types) as odd:
+            odd.create_publisher(types.message(STAMPED), "/at", 10)
+            async with joined(endpoint) as (desk, link):
+                await until(lambda: bool(link.graph.publishers("/at")))
+                plain = await desk.interface(GetInterface(name=STAMPED))
+                told = await desk.interface(GetInterface(name=STAMPED, with_text=True))
+                point = await desk.interface(GetInterface(name=POINT))
+        assert (plain.text, told.hash) == ("", plain.hash)
+        by_name = {one.name: one for one in told.messages}
+        assert by_name[POINT].comment == "Where it is."
+        assert point.messages[0].fields[0].comment == "ahead"
+        assert "float64 x # ahead" in point.text
 
     asyncio.run(run())
 
