@@ -1,6 +1,7 @@
 /** What is drawn over time as it comes: one trace for each topic, samples for each number of it. */
 
 /** @import { Heard, Points } from "../workers/wishes.js" */
+/** @import { Listening } from "./listening-menu.js" */
 /** @import { Series } from "./state/plot.js" */
 
 import { signal } from "vendor/preact.js";
@@ -15,7 +16,7 @@ export const heardTopics = signal(new Map());
 /** What cannot be read of a topic, in a sentence. @type {import("vendor/preact.js").Signal<ReadonlyMap<string, string>>} */
 export const unreadTopics = signal(new Map());
 
-/** @type {Map<string, {paths: string, handle: ReturnType<typeof trace>}>} by topic */
+/** @type {Map<string, {paths: string, way: Listening, handle: ReturnType<typeof trace>}>} by topic */
 const traces = new Map();
 /** How far the studio's clock is ahead of this page's. */
 let ahead_s = Number.NaN;
@@ -32,17 +33,17 @@ export function samplesOf(one) {
 /** @returns {number} the time now, by the clock of the samples; NaN: none came yet */
 export const nowOfSamples = () => performance.now() / 1000 + ahead_s;
 
-/** @param {readonly Series[]} wished hear these, and no others */
-export function followSeries(wished) {
+/** @param {readonly Series[]} wished hear these, and no others @param {Listening} way */
+export function followSeries(wished, way) {
   /** @type {Map<string, string[]>} */
   const byTopic = new Map();
   for (const { topic, path } of wished) byTopic.set(topic, [...(byTopic.get(topic) ?? []), path]);
-  for (const [topic, { handle }] of traces)
-    if (!byTopic.has(topic)) {
+  for (const [topic, { handle, way: before }] of traces)
+    if (!byTopic.has(topic) || before !== way) {
       handle.leave();
       traces.delete(topic);
     }
-  for (const [topic, paths] of byTopic) follow(topic, paths);
+  for (const [topic, paths] of byTopic) follow(topic, paths, way);
 }
 
 /** @param {readonly Series[]} kept what is drawn: of the rest nothing is kept */
@@ -51,29 +52,24 @@ export function forgetOthers(kept) {
   for (const key of stores.keys()) if (!keys.has(key)) stores.delete(key);
 }
 
-/** @param {string} topic @param {readonly string[]} paths */
-function follow(topic, paths) {
+/** @param {string} topic @param {readonly string[]} paths @param {Listening} way */
+function follow(topic, paths, way) {
   const before = traces.get(topic);
   const names = paths.join("\n");
   if (before?.paths === names) return;
   before?.handle.choose(paths);
-  const handle = before?.handle ?? begin(topic, paths);
-  traces.set(topic, { paths: names, handle });
+  const handle = before?.handle ?? begin(topic, paths, way);
+  traces.set(topic, { paths: names, way, handle });
 }
 
-/** @param {string} topic @param {readonly string[]} paths */
-const begin = (topic, paths) =>
-  trace(
-    topic,
-    paths,
-    {},
-    {
-      onState: (heard) => {
-        heardTopics.value = new Map(heardTopics.value).set(topic, heard);
-      },
-      onPoints: (points) => take(topic, points),
+/** @param {string} topic @param {readonly string[]} paths @param {Listening} way */
+const begin = (topic, paths, way) =>
+  trace(topic, paths, way, {
+    onState: (heard) => {
+      heardTopics.value = new Map(heardTopics.value).set(topic, heard);
     },
-  );
+    onPoints: (points) => take(topic, points),
+  });
 
 /** @param {string} topic @param {Points} points */
 function take(topic, { times, values, paths, trouble }) {

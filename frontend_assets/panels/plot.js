@@ -3,8 +3,9 @@
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { ConnectFirst, isUnconnected, RouterAway } from "../app/connect-first.js";
 import { dropped } from "../app/data.js";
+import { ListeningMenu } from "../app/listening-menu.js";
 import { followSeries, forgetOthers, nowOfSamples, samplesOf } from "../app/plotting.js";
-import { addSeries, series, span_s } from "../app/state/plot.js";
+import { addSeries, plotListening, series, span_s } from "../app/state/plot.js";
 import { dragged, endDrag, takesDrop } from "../app/topic-drag.js";
 import { saveAsFile } from "../lib/files.js";
 import { t } from "../lib/i18n.js";
@@ -30,9 +31,9 @@ export function PlotPanel() {
   const wished = seen.value && !isUnconnected() ? series.value : [];
   useEffect(() => {
     for (const one of wished) samplesOf(one);
-    followSeries(wished);
-  }, [wished]);
-  useEffect(() => () => followSeries([]), []);
+    followSeries(wished, plotListening.value);
+  }, [wished, plotListening.value]);
+  useEffect(() => () => followSeries([], plotListening.peek()), []);
   useEffect(() => forgetOthers(series.value), [series.value]);
   const onDrop = (/** @type {DragEvent} */ event) => {
     event.preventDefault();
@@ -89,6 +90,7 @@ function Bar({ picking, held }) {
     }}><${Icon} name="plus" size=${14} /><span class="plot-add-words">${t("plot.add")}</span></button>
     <${MenuButton} label=${t("plot.span")} class="button" items=${items}>${t("plot.seconds", { count: span_s.value })}<${Icon} name="chevronDown" size=${12} /><//>
     <${IconButton} icon=${held.value ? "animate" : "pause"} label=${t(held.value ? "topics.go_on" : "topics.pause")} pressed=${held.value !== null} disabled=${isEmpty} onClick=${toggle} />
+    <${ListeningMenu} listening=${plotListening} hint=${t("topics.qos")} disabled=${isEmpty} />
     <span class="push"></span>
     ${dropped.value > 0 && html`<span class="plot-trouble" role="status">${t("plot.dropped", { count: dropped.value })}</span>`}
     <${IconButton} icon="download" label=${t("plot.csv")} disabled=${isEmpty} onClick=${() => download(held.value ?? spanNow())} />

@@ -5,6 +5,7 @@
 
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { laneOpen, lookAt } from "../app/data.js";
+import { ListeningMenu } from "../app/listening-menu.js";
 import { addDisplay } from "../app/live.js";
 import { mayEdit } from "../app/state/connection.js";
 import { chosenTopic, listening } from "../app/state/topics.js";
@@ -13,7 +14,7 @@ import { copyText } from "../lib/clipboard.js";
 import { t } from "../lib/i18n.js";
 import { shortTime } from "../lib/short-time.js";
 import { useSilence } from "../lib/silence.js";
-import { Icon, IconButton, MenuButton } from "../lib/ui.js";
+import { Icon, IconButton } from "../lib/ui.js";
 import { EchoTree } from "./topics-echo-tree.js";
 import { TopicEnds } from "./topics-ends.js";
 
@@ -54,7 +55,7 @@ export function TopicEcho({ topic, row }) {
       <${IconButton} icon="info" label=${t("topics.connections")} pressed=${showsEnds.value} onClick=${() => {
         showsEnds.value = !showsEnds.value;
       }} />
-      <${ListeningMenu} heard=${heard.value} />
+      <${ListeningMenu} listening=${listening} hint=${heard.value ? qosWords(heard.value) : t("topics.qos")} />
       ${row?.kind && mayEdit.value && html`<${IconButton} icon="scene" label=${t("topics.show", { kind: row.kind })} onClick=${() => addDisplay(row.kind, topic)} />`}
       <${IconButton} icon="copy" label=${t("topics.copy_message")} disabled=${!message.value} onClick=${() => copyAt(look.current, "")} />
       <${IconButton} icon=${paused.value ? "animate" : "pause"} label=${t(paused.value ? "topics.go_on" : "topics.pause")} pressed=${paused.value} onClick=${() => {
@@ -81,29 +82,6 @@ async function copyAt(look, path) {
   const text = (await look?.text(path)) ?? "";
   const done = await copyText(text);
   notify(done ? t("topics.copied") : t("copy.failed"), { bad: !done });
-}
-
-/** @param {{heard: Heard | null}} props */
-function ListeningMenu({ heard }) {
-  const now = listening.value;
-  const ways = [
-    { label: t("topics.qos.auto"), reliable: null, latched: null },
-    { label: t("topics.qos.reliable"), reliable: true, latched: false },
-    { label: t("topics.qos.best_effort"), reliable: false, latched: false },
-    { label: t("topics.qos.latched"), reliable: true, latched: true },
-  ];
-  const items = () => [
-    { label: t("topics.qos"), heading: true },
-    ...ways.map(({ label, reliable, latched }) => ({
-      label,
-      checked: now.reliable === reliable && now.latched === latched,
-      run: () => {
-        listening.value = { reliable, latched };
-      },
-    })),
-  ];
-  const hint = heard ? qosWords(heard) : t("topics.qos");
-  return html`<${MenuButton} label=${t("topics.qos")} hint=${hint} items=${items}><${Icon} name="sliders" /><${Icon} name="chevronDown" size=${12} /><//>`;
 }
 
 /** @param {Heard} heard @returns {string} */

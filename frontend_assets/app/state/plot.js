@@ -1,5 +1,6 @@
 /** What is drawn over time; a person's own, kept over reloads. */
 
+import { signal } from "vendor/preact.js";
 import { t } from "../../lib/i18n.js";
 import { remembered } from "../../lib/remembered.js";
 import { commandById } from "../commands.js";
@@ -18,6 +19,8 @@ export const series = remembered(
   /** @type {readonly Series[]} */ ([]),
   (value) => Array.isArray(value) && value.length <= SERIES_MAX && value.every(isSeries),
 );
+/** How its topics are listened to. @type {import("vendor/preact.js").Signal<import("../listening-menu.js").Listening>} */
+export const plotListening = signal({ reliable: null, latched: null });
 /** Seconds that are seen. */
 export const span_s = remembered("plot.span", 30);
 

@@ -13,5 +13,5 @@ export const chosenTopic = signal(null);
 /** Names that every node has, and hidden ones, are shown. */
 export const showsNoise = remembered("topics.noise", false);
 
-/** How a topic is listened to; null: as fits its publishers. @type {Signal<{reliable: boolean | null, latched: boolean | null}>} */
+/** How a topic is listened to; null: as fits its publishers. @type {Signal<import("../listening-menu.js").Listening>} */
 export const listening = signal({ reliable: null, latched: null });
