@@ -93,6 +93,9 @@ export function viewOf(places) {
     return [Math.min(...values), Math.max(...values)];
   };
   const [[lowX = 0, highX = 0], [lowY = 0, highY = 0]] = [range("x"), range("y")];
+  const isNear = [lowX, highX, lowY, highY].every((end) => Math.abs(end) <= SIDE_MIN / 2 - 1);
+  // It stands still while he walks about in its middle.
+  if (isNear) return { low: { x: -SIDE_MIN / 2, y: -SIDE_MIN / 2 }, size: SIDE_MIN, step: 1 };
   const size = Math.max(SIDE_MIN, (Math.max(highX - lowX, highY - lowY) + 2) * 1.1);
   const low = { x: (lowX + highX - size) / 2, y: (lowY + highY - size) / 2 };
   return { low, size, step: gridStep(size) };

@@ -18,7 +18,9 @@ const KEYS = {
 const MARKS_MAX = 8;
 
 /** @param {{known: Seen, go: (direction: string) => void, ask: (place: Place) => void}} props */
-export function JerryField({ known: { walk, runs }, go, ask }) {
+export function JerryField({ known, go, ask }) {
+  known.turn.value;
+  const { walk, runs } = known;
   const drawing = useRef(/** @type {any} */ (null));
   const marks = runs.slice(0, MARKS_MAX);
   const view = viewOf([...walk.way, ...marks.map(({ place }) => place)]);

@@ -35,7 +35,7 @@ export function JerryPanel() {
   return html`<${FieldPanel} id="jerry" icon="grid" demo="jerry_robot" ...${parts} />`;
 }
 
-/** @typedef {{jerry: Jerry, known: Seen}} Parts */
+/** @typedef {{jerry: Jerry, known: Seen}} Parts each reads the turn of what is known: it stays the same object */
 
 /** @param {{world: Jerry}} props one of them, who is heard from now on */
 function Shown({ world: shown }) {
@@ -44,7 +44,6 @@ function Shown({ world: shown }) {
   useEffect(() => hearCommands(shown.command, known), [known, shown.command?.name]);
   const steps = useSignal(1);
   const place = useSignal(/** @type {Place} */ ({ x: 3, y: 4 }));
-  known.turn.value;
   const go = (/** @type {string} */ direction) => {
     if (mayEdit.peek()) command(shown, direction, steps.peek());
   };
@@ -65,6 +64,7 @@ function Shown({ world: shown }) {
 
 /** @param {Parts} props */
 function Standing({ jerry: { pose }, known }) {
+  known.turn.value;
   const { place } = known.walk;
   const words = place ? t("jerry.at", { place: placeText(place) }) : t("jerry.not_told");
   return html`<div class="field-line"><strong class="jerry-place" role="status">${pose ? words : t("jerry.nobody")}</strong>
@@ -73,6 +73,7 @@ function Standing({ jerry: { pose }, known }) {
 
 /** @param {Parts & {go: (direction: string) => void, steps: import("vendor/preact.js").Signal<number>}} props */
 function Commands({ jerry: { command: topic }, known, go, steps }) {
+  known.turn.value;
   const isOff = !mayEdit.value || topic === null;
   const type = (/** @type {number} */ typed) => {
     steps.value = Math.min(STEPS_MAX, Math.max(0, Math.round(typed) || 0));
@@ -92,6 +93,7 @@ function HeardRow({ heard: { direction, steps, fate } }) {
 
 /** @param {Parts & {ask: (place: Place) => void, place: import("vendor/preact.js").Signal<Place>}} props */
 function Distances({ jerry: { distance }, known, ask, place }) {
+  known.turn.value;
   const isOff = !mayEdit.value || distance === null;
   const box = (/** @type {"x" | "y"} */ axis) =>
     html`<label>${axis} <input type="number" step="any" class="box number" value=${place.value[axis]} disabled=${isOff}

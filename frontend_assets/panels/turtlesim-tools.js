@@ -16,14 +16,14 @@ const LOOK_MS = 200;
 
 /** @param {FieldProps & {node: string}} props */
 export function TurtleTools({ prefix, node, world, turtles, chosen, choose, isPlacing }) {
-  useTelling();
+  const turn = useTelling();
   const place = () => {
     isPlacing.value = !isPlacing.value;
   };
   return html`<div class="field-tools scroll">
     <ul class="turtle-list" aria-label=${t("turtlesim.turtles")}>${turtles.map(
       (turtle) =>
-        html`<li key=${turtle.name}><${Row} turtle=${turtle} now=${world.turtles.get(turtle.name)} isChosen=${turtle === chosen} choose=${choose} /></li>`,
+        html`<li key=${turtle.name}><${Row} turtle=${turtle} now=${world.turtles.get(turtle.name)} turn=${turn} isChosen=${turtle === chosen} choose=${choose} /></li>`,
     )}</ul>
     ${turtles.length === 0 && html`<p class="note">${t("turtlesim.no_turtle")}</p>`}
     <div class="field-buttons" role="group" aria-label=${t("turtlesim.do")}>
@@ -41,7 +41,7 @@ export function TurtleTools({ prefix, node, world, turtles, chosen, choose, isPl
   </div>`;
 }
 
-/** Show what is told now, some times in a second: to follow every pose is left to the drawing. */
+/** Show what is told now, some times in a second: to follow every pose is left to the drawing. @returns {number} another one each time */
 function useTelling() {
   const turn = useSignal(0);
   useEffect(() => {
@@ -53,7 +53,7 @@ function useTelling() {
   return turn.value;
 }
 
-/** @param {{turtle: Turtle, now: OnField | undefined, isChosen: boolean, choose: (name: string) => void}} props */
+/** @param {{turtle: Turtle, now: OnField | undefined, turn: number, isChosen: boolean, choose: (name: string) => void}} props `turn`: `now` stays the same object */
 function Row({ turtle: { name }, now, isChosen, choose }) {
   const heading = ((now?.theta ?? 0) * 180) / Math.PI;
   const place = now?.isHere

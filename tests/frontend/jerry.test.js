@@ -69,6 +69,7 @@ test("the view is a square with all places in it, and few lines", () => {
   for (const { x, y } of [...far, { x: 0, y: 0 }])
     assert.ok(x > low.x && x < low.x + size && y > low.y && y < low.y + size);
   assert.ok(gridLines(low.x, size, step).length <= 17);
+  assert.deepEqual(viewOf([{ x: 5, y: -4 }]), viewOf([]));
   assert.deepEqual(viewOf([]), { low: { x: -6, y: -6 }, size: 12, step: 1 });
   assert.deepEqual(gridLines(-2.5, 5, 1), [-2, -1, 0, 1, 2]);
 });
