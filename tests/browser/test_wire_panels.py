@@ -46,6 +46,11 @@ _DROP = """([name, text]) => {
   document.body.dispatchEvent(new DragEvent("drop", options));
 }"""
 
+_PLOT = """async ([topic, path]) => {
+  const script = document.querySelector('script[type="module"]').src;
+  (await import(new URL("state/plot.js", script))).addSeries(topic, path);
+}"""
+
 
 def panel(tab: StudioPage, name: str) -> Locator:
     """Bring a panel to the front; what it shows."""
@@ -124,6 +129,21 @@ def use_a_dropped_type(tab: StudioPage) -> None:
     topics = panel(tab, "topics")
     topics.get_by_role("row", name="/tank").click()
     topics.get_by_role("treeitem", name="litres 7.25").wait_for()
+    listen_otherwise(tab)
+
+
+def listen_otherwise(tab: StudioPage) -> None:
+    """A plot is heard as somebody chose, which the ends of its topic show."""
+    tab.page.keyboard.press("Control+2")  # where both are seen at once
+    tab.page.evaluate(_PLOT, ["/tank", ".litres"])
+    plots = panel(tab, "plot")
+    plots.get_by_role("listitem").get_by_text("7.25").wait_for()
+    plots.get_by_role("button", name="Listen").click()
+    tab.page.get_by_role("menuitemradio", name="With what was said before").click()
+    topics = panel(tab, "topics")
+    topics.get_by_role("button", name="Who publishes and subscribes").click()
+    ends = topics.get_by_role("listitem").filter(has_text="/studio")
+    ends.get_by_text("transient local · keep last 4096").wait_for()
 
 
 def change_a_state(tab: StudioPage) -> None:
@@ -155,7 +175,7 @@ def see_pictures(tab: StudioPage) -> None:
     picture.hover()
     images.get_by_text(": 10 20 30").wait_for()
     images.get_by_role("button", name="Topic of the picture").click()
-    tab.page.get_by_text("/eye/packed", exact=True).click()
+    tab.page.get_by_role("menuitemradio", name="/eye/packed").click()
     images.get_by_text("· png").wait_for()
     picture = images.get_by_role("img", name="Picture of /eye/packed")
     wait_until("its pixels", lambda: picture.evaluate(_MIDDLE_PIXEL) == [0, 200, 0, 255])
