@@ -150,7 +150,7 @@ function Page({ page, onChoose }) {
   if (blocks.value === null) return null;
   if (blocks.value.length === 0)
     return html`<p class="nothing" role="status">${t("help.lost")}</p>`;
-  return html`<article>${blocks.value.map((block) => drawnBlock(block, onChoose))}</article>`;
+  return html`<article class="help-article">${blocks.value.map((block) => drawnBlock(block, onChoose))}</article>`;
 }
 
 /** The sheet, where it is asked for; a window opened since then has it drawn anew over itself. */

@@ -28,7 +28,7 @@ export function LessonPage({ lesson, all }) {
     <div class="scroll lesson-scroll" tabindex="0" role="region" aria-label=${text?.title || demo}>
       <${LessonRuns} parts=${parts} />
       ${text?.blocks.length === 0 && html`<p class="note padded">${t("lessons.lost")}</p>`}
-      <article class="lesson-text">${text?.blocks.map((block) => drawnBlock(block, followLink))}</article>
+      <article class="help-article lesson-text">${text?.blocks.map((block) => drawnBlock(block, followLink))}</article>
     </div>
     <${Output} own=${demo} parts=${parts} />
   </div>`;

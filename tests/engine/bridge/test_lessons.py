@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.engine.bridge import lessons
-from studio.engine.bridge.desk import BridgeDesk
 from studio.engine.bridge.lessons import LessonDesk
 from studio.engine.messages.lessons import (
     DemoView,
@@ -26,6 +25,7 @@ from studio.engine.wire.desk import WireDesk
 from studio.errors import CommandError
 from studio.nodes.demos.table import DEMOS
 from studio.settings import WireChoice
+from tests.support.bridged import bridged
 from tests.support.demos import call, node_at, running_demo
 from tests.support.wire import PATIENCE_S, free_endpoint, router_at, wait_until
 
@@ -37,14 +37,8 @@ pytestmark = pytest.mark.network
 
 @asynccontextmanager
 async def desk_at(endpoint: str) -> AsyncGenerator[LessonDesk]:
-    wire = WireDesk(WireChoice("off", (endpoint,)))
-    desk = LessonDesk(wire)
-    try:
-        await wire.link()
-        yield desk
-    finally:
-        await desk.close()
-        await wire.close()
+    async with bridged(endpoint) as bridge:
+        yield bridge.desk.lessons
 
 
 async def view(desk: LessonDesk, demo: str) -> DemoView:
@@ -231,18 +225,16 @@ def test_while_the_router_is_gone_nothing_starts():
 
 def test_all_end_when_the_connection_is_let_go_and_none_starts_after_the_end(endpoint: str):
     async def run() -> None:
-        wire = WireDesk(WireChoice("off", (endpoint,)))
-        desk = BridgeDesk(wire)
-        await wire.link()
-        for demo in ("talker", "add_points_client"):
-            await desk.lessons.start(StartDemo(demo=demo))
-        pids = [pid_of(desk.lessons, demo) for demo in ("talker", "add_points_client")]
-        await desk.let_go()
-        assert not any(map(is_there, pids))
-        await desk.close()
-        with pytest.raises(CommandError, match="connect first"):
-            await desk.lessons.start(StartDemo(demo="talker"))
-        await wire.close()
+        async with bridged(endpoint) as bridge:
+            desk = bridge.desk
+            for demo in ("talker", "add_points_client"):
+                await desk.lessons.start(StartDemo(demo=demo))
+            pids = [pid_of(desk.lessons, demo) for demo in ("talker", "add_points_client")]
+            await desk.let_go()
+            assert not any(map(is_there, pids))
+            await desk.close()
+            with pytest.raises(CommandError, match="connect first"):
+                await desk.lessons.start(StartDemo(demo="talker"))
 
     asyncio.run(run())
 
