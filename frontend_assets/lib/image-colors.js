@@ -2,9 +2,10 @@
 
 /** @import { Ink, Rows } from "./image-pixels.js" */
 
-const LITTLE = new Uint8Array(new Uint16Array([1]).buffer)[0] === 1;
+/** Whether the first byte of a number is its least, on this machine. */
+export const IS_LITTLE = new Uint8Array(new Uint16Array([1]).buffer)[0] === 1;
 /** How far to the left each of them stands in the four bytes of a pixel, taken as one number. */
-export const [RED, GREEN, BLUE, ALPHA] = LITTLE ? [0, 8, 16, 24] : [24, 16, 8, 0];
+export const [RED, GREEN, BLUE, ALPHA] = IS_LITTLE ? [0, 8, 16, 24] : [24, 16, 8, 0];
 export const OPAQUE = 255 << /** @type {number} */ (ALPHA);
 /** A grey of one, to be multiplied. */
 export const GREY = (1 << /** @type {number} */ (RED)) | (1 << GREEN) | (1 << BLUE);

@@ -2,7 +2,7 @@
 
 /** @import { Ink, Range, Rows } from "./image-pixels.js" */
 
-import { GREY, OPAQUE } from "./image-colors.js";
+import { GREY, IS_LITTLE, OPAQUE } from "./image-colors.js";
 
 /** @typedef {Int8Array | Uint16Array | Int16Array | Int32Array | Float32Array | Float64Array} List */
 
@@ -15,7 +15,6 @@ const LISTS = {
   F4: Float32Array,
   F8: Float64Array,
 };
-const HOST_IS_LITTLE = new Uint8Array(new Uint16Array([1]).buffer)[0] === 1;
 /** @type {Record<string, string>} by REP 118 */
 const UNITS = { "16UC1": "mm", "32FC1": "m" };
 
@@ -64,7 +63,7 @@ function shadeOf(value) {
 function listOf({ raw: { width, height, data, is_bigendian }, row }, kind) {
   const NumberList = /** @type {(typeof LISTS)[string]} */ (LISTS[kind]);
   const size = Number(kind[1]);
-  const isForeign = Boolean(is_bigendian) === HOST_IS_LITTLE;
+  const isForeign = Boolean(is_bigendian) === IS_LITTLE;
   if (size === 1 || (!isForeign && row % size === 0 && data.byteOffset % size === 0)) {
     const count = Math.floor(data.length / size);
     return { list: new NumberList(data.buffer, data.byteOffset, count), step: row / size };

@@ -4,6 +4,8 @@
 
 /** A pixel is a square that can be seen then. */
 export const CLOSEST = 64;
+/** The largest picture that is shown is no larger than a panel then. */
+export const FARTHEST = 0.01;
 
 /** @param {Size} picture @param {Size} frame @returns {View} all of it, in the middle, as large as it can be */
 export function filling(picture, frame) {

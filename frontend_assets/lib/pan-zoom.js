@@ -11,9 +11,9 @@ const SCALE_MAX = 3;
 const FIT_MIN = 0.55;
 const MARGIN = 34;
 
-/** @param {View} view @param {number} factor @param {{x: number, y: number}} at stays where it is @param {number} [closest] the largest scale @returns {View} */
-export function zoomed(view, factor, at, closest = SCALE_MAX) {
-  const scale = Math.min(closest, Math.max(SCALE_MIN, view.scale * factor));
+/** @param {View} view @param {number} factor @param {{x: number, y: number}} at stays where it is @param {number} [closest] the largest scale @param {number} [farthest] the smallest @returns {View} */
+export function zoomed(view, factor, at, closest = SCALE_MAX, farthest = SCALE_MIN) {
+  const scale = Math.min(closest, Math.max(farthest, view.scale * factor));
   const ratio = scale / view.scale;
   return { x: at.x - (at.x - view.x) * ratio, y: at.y - (at.y - view.y) * ratio, scale };
 }

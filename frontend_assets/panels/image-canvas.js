@@ -5,12 +5,22 @@
 
 import { html, useEffect, useLayoutEffect, useRef, useSignal } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
-import { CLOSEST, filling, pixelUnder, ratioFor } from "../lib/image-view.js";
+import { CLOSEST, FARTHEST, filling, pixelUnder, ratioFor } from "../lib/image-view.js";
 import { zoomed } from "../lib/pan-zoom.js";
 import { IconButton } from "../lib/ui.js";
 
 const STEP = 1.5;
 const WHEEL = 0.002;
+const MOVE_PX = 40;
+/** Where a key looks: the picture moves the other way. @type {Record<string, Point>} */
+const MOVES = {
+  ArrowLeft: { x: MOVE_PX, y: 0 },
+  ArrowRight: { x: -MOVE_PX, y: 0 },
+  ArrowUp: { x: 0, y: MOVE_PX },
+  ArrowDown: { x: 0, y: -MOVE_PX },
+};
+/** @type {Record<string, number>} */
+const ZOOMS = { "+": STEP, "-": 1 / STEP };
 
 /** @typedef {{x: number, y: number}} Point px, in the frame */
 /** @typedef {{canvas: {current: HTMLCanvasElement | null}, size: Size | null, label: string, ask: (asked: PictureAsked) => void}} Props `size` of the picture; null: there is none */
@@ -27,7 +37,10 @@ export function ImageCanvas({ canvas, size, label, ask }) {
   usePainted(ask, room, moved.value);
   usePointed(ask, view, pointer.value);
   const zoom = (/** @type {number} */ factor, at = { x: room.width / 2, y: room.height / 2 }) => {
-    moved.value = zoomed(view, factor, at, CLOSEST);
+    moved.value = zoomed(view, factor, at, CLOSEST, FARTHEST);
+  };
+  const move = (/** @type {Point} */ by) => {
+    moved.value = { ...view, x: view.x + by.x, y: view.y + by.y };
   };
   const latestZoom = useRef(zoom);
   latestZoom.current = zoom;
@@ -35,12 +48,19 @@ export function ImageCanvas({ canvas, size, label, ask }) {
   const onPointerMove = (/** @type {PointerEvent} */ event) => {
     pointer.value = pointOf(frame.current, event);
     if ((event.buttons & 1) === 0) return;
-    moved.value = { ...view, x: view.x + event.movementX, y: view.y + event.movementY };
+    move({ x: event.movementX, y: event.movementY });
+  };
+  const onKeyDown = (/** @type {KeyboardEvent} */ event) => {
+    const [by, factor] = [MOVES[event.key], ZOOMS[event.key]];
+    if (event.ctrlKey || event.metaKey || event.altKey || !(by || factor)) return;
+    event.preventDefault();
+    if (by) move(by);
+    else zoom(factor ?? 1);
   };
   return html`<div class="image-place" hidden=${size === null}>
     <div ref=${frame} class="image-frame" onPointerMove=${onPointerMove} onPointerDown=${capture} onPointerLeave=${() => {
       pointer.value = null;
-    }}><div class="image-sheet" style=${placeOf(view, shown)}></div><canvas ref=${canvas} role="img" aria-label=${label}></canvas></div>
+    }}><div class="image-sheet" style=${placeOf(view, shown)}></div><canvas ref=${canvas} role="img" aria-label=${label} tabindex="0" onKeyDown=${onKeyDown}></canvas></div>
     <div class="image-tools"><${IconButton} icon="plus" label=${t("image.closer")} onClick=${() => zoom(STEP)} />
       <${IconButton} icon="minus" label=${t("image.farther")} onClick=${() => zoom(1 / STEP)} />
       <${IconButton} icon="fit" label=${t("image.fit")} pressed=${moved.value === null} onClick=${() => {

@@ -5,6 +5,7 @@ import { ImageError, inkOf } from "../../frontend_assets/lib/image-pixels.js";
 import { average } from "../../frontend_assets/lib/image-smoothing.js";
 import {
   CLOSEST,
+  FARTHEST,
   filling,
   pixelUnder,
   rateOf,
@@ -183,6 +184,8 @@ test("a picture fills its frame, and each of its pixels can be found", () => {
   const close = zoomed(view, 1000, { x: 200, y: 200 }, CLOSEST);
   assert.equal(close.scale, CLOSEST);
   assert.deepEqual(pixelUnder(close, { x: 200, y: 200 }), { x: 50, y: 25 });
+  const large = filling({ width: 16_384, height: 16_384 }, { width: 200, height: 200 });
+  assert.ok(zoomed(large, 0.9, { x: 0, y: 0 }, CLOSEST, FARTHEST).scale < large.scale);
 });
 
 test("a canvas has the pixels of the screen, up to as many as a large one has", () => {
