@@ -31,7 +31,11 @@ if TYPE_CHECKING:
     from studio.web.http_protocol import StudioConnection
 
 _LENGTH: Final = struct.Struct("<I")
-_HEADERS: Final = ((b"content-type", b"application/octet-stream"), (b"connection", b"close"))
+_HEADERS: Final = (
+    (b"content-type", b"application/octet-stream"),
+    (b"connection", b"close"),
+    (b"x-accel-buffering", b"no"),  # a proxy that waits for the end would wait for ever
+)
 
 
 class BulkLane:

@@ -56,6 +56,8 @@ class DataLane:
         """Send what is large by this one from now on; `end` ends it."""
         self._end_bulk()
         self._bulk, self._end_bulk = bulk, end
+        if self._outlet.closed:  # while the answer was made, the browser left
+            end()
 
     def close_bulk(self, bulk: BulkLane) -> None:
         """Send by it no more; what it kept goes by the data lane."""
