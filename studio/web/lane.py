@@ -38,7 +38,7 @@ class Lane:
 
     def __init__(self, websocket: WebSocket) -> None:
         self._websocket = websocket
-        self._socket = socket_of(websocket.scope)
+        self.socket = socket_of(websocket.scope)
         self._closing: asyncio.Task[None] | None = None
         self.server_ends = False
         """Set once `receive` answers None: whether it was the studio that went."""
@@ -54,19 +54,15 @@ class Lane:
 
     def write(self, data: bytes, /) -> None:
         """Send one whole binary message."""
-        self._socket.write_frame(binary_frame(data))
-
-    def write_frame(self, frame: bytes, /) -> None:
-        """Send one message that is framed already."""
-        self._socket.write_frame(frame)
+        self.socket.write_frame(binary_frame(data))
 
     def pending_bytes(self) -> int:
         """Bytes written and not yet taken by the system."""
-        return self._socket.pending_bytes()
+        return self.socket.pending_bytes()
 
     def on_drain(self, resume: Callable[[], object]) -> None:
         """Call `resume` whenever a full write buffer has emptied."""
-        self._socket.on_drain = resume
+        self.socket.on_drain = resume
 
     def close(self, code: int = 1000) -> None:
         """Begin the closing handshake; `receive` then answers None."""
@@ -81,7 +77,7 @@ class Lane:
 
     async def _close(self, code: int) -> None:
         # Saying goodbye waits for a browser that takes nothing any more.
-        self._socket.give_up_within(_GOODBYE_S)
+        self.socket.give_up_within(_GOODBYE_S)
         with contextlib.suppress(RuntimeError, WebSocketDisconnect):  # the other side went first
             await self._websocket.close(code)
 
@@ -90,5 +86,6 @@ class FrameTransport:
     """A lane as a hub's Transport of whole frames, so that text and binary keep their order."""
 
     def __init__(self, lane: Lane) -> None:
-        self.write = lane.write_frame
-        self.pending_bytes = lane.pending_bytes
+        # Past the lane: thousands of frames go in a second.
+        self.write = lane.socket.write_frame
+        self.pending_bytes = lane.socket.pending_bytes

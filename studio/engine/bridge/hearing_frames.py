@@ -51,17 +51,12 @@ class Chunk:
 def chunk_of(channel: int, samples: Sequence[RawSample], lost: int, *, keeps_all: bool) -> Chunk:
     """Write the messages of one channel."""
     parts: list[bytes] = []
-    size = 0
+    lost %= _LOST_MOD
     for payload, attachment, received_ns in samples:
         length = len(payload)
-        sent_ns = attachment.source_time_ns
-        filling = _FILLING[-(MESSAGE_HEAD.size + length) % 8]
-        parts += (
-            MESSAGE_HEAD.pack(channel, length, received_ns, sent_ns, lost % _LOST_MOD),
-            payload,
-            filling,
-        )
-        size += MESSAGE_HEAD.size + length + len(filling)
+        head = MESSAGE_HEAD.pack(channel, length, received_ns, attachment.source_time_ns, lost)
+        parts += (head, payload, _FILLING[-(MESSAGE_HEAD.size + length) % 8])
+    size = sum(map(len, parts))
     is_small = size <= LARGE_BYTES * len(samples)
     joined = (b"".join(parts),) if is_small else tuple(parts)
     return Chunk(channel, len(samples), joined, size, keeps_all)
