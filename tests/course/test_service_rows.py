@@ -12,6 +12,8 @@ from tests.support.demos import call, node_at, running_demo
 
 pytestmark = pytest.mark.network
 GET_NOW_PLAYING = "radio_station_interfaces/srv/GetNowPlaying"
+LINES_MAX = 100
+"""A client that waits says so once a second; one that no longer does says it without end."""
 
 
 def test_sv1_the_radio_station_answers_with_three_strings(endpoint: str):
@@ -61,9 +63,12 @@ def test_sv2_a_client_that_waits_for_a_server_ends_when_told_to(endpoint: str, n
         client.wait_for("service not available, waiting again...")
         client.stop(number)
     assert "Traceback" not in client.printed
+    assert client.printed.count("waiting again") < LINES_MAX
 
 
-def test_sv3_points_are_added_and_a_slow_servers_answer_is_given_up(endpoint: str):
+def test_sv3_points_are_added_and_the_answer_of_a_server_that_sleeps_or_ends_is_given_up(
+    endpoint: str,
+):
     with node_at(endpoint) as node, running_demo(endpoint, "add_points_server") as server:
         points: dict[str, Any] = {}
         request = service("pkg_with_interfaces/srv/AddPoints").Request()
@@ -80,3 +85,7 @@ def test_sv3_points_are_added_and_a_slow_servers_answer_is_given_up(endpoint: st
             server.process.send_signal(signal.SIGCONT)
             before = client.printed.count("The result was")
             client.wait_for_more("The result was", before)
+            server.stop()
+            before = client.printed.count("The response was None.")
+            client.wait_for_more("The response was None.", before + 1)
+            assert client.process.poll() is None
