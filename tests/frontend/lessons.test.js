@@ -1,5 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { NOTHING_PRINTED, withPrinted } from "../../frontend_assets/lib/demo-output.js";
 import { partsOf } from "../../frontend_assets/lib/help-text.js";
 import { isSought, readLesson } from "../../frontend_assets/lib/lesson-text.js";
 import { textFiles } from "../../frontend_assets/lib/text-files.js";
@@ -38,4 +39,15 @@ test("a text that could not be had is fetched again, and one that came is kept",
   } finally {
     globalThis.fetch = real;
   }
+});
+
+test("what a demo printed grows by what is told, up to a bound, and begins anew with a run", () => {
+  const first = withPrinted(NOTHING_PRINTED, { run: 1, lines: ["a", "b"], last: 2 });
+  const grown = withPrinted(first, { run: 1, lines: ["c"], last: 3 });
+  assert.deepEqual(grown, { run: 1, lines: ["a", "b", "c"], last: 3 });
+  assert.equal(withPrinted(grown, { run: 1, lines: [], last: 3 }), grown);
+  const many = Array.from({ length: 199 }, (_, at) => String(at));
+  const full = withPrinted(grown, { run: 1, lines: many, last: 202 });
+  assert.deepEqual([full.lines.length, full.lines[0], full.lines.at(-1)], [200, "c", "198"]);
+  assert.deepEqual(withPrinted(full, { run: 2, lines: [], last: 0 }).lines, []);
 });

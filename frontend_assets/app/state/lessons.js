@@ -1,18 +1,18 @@
 /** The lessons: which demos there are and run, asked while somebody looks, and which one is read. */
 
-/** @import { DemoOutput, DemoView, LessonView } from "../../types/wire.d.ts" */
+/** @import { DemoView, LessonView } from "../../types/wire.d.ts" */
+/** @import { Output } from "../../lib/demo-output.js" */
 /** @import { Lesson } from "../../lib/lesson-text.js" */
 /** @import { Signal } from "vendor/preact.js" */
 
 import { computed, effect, signal } from "vendor/preact.js";
+import { NOTHING_PRINTED, withPrinted } from "../../lib/demo-output.js";
 import { remembered } from "../../lib/remembered.js";
 import { session } from "./connection.js";
 import { polled } from "./polling.js";
 import { askOrKeepWhy } from "./refusals.js";
 
 const EVERY_MS = 500;
-/** As many as the studio keeps. */
-const LINES_MAX = 200;
 
 /** In the order in which they are taught. @type {Signal<readonly LessonView[] | null>} null: not told yet */
 export const lessons = signal(null);
@@ -25,8 +25,8 @@ export const lessonsRefused = signal("");
 export const chosenLesson = remembered("lessons.chosen", "");
 /** The texts by demo, in the language of the page. @type {Signal<ReadonlyMap<string, Lesson & {text: string}>>} */
 export const lessonTexts = signal(new Map());
-/** What the demo that is looked at printed. @type {Signal<Pick<DemoOutput, "run" | "lines" | "last">>} */
-export const output = signal({ run: 0, lines: [], last: 0 });
+/** What the demo that is looked at printed. @type {Signal<Output>} */
+export const output = signal(NOTHING_PRINTED);
 
 /** The demo whose output is asked for; empty: none is. */
 let heard = "";
@@ -55,26 +55,25 @@ export async function askLessons() {
 }
 
 async function askOutput() {
-  const demo = heard;
+  const [demo, known] = [heard, output.peek()];
   if (!demos.peek().has(demo)) return;
-  const { run, last: after, lines } = output.peek();
+  const { run, last: after } = known;
   const told = await askOrKeepWhy({ type: "get_demo_output", demo, run, after }, lessonsRefused);
-  if (told?.type !== "demo_output" || heard !== demo) return;
-  const before = told.run === run ? lines : [];
-  if (told.run === run && told.lines.length === 0) return;
-  output.value = { ...told, lines: [...before, ...told.lines].slice(-LINES_MAX) };
+  // Another question was quicker, or another demo is looked at.
+  if (told?.type !== "demo_output" || output.peek() !== known) return;
+  output.value = withPrinted(known, told);
 }
 
 /** Have what a demo prints be told. @param {string} demo empty: of none */
 export function showOutput(demo) {
   if (heard === demo) return;
   heard = demo;
-  output.value = { run: 0, lines: [], last: 0 };
+  output.value = { ...NOTHING_PRINTED };
 }
 
 // A studio that was started anew has other runs, and may have other demos.
 effect(() => {
   session.value;
   lessons.value = null;
-  output.value = { run: 0, lines: [], last: 0 };
+  output.value = NOTHING_PRINTED;
 });
