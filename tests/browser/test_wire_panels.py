@@ -8,13 +8,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
+from studio.ros.client import Node
 from studio.ros.messages import message
 from tests.support.demos import node_at
 from tests.support.managed_arm import managed_arm
+from tests.support.node_pair import context_at
 from tests.support.panel_pictures import SHOW_PANEL
 from tests.support.server import running_studio
 from tests.support.studio_page import studio_page, wait_until
-from tests.support.wire import running_router
+from tests.support.wire import free_endpoint, running_router
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -60,10 +62,30 @@ def panel(tab: StudioPage, name: str) -> Locator:
     return found
 
 
-def join_where_nodes_are(tab: StudioPage) -> None:
+def look_around(window: Locator, alone: str, humble: str) -> None:
+    """What is in the way at a place is said, with what to do, before anything is joined."""
+    address, domain = window.get_by_label("Address of the router"), window.get_by_label("Domain")
+    before = address.input_value()
+    for place, said, remedy in (
+        (free_endpoint(), "No router answers at", "ros2 run rmw_zenoh_cpp rmw_zenohd"),
+        (alone, "is there, but no node is", "export RMW_IMPLEMENTATION=rmw_zenoh_cpp"),
+        (humble, "neither hears the other", "Speak humble"),
+    ):
+        address.fill(place)
+        domain.fill("0")
+        window.get_by_role("button", name="Test").click()
+        report = window.locator(".ros-report").filter(has_text=said)
+        report.get_by_text(remedy, exact=True).wait_for()
+    address.fill(before)
+    domain.fill("41")
+    window.get_by_role("button", name="Test").click()
+
+
+def join_where_nodes_are(tab: StudioPage, alone: str, humble: str) -> None:
     tab.page.locator(".ros-status").click()
     window = tab.page.get_by_role("dialog", name="ROS 2")
     window.get_by_text("No node is in domain 41").wait_for()
+    look_around(window, alone, humble)
     window.get_by_role("button", name="3 nodes in domain 0: switch").click()
     window.get_by_text("3 nodes are there, in domain 0").wait_for()
     assert window.get_by_role("spinbutton", name="Domain").input_value() == "0"
@@ -184,10 +206,16 @@ def see_pictures(tab: StudioPage) -> None:
 def test_a_system_is_joined_read_drawn_and_given_a_type(browser: Browser, tmp_path: Path):
     with (
         running_router() as endpoint,
+        running_router() as alone,
+        running_router() as humble,
+        context_at(humble, "humble") as old,
         node_at(endpoint, "talker") as talker,
         node_at(endpoint, "listener") as listener,
         managed_arm(endpoint) as arm,
     ):
+        Node("old_talker", context=old).create_publisher(
+            old.wire.types.message("std_msgs/msg/String"), "/chatter", 10
+        )
         talker.create_publisher(STRING, "/chatter", 10)
         heard: list[object] = []
         listener.create_subscription(STRING, "/chatter", heard.append, 10)
@@ -199,7 +227,7 @@ def test_a_system_is_joined_read_drawn_and_given_a_type(browser: Browser, tmp_pa
             running_studio(["demo", *place], tmp_path / "data") as studio,
             studio_page(browser, studio) as tab,
         ):
-            join_where_nodes_are(tab)
+            join_where_nodes_are(tab, alone, humble)
             read_the_log(tab)
             see_who_speaks_with_whom(tab)
             give_a_type(tab)
