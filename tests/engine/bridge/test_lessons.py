@@ -239,7 +239,7 @@ def test_all_end_when_the_connection_is_let_go_and_none_starts_after_the_end(end
     asyncio.run(run())
 
 
-def test_a_demo_is_in_the_studios_domain_and_speaks_with_others(endpoint: str):
+def test_a_demo_serves_others_at_the_same_router(endpoint: str):
     async def run() -> None:
         async with desk_at(endpoint) as desk:
             await desk.start(StartDemo(demo="adder_server"))
@@ -248,5 +248,25 @@ def test_a_demo_is_in_the_studios_domain_and_speaks_with_others(endpoint: str):
             with node_at(endpoint) as tester:
                 answer = await asyncio.to_thread(call, tester, kind, "/add_two_ints", a=2, b=3)
             assert answer.sum == 5
+
+    asyncio.run(run())
+
+
+def test_a_demo_is_in_the_domain_of_the_studio_not_in_that_of_its_environment(
+    endpoint: str, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setenv("ROS_DOMAIN_ID", "3")
+
+    async def run() -> None:
+        wire = WireDesk(WireChoice("off", (endpoint,), domain=41))
+        desk = LessonDesk(wire)
+        try:
+            await wire.link()
+            await desk.start(StartDemo(demo="talker"))
+            # It is seen in the graph of domain 41, or never.
+            await seen(desk, "talker", "running")
+        finally:
+            await desk.close()
+            await wire.close()
 
     asyncio.run(run())
