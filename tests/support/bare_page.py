@@ -28,6 +28,10 @@ if TYPE_CHECKING:
 _ENDS_WITHIN_S = 20.0
 
 
+class PageLeftError(AssertionError):
+    """The page that was asked is no more."""
+
+
 class BarePage:
     """The one tab; its only way out is to evaluate scripts."""
 
@@ -44,13 +48,21 @@ class BarePage:
         )
         while (answer := json.loads(self._devtools.recv())).get("id") != asked:
             pass
+        if "result" not in answer:  # it is on its way to another address
+            raise PageLeftError(answer)
         result = answer["result"]
         assert "exceptionDetails" not in result, result
         return result["result"].get("value")
 
     def until(self, condition: str) -> None:
         """Wait until an expression holds."""
-        wait_until(condition, lambda: bool(self.evaluate(f"Boolean({condition})")))
+        wait_until(condition, lambda: self._holds(condition))
+
+    def _holds(self, condition: str) -> bool:
+        try:
+            return bool(self.evaluate(f"Boolean({condition})"))
+        except PageLeftError:
+            return False
 
 
 @contextmanager
