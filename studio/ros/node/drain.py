@@ -93,14 +93,16 @@ class Drain:
             self._thread.join()
 
     def _run(self) -> None:
-        look_at_all_s, look_s, taken = 0.0, 0.0, 0
+        look_at_all_s = look_s = rest_s = 0.0
+        taken = 0
         while not self._stopped.is_set():
             prompt_s, pause_s = (PROMPT_LOOK_S, _pause_s(taken)) if self._flowing else _IDLE_S
             # To wait for the event would take twice the processor of a plain sleep.
-            time.sleep(prompt_s if self._prompt else pause_s)
+            time.sleep(min(max(prompt_s, rest_s), pause_s) if self._prompt else pause_s)
             now_s = time.monotonic()
             if self._prompt and now_s < look_s:
                 self._look_into(self._prompt, now_s)
+                rest_s = _REST * (time.monotonic() - now_s)
                 continue
             look_s = now_s + pause_s
             if now_s < look_at_all_s:
