@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 _SILENCE_S: Final = 0.5
 _DRIVEN_MAX: Final = 20
+_ROUTER_PATIENCE_S: Final = 120.0
+"""For a router that went away amid a drive: the robot behind it may move on until it is back."""
 
 
 class _Driver:
@@ -37,6 +39,7 @@ class DriveDesk:
         self._wire = wire
         self._drivers: dict[str, _Driver] = {}
         self._ends: set[asyncio.Task[object]] = set()
+        self._leaves = False
 
     async def drive(self, command: Drive, listener: Listener) -> None:
         """Send a speed on its topic, and wait for the next one.
@@ -60,7 +63,9 @@ class DriveDesk:
         """Have all stand still: the connection is about to end."""
         for topic, driver in tuple(self._drivers.items()):
             self._end(topic, driver)
+        self._leaves = True
         await asyncio.gather(*self._ends)
+        self._leaves = False
 
     def _driver(self, topic: str, listener: Listener) -> _Driver:
         driver = self._drivers.get(topic)
@@ -105,4 +110,12 @@ class DriveDesk:
     async def _stand_still(self, driver: _Driver) -> None:
         async with driver.turn:
             if driver.wheel is not None:
+                await self._router_is_back(driver.wheel)
                 await asyncio.to_thread(driver.wheel.close)
+
+    async def _router_is_back(self, wheel: Wheel) -> None:
+        """Wait for who is to stand still, if nobody could hear it now and we are to stay."""
+        from studio.engine.bridge.requests import came_true  # noqa: PLC0415 - imports zenoh
+
+        if not wheel.is_reached:
+            await came_true(lambda: self._leaves or wheel.is_heard, _ROUTER_PATIENCE_S)

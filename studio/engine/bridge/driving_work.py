@@ -36,6 +36,16 @@ class Wheel:
         self._link = link
         self._publisher = link.node.create_publisher(self._kind, name, 10)
 
+    @property
+    def is_reached(self) -> bool:
+        """Whether the router is there."""
+        return self._link.is_connected
+
+    @property
+    def is_heard(self) -> bool:
+        """Whether the router is there, and somebody who hears it."""
+        return self.is_reached and self._publisher.get_subscription_count() > 0
+
     def steer(self, x_m_s: float, y_m_s: float, yaw_rad_s: float) -> None:
         """Publish a velocity, each part of it no faster than `SPEED_MAX`."""
         x, y, yaw = (max(-SPEED_MAX, min(part, SPEED_MAX)) for part in (x_m_s, y_m_s, yaw_rad_s))

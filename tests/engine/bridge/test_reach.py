@@ -9,6 +9,7 @@ import pytest
 
 from studio.engine.bridge.reach import NEEDS_ROUTER
 from studio.engine.messages.calls import CallService
+from studio.engine.messages.driving import Drive
 from studio.engine.messages.goals import CancelGoal, SendGoal
 from studio.engine.messages.publishing import Publish, StopPublishing
 from studio.errors import RouterGoneError
@@ -86,6 +87,33 @@ def test_with_the_router_a_call_ends_and_a_goal_and_a_publication_go_on_when_it_
                 await asyncio.to_thread(work.end, "succeed")
                 await page.deed_in("goals", goal, "succeeded")
                 await page.do(StopPublishing(deed=saying))
+
+    with router_at(endpoint) as router, node_at(endpoint) as node:
+        asyncio.run(run(node))
+
+
+async def drive_on(page: Bridged) -> None:
+    """Hold the stick until it is refused."""
+    while True:
+        await page.do(Drive(topic="/cmd_vel", stamped=False, x=1.0, y=0.0, yaw=0.0))
+        await asyncio.sleep(0.02)
+
+
+def test_a_robot_that_was_driven_when_the_router_went_stands_still_once_it_is_back():
+    endpoint = free_endpoint()
+
+    async def run(node: Node) -> None:
+        told = heard(node, "geometry_msgs/msg/Twist", "/cmd_vel")
+        async with bridged(endpoint) as page:
+            driving = asyncio.create_task(drive_on(page))
+            await until(lambda: bool(told))
+            await asyncio.to_thread(router.close)
+            with pytest.raises(RouterGoneError):
+                await driving
+            assert told[-1].linear.x == 1.0
+            page.desk.detach(page.ear)  # else it ends in half a second, with the router back
+            with router_at(endpoint):
+                await until(lambda: told[-1].linear.x == 0.0)
 
     with router_at(endpoint) as router, node_at(endpoint) as node:
         asyncio.run(run(node))
