@@ -16,11 +16,11 @@ const WAYS = [
   { word: "latched", reliable: true, latched: true },
 ];
 
-/** @param {{listening: Signal<Listening>, hint: string, disabled?: boolean}} props `hint`: how it is listened to now */
-export function ListeningMenu({ listening, hint, disabled = false }) {
+/** @param {{label: string, listening: Signal<Listening>, hint?: string, disabled?: boolean}} props `hint`: how it is listened to now */
+export function ListeningMenu({ label, listening, hint = label, disabled = false }) {
   const now = listening.value;
   const items = () => [
-    { label: t("topics.qos"), heading: true },
+    { label, heading: true },
     ...WAYS.map(({ word, reliable, latched }) => ({
       label: t(`topics.qos.${word}`),
       checked: now.reliable === reliable && now.latched === latched,
@@ -29,5 +29,5 @@ export function ListeningMenu({ listening, hint, disabled = false }) {
       },
     })),
   ];
-  return html`<${MenuButton} label=${t("topics.qos")} hint=${hint} disabled=${disabled} items=${items}><${Icon} name="sliders" /><${Icon} name="chevronDown" size=${12} /><//>`;
+  return html`<${MenuButton} label=${label} hint=${hint} disabled=${disabled} items=${items}><${Icon} name="sliders" /><${Icon} name="chevronDown" size=${12} /><//>`;
 }

@@ -90,7 +90,7 @@ function Bar({ picking, held }) {
     }}><${Icon} name="plus" size=${14} /><span class="plot-add-words">${t("plot.add")}</span></button>
     <${MenuButton} label=${t("plot.span")} class="button" items=${items}>${t("plot.seconds", { count: span_s.value })}<${Icon} name="chevronDown" size=${12} /><//>
     <${IconButton} icon=${held.value ? "animate" : "pause"} label=${t(held.value ? "topics.go_on" : "topics.pause")} pressed=${held.value !== null} disabled=${isEmpty} onClick=${toggle} />
-    <${ListeningMenu} listening=${plotListening} hint=${t("topics.qos")} disabled=${isEmpty} />
+    <${ListeningMenu} label=${t("plot.listen")} listening=${plotListening} disabled=${isEmpty} />
     <span class="push"></span>
     ${dropped.value > 0 && html`<span class="plot-trouble" role="status">${t("plot.dropped", { count: dropped.value })}</span>`}
     <${IconButton} icon="download" label=${t("plot.csv")} disabled=${isEmpty} onClick=${() => download(held.value ?? spanNow())} />

@@ -55,7 +55,7 @@ export function TopicEcho({ topic, row }) {
       <${IconButton} icon="info" label=${t("topics.connections")} pressed=${showsEnds.value} onClick=${() => {
         showsEnds.value = !showsEnds.value;
       }} />
-      <${ListeningMenu} listening=${listening} hint=${heard.value ? qosWords(heard.value) : t("topics.qos")} />
+      <${ListeningMenu} label=${t("topics.qos")} listening=${listening} hint=${heard.value ? qosWords(heard.value) : undefined} />
       ${row?.kind && mayEdit.value && html`<${IconButton} icon="scene" label=${t("topics.show", { kind: row.kind })} onClick=${() => addDisplay(row.kind, topic)} />`}
       <${IconButton} icon="copy" label=${t("topics.copy_message")} disabled=${!message.value} onClick=${() => copyAt(look.current, "")} />
       <${IconButton} icon=${paused.value ? "animate" : "pause"} label=${t(paused.value ? "topics.go_on" : "topics.pause")} pressed=${paused.value} onClick=${() => {

@@ -160,7 +160,7 @@ def listen_otherwise(tab: StudioPage) -> None:
     tab.page.evaluate(_PLOT, ["/tank", ".litres"])
     plots = panel(tab, "plot")
     plots.get_by_role("listitem").get_by_text("7.25").wait_for()
-    plots.get_by_role("button", name="Listen").click()
+    plots.get_by_role("button", name="How its topics are heard").click()
     tab.page.get_by_role("menuitemradio", name="With what was said before").click()
     topics = panel(tab, "topics")
     topics.get_by_role("button", name="Who publishes and subscribes").click()
