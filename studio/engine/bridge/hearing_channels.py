@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 
 from studio.engine.bridge.hearing_frames import Chunk, chunk_of
 from studio.engine.messages.hearing import DEPTH_MAX, Heard
-from studio.errors import StudioError
+from studio.errors import StudioError, UnknownTypeError
 from studio.ros.node.overhearing import Overheard
 from studio.ros.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 
@@ -79,7 +79,7 @@ class Channel:
             self.close()
             self._link = link
         publishers = _publishers(link, self.wish.topic)
-        way = _way_of(self.wish, publishers, self._way)
+        way = _way_of(self.wish, publishers, self._way, lambda name: _own_hash(link, name))
         if way != self._way or (way is not None and self._heard is None):
             self.close()
             self._way = way
@@ -184,10 +184,25 @@ def _publishers(link: WireLink, topic: str) -> list[GraphEndpoint]:
         return []
 
 
-def _way_of(wish: Hear, publishers: Sequence[GraphEndpoint], before: Way | None) -> Way | None:
+def _own_hash(link: WireLink, type_name: str) -> str | None:
+    """What publishers show who have the type as it is known here; None: it is not."""
+    wire = link.node.wire
+    try:
+        return wire.profile.type_hash(wire.types.hash_of(type_name))
+    except UnknownTypeError:
+        return None
+
+
+def _way_of(
+    wish: Hear,
+    publishers: Sequence[GraphEndpoint],
+    before: Way | None,
+    own_hash: Callable[[str], str | None],
+) -> Way | None:
     """Hear as fits those who publish, unless somebody chose otherwise; None: nobody knows how.
 
-    When all are gone, it is heard as before: they may come back.
+    While nobody publishes, it is heard as most do: somebody who says one thing and is gone is
+    heard only where nothing has to be opened anew. When all are gone, it is heard as before.
     """
     name = wish.type_name or (publishers[0].type_name if publishers else "")
     fitting = [one for one in publishers if one.type_name == name]
@@ -199,8 +214,8 @@ def _way_of(wish: Hear, publishers: Sequence[GraphEndpoint], before: Way | None)
     latched = any(one.qos.durability is DurabilityPolicy.TRANSIENT_LOCAL for one in fitting)
     return Way(
         name,
-        fitting[0].type_hash if fitting else None,
-        (bool(fitting) and reliable) if wish.reliable is None else wish.reliable,
+        fitting[0].type_hash if fitting else own_hash(name),
+        reliable if wish.reliable is None else wish.reliable,
         latched if wish.latched is None else wish.latched,
         _depth_of(wish, fitting),
     )

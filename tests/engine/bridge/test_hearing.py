@@ -90,6 +90,28 @@ def test_every_message_comes_to_all_who_wish_it_in_frames_that_are_written_once(
     asyncio.run(run())
 
 
+def test_who_waits_for_a_type_hears_the_first_that_tells_it_without_listening_anew(
+    endpoint: str, tester: Node
+):
+    def ears() -> list[Any]:
+        return tester.get_subscriptions_info_by_topic("/first")
+
+    async def run() -> None:
+        async with hearing(endpoint) as desk:
+            hearer = browser(desk)
+            desk.wish(hearer, Hear(wish=1, topic="/first", mode="every", type_name=STRING))
+            await until(lambda: len(ears()) == 1)
+            before = ears()
+            out = tester.create_publisher(message(STRING), "/first", 10)
+            await until(lambda: out.get_subscription_count() == 1)
+            out.publish(said("once"))
+            await heard(hearer)
+            await until(lambda: texts(hearer) == ["once"])
+            assert [one.endpoint_gid for one in ears()] == [one.endpoint_gid for one in before]
+
+    asyncio.run(run())
+
+
 def test_the_newest_comes_as_often_as_was_wished_and_what_is_left_ends(endpoint: str, tester: Node):
     out = tester.create_publisher(message(STRING), "/newest", 10)
 
