@@ -37,6 +37,8 @@ ON_THE_WIRE = (
 )  # fmt: skip
 """Panels that show something only while a ROS 2 system is there."""
 _HIGHEST_PX = 380
+DRAWN_WHOLE = ("graph", "plot")
+"""Panels whose drawing fills them: cut off, it would show nothing."""
 _STILL_MS = 1200
 _RUN = """async (id) => {
   const script = document.querySelector('script[type="module"]').src;
@@ -233,7 +235,8 @@ def take_wired(browser: Browser, data: Path) -> None:
                     if panel == "lessons":
                         show_lesson(tab.page)
                     tab.page.wait_for_timeout(_STILL_MS)
-                    camera.take(panel, tab.page.evaluate(_DOCK_OF, panel))
+                    highest_px = DIALOGS_WINDOW[1] if panel in DRAWN_WHOLE else _HIGHEST_PX
+                    camera.take(panel, tab.page.evaluate(_DOCK_OF, panel), highest_px)
                     tab.page.evaluate(_RUN, "maximize")
                 if wanted("ros"):
                     tab.page.evaluate(_RUN, "ros")
