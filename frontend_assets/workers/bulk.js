@@ -7,6 +7,7 @@
 /** @import { Came } from "./frames.js" */
 
 import { FrameError } from "./frames.js";
+import { Spares } from "./spares.js";
 
 /** Tabs of a browser that have one at the same time. */
 const SLOTS = 3;
@@ -20,9 +21,10 @@ const OVERTAKEN_S = 10;
 
 /** Puts frames together again, however their stream was cut; each byte is copied once. */
 export class FrameJoiner {
-  /** @param {(frame: ArrayBuffer) => void} take */
-  constructor(take) {
+  /** @param {(frame: ArrayBuffer) => void} take @param {Spares} [spares] where a frame may be put */
+  constructor(take, spares = new Spares()) {
     this.take = take;
+    this.spares = spares;
     this.length = new Uint8Array(LENGTH_BYTES);
     /** @type {Uint8Array<ArrayBuffer>} what is being filled: a length, or the frame after it */
     this.filling = this.length;
@@ -45,7 +47,7 @@ export class FrameJoiner {
     const { filling } = this;
     this.filled = 0;
     if (filling === this.length) {
-      this.filling = new Uint8Array(frameLength(filling));
+      this.filling = this.spares.take(frameLength(filling));
     } else {
       this.filling = this.length;
       this.take(filling.buffer);
@@ -105,6 +107,7 @@ export class Bulk {
     /** @type {AbortController | null} null: there is no stream, nor will there be one soon */
     this.stream = null;
     this.tried_ms = Number.NEGATIVE_INFINITY;
+    this.spares = new Spares();
   }
 
   /** Something came over the data lane. @param {Came} came */
@@ -159,7 +162,7 @@ export class Bulk {
     const asked = this.surroundings.fetch(address, { signal, cache: "no-store" });
     const answer = await asked.catch(none);
     if (!answer?.ok || !answer.body) return;
-    const joiner = new FrameJoiner(this.surroundings.take);
+    const joiner = new FrameJoiner(this.surroundings.take, this.spares);
     for await (const piece of piecesOf(answer.body)) joiner.push(piece);
   }
 
@@ -177,6 +180,7 @@ export class Bulk {
   close() {
     const { stream } = this;
     this.stream = null;
+    this.spares.clear();
     stream?.abort();
   }
 }

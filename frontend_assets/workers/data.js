@@ -151,7 +151,16 @@ function takeData(frame) {
 function takeBulk(frame) {
   const { dropped, messages } = readFrame(frame);
   tellSlow("bulk", dropped);
+  const [only] = messages;
+  if (only && messages.length === 1 && isForOnePicture(only))
+    only.done = () => bulk.spares.give(frame);
   takeMessages(messages);
+}
+
+/** Whether nobody else reads it: pictures tell when they are done. @param {Came} came */
+function isForOnePicture({ channel }) {
+  const [wish, ...others] = channels.get(channel) ?? [];
+  return others.length === 0 && wishes.get(wish ?? 0) instanceof Pictures;
 }
 
 /** @param {"data" | "bulk"} lane @param {number} dropped */

@@ -14,6 +14,7 @@ const MESSAGE_HEAD = 28;
  * @property {number} received_s since the Unix epoch, by the studio's clock
  * @property {number} sent_s by the sender's clock
  * @property {number} lost of its channel so far
+ * @property {() => void} [done] to be called by the one that takes it, once nobody reads its bytes any more
  */
 
 /** A frame that none of our studios writes. */

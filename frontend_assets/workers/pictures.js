@@ -74,6 +74,8 @@ export class Pictures {
     this.waiting = null;
     /** @type {Read | null} */
     this.shown = null;
+    /** What that was made of. @type {Came | null} */
+    this.source = null;
     this.painted = 0;
     /** @type {number[]} */
     this.times_s = [];
@@ -85,7 +87,10 @@ export class Pictures {
 
   /** @param {readonly Came[]} messages */
   take(messages) {
-    this.waiting = messages.at(-1) ?? this.waiting;
+    for (const came of messages) {
+      this.waiting?.done?.();
+      this.waiting = came;
+    }
     this.show();
   }
 
@@ -133,17 +138,19 @@ export class Pictures {
     this.waiting = null;
     if (!came) return;
     const read = await readImage(this.typeName, readWith(type, came.cdr), came.cdr.length);
-    this.change(read, came.received_s);
+    this.change(read, came);
   }
 
-  /** @param {Read} read @param {number} received_s */
-  change(read, received_s) {
+  /** @param {Read} read @param {Came} came */
+  change(read, came) {
     const before = this.shown;
     before?.motif?.bitmap?.close();
+    this.source?.done?.();
     this.shown = read;
+    this.source = came;
     if (read.motif) {
       this.painted += 1;
-      this.times_s = [...this.times_s.slice(1 - TIMES_MAX), received_s];
+      this.times_s = [...this.times_s.slice(1 - TIMES_MAX), came.received_s];
     }
     if (areAlike(before, read)) this.sayLater();
     else this.say();

@@ -101,6 +101,24 @@ test("of images that come faster than the screen shows them, only the newest is 
   assert.deepEqual(looked.painted, [[199], [200]]);
 });
 
+test("of every image it is said once that nobody reads it any more: when it was passed over, or after another is shown", async (context) => {
+  const looked = grey();
+  context.after(() => looked.pictures.leave());
+  /** @type {number[]} */
+  const done = [];
+  const hear = (/** @type {number} */ number) =>
+    looked.pictures.take([{ ...cameWith(number), done: () => done.push(number) }]);
+  for (const number of [1, 2, 3]) hear(number);
+  assert.deepEqual(done, [1, 2]);
+  await looked.frame();
+  assert.deepEqual(done, [1, 2]);
+  hear(4);
+  assert.deepEqual(done, [1, 2]);
+  await looked.frame();
+  assert.deepEqual(done, [1, 2, 3]);
+  assert.deepEqual(looked.painted, [[3], [4]]);
+});
+
 test("a picture that is moved is painted anew, and does not count as another one", async (context) => {
   const looked = grey();
   context.after(() => looked.pictures.leave());
