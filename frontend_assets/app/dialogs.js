@@ -6,7 +6,6 @@ import { later } from "../lib/later.js";
 import { Dialog, DialogAside } from "../lib/ui.js";
 import { GraphicsDialog } from "./graphics.js";
 import { DialogHelp } from "./help.js";
-import { LaunchDialog } from "./launch-dialog.js";
 import { MergeDialog } from "./merge-dialog.js";
 import { Palette } from "./palette.js";
 import { ShareDialog } from "./share.js";
@@ -16,6 +15,7 @@ import { dialog } from "./state/view.js";
 
 const AddDisplayDialog = later(async () => (await import("./add-display.js")).AddDisplayDialog);
 const KeysDialog = later(async () => (await import("./keys-dialog.js")).KeysDialog);
+const LaunchDialog = later(async () => (await import("./launch-dialog.js")).LaunchDialog);
 const LayoutsDialog = later(async () => (await import("./layouts-dialog.js")).LayoutsDialog);
 const OpenDialog = later(async () => (await import("./open-dialog.js")).OpenDialog);
 const PackageDialog = later(async () => (await import("./open-dialog.js")).PackageDialog);

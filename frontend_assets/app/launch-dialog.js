@@ -3,13 +3,12 @@
 /** @import { Arguments, ArgumentView, SiteView } from "../types/wire.d.ts" */
 /** @import { Signal } from "vendor/preact.js" */
 
-import { effect, html, useEffect, useRef, useSignal } from "vendor/preact.js";
+import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
 import { baseName } from "../lib/paths.js";
 import { isChanged } from "../lib/sites.js";
 import { Dialog, EmptyState, Icon, IconButton, ProgressBar, Switch } from "../lib/ui.js";
 import { ask, openPath, resetSite } from "./actions.js";
-import { role } from "./state/connection.js";
 import {
   allSites,
   documentState,
@@ -17,7 +16,6 @@ import {
   showingLastGood,
   sitesRevision,
 } from "./state/document.js";
-import { dialog } from "./state/view.js";
 import { RefusedError, send } from "./wire.js";
 
 /** What is to be passed, by name; null: nothing, the default counts. @typedef {ReadonlyMap<string, string | null>} Values */
@@ -29,19 +27,6 @@ import { RefusedError, send } from "./wire.js";
  */
 
 const OTHER = "\u0000other";
-
-/** Show the form by itself when the robot that was opened cannot be without a value. */
-export function followMissing() {
-  let asked = "";
-  effect(() => {
-    const state = documentState.value;
-    const lacking = problems.value.find(({ fix }) => fix?.action === "give_arguments");
-    const what = lacking && state ? `${state.id} ${lacking.sentence}` : "";
-    if (what === "" || what === asked || role.value !== "presenter") return;
-    asked = what;
-    if (dialog.peek() === null) dialog.value = { kind: "launch", path: "" };
-  });
-}
 
 /** @param {{path: string, onClose: () => void}} props empty path: the open document */
 export function LaunchDialog({ path, onClose }) {
