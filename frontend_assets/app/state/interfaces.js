@@ -29,7 +29,10 @@ export async function showInterface(name) {
   interfaceName.value = name;
   interfaceShown.value = null;
   if (name === "") return;
-  const told = await askOrKeepWhy({ type: "get_interface", name, with_text: true }, interfaceRefused);
+  const told = await askOrKeepWhy(
+    { type: "get_interface", name, with_text: true },
+    interfaceRefused,
+  );
   // Another one may be looked at since.
   if (told?.type !== "interface" || told.name !== interfaceName.value) return;
   interfaceShown.value = told;
