@@ -9,6 +9,7 @@ from studio.engine.roles import Role
 from studio.web.assets import Assets
 from tests.support.hearers import read_frame
 from tests.support.small_engine import FLOOD
+from tests.support.wire import wait_until
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -45,8 +46,11 @@ def frames_until_words(lane: Connection) -> Iterator[tuple[int, list[Came]]]:
 def test_a_slow_browser_gets_the_newest_is_told_what_it_missed_and_the_lane_goes_on(
     web: RunningWeb,
 ):
+    flooded = web.engine.hearing.flooded
     with web.websocket("/data") as lane:
         lane.send(json.dumps({"type": "hear", "wish": 1, "topic": "/flood", "mode": "every"}))
+        # Nothing is read before: a browser that keeps up misses nothing.
+        wait_until("the flood", lambda: web.engine.hearing.flooded == flooded + FLOOD)
         frames = list(frames_until_words(lane))
     came = [one for _, messages in frames for one in messages]
     dropped = max(count for count, _ in frames)
