@@ -94,10 +94,21 @@ export function Offers({ id, icon, offers, refused, again, form, paste, noisy = 
     <div class="panel-bar"><${SearchBox} label=${t(`${id}.filter`)} value=${filter.value} onInput=${onInput} />
       ${noisy && html`<${IconButton} icon=${all.value ? "eye" : "eyeOff"} label=${t(`${id}.all`)} pressed=${all.value} onClick=${toggle} />`}</div>
     ${refused && html`<${Refusal} sentence=${refused} again=${again} />`}
-    ${offers && shown.length === 0 && html`<${NothingThere} icon=${icon} title=${t(offers.length > 0 ? "deeds.filtered" : `${id}.none`)} />`}
+    ${
+      offers &&
+      shown.length === 0 &&
+      html`<${NothingThere} icon=${icon} title=${whyNothing(id, offers.length, filter.value)}>
+      ${offers.length > 0 && filter.value === "" && html`<button type="button" class="button" onClick=${toggle}>${t(`${id}.all`)}</button>`}<//>`
+    }
     ${shown.length > 0 && html`<ul class="scroll offers" aria-label=${t(`panel.${id}`)}>${shown.map((one) => html`<${OfferRow} key=${one.name} offer=${one} form=${form} />`)}</ul>`}
     ${children}
   </div>`;
+}
+
+/** @param {string} id of the panel @param {number} count of all offers @param {string} filter @returns {string} why none of them is shown */
+function whyNothing(id, count, filter) {
+  if (count === 0) return t(`${id}.none`);
+  return filter === "" ? t("deeds.only_noise", { count }) : t("deeds.filtered");
 }
 
 /** @param {{offer: OfferView, form: MessageForm}} props */

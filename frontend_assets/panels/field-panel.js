@@ -3,7 +3,7 @@
 /** @import { inNamespaces } from "../app/namespaces.js" */
 
 import { html } from "vendor/preact.js";
-import { ConnectFirst, isUnconnected } from "../app/connect-first.js";
+import { ConnectFirst, isRouterAway, isUnconnected, RouterAway } from "../app/connect-first.js";
 import { DemoFirst } from "../app/demo-first.js";
 import { useLooking } from "../app/looking.js";
 import { mayEdit } from "../app/state/connection.js";
@@ -34,6 +34,7 @@ export function FieldPanel(props) {
 function Content({ id, icon, demo, worlds: { all, shown, chosen }, nameOf, world: World }) {
   if (!all.value) return html`<${ProgressBar} label=${t("loading")} done=${0} total=${0} />`;
   const one = shown.value;
+  if (!one && isRouterAway()) return html`<${RouterAway} />`;
   if (!one) return html`<${DemoFirst} icon=${icon} title=${t(`${id}.none`)} demo=${demo} />`;
   const items = () =>
     (all.value ?? []).map((other) => ({
@@ -43,7 +44,7 @@ function Content({ id, icon, demo, worlds: { all, shown, chosen }, nameOf, world
         chosen.value = other.prefix;
       },
     }));
-  return html`${
+  return html`<${RouterAway} />${
     all.value.length > 1 &&
     html`<div class="panel-bar row"><${MenuButton} label=${t(`${id}.choose`)} class="button" items=${items}>
       <span class="field-name">${nameOf(one)}</span><${Icon} name="chevronDown" size=${12} /><//></div>`

@@ -52,6 +52,7 @@ StudioError
             ParameterFileError
         CallError
             NotServedError
+            ServedOtherwiseError
             NoAnswerError
             DroppedError
             ServiceServerGoneError
@@ -108,6 +109,7 @@ from studio.errors.calls import (
     ParameterImmutableError,
     ParameterNotDeclaredError,
     ParameterUninitializedError,
+    ServedOtherwiseError,
     ServiceServerGoneError,
     TransitionError,
     TypeDescriptionError,
@@ -258,6 +260,7 @@ __all__ = [
     "RouterNotStartedError",
     "SaveConflictError",
     "SceneError",
+    "ServedOtherwiseError",
     "ServiceServerGoneError",
     "SettingsError",
     "StaleEditError",

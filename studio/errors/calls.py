@@ -85,6 +85,20 @@ class NotServedError(CallError):
         self.what, self.name = what, name
 
 
+class ServedOtherwiseError(CallError):
+    """Somebody serves what was asked for, with another type or another form of it."""
+
+    def __init__(self, what: str, name: str, asked: str, types: tuple[str, ...]) -> None:
+        served = " and ".join(types)
+        how = (
+            f"with another form of {asked}: give the studio the text that its node has"
+            if asked in types
+            else f"as {served}, not as {asked}: call it with that type"
+        )
+        super().__init__(f"The {what} {name} is served {how}.")
+        self.what, self.name, self.asked, self.types = what, name, asked, types
+
+
 class NoAnswerError(CallError):
     """A server is there and was silent for too long."""
 

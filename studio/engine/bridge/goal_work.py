@@ -15,10 +15,11 @@ from studio.engine.bridge.requests import (
     SHOWN_CHARACTERS,
     came_true,
     known_in_time,
+    not_served,
     why_ended,
     wire_name,
 )
-from studio.errors import CallError, CommandError, NoAnswerError, NotServedError
+from studio.errors import CallError, CommandError, NoAnswerError
 from studio.ros.action.client import ActionClient
 from studio.ros.action.states import GoalStatus
 from studio.ros.names import full_type_name
@@ -106,12 +107,14 @@ class GoalRequest:
 
         Raises:
             NotServedError: Nobody serves the action.
+            ServedOtherwiseError: Somebody does, with another type.
             RouterGoneError: The router ended meanwhile.
             NoAnswerError: The server says nothing in time.
         """
         is_ready = self._client.server_is_ready
         if not await came_true(is_ready, min(timeout_s, SERVER_PATIENCE_S)):
-            raise NotServedError("action", self.name)
+            types = dict(self._link.graph.actions()).get(self.name, ())
+            raise not_served("action", self.name, self.type_name, types)
         sent = self._client.send_goal_async(
             self._goal, lambda message: on_feedback(message.feedback)
         )

@@ -10,11 +10,13 @@ import time
 from typing import TYPE_CHECKING, Any, Final
 
 from studio.errors import (
+    CallError,
     CommandError,
     DroppedError,
     NoAnswerError,
     NotServedError,
     RouterGoneError,
+    ServedOtherwiseError,
     ServiceServerGoneError,
     WireError,
 )
@@ -24,7 +26,7 @@ from studio.ros.types.json_texts import to_json
 from studio.ros.types.plain import from_yaml
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from studio.engine.messages.calls import CallService
     from studio.engine.wire.link import WireLink
@@ -62,6 +64,7 @@ class ServiceRequest:
 
         Raises:
             NotServedError: Nobody serves it.
+            ServedOtherwiseError: Somebody does, with another type.
             ServiceServerGoneError: Its server ended meanwhile.
             RouterGoneError: The router did.
             NoAnswerError: No reply came in time.
@@ -69,7 +72,8 @@ class ServiceRequest:
         end_s = time.monotonic() + timeout_s
         is_ready = self._client.service_is_ready
         if not await came_true(is_ready, min(timeout_s, SERVER_PATIENCE_S)):
-            raise NotServedError("service", self.name)
+            types = dict(self._link.graph.services()).get(self.name, ())
+            raise not_served("service", self.name, self.type_name, types)
         asked = self._client.call_async(self._request)
         left_s = max(0.0, end_s - time.monotonic())
         try:
@@ -95,6 +99,13 @@ def wire_name(text: str) -> str:
         RosNameError: It breaks a rule.
     """
     return check_full_name(text if text.startswith("/") else f"/{text}")
+
+
+def not_served(what: str, name: str, type_name: str, types: Sequence[str]) -> CallError:
+    """Say why nobody answers: nobody is there, or all have other types."""
+    if types:
+        return ServedOtherwiseError(what, name, type_name, tuple(types))
+    return NotServedError(what, name)
 
 
 async def came_true(holds: Callable[[], bool], timeout_s: float) -> bool:

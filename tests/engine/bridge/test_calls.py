@@ -123,6 +123,21 @@ def test_nobody_and_who_is_silent_are_given_up_in_time(
 
 
 @pytest.mark.usefixtures("slow")
+def test_who_serves_it_with_another_type_is_said_to(endpoint: str):
+    other = CallService(name="/slow", service_type="std_srvs/srv/Empty", timeout_s=0.2)
+
+    async def run() -> str:
+        async with bridged(endpoint) as page:
+            await served(page, "/slow")
+            number = await page.begin(other)
+            return (await page.deed_in("calls", number, "failed"))["trouble"]
+
+    trouble = asyncio.run(run())
+    assert trouble.startswith(f"The service /slow is served as {ADD}, ")
+    assert trouble.endswith("not as std_srvs/srv/Empty: call it with that type.")
+
+
+@pytest.mark.usefixtures("slow")
 def test_a_call_is_cancelled_at_once(endpoint: str):
     async def run() -> None:
         async with bridged(endpoint) as page:
