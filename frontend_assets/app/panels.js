@@ -8,7 +8,7 @@ import { until, untilIdle } from "../lib/idle.js";
 import { Icon, ProgressBar } from "../lib/ui.js";
 import { heldBack } from "./state/alarm.js";
 import { changedCount, problems, robot } from "./state/document.js";
-import { wired } from "./wired-styles.js";
+import { wired } from "./wired.js";
 
 /**
  * @typedef {{icon: string, keepsFrame?: boolean, heavy?: boolean, badge?: () => {text: string, tone: string, label: string} | null,

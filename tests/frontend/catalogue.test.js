@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { readdirSync, readFileSync } from "node:fs";
 import { test } from "node:test";
+import { wordsOf } from "./support/words.js";
 
 const ASSETS = new URL("../../frontend_assets/", import.meta.url);
 /** What is the same in every language: names of keys, of formats, and what xacro itself is written in. */
@@ -9,7 +10,7 @@ const SAME =
 const SPOKEN = /(?:aria-label|title|placeholder|label|hint|alt|aria-description)="([^"]*)"/g;
 const HOLE = "\0";
 /** @type {Record<string, string>} */
-const WORDS = JSON.parse(readFileSync(new URL("i18n/en.json", ASSETS), "utf8"));
+const WORDS = wordsOf("en");
 
 /**
  * The templates of a module, each as its own text with a hole for what is put in.

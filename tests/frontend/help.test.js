@@ -5,6 +5,7 @@ import { OF_DIALOG, OTHER_PAGES } from "../../frontend_assets/lib/help-pages.js"
 import { searchHelp } from "../../frontend_assets/lib/help-search.js";
 import { partsOf, plainHelp, readHelp } from "../../frontend_assets/lib/help-text.js";
 import { ICONS } from "../../frontend_assets/vendor/icons.js";
+import { wordsOf } from "./support/words.js";
 
 const ASSETS = new URL("../../frontend_assets/", import.meta.url);
 const LANGUAGES = ["en", "de"];
@@ -81,7 +82,7 @@ for (const language of LANGUAGES) {
 
 test("every page has its title in the catalogue", () => {
   for (const language of LANGUAGES) {
-    const words = JSON.parse(textOf(`i18n/${language}.json`));
+    const words = wordsOf(language);
     for (const page of PAGES)
       assert.ok(words[PANELS.includes(page) ? `panel.${page}` : `help.page.${page}`], page);
     for (const group of ["panels", ...Object.keys(OTHER_PAGES)])

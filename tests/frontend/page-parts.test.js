@@ -6,6 +6,7 @@ import { createGesture } from "../../frontend_assets/lib/gesture.js";
 import { movableJoints, rangeOf, unitsOf } from "../../frontend_assets/lib/joints.js";
 import { matches, shortcutText } from "../../frontend_assets/lib/keys.js";
 import { documentOf, placeText, shortPath } from "../../frontend_assets/lib/paths.js";
+import { fileOfWords, wordsOf } from "./support/words.js";
 
 /** @import { JointView } from "../../frontend_assets/types/wire.d.ts" */
 
@@ -156,14 +157,10 @@ function sourcesIn(folder) {
     .join("\n");
 }
 
-/** @param {string} language @returns {Record<string, string>} */
-const wordsOf = (language) =>
-  JSON.parse(readFileSync(new URL(`i18n/${language}.json`, ASSETS), "utf8"));
-
 test("every language says the same things, with the same blanks to fill", () => {
-  const english = wordsOf("en");
   for (const file of readdirSync(new URL("i18n/", ASSETS))) {
-    const words = wordsOf(file.replace(".json", ""));
+    const english = fileOfWords(file.replace(/^\w+(.*)\.json$/, "en$1"));
+    const words = fileOfWords(file.replace(".json", ""));
     assert.deepEqual(Object.keys(words), Object.keys(english), file);
     for (const [key, text] of Object.entries(english)) {
       const blanks = (/** @type {string} */ one) => (one.match(/\{\w+\}/g) ?? []).toSorted();

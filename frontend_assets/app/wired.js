@@ -1,4 +1,6 @@
-/** Styles of the panels about ROS 2: they come with the first of these, not with the page. */
+/** Styles and words of the panels about ROS 2: they come with the first of these, not with the page. */
+
+import { useWords } from "../lib/i18n.js";
 
 const FILES = [
   "styles/topics.css",
@@ -15,17 +17,18 @@ const FILES = [
   "styles/interfaces.css",
   "styles/graph.css",
 ];
+const WORDS = ".ros";
 /** @type {Promise<unknown> | null} */
 let coming = null;
 
 /**
  * @template T
  * @param {() => Promise<T>} load
- * @returns {() => Promise<T>} the same, with the styles
+ * @returns {() => Promise<T>} the same, with styles and words
  */
 export const wired = (load) => async () => {
   coming ??= Promise.all(FILES.map(styled));
-  const [loaded] = await Promise.all([load(), coming]);
+  const [loaded] = await Promise.all([load(), coming, useWords(WORDS)]);
   return loaded;
 };
 
