@@ -102,7 +102,7 @@ def _idle(server: Server) -> float:
 
 def _measure(servers: list[Server], port: int, cell: Cell) -> None:
     say(f"  {cell}")
-    chosen = [one for one in servers if one.name != "empty" or cell.over_empty]
+    chosen = [one for one in servers if one.name not in cell.left_out]
     found: dict[str, list[Seen]] = {server.name: [] for server in chosen}
     with _publishing(port, cell):
         for turn in range(RUNS):
@@ -126,8 +126,9 @@ def _middle(runs: list[Seen]) -> Seen:
 
 
 def _judge(middle: dict[str, Seen], cell: Cell) -> None:
-    ours, naive, sdk = middle["studio"], middle["naive"], middle.get("foxglove")
-    say(f"    a message takes {ours.cost / naive.cost:.2f} of a plain loop's CPU")
+    ours, naive, sdk = middle["studio"], middle.get("naive"), middle.get("foxglove")
+    if naive is not None:
+        say(f"    a message takes {ours.cost / naive.cost:.2f} of a plain loop's CPU")
     if sdk is not None:
         _judge_beside(ours, sdk, cell)
     if cell.over_empty:
