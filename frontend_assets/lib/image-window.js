@@ -21,7 +21,7 @@ import { filling } from "./image-view.js";
  */
 
 /** @param {Size} picture @param {Sight} sight @returns {View} of it in pixels of the canvas */
-export function viewIn(picture, { width, height, ratio, view }) {
+export function viewWithin(picture, { width, height, ratio, view }) {
   const frame = { width: width / ratio, height: height / ratio };
   const { x, y, scale } = view ?? filling(picture, frame);
   return { x: x * ratio, y: y * ratio, scale: scale * ratio };

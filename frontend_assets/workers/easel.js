@@ -5,7 +5,7 @@
 /** @import { View } from "../lib/pan-zoom.js" */
 
 import { average } from "../lib/image-smoothing.js";
-import { viewIn, wholeOf, windowOf } from "../lib/image-window.js";
+import { viewWithin, wholeOf, windowOf } from "../lib/image-window.js";
 
 /** @typedef {{width: number, height: number, ink: Ink | null, bitmap: ImageBitmap | null}} Motif what is painted: one of the two has its pixels */
 
@@ -38,7 +38,7 @@ export class Easel {
     const { context } = this;
     if (!context) return;
     context.clearRect(0, 0, sight.width, sight.height);
-    const view = viewIn(motif, sight);
+    const view = viewWithin(motif, sight);
     if (motif.ink) this.paintView(context, motif, motif.ink, view, range);
     else if (motif.bitmap) drawBitmap(context, motif.bitmap, view);
   }

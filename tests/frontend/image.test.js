@@ -11,7 +11,7 @@ import {
   rateOf,
   ratioFor,
 } from "../../frontend_assets/lib/image-view.js";
-import { viewIn, wholeOf, windowOf } from "../../frontend_assets/lib/image-window.js";
+import { viewWithin, wholeOf, windowOf } from "../../frontend_assets/lib/image-window.js";
 import { zoomed } from "../../frontend_assets/lib/pan-zoom.js";
 import { PNG, raw } from "./support/images.js";
 
@@ -197,20 +197,20 @@ test("a canvas has the pixels of the screen, up to as many as a large one has", 
 test("each pixel of the screen shows the one of the picture that is under its middle", () => {
   const picture = { width: 4, height: 2 };
   const sight = { width: 8, height: 8, ratio: 1, view: null };
-  const seen = windowOf(picture, viewIn(picture, sight), sight);
+  const seen = windowOf(picture, viewWithin(picture, sight), sight);
   assert.deepEqual(
     [seen.left, seen.top, [...seen.columns], [...seen.rows]],
     [0, 2, [0, 0, 1, 1, 2, 2, 3, 3], [0, 0, 1, 1]],
   );
   const small = { ...sight, width: 2 };
-  assert.deepEqual([...windowOf(picture, viewIn(picture, small), small).columns], [1, 3]);
+  assert.deepEqual([...windowOf(picture, viewWithin(picture, small), small).columns], [1, 3]);
   const fine = { ...sight, width: 16, height: 16, ratio: 2 };
-  assert.deepEqual(viewIn(picture, fine), { x: 0, y: 4, scale: 4 });
+  assert.deepEqual(viewWithin(picture, fine), { x: 0, y: 4, scale: 4 });
 });
 
 test("a picture that a person moved lies there on a screen of any fineness", () => {
   const sight = { width: 20, height: 20, ratio: 2, view: { x: 3, y: -1, scale: 0.5 } };
-  assert.deepEqual(viewIn({ width: 9, height: 9 }, sight), { x: 6, y: -2, scale: 1 });
+  assert.deepEqual(viewWithin({ width: 9, height: 9 }, sight), { x: 6, y: -2, scale: 1 });
 });
 
 test("of a picture that was moved, what is outside of the frame is not painted", () => {
@@ -227,7 +227,7 @@ test("of a picture that was moved, what is outside of the frame is not painted",
 test("what is thinner than a pixel of the screen is seen nevertheless", () => {
   const picture = { width: 16_384, height: 1 };
   const sight = { width: 100, height: 100, ratio: 1, view: null };
-  const seen = windowOf(picture, viewIn(picture, sight), sight);
+  const seen = windowOf(picture, viewWithin(picture, sight), sight);
   assert.deepEqual([seen.columns.length, [...seen.rows]], [100, [0]]);
 });
 
