@@ -57,4 +57,4 @@ def open_demo(
     with DemoProcesses.at(wire) as nodes:
         words = rover_words(package, arguments, settings.wire.router)
         # Afterwards: the page comes first, and a studio that cannot start leaves no node behind.
-        serve(options, settings, package, arguments, lambda: nodes.start(*words))
+        serve(options, settings, package, arguments, lambda: nodes.start_leashed(*words))

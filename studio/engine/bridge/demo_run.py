@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Final
 from studio.engine.bridge.printed import PrintedLines
 from studio.engine.messages.lessons import DemoView
 from studio.errors import CommandError
-from studio.nodes.demos.starting import WHEN_TOLD_S
+from studio.nodes.demos.starting import LEASHED, WHEN_TOLD_S
 from studio.nodes.demos.table import find_demo
 
 if TYPE_CHECKING:
@@ -21,7 +21,6 @@ if TYPE_CHECKING:
 
     from studio.nodes.demos.chapters import Lesson
 
-_LEASHED: Final = "studio.nodes.demos.leashed"
 _CTRL_C: Final = signal.SIGTERM if sys.platform == "win32" else signal.SIGINT
 """Interrupts a node that waits for a service, too."""
 _CHUNK: Final = 1 << 14
@@ -125,7 +124,7 @@ class DemoRun:
         demo = find_demo(self.lesson.demo)
         assert demo is not None
         return await asyncio.create_subprocess_exec(
-            *(sys.executable, "-P", "-m", _LEASHED, demo.module, *self.lesson.words),
+            *(sys.executable, "-P", "-m", LEASHED, demo.module, *self.lesson.words),
             env=environment,
             stdin=asyncio.subprocess.PIPE,
             stdout=asyncio.subprocess.PIPE,

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 BY_ITSELF_S = 0.6
 """How long a process has to end by the Ctrl-C that the terminal gave it, too."""
 WHEN_TOLD_S = 1.0
+LEASHED = "studio.nodes.demos.leashed"
+"""Runs the module that is its first word for as long as its input stays open."""
 _OVERRIDE = "ZENOH_CONFIG_OVERRIDE"
 
 
@@ -38,6 +40,13 @@ class DemoProcesses:
         words = [sys.executable, "-P", "-m", module, *arguments]
         self._processes.append(subprocess.Popen(words, env=self._environment))
 
+    def start_leashed(self, module: str, arguments: Iterable[str] = ()) -> None:
+        """Run a module that ends with this process, however that ends; no key reaches it."""
+        words = [sys.executable, "-P", "-m", LEASHED, module, *arguments]
+        self._processes.append(
+            subprocess.Popen(words, env=self._environment, stdin=subprocess.PIPE)
+        )
+
     def wait(self) -> int:
         """Wait until all have ended; gives the first exit code that is not 0."""
         codes = [process.wait() for process in self._processes]
@@ -45,6 +54,9 @@ class DemoProcesses:
 
     def end(self) -> None:
         """End those that still run: first they may by themselves, then they are told, then made."""
+        for process in self._processes:
+            if process.stdin is not None:
+                process.stdin.close()
         self._all_ended_within(BY_ITSELF_S)
         self._tell()
         if not self._all_ended_within(WHEN_TOLD_S):

@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import os
 import signal
+import subprocess
 import sys
 from typing import TYPE_CHECKING
 
@@ -25,6 +26,15 @@ for number in (signal.SIGINT, signal.SIGTERM):
     signal.signal(number, signal.SIG_IGN)
 print("deaf", flush=True)
 signal.pause()
+"""
+
+
+LEAVES = """
+import os, sys
+from studio.nodes.demos.starting import DemoProcesses
+DemoProcesses().start_leashed("studio.nodes.demos.talker")
+sys.stdin.readline()
+os._exit(0)
 """
 
 
@@ -60,6 +70,14 @@ def test_one_that_hears_no_signal_is_made_to_end(tmp_path: Path, capfd: pytest.C
     processes.end()
     assert watch.s < ENDS_WITHIN_S
     assert processes.wait() == -signal.SIGKILL
+
+
+def test_one_on_a_leash_ends_with_a_process_that_leaves_without_a_word(endpoint: str):
+    with running([sys.executable, "-c", LEAVES], endpoint, subprocess.PIPE) as process:
+        process.wait_for("Hello World")
+        assert process.process.stdin is not None
+        process.process.stdin.close()
+        assert process.wait() == 0  # and all that it started has closed what it prints to
 
 
 def test_a_demo_takes_no_module_from_the_folder_that_somebody_works_in(
