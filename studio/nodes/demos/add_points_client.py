@@ -11,7 +11,7 @@ from typing import Any
 
 import studio.ros.client as rclpy
 from studio.nodes.demos.running import until_stopped
-from studio.ros.client import ExternalShutdownException, Future, Node
+from studio.ros.client import Future, Node
 from studio.ros.messages.geometry_msgs.msg import Point
 from studio.ros.messages.pkg_with_interfaces.srv import AddPoints
 
@@ -23,8 +23,6 @@ class AddPointsServiceClientNode(Node):
         super().__init__("add_points_service_client")
         self.service_client = self.create_client(srv_type=AddPoints, srv_name="/add_points")
         while not self.service_client.wait_for_service(timeout_sec=1.0):
-            if not rclpy.ok():
-                raise ExternalShutdownException
             self.get_logger().info(f"Service {self.service_client.srv_name} not available.")
         self.future: Future[Any] | None = None
         self.timer = self.create_timer(0.5, self.timer_callback)

@@ -11,7 +11,7 @@ import sys
 import studio.ros.client as rclpy
 from studio.errors import SettingsError
 from studio.nodes.demos.running import until_stopped
-from studio.ros.client import ExternalShutdownException, Node
+from studio.ros.client import Node
 from studio.ros.messages.learning_interface.srv import AddTwoInts
 
 
@@ -22,8 +22,6 @@ class adderClient(Node):
         super().__init__(name)
         self.client = self.create_client(AddTwoInts, "add_two_ints")
         while not self.client.wait_for_service(timeout_sec=1.0):
-            if not rclpy.ok():
-                raise ExternalShutdownException
             self.get_logger().info("service not available, waiting again...")
         self.request = AddTwoInts.Request()
 

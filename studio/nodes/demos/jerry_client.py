@@ -11,7 +11,7 @@ from typing import Any
 
 import studio.ros.client as rclpy
 from studio.nodes.demos.running import until_stopped
-from studio.ros.client import ExternalShutdownException, Future, Node
+from studio.ros.client import Future, Node
 from studio.ros.messages.pkg_with_interfaces.srv import Distance
 
 FAR = 10.0
@@ -24,8 +24,6 @@ class DistanceClient(Node):
         super().__init__("client_node")
         self.client = self.create_client(Distance, "distance")
         while not self.client.wait_for_service(timeout_sec=1.0):
-            if not rclpy.ok():
-                raise ExternalShutdownException
             self.get_logger().info("Waiting for Jerry...")
         self.timer = self.create_timer(2.0, self.ask)
 

@@ -10,7 +10,7 @@ from typing import Any
 
 import studio.ros.client as rclpy
 from studio.nodes.demos.running import until_stopped
-from studio.ros.client import ExternalShutdownException, Future, Node
+from studio.ros.client import Future, Node
 from studio.ros.messages.radio_station_interfaces.srv import GetNowPlaying
 
 
@@ -21,8 +21,6 @@ class NowPlayingClient(Node):
         super().__init__("now_playing_client_sol")
         self.client = self.create_client(GetNowPlaying, "get_now_playing")
         while not self.client.wait_for_service(timeout_sec=1.0):
-            if not rclpy.ok():
-                raise ExternalShutdownException
             self.get_logger().info("Waiting for now playing service...")
         self.request = GetNowPlaying.Request()
         self.send_request()

@@ -10,7 +10,7 @@ import sys
 
 import studio.ros.client as rclpy
 from studio.nodes.demos.running import until_stopped
-from studio.ros.client import ExternalShutdownException, Node
+from studio.ros.client import Node
 from studio.ros.messages.example_interfaces.srv import AddTwoInts
 
 
@@ -21,8 +21,6 @@ class ServiceClientNode(Node):
         super().__init__("service_client_node")
         self.cli = self.create_client(AddTwoInts, "add_two_ints")
         while not self.cli.wait_for_service(timeout_sec=1.0):
-            if not rclpy.ok():
-                raise ExternalShutdownException
             self.get_logger().info("Service not available, waiting again...")
         self.req = AddTwoInts.Request()
         self.get_logger().info("Service Client Node initialized")

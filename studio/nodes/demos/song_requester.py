@@ -22,8 +22,8 @@ class SongRequester(Node):
         super().__init__("song_requester")
         self._action_client = ActionClient(self, ChooseSong, "choose_song")
         self._song = song
-        if self._action_client.wait_for_server():
-            self.send_request()
+        self._action_client.wait_for_server()
+        self.send_request()
 
     def send_request(self) -> None:
         """Wish the song."""

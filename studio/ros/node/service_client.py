@@ -15,6 +15,7 @@ from studio.errors import (
     CallRefusedError,
     CdrError,
     DestroyedError,
+    ExternalShutdownException,
     ForeignAnswerError,
     NoAnswerError,
     NotServedError,
@@ -117,12 +118,18 @@ class Client(Work):
         return self._node.graph.has_server(self.srv_name, self.srv_type.name)
 
     def wait_for_service(self, timeout_sec: float | None = None) -> bool:
-        """Wait until a node serves it, or that long; whether one does. False when told to end."""
+        """Wait until a node serves it, or that long; whether one does.
+
+        Raises:
+            ExternalShutdownException: The process was told to end; rclpy has an error of its own.
+        """
         end_s = None if timeout_sec is None else time.monotonic() + timeout_sec
         graph = self._node.graph
         while not self.service_is_ready():
             left_s = _LOOK_S if end_s is None else end_s - time.monotonic()
-            if left_s <= 0 or not self._node.context.ok():
+            if not self._node.context.ok():
+                raise ExternalShutdownException
+            if left_s <= 0:
                 return False
             graph.wait_for(self.service_is_ready, min(left_s, _LOOK_S))
         return True
