@@ -14,6 +14,7 @@ from studio.packages.roots import is_too_wide
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
+_COLCON_LAYOUT: Final = ".colcon_install_layout"
 _INSTALL_LEVELS: Final = 5
 """install/<package>/share/<package>/urdf and the file below it."""
 
@@ -58,6 +59,11 @@ def is_installed(path: Path) -> bool:
     return any(is_install_space(one) for one in (path, *path.parents[:_INSTALL_LEVELS]))
 
 
+def is_workspace_install(path: Path) -> bool:
+    """Whether a path lies where colcon installed a workspace, not in a ROS installed as a whole."""
+    return any(is_file(one / _COLCON_LAYOUT) for one in path.parents[:_INSTALL_LEVELS])
+
+
 def _folders(variable: str) -> list[Path]:
     """A relative entry means the working folder, which nobody chose: it is left out."""
     named = [Path(one) for one in variable.split(os.pathsep) if Path(one).is_absolute()]
@@ -67,7 +73,7 @@ def _folders(variable: str) -> list[Path]:
 
 def _whole_prefix(prefix: Path) -> Path:
     """An isolated workspace names the prefix of each package; they have one folder in common."""
-    layout = prefix.parent / ".colcon_install_layout"
+    layout = prefix.parent / _COLCON_LAYOUT
     return prefix.parent if is_file(layout) else prefix
 
 

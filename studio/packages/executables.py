@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import configparser
 import os
+import re
 from typing import TYPE_CHECKING, Final
 
 from studio.errors import PackageError
@@ -16,19 +17,64 @@ if TYPE_CHECKING:
 
 SIZE_LIMIT_BYTES: Final = 1 << 20
 _SCRIPTS: Final = "console_scripts"
+_CMAKE_COMMENT: Final = re.compile(r"#[^\n]*")
+_CMAKE_CALL: Final = re.compile(
+    r"\b(add_executable|install|catkin_install_python)\s*\(([^()]*)\)", re.IGNORECASE
+)
+_CMAKE_KEYWORDS: Final = frozenset({"TARGETS", "PROGRAMS", "DESTINATION", "RUNTIME", "EXPORT"})
 
 
 def executables_of(folder: Path, package: str) -> dict[str, str]:
-    """Give what a package starts by name: `module:function` of sources, files of installed ones.
+    """Give what a package starts by name.
 
-    What cannot be read is left out.
+    It is `module:function` of Python sources, the source file that a CMakeLists.txt names, and
+    the file itself where it is installed. What cannot be read is left out.
     """
-    found: dict[str, str] = {}
+    found = _of_cmake(folder, package)
     for line in (*_lines_of_setup_cfg(folder), *_lines_of_setup_py(folder)):
         name, equals, place = (part.strip() for part in line.partition("="))
         if equals and name and place:
             found[name] = place
     return {**found, **_installed(folder, package)}
+
+
+def file_of(folder: Path, place: str) -> Path | None:
+    """Find the file of what `executables_of` gave for a package's folder; None: it is not there."""
+    module, colon, _ = place.partition(":")
+    if not colon:
+        path = folder / place
+        return path if path.is_file() else None
+    steps = module.strip().replace(".", "/")
+    ends = (f"{steps}.py", f"{steps}/__init__.py")
+    paths = (root / end for root in (folder, folder / "src") for end in ends)
+    return next((path for path in paths if path.is_file()), None)
+
+
+def _of_cmake(folder: Path, package: str) -> dict[str, str]:
+    """Give the programs that a CMakeLists.txt installs where `ros2 run` looks, by their names."""
+    text = _CMAKE_COMMENT.sub("", _read(folder, "CMakeLists.txt"))
+    text = re.sub(r"\$\{(PROJECT_NAME|CATKIN_PACKAGE_NAME)\}", package, text)
+    sources: dict[str, str] = {}
+    found: dict[str, str] = {}
+    for call in _CMAKE_CALL.finditer(text):
+        words = call[2].replace('"', " ").split()
+        if call[1].lower() == "add_executable":
+            sources[words[0] if words else ""] = words[1] if len(words) > 1 else ""
+        elif f"lib/{package}" in words or call[1].lower() == "catkin_install_python":
+            found |= {name.rsplit("/", 1)[-1]: name for name in _installed_words(words)}
+    return {name: sources.get(place) or place for name, place in found.items()}
+
+
+def _installed_words(words: list[str]) -> list[str]:
+    """Give what stands behind TARGETS or PROGRAMS, as far as the next keyword."""
+    named: list[str] = []
+    is_named = False
+    for word in words:
+        if word in _CMAKE_KEYWORDS:
+            is_named = word in {"TARGETS", "PROGRAMS"}
+        elif is_named:
+            named.append(word)
+    return named
 
 
 def _read(folder: Path, name: str) -> str:

@@ -63,8 +63,10 @@ def test_what_cannot_be_started_is_one_sentence(tmp_path: Path, monkeypatch: pyt
     for words, said in (
         (("no_such", "x"), 'No package "no_such"'),
         (("turtlesim", "x"), "it has turtle_teleop_key, turtlesim_node"),
-        (("own_pkg", "mine"), "is a program of ROS (own_pkg.mine:main)"),
+        (("own_pkg", "mine"), "own_pkg.mine:main, but no file of the package is the module"),
+        (("own_pkg", "other"), 'has no executable "other": it has mine.'),
         (("rover_description", "x"), "starts nothing"),
+        (("--demo", "own_pkg", "mine"), "The studio has no node own_pkg mine"),
     ):
         ran = studio("run", *words)
         assert ran.code == 2
@@ -78,3 +80,90 @@ def test_xacro_is_a_command_of_the_studio(tmp_path: Path):
     with started("tcp/127.0.0.1:1", "run", "xacro", "xacro", str(robot)) as expanded:
         assert expanded.wait() == 0
     assert 'name="2"' in expanded.printed
+
+
+SERVER = "def main():\n    print('mine')\n"
+CMAKE = """\
+project(demo_nodes_py)
+add_executable(talker src/talker.cpp)  # add_executable(none src/none.cpp)
+install(TARGETS talker DESTINATION lib/${PROJECT_NAME})
+install(PROGRAMS scripts/listener.py
+  DESTINATION lib/${PROJECT_NAME})
+install(DIRECTORY launch DESTINATION share/${PROJECT_NAME})
+"""
+
+
+@pytest.fixture
+def workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A workspace as colcon builds it, with two packages that are called as demos of ours are."""
+    monkeypatch.setenv("STUDIO_DATA_DIR", str(tmp_path / "data"))
+    python = tmp_path / "ws" / "src" / "learning_interface"
+    (python / "learning_interface").mkdir(parents=True)
+    (python / "package.xml").write_text("<package><name>learning_interface</name></package>")
+    (python / "setup.py").write_text(
+        "setup(entry_points={'console_scripts': ['server = learning_interface.own_server:main']})"
+    )
+    (python / "learning_interface" / "own_server.py").write_text(SERVER)
+    cmake = tmp_path / "ws" / "src" / "demo_nodes_py"
+    (cmake / "src").mkdir(parents=True)
+    (cmake / "src" / "talker.cpp").write_text("int main() {}\n")
+    (cmake / "package.xml").write_text("<package><name>demo_nodes_py</name></package>")
+    (cmake / "CMakeLists.txt").write_text(CMAKE)
+    return tmp_path / "ws"
+
+
+@pytest.mark.parametrize("inside", [True, False])
+def test_a_node_of_the_workspace_comes_before_the_demo_of_its_name_and_is_only_told(
+    workspace: Path, monkeypatch: pytest.MonkeyPatch, inside: bool
+):
+    monkeypatch.chdir(workspace if inside else workspace.parent)
+    named = [] if inside else ["--package-path", str(workspace / "src")]
+    ran = studio("run", "learning_interface", "server", *named)
+    package = workspace / "src" / "learning_interface"
+    assert (ran.code, ran.out) == (2, "")
+    assert f"the package is {package}, " in ran.err
+    assert f"would start main() in {package / 'learning_interface' / 'own_server.py'}." in ran.err
+    assert ran.err.endswith("starts with: studio run --demo learning_interface server\n")
+
+
+def test_programs_of_a_cmake_package_come_before_the_demo_too(
+    workspace: Path, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.chdir(workspace / "src")
+    ran = studio("run", "demo_nodes_py", "talker")
+    assert ran.code == 2
+    assert f"would start {workspace / 'src/demo_nodes_py/src/talker.cpp'}." in ran.err
+    listed = studio("pkg", "executables", "demo_nodes_py").out
+    assert listed == "demo_nodes_py listener.py\ndemo_nodes_py talker\n"
+    ran = studio("run", "demo_nodes_py", "listener")
+    assert 'has no executable "listener": it has listener.py, talker.' in ran.err
+    assert "studio run --demo demo_nodes_py listener" in ran.err
+
+
+def test_the_demo_runs_where_it_is_asked_for_by_its_option(
+    workspace: Path, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.chdir(workspace)
+    with started(free_endpoint(), "run", "--demo", "demo_nodes_py", "talker") as talker:
+        talker.wait_for("Publishing: ")
+
+
+def test_an_installed_package_is_of_the_workspace_where_colcon_installed_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setenv("STUDIO_DATA_DIR", str(tmp_path / "data"))
+    monkeypatch.chdir(tmp_path)
+    prefix = tmp_path / "install"
+    share, programs = prefix / "share" / "turtlesim", prefix / "lib" / "turtlesim"
+    for folder in (share, programs):
+        folder.mkdir(parents=True)
+    (share / "package.xml").write_text("<package><name>turtlesim</name></package>")
+    (programs / "turtlesim_node").write_text("#!/bin/sh\n")
+    (programs / "turtlesim_node").chmod(0o755)
+    (prefix / "local_setup.sh").write_text("")
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(prefix))
+    with started(free_endpoint(), "run", "turtlesim", "turtlesim_node") as node:
+        node.wait_for("Spawning turtle")
+    (prefix / ".colcon_install_layout").write_text("merged\n")
+    ran = studio("run", "turtlesim", "turtlesim_node")
+    assert (ran.code, str(programs / "turtlesim_node") in ran.err) == (2, True)
