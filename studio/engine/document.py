@@ -78,8 +78,13 @@ class Document:
         """What the last run that failed said."""
         self.on_unsaved: Callable[[], None] = lambda: None
         """Called when the document comes to have unsaved edits, or no longer has any."""
-        served = location.served
-        self.sources = Sources(served.read, served.resolve, served.may_write, arguments)
+        self.sources = Sources(
+            # Asked anew each time: a package that is chosen later is served from then on.
+            lambda path: self.location.served.read(path),  # noqa: PLW0108
+            lambda path: self.location.served.resolve(path),  # noqa: PLW0108
+            lambda path: self.location.served.may_write(path),  # noqa: PLW0108
+            arguments,
+        )
         self.board = Board(self)
         self.board.find("packages", location.problems)
         self.texts = TextDesk(self)
@@ -89,7 +94,7 @@ class Document:
         self.rewriting = RewritingDesk(self)
         self.expanded = ExpandedDesk(self, services.description_worker)
         self.mending, self.checks = MendingDesk(self), CheckDesk(self, services.validator)
-        self.disk = DiskDesk(self.sources, served, self.board)
+        self.disk = DiskDesk(self)
         self.history, self.saving = HistoryDesk(self), SaveDesk(self)
         self.drafts, self.exports = DraftDesk(self, services.settings.data_folder), ExportDesk(self)
         self.motion = Motion(self.model, self.board)

@@ -55,7 +55,10 @@ def folder_of_choice(name: str, chosen: Path) -> Path:
         UnreadableFileError: It is no folder, or too wide to serve.
         PackageNotFoundError: There are packages, and none has that name.
     """
-    folder = Path(os.path.realpath(chosen))
+    try:
+        folder = Path(os.path.realpath(chosen))
+    except ValueError as error:  # a NUL character
+        raise UnreadableFileError(repr(str(chosen)), "is no file name.") from error
     if not is_folder(folder):
         raise UnreadableFileError(str(chosen), "is no folder.")
     if is_too_wide(folder):

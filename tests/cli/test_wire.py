@@ -34,6 +34,15 @@ def test_where_no_router_answers_a_verb_that_looks_says_so(line: str):
     )
 
 
+@pytest.mark.parametrize("line", ["topic list", "doctor --report", "node list --router auto"])
+def test_a_host_that_no_resolver_takes_is_one_sentence(line: str):
+    ran = studio(*line.split(), "--connect", "tcp/a..b:7447")
+    assert (ran.code, ran.out) == (2, "")
+    assert ran.err == (
+        'studio: "a..b" is no host name: each part between its dots has 1 to 63 letters.\n'
+    )
+
+
 def test_a_verb_starts_a_router_when_it_is_told_to():
     ran = studio("node", "list", "--connect", free_endpoint(), "--router", "auto")
     assert (ran.code, ran.out) == (0, "")

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio.errors import CommandError, StaleEditError
+from studio.engine.messages import GetText
+from studio.errors import CommandError, OutsideRootsError, StaleEditError
 from tests.support.open_documents import Ear, engine, opened, until
 from tests.support.packages import write_package
 
@@ -274,5 +275,23 @@ def test_a_number_that_became_a_word_stays_in_reach_when_its_worker_falls(
             await document.edit_site(ear.site("reach")["id"], "0.5", "")
             await document.edit_site(axis, "0 1 0", "")
             assert b'xyz="0 1 0"' in document.sources.text(str(arm))
+
+    asyncio.run(run())
+
+
+def test_a_file_of_a_chosen_package_is_shown_and_cannot_be_edited(arm: Path, tmp_path: Path):
+    leg = write_package(tmp_path / "far" / "leg", files={"urdf/leg.xacro": "<robot/>"})
+    file = str(leg / "urdf" / "leg.xacro")
+
+    async def run() -> None:
+        async with engine(tmp_path / "data") as made:
+            document, ear = await opened(made, arm)
+            asked = GetText(document=document.id, request=1, file=file)
+            with pytest.raises(OutsideRootsError):
+                await made.execute(asked, ear)
+            await document.choose_package("leg", str(leg))
+            await made.execute(asked, ear)
+            assert ear.last("text")["text"] == "<robot/>"
+            assert ear.last("text")["read_only"]
 
     asyncio.run(run())

@@ -309,6 +309,8 @@ def test_a_choice_must_hold_the_package_that_it_is_for(desk: Desk, tmp_path: Pat
         location.choose_package("arm", tmp_path / "nothing")
     with pytest.raises(UnreadableFileError, match="too wide"):
         location.choose_package("arm", Path(tmp_path.anchor))
+    with pytest.raises(UnreadableFileError, match="is no file name"):
+        location.choose_package("arm", tmp_path / "far\0away")
 
 
 def test_a_package_that_exists_twice_is_warned_of(desk: Desk, tmp_path: Path):

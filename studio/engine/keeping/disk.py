@@ -15,11 +15,9 @@ if TYPE_CHECKING:
 
     from studio.description.editing.disk_news import DiskNews
     from studio.description.editing.merging import Merge, Place
-    from studio.description.editing.sources import Sources
     from studio.description.values import Edit
-    from studio.engine.board import Board
+    from studio.engine.document import Document
     from studio.engine.messages import GetCollisions, ResolveCollisions
-    from studio.packages.roots import ServedRoots
 
 _SHOWN: Final = 50
 """Collisions of one file that are shown; of more than that nobody reads every one."""
@@ -29,8 +27,9 @@ _SHOWN_BYTES: Final = 4000
 class DiskDesk:
     """Looks at changed files, tells what came of it, and answers where both sides collide."""
 
-    def __init__(self, sources: Sources, served: ServedRoots, board: Board) -> None:
-        self._sources, self._served, self._board = sources, served, board
+    def __init__(self, document: Document) -> None:
+        self._document = document
+        self._sources, self._board = document.sources, document.board
         self._gone: set[str] = set()
 
     def look(self, files: Iterable[str]) -> tuple[Edit, ...]:
@@ -81,7 +80,7 @@ class DiskDesk:
                 self._board.audience.tell(DiskMerged(file=file, kept=news.kept))
 
     def _name(self, file: str) -> str:
-        return str(self._served.resolve(file))
+        return str(self._document.location.served.resolve(file))
 
 
 def _state(merged: Merge) -> str:

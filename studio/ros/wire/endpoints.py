@@ -58,6 +58,12 @@ def parse_endpoint(text: str) -> Endpoint:
     host = host.removeprefix("[").removesuffix("]")
     if not (colon and host and port.isascii() and port.isdigit() and 0 < int(port) <= 65535):
         raise _not_understood(text)
+    try:
+        host.encode("idna")
+    except UnicodeError:
+        raise WireSettingsError(
+            f'"{host[:200]}" is no host name: each part between its dots has 1 to 63 letters.'
+        ) from None
     return Endpoint(text, protocol, host, int(port))
 
 

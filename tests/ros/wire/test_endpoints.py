@@ -57,6 +57,12 @@ def test_what_is_no_endpoint_is_refused_with_an_example(text: str):
         parse_endpoint(text)
 
 
+@pytest.mark.parametrize("host", ["a..b", ".", "x" * 64, "ß" * 64, "robot." + "x" * 64])
+def test_a_host_that_no_resolver_takes_is_refused(host: str):
+    with pytest.raises(WireSettingsError, match="is no host name"):
+        parse_endpoint(f"tcp/{host}:7447")
+
+
 @given(st.text(alphabet="tcpls/[]:.?#0179٣x", max_size=30))
 def test_any_text_is_an_endpoint_or_refused(text: str):
     with suppress(WireSettingsError):
