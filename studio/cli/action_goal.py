@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import signal
 import sys
 import time
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from studio.cli.acting import acting
@@ -15,13 +17,17 @@ from studio.ros.names import full_type_name
 
 if TYPE_CHECKING:
     import argparse
+    from collections.abc import Generator
 
     from studio.cli.acting import Actor
     from studio.cli.verbs import Verbs
     from studio.ros.action.client_goal import ClientGoalHandle
+    from studio.ros.node.future import Future
     from studio.ros.types.classes import MessageValue
 
-_CANCEL_S = 1.0
+_CANCEL_TIMEOUT_S = 5.0
+_LOOK_S = 0.1
+"""How often the wait for an answer looks whether Ctrl-C was pressed."""
 
 
 def add_send_goal(verbs: Verbs) -> None:
@@ -59,41 +65,86 @@ def _run(options: argparse.Namespace) -> int:
             return 1
         print(f"Sending goal:\n     {_text(goal)}", flush=True)
         feedback = _Feedback()
-        sent = client.send_goal_async(goal, feedback.take if options.feedback else None)
-        actor.wait(sent)
-        return _follow(actor, sent.result(), feedback)
+        with _noted_interrupt() as interrupt:
+            sent = client.send_goal_async(goal, feedback.take if options.feedback else None)
+            interrupt.wait(actor, sent)
+            if interrupt.came:
+                _cancel_sent(actor, sent)
+                raise KeyboardInterrupt
+            return _follow(actor, sent.result(), feedback, interrupt)
 
 
-def _follow(actor: Actor, goal: ClientGoalHandle, feedback: _Feedback) -> int:
+def _follow(
+    actor: Actor, goal: ClientGoalHandle, feedback: _Feedback, interrupt: _Interrupt
+) -> int:
+    from studio.ros.action.states import GoalStatus
+
     if not goal.accepted:
         print("Goal was rejected.")
         return 0
     print(f"Goal accepted with ID: {bytes(goal.goal_id.uuid).hex()}\n", flush=True)
     feedback.begin()
-    try:
-        ended = goal.get_result_async()
-        actor.wait(ended)
-    except KeyboardInterrupt:
+    ended = goal.get_result_async()
+    interrupt.wait(actor, ended)
+    if not ended.done():
         _cancel(actor, goal)
-        raise
-    from studio.ros.action.states import GoalStatus
-
+        raise KeyboardInterrupt
     answer = ended.result()
     print(f"Result:\n    {_text(answer.result)}")
     print(f"Goal finished with status: {GoalStatus(answer.status).name.removeprefix('STATUS_')}")
     return 0
 
 
+def _cancel_sent(actor: Actor, sent: Future[ClientGoalHandle]) -> None:
+    """Cancel a goal of which the server has not yet said whether it takes it."""
+    if not actor.wait(sent, _CANCEL_TIMEOUT_S):
+        print("The server did not say whether it accepted the goal.", file=sys.stderr)
+    elif sent.result().accepted:
+        _cancel(actor, sent.result())
+
+
 def _cancel(actor: Actor, goal: ClientGoalHandle) -> None:
     """Ask that the goal end, as nobody waits for it any more."""
     print("Canceling goal...", flush=True)
     asked = goal.cancel_goal_async()
-    if not actor.wait(asked, _CANCEL_S):
+    if not actor.wait(asked, _CANCEL_TIMEOUT_S):
         print("The server did not answer that the goal is cancelled.", file=sys.stderr)
     elif asked.result().return_code:
         print(f"Failed to cancel the goal, code {asked.result().return_code}.", file=sys.stderr)
     else:
         print("Goal canceled.", flush=True)
+
+
+class _Interrupt:
+    """Whether Ctrl-C was pressed.
+
+    A KeyboardInterrupt could be raised anywhere: in a callback, or before the goal is known, where
+    nothing would cancel it.
+    """
+
+    def __init__(self) -> None:
+        self.came = False
+
+    def wait(self, actor: Actor, future: Future[Any]) -> None:
+        """Carry out callbacks until a future is done or Ctrl-C is pressed."""
+        while not self.came and not actor.wait(future, _LOOK_S):
+            pass
+
+
+@contextmanager
+def _noted_interrupt() -> Generator[_Interrupt]:
+    """Take note of the first Ctrl-C; the second one ends the command at once."""
+    interrupt = _Interrupt()
+
+    def note(_number: int, _frame: object) -> None:
+        interrupt.came = True
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+
+    before = signal.signal(signal.SIGINT, note)
+    try:
+        yield interrupt
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 class _Feedback:
