@@ -17,7 +17,10 @@ const OVER_ALL = 9;
 const VISER_POINT = "vec4(col, 1.0)";
 const OUR_POINT = "vec4(col, studioOpacity)";
 const VISER_POINT_SIZE = "(scale / -world_pos.z)";
-const OUR_POINT_SIZE = "(studioPixels > 0.0 ? studioPixels : scale / -world_pos.z)";
+const OUR_POINT_SIZE =
+  "(studioPixels > 0.0 ? studioPixels : max(scale / -world_pos.z, studioLeastPixels))";
+/** Of points with a size in metres: from afar they would be too small to be seen. */
+const LEAST_POINT_PX = 3;
 
 /**
  * How a node of a display is to look, beyond what viser knows.
@@ -112,7 +115,16 @@ export class Live {
       });
     }
     for (const name of this.#clouds)
-      this.#door.node(name)?.traverse((object) => this.#keepProgram(object));
+      this.#door.node(name)?.traverse((object) => {
+        this.#dressCloud(object, this.#looks.get(name) ?? PLAIN);
+        this.#keepProgram(object);
+      });
+  }
+
+  /** @param {Object3D} object @param {Look} look */
+  #dressCloud({ isPoints, material }, look) {
+    if (!isPoints || !material || Array.isArray(material)) return;
+    dressPoints(material, look, this.#pixelRatio());
   }
 
   /**
@@ -131,8 +143,8 @@ export class Live {
 
   /** @param {Object3D} object @param {Material} material @param {Look} look */
   #finish(object, material, look) {
-    if (object.isPoints) dressPoints(material, look, this.#pixelRatio());
-    else if (material.isLineMaterial) {
+    if (object.isPoints) return; // see #dressCloud
+    if (material.isLineMaterial) {
       if (look.kind !== "CameraFrustumMessage") fadeLines(object, material, look.opacity);
     } else {
       this.#fade(material, look);
@@ -185,6 +197,9 @@ export class Live {
   }
 }
 
+/** As viser makes it. @type {Readonly<Look>} */
+const PLAIN = { kind: "", opacity: 1, sharp: false, behind: false, words: null, point_px: 0 };
+
 /** @param {string} kind @param {Record<string, unknown>} props @returns {Look} */
 export function lookOf(kind, props) {
   const { studio_opacity: opacity, studio_rgb: rgb, studio_point_px: px } = props;
@@ -226,11 +241,12 @@ function dressPoints(material, { opacity, point_px: px }, ratio) {
   if (!uniforms.studioOpacity) {
     const [points, sizes] = [material.fragmentShader, material.vertexShader];
     material.fragmentShader = `uniform float studioOpacity;\n${points.replace(VISER_POINT, OUR_POINT)}`;
-    material.vertexShader = `uniform float studioPixels;\n${sizes.replace(VISER_POINT_SIZE, OUR_POINT_SIZE)}`;
+    material.vertexShader = `uniform float studioPixels;\nuniform float studioLeastPixels;\n${sizes.replace(VISER_POINT_SIZE, OUR_POINT_SIZE)}`;
     material.needsUpdate = true;
   }
   uniforms.studioOpacity = { value: opacity };
   uniforms.studioPixels = { value: px * ratio };
+  uniforms.studioLeastPixels = { value: LEAST_POINT_PX * ratio };
   setTransparent(material, opacity < 1);
   material.depthWrite = opacity >= 1;
 }

@@ -1,10 +1,10 @@
 /** @import { Door } from "./door.js" */
 /** @import { Theme } from "./theme.js" */
 /** @import { Color, Material, Object3D } from "./viser.d.ts" */
+import { Outline } from "./outline.js";
 import { RobotView } from "./robot.js";
 
 const HOVER = { tint: 0.3, glow: 0.2 };
-const SELECTION = { tint: 0.6, glow: 0.45 };
 const CHANGED = { tint: 0.5, glow: 0.35 };
 const MOVED = { tint: 0.22, glow: 0.14 };
 const NONE = { tint: 0, glow: 0 };
@@ -12,15 +12,13 @@ const NONE = { tint: 0, glow: 0 };
 const PALER = 1.5;
 
 /**
- * What this browser alone sees differently: links hidden, see-through, hovered, selected or lit.
+ * What this browser alone sees differently: links hidden, see-through, hovered, outlined or lit.
  * Materials are exchanged for the time of one picture, so that nothing that viser or the server
  * does in between can be in the way, and no reload can lose it.
  */
 export class Looks {
   /** @type {string | null} */
   hovered = null;
-  /** @type {string | null} */
-  selected = null;
   /** @type {Map<string, number>} */
   #opacity = new Map();
   /** Links that a property shapes, and how much they light up. @type {Map<string, typeof NONE>} */
@@ -34,12 +32,14 @@ export class Looks {
   #door;
   #robot;
   #theme;
+  #outline;
 
   /** @param {Door} door @param {RobotView} robot @param {Theme} theme */
   constructor(door, robot, theme) {
     this.#door = door;
     this.#robot = robot;
     this.#theme = theme;
+    this.#outline = new Outline(door, robot, theme);
     door.onMessage((message) => this.#hideAnew(message));
     door.onPicture(
       () => this.#dress(),
@@ -70,8 +70,8 @@ export class Looks {
 
   /** @param {string | null} link */
   setSelected(link) {
-    if (link === this.selected) return;
-    this.selected = link;
+    if (link === this.#outline.link) return;
+    this.#outline.link = link;
     this.#door.redraw();
   }
 
@@ -96,7 +96,7 @@ export class Looks {
   #dress() {
     const links = this.#robot.opacity < 1 ? this.#robot.drawn : new Set([...this.#opacity.keys()]);
     for (const link of links) this.#dressLink(link);
-    for (const link of new Set([this.hovered, this.selected, ...this.#lit.keys()]))
+    for (const link of new Set([this.hovered, ...this.#lit.keys()]))
       if (link && !links.has(link)) this.#dressLink(link);
   }
 
@@ -116,7 +116,6 @@ export class Looks {
   /** @param {string} link */
   #shineOf(link) {
     const lit = this.#lit.get(link) ?? NONE;
-    if (link === this.selected) return SELECTION;
     return link === this.hovered && lit.tint < HOVER.tint ? HOVER : lit;
   }
 

@@ -11,10 +11,10 @@ const NEUTRAL_TONES = 7;
 /** The grid ends at this many times the distance to what we look at. */
 const FADE = 16;
 
-/** @type {Record<ThemeName, { cell: Rgb, section: Rgb, accent: string, shadow: number }>} */
+/** @type {Record<ThemeName, { cell: Rgb, section: Rgb, accent: string, edge: string, shadow: number }>} */
 const THEMES = {
-  dark: { cell: [66, 75, 91], section: [88, 100, 120], accent: "#4db3ff", shadow: 0.6 },
-  light: { cell: [150, 160, 178], section: [122, 135, 158], accent: "#1769d2", shadow: 0.28 },
+  dark: { cell: [66, 75, 91], section: [88, 100, 120], accent: "#4db3ff", edge: "#ffffff", shadow: 0.6 },
+  light: { cell: [150, 160, 178], section: [122, 135, 158], accent: "#1769d2", edge: "#ffffff", shadow: 0.28 },
 };
 
 const VISER_GRID = "return 1.0 - min(line, 1.0);";
@@ -49,6 +49,11 @@ export class Theme {
 
   get accent() {
     return THEMES[this.name].accent;
+  }
+
+  /** Of a line in the accent, so that it is seen on everything. */
+  get edge() {
+    return THEMES[this.name].edge;
   }
 
   /** @param {ThemeName} name */

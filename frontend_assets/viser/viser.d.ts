@@ -68,6 +68,12 @@ export interface Texture {
   needsUpdate: boolean;
 }
 
+export interface Shader {
+  uniforms: Record<string, { value: unknown }>;
+  vertexShader: string;
+  fragmentShader: string;
+}
+
 export interface Material {
   isShaderMaterial?: boolean;
   isLineMaterial?: boolean;
@@ -87,6 +93,10 @@ export interface Material {
   fragmentShader: string;
   vertexShader: string;
   uniforms: Record<string, { value: unknown }>;
+  side: number;
+  onBeforeCompile: (shader: Shader) => void;
+  /** Materials of the same key and the same settings have one program. */
+  customProgramCacheKey: () => string;
   clone(): Material;
   copy(other: Material): this;
   dispose(): void;
@@ -95,7 +105,7 @@ export interface Material {
 
 export interface Geometry {
   attributes?: {
-    position?: { getX(at: number): number; getY(at: number): number; getZ(at: number): number };
+    position?: { count: number; getX(at: number): number; getY(at: number): number; getZ(at: number): number };
   };
   boundingBox: Box3 | null;
   computeBoundingBox(): void;
@@ -126,6 +136,7 @@ export interface Object3D {
   intensity: number;
   renderOrder: number;
   visible: boolean;
+  clone(withChildren: boolean): Object3D;
   parent: Object3D | null;
   children: Object3D[];
   position: Vector3;

@@ -13,6 +13,7 @@ from tests.support.live_page import LivePage
 from tests.support.live_shapes import (
     BLUE,
     MESH_URI,
+    RED,
     UPRIGHT,
     at,
     drawing_of,
@@ -245,6 +246,26 @@ def test_shapes_that_grow_and_shrink_are_all_there(view: LivePage):
             assert (name, shown) == (name, [number < count for number in range(3)])
     view.server.call(lambda scene: (scene.live.drop("grown"), draw_all(scene)))
     view.until("__viserMutable.nodeRefFromName['/live/all/grid/grid.lines']")
+
+
+@pytest.mark.parametrize(("size_m", "pixels"), [(0.01, 3), (0.6, 30)])
+def test_a_point_of_a_scan_is_three_pixels_wide_at_least(
+    view: LivePage, size_m: float, pixels: int
+):
+    at_x, at_y = 5.5, -4.0
+    spot = {"a": Placed("map", 0, {"c": Points(np.zeros((1, 3), np.float32), RED, size_m)})}
+    view.look(*FROM_ABOVE)
+    view.server.call(
+        lambda scene: (scene.live.apply("spot", spot, {"a": at(at_x, at_y)}), scene.flush())
+    )
+    view.until("__viserMutable.nodeRefFromName['/live/spot/a/c.points']")
+    view.take()
+    square = view.around(at_x, at_y, 40).astype(int)
+    red = (square[..., 0] > 200) & (square[..., 1] < 60) & (square[..., 3] > 200)
+    wide = int(red.any(axis=0).sum())
+    assert wide == 3 if pixels == 3 else wide >= pixels
+    view.server.call(lambda scene: (scene.live.drop("spot"), scene.flush()))
+    view.until("!__viserMutable.nodeRefFromName['/live/spot/a/c.points']")
 
 
 def test_what_was_see_through_becomes_opaque_again_and_a_cloud_may_grow(view: LivePage):

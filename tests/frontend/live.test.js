@@ -88,6 +88,24 @@ test("nodes of the robot and nodes that went are nobody's business", () => {
   assert.equal(steel.opacity, 1);
 });
 
+test("points of a size in metres are three pixels wide at least, on a fine screen too", () => {
+  const points = material({
+    uniforms: {},
+    fragmentShader: "gl_FragColor = vec4(col, 1.0);",
+    vertexShader: "gl_PointSize = (scale / -world_pos.z);",
+  });
+  const { door, hooks } = doorOf({
+    "/live/1/scan/a.points": nodeOf({ isPoints: true, material: points }),
+  });
+  door.mutable = { canvas: { clientWidth: 100, width: 200 } };
+  new Live(door);
+  hooks.read({ type: "PointCloudMessage", name: "/live/1/scan/a.points", props: {} });
+  hooks.draw();
+  const { uniforms, vertexShader } = /** @type {any} */ (points);
+  assert.match(vertexShader, /max\(scale \/ -world_pos\.z, studioLeastPixels\)/);
+  assert.deepEqual([uniforms.studioPixels.value, uniforms.studioLeastPixels.value], [0, 6]);
+});
+
 test("bright words have a dark edge and dark ones a bright edge", () => {
   assert.match(edgeOf([255, 255, 0]), /^rgb\(0 0 0/);
   assert.match(edgeOf([0, 0, 160]), /^rgb\(255 255 255/);

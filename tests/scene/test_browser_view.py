@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
     from playwright.sync_api import Browser, Page
 
+B = (False, True)
 pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(180)]
 
 
@@ -173,15 +174,30 @@ def test_a_click_into_empty_space_takes_the_selection_back(view: ScenePage):
     assert view.heard("select") == [{"link": None}]
 
 
-def test_a_selected_link_looks_different_in_both_themes(view: ScenePage):
+@pytest.mark.parametrize(("theme", "line"), [("dark", "77,179,255"), ("light", "23,105,210")])
+def test_a_selected_link_keeps_its_colours_and_is_outlined(view: ScenePage, theme: str, line: str):
     x, y = view.place_of("lidar/visual/0")
-    for theme in ("dark", "light"):
-        view.run(f"studio3d.setTheme('{theme}')")
-        view.run("studio3d.setSelection(null)")
-        view.pictures(3)
-        plain = view.run(f"colorAt({x}, {y})")
-        view.run("studio3d.setSelection('lidar')")
-        view.until(f"String(colorAt({x}, {y})) !== '{','.join(map(str, plain))}'")
+    view.run(f"studio3d.setTheme('{theme}')")
+    view.pictures(3)
+    plain = view.run(f"colorAt({x}, {y})")
+    assert view.run("(rgb) => placesOf(rgb)", line) == []
+    view.run("studio3d.setSelection('lidar')")
+    view.pictures(3)
+    around = view.run("(rgb) => placesOf(rgb)", line)
+    white = view.run("placesOf('255,255,255')")
+    assert view.run(f"colorAt({x}, {y})") == plain
+    assert {(one > x, other > y) for one, other in around} == {(a, b) for a in B for b in B}
+    assert {(one > x, other > y) for one, other in white} == {(a, b) for a in B for b in B}
+    view.run("studio3d.setSelection(null)")
+    view.pictures(3)
+    assert view.run("(rgb) => placesOf(rgb)", line) == []
+
+
+def test_an_outline_is_seen_through_what_is_in_front(view: ScenePage):
+    view.run("studio3d.view('bottom')")
+    view.run("studio3d.setSelection('lidar')")
+    view.pictures(3)
+    assert len(view.run("placesOf('77,179,255')")) > 40
 
 
 def test_dragging_a_link_turns_its_joint_within_its_limits(view: ScenePage):

@@ -37,6 +37,19 @@ _HELPERS = """() => {
     context.drawImage(canvas, 0, 0);
     return [...context.getImageData(x, y, 1, 1).data];
   };
+  window.placesOf = (rgb) => {
+    const copy = document.createElement("canvas");
+    const canvas = __viserMutable.canvas;
+    [copy.width, copy.height] = [canvas.width, canvas.height];
+    const context = copy.getContext("2d");
+    context.drawImage(canvas, 0, 0);
+    const { data, width } = context.getImageData(0, 0, copy.width, copy.height);
+    const found = [];
+    for (let at = 0; at < data.length; at += 4)
+      if (data.subarray(at, at + 3).join() === rgb)
+        found.push([(at / 4) % width, Math.floor(at / 4 / width)]);
+    return found;
+  };
 }"""
 
 
@@ -82,6 +95,7 @@ class ScenePage:
               studio3d.setSelection(null);
               studio3d.setCanDrag(true);
               studio3d.setLinkVisible("mast", true);
+              studio3d.setTheme("dark");
               studio3d.view("iso");
             }"""
         )
