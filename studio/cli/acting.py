@@ -78,7 +78,6 @@ def acting(
             node = Node(
                 name or f"_studio_{os.getpid()}",
                 context=context,
-                enable_rosout=False,
                 start_parameter_services=answers,
             )
             executor = SingleThreadedExecutor(context=context)

@@ -152,7 +152,7 @@ def set_parameters(tab: StudioPage, node: Node) -> None:
     wait_until("turtlesim has it", lambda: red() == 200)
     box.fill("900")
     box.press("Enter")
-    hand.see("900 is not from 0 to 255")
+    hand.see("Parameter background_r out of range. Min: 0, Max: 255, value: 900")
     wait_until("the box shows what is", lambda: box.input_value() == "200")
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from studio.cli.learning import learn_type, say_foreign
 from studio.cli.looking import full_name, say_other_types
 from studio.cli.other_forms import told_form
-from studio.cli.topic.qos_options import given_profile, is_given, matching_profile
+from studio.cli.topic.qos_options import listening_profile
 from studio.errors import UnknownTypeError
 from studio.ros.names import full_type_name
 
@@ -58,9 +58,7 @@ def join_topic(
         return None
     say_other_types(name, type_name, [(name, types)])
     publishers = actor.graph.publishers(name)
-    qos = matching_profile([one.qos for one in publishers])
-    if is_given(options):
-        qos = given_profile(options, qos)
+    qos = listening_profile(options, [one.qos for one in publishers])
     kind, form = _form_of(actor, name, type_name, raw=raw)
     return Joined(name, kind, qos, form)
 

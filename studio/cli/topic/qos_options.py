@@ -57,8 +57,8 @@ def add_qos_options(parser: argparse.ArgumentParser) -> None:
 
 
 def is_given(options: argparse.Namespace) -> bool:
-    """Whether an option says anything of it."""
-    names = ("profile", "depth", "liveliness_lease_duration_seconds", *_POLICIES)
+    """Whether an option says a policy; the name of a profile is none."""
+    names = ("depth", "liveliness_lease_duration_seconds", *_POLICIES)
     return any(getattr(options, f"qos_{name}") is not None for name in names)
 
 
@@ -68,8 +68,7 @@ def given_profile(options: argparse.Namespace, base: QoSProfile) -> QoSProfile:
     Raises:
         SettingsError: The depth, or a time, is less than 0.
     """
-    named = options.qos_profile
-    profile = as_profile(base if named is None else _PROFILES[named])
+    profile = _base(options, base)
     if options.qos_depth is not None:
         if options.qos_depth < 0:
             raise SettingsError(f"--qos-depth {options.qos_depth}: give 0 or more.")
@@ -88,16 +87,31 @@ def given_profile(options: argparse.Namespace, base: QoSProfile) -> QoSProfile:
     return profile
 
 
-def matching_profile(offered: Sequence[QoSProfile]) -> QoSProfile:
-    """Choose what receives from all who offer: as reliable and lasting as the least of them."""
-    reliable = bool(offered) and all(
-        one.reliability is not ReliabilityPolicy.BEST_EFFORT for one in offered
-    )
-    lasting = bool(offered) and all(
-        one.durability is DurabilityPolicy.TRANSIENT_LOCAL for one in offered
-    )
-    return QoSProfile(
-        depth=10,
-        reliability=ReliabilityPolicy.RELIABLE if reliable else ReliabilityPolicy.BEST_EFFORT,
-        durability=DurabilityPolicy.TRANSIENT_LOCAL if lasting else DurabilityPolicy.VOLATILE,
-    )
+def listening_profile(options: argparse.Namespace, offered: Sequence[QoSProfile]) -> QoSProfile:
+    """Choose how to listen to those who offer a topic, as ros2 does.
+
+    Policies that are given change the named profile, `sensor_data` where none is. Without any,
+    the named profile becomes as reliable and lasting as all who offer allow.
+
+    Raises:
+        SettingsError: The depth, or a time, is less than 0.
+    """
+    if is_given(options):
+        return given_profile(options, qos_profile_sensor_data)
+    profile = _base(options, qos_profile_sensor_data)
+    if offered:
+        _match(profile, offered)
+    return profile
+
+
+def _base(options: argparse.Namespace, unnamed: QoSProfile) -> QoSProfile:
+    named = options.qos_profile
+    return as_profile(unnamed if named is None else _PROFILES[named])
+
+
+def _match(profile: QoSProfile, offered: Sequence[QoSProfile]) -> None:
+    """Make a profile as reliable and lasting as the least of those that are offered."""
+    reliable = all(one.reliability is not ReliabilityPolicy.BEST_EFFORT for one in offered)
+    lasting = all(one.durability is DurabilityPolicy.TRANSIENT_LOCAL for one in offered)
+    profile.reliability = ReliabilityPolicy.RELIABLE if reliable else ReliabilityPolicy.BEST_EFFORT
+    profile.durability = DurabilityPolicy.TRANSIENT_LOCAL if lasting else DurabilityPolicy.VOLATILE

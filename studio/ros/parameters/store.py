@@ -268,6 +268,9 @@ class ParameterStore:
                 known = self._declared.get(parameter.name)
                 if known is not None:
                     self._check_change(parameter, known.descriptor)
+        except InvalidParameterValueError as error:
+            # In rclpy's words, by which others may know it.
+            return self.messages.SetParametersResult(successful=False, reason=error.reason)
         except ParameterError as error:
             return self.messages.SetParametersResult(successful=False, reason=str(error))
         return self.callbacks.ask(wanted, agreed)
@@ -291,7 +294,7 @@ class ParameterStore:
             )
         reason = misfit(parameter, descriptor)
         if reason is not None:
-            raise InvalidParameterValueError(parameter.name, f"{reason}.")
+            raise InvalidParameterValueError(parameter.name, reason)
 
     def _apply(self, step: _Step) -> None:
         for parameter in (*step.new, *step.changed):

@@ -23,10 +23,10 @@ def talker(endpoint: str) -> Generator[None]:
 
 def test_t1_topics_are_listed_with_their_types(endpoint: str):
     at = ("--connect", endpoint)
-    comes_to(lambda ran: ran.out == "/chatter\n/parameter_events\n", "topic", "list", *at)
+    comes_to(lambda ran: ran.out == "/chatter\n/parameter_events\n/rosout\n", "topic", "list", *at)
     typed = studio("topic", "list", "-t", *at).out.splitlines()
     assert typed[0] == "/chatter [std_msgs/msg/String]"
-    assert studio("topic", "list", "-c", *at).out == "2\n"
+    assert studio("topic", "list", "-c", *at).out == "3\n"
     verbose = studio("topic", "list", "-v", *at).out
     assert verbose.startswith("Published topics:\n * /chatter [std_msgs/msg/String] 1 publisher\n")
     assert verbose.endswith("\n\nSubscribed topics:\n\n")

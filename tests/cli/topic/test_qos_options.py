@@ -8,7 +8,7 @@ from studio.cli.topic.qos_options import (
     add_qos_options,
     given_profile,
     is_given,
-    matching_profile,
+    listening_profile,
 )
 from studio.errors import SettingsError
 from studio.ros.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
@@ -48,8 +48,21 @@ def test_a_depth_below_nothing_is_refused():
 
 
 def test_t4_what_is_asked_for_is_what_all_offer():
-    assert matching_profile([LATCHED]).durability is DurabilityPolicy.TRANSIENT_LOCAL
-    mixed = matching_profile([LATCHED, FAST])
-    assert mixed.reliability is ReliabilityPolicy.BEST_EFFORT
-    assert mixed.durability is DurabilityPolicy.VOLATILE
-    assert matching_profile([]).reliability is ReliabilityPolicy.BEST_EFFORT
+    alone = listening_profile(options_of(), [LATCHED])
+    assert (alone.reliability, alone.durability, alone.depth) == (
+        ReliabilityPolicy.RELIABLE, DurabilityPolicy.TRANSIENT_LOCAL, 5,
+    )  # fmt: skip
+    assert listening_profile(options_of(), [LATCHED, FAST]) == FAST
+    assert listening_profile(options_of(), []) == FAST
+    named = options_of("--qos-profile", "default")
+    assert listening_profile(named, [LATCHED]).durability is DurabilityPolicy.TRANSIENT_LOCAL
+    assert listening_profile(named, [LATCHED]).depth == 10
+
+
+def test_policies_that_are_given_change_sensor_data_whatever_is_offered():
+    given = listening_profile(options_of("--qos-durability", "transient_local"), [LATCHED])
+    assert (given.reliability, given.durability, given.depth) == (
+        ReliabilityPolicy.BEST_EFFORT, DurabilityPolicy.TRANSIENT_LOCAL, 5,
+    )  # fmt: skip
+    reliable = options_of("--qos-reliability", "reliable")
+    assert listening_profile(reliable, [FAST]).depth == 5

@@ -28,17 +28,24 @@ def double_misfit(value: float, low: float, high: float, step: float = 0.0) -> s
 
 
 def test_whole_numbers_keep_to_their_range_and_steps():
-    assert integer_misfit(256, 0, 255) == "256 is not from 0 to 255"
-    assert integer_misfit(4, 0, 10, 3) == "4 is no step of 3 from 0"
+    outside = "Parameter x out of range. Min: 0, Max: 255, value: 256"
+    assert integer_misfit(256, 0, 255) == outside
+    assert integer_misfit(256, 255, 0) == outside
+    between = "The parameter value for x is not a valid step. Min: 0, max: 10, value: 4, step: 3"
+    assert integer_misfit(4, 0, 10, 3) == between
     assert integer_misfit(9, 0, 10, 3) is None
     assert integer_misfit(10, 0, 10, 3) is None
 
 
 def test_numbers_keep_to_their_range_and_steps():
-    assert double_misfit(1.5, 0.0, 1.0) == "1.5 is not from 0 to 1"
+    assert double_misfit(1.5, 0.0, 1.0) == "Parameter x out of range Min: 0.0, Max: 1.0, value: 1.5"
     assert double_misfit(0.3, 0.0, 1.0, 0.1) is None
-    assert double_misfit(0.35, 0.0, 1.0, 0.1) == "0.35 is no step of 0.1 from 0"
-    assert double_misfit(math.nan, 0.0, 1.0) == "nan is not from 0 to 1"
+    assert double_misfit(0.35, 0.0, 1.0, 0.1) == (
+        "The parameter value for x is not close enough to a valid step. "
+        "Min: 0.0, max: 1.0, value: 0.35, step: 0.1"
+    )
+    outside = "Parameter x out of range Min: 0.0, Max: 1.0, value: nan"
+    assert double_misfit(math.nan, 0.0, 1.0) == outside
     assert double_misfit(0.1 + 0.2, 0.0, 0.3) is None
 
 
@@ -50,7 +57,7 @@ def test_a_range_is_for_its_own_type_alone():
 @given(st.floats(), st.floats(), st.floats(), st.floats())
 def test_no_range_is_too_odd_to_judge(value: float, low: float, high: float, step: float):
     reason = double_misfit(value, low, high, step)
-    assert reason is None or "is n" in reason
+    assert reason is None or reason.startswith(("Parameter x out", "The parameter value for x"))
 
 
 @pytest.mark.parametrize("step", [0, 1, 2**63, 2**64 - 1])

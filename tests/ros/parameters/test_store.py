@@ -98,18 +98,18 @@ def test_a_parameter_of_a_type_alone_waits_for_its_value():
 def test_a_range_is_kept_from_the_first_value_on():
     span = DESCRIPTOR(integer_range=[SPAN(from_value=0, to_value=255, step=1)])
     store = Watched().store
-    with pytest.raises(InvalidParameterValueError, match="300 is not from 0 to 255"):
+    with pytest.raises(InvalidParameterValueError, match="Min: 0, Max: 255, value: 300"):
         store.declare("red", 300, span)
     store.declare("red", 3, span)
     [result] = store.set([Parameter("red", value=256)])
-    assert "256 is not from 0 to 255" in result.reason
+    assert result.reason == "Parameter red out of range. Min: 0, Max: 255, value: 256"
 
 
 def test_a_parameter_may_be_given_another_range_and_a_value_that_fits():
     watched = Watched()
     watched.store.declare("red", 300)
     span = DESCRIPTOR(integer_range=[SPAN(from_value=0, to_value=255, step=1)])
-    with pytest.raises(InvalidParameterValueError, match="300 is not from 0 to 255"):
+    with pytest.raises(InvalidParameterValueError, match="Min: 0, Max: 255, value: 300"):
         watched.store.redescribe("red", span)
     assert watched.store.redescribe("red", span, 255) == 255
     assert watched.told[-1] == ParameterChange(changed=(Parameter("red", value=255),))
