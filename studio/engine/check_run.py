@@ -27,7 +27,7 @@ _AT_ONCE: Final = 3
 _UNREADABLE: Final = frozenset(
     {
         *("file-unreadable", "file-empty", "file-binary", "file-utf16", "file-encoding"),
-        *("file-too-large", "outside-roots"),
+        *("file-too-large", "file-lfs-pointer", "outside-roots"),
     }
 )
 """Codes of an entry file of which nothing could be read."""

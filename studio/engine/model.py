@@ -11,9 +11,10 @@ from studio.robot.assembly import Assembly, Change
 from studio.robot.kinematics import Kinematics
 from studio.robot.textured import mesh_uris
 from studio.robot.values import Robot
+from studio.robot.xml_tree import parse_tree
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
+    from collections.abc import Callable, Iterable, Iterator, Mapping
 
     from studio.description.values import Expansion, Part
     from studio.problems import Problem
@@ -119,6 +120,18 @@ class Model:
 def urdf_text(parts: Iterable[Part], root_attributes: Iterable[tuple[str, str]]) -> str:
     """A robot of these parts as URDF text; in any thread, for a large robot takes its time."""
     root = ElementTree.Element("robot", dict(root_attributes))
-    root.extend(ElementTree.fromstring(part.xml) for part in parts)
+    root.extend(part_element(part, root.attrib) for part in parts)
     ElementTree.indent(root)
     return '<?xml version="1.0" ?>\n' + ElementTree.tostring(root, encoding="unicode") + "\n"
+
+
+def part_element(part: Part, root_attributes: Mapping[str, str]) -> ElementTree.Element:
+    """A part as an element of a robot, with its prefixes as written.
+
+    A part declares its prefixes itself, to stand alone; what the root declares is not repeated.
+    """
+    element = parse_tree(part.xml)
+    for name in [one for one in element.attrib if one.startswith("xmlns:")]:
+        if root_attributes.get(name) == element.get(name):
+            del element.attrib[name]
+    return element

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 from studio.engine.messages import JointView, LinkView, RobotState, SiteView
@@ -93,14 +94,15 @@ def _link_view(link: Link, part: Part | None) -> LinkView:
 
 def _joint_view(joint: Joint, axis: tuple[float, float, float], part: Part | None) -> JointView:
     limit = joint.limit if joint.type in _LIMITED else None
+    lower, upper = limit.bounds if limit else (-math.inf, math.inf)
     return JointView(
         name=joint.name,
         type=joint.type.value,
         parent=joint.parent,
         child=joint.child,
         axis=axis,
-        lower=limit.lower if limit else None,
-        upper=limit.upper if limit else None,
+        lower=lower if math.isfinite(lower) else None,
+        upper=upper if math.isfinite(upper) else None,
         mimic=joint.mimic.joint if joint.mimic else "",
         multiplier=joint.mimic.multiplier if joint.mimic else 1.0,
         file=part.place.file if part else "",

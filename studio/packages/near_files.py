@@ -54,6 +54,8 @@ def near_file(
         names = _names(folder, suffixes)
     except (PackageError, OSError):
         return ""
+    if name in names:
+        return ""  # it is there: what is wrong with it is something else
     known = {one.rpartition("/")[2] for one in taken if one.rpartition("/")[0] == above}
     for is_meant in (_is_other_case, _is_other_kind):
         if found := _only(name, names, is_meant):
@@ -81,7 +83,12 @@ def _is_other_kind(name: str, other: str) -> bool:
 
 
 def _is_typing_error(name: str, other: str) -> bool:
-    one, two = PurePath(name).stem.casefold(), PurePath(other).stem.casefold()
+    return is_misspelt(PurePath(name).stem, PurePath(other).stem)
+
+
+def is_misspelt(name: str, other: str) -> bool:
+    """Whether one name is the other with a typing error: word by word, never in its numbers."""
+    one, two = name.casefold(), other.casefold()
     if _NUMBERS.findall(one) != _NUMBERS.findall(two):
         return False
     words, others = _WORDS.split(one), _WORDS.split(two)
@@ -90,10 +97,10 @@ def _is_typing_error(name: str, other: str) -> bool:
     if len(words) != len(others):
         return False
     pairs = zip(words, others, strict=True)
-    return all(a == b or _is_misspelt(a, b) for a, b in pairs)
+    return all(a == b or _is_like(a, b) for a, b in pairs)
 
 
-def _is_misspelt(word: str, other: str) -> bool:
+def _is_like(word: str, other: str) -> bool:
     if min(len(word), len(other)) < _LEAST_WORD:
         return False
     return SequenceMatcher(None, word, other).ratio() >= _LIKENESS

@@ -6,6 +6,8 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Final
 from xml.parsers import expat
 
+from studio.packages.lfs import LFS_REASON, is_lfs_pointer
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -78,6 +80,8 @@ class _Reader:
     def parse(self, data: bytes) -> None:
         if not data.strip(b"\xef\xbb\xbf \t\r\n"):
             raise _RefusedError("empty")
+        if is_lfs_pointer(data):
+            raise _RefusedError(LFS_REASON.removesuffix("."))
         if b"\0" in data[:1024]:
             raise _RefusedError("binary or UTF-16: save it as UTF-8")
         parser: Any = expat.ParserCreate()

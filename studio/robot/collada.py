@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import dataclasses
 import math
 from typing import TYPE_CHECKING
@@ -33,12 +34,19 @@ def read_collada(files: MeshFiles) -> list[Surface]:
         MeshError: Not well-formed, or its lists do not fit each other.
     """
     try:
-        root = parse_tree(files.data)
+        root = parse_tree(_trimmed(files.data))
     except RobotError as error:
         raise files.fault(str(error)) from error
     if root.tag != "COLLADA":
         raise files.fault(f"its root is <{root.tag}>, not <COLLADA>.")
     return _Scene(root, files).surfaces()
+
+
+def _trimmed(data: bytes) -> bytes:
+    """Without blanks before `<?xml`, and NULs at the end: some exporters write them."""
+    if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        return data  # where NULs are half of every character
+    return data.rstrip(b"\0 \t\r\n").removeprefix(codecs.BOM_UTF8).lstrip()
 
 
 class _Scene:

@@ -7,6 +7,7 @@ rest of the element still comes out, so that one typing error never hides a robo
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import TYPE_CHECKING, TypeVar
@@ -237,9 +238,17 @@ def _read_axis(element: Element, where: str) -> Vector3:
 
 
 def _read_limit(element: Element, where: str) -> Limit:
-    return Limit(
-        *(_number(element, key, where, 0.0) for key in ("lower", "upper", "effort", "velocity"))
-    )
+    return Limit(*(_bound(element, key, where) for key in ("lower", "upper", "effort", "velocity")))
+
+
+def _bound(element: Element, key: str, where: str) -> float:
+    """A number of any size: many robots write a very large one where they mean no bound."""
+    if element.get(key) is None:
+        return 0.0
+    numbers = _numbers(element, key, where, math.inf)
+    if len(numbers) != 1:
+        raise _wrong(where, element, key, "one number")
+    return numbers[0]
 
 
 def _read_mimic(element: Element, where: str) -> Mimic:
@@ -292,8 +301,10 @@ def _vector(element: Element, key: str, where: str, default: Vector3 | None = No
     return numbers
 
 
-def _numbers(element: Element, key: str, where: str) -> tuple[float, ...]:
-    """Finite numbers of an attribute.
+def _numbers(
+    element: Element, key: str, where: str, limit: float = _COORDINATE_LIMIT
+) -> tuple[float, ...]:
+    """Finite numbers of an attribute, each between `-limit` and `limit`.
 
     Raises:
         RobotError: The attribute is missing, or a word of it is no number.
@@ -305,23 +316,21 @@ def _numbers(element: Element, key: str, where: str) -> tuple[float, ...]:
         numbers = _read_numbers(written)
     except ValueError as error:
         raise _wrong(where, element, key, "numbers") from error
-    if numbers is None:
+    if not all(-limit < one < limit for one in numbers):
         raise _wrong(where, element, key, "finite numbers")
     return numbers
 
 
 @lru_cache(maxsize=4096)
-def _read_numbers(written: str) -> tuple[float, ...] | None:
-    """Numbers between blanks, None when one is not finite; most texts of a part stay as they were.
+def _read_numbers(written: str) -> tuple[float, ...]:
+    """Numbers between blanks; most texts of a part stay as they were.
 
     Raises:
         ValueError: A word is no number.
     """
     if "_" in written or not written.isascii():  # numbers to Python, to no other reader of URDF
         raise ValueError(written)
-    numbers = tuple(map(float, written.split()))
-    finite = all(-_COORDINATE_LIMIT < one < _COORDINATE_LIMIT for one in numbers)
-    return numbers if finite else None
+    return tuple(map(float, written.split()))
 
 
 def _wrong(where: str, element: Element, key: str, wanted: str) -> RobotError:

@@ -324,7 +324,7 @@ def _range(joint: Joint) -> tuple[float, float]:
     limit = joint.limit
     if joint.type is JointType.CONTINUOUS or limit is None or limit.lower > limit.upper:
         return -math.inf, math.inf
-    return limit.lower, limit.upper
+    return limit.bounds
 
 
 def _leading(joint: Joint, joints: Mapping[str, Joint]) -> tuple[str, float, float]:

@@ -100,7 +100,8 @@ def reach_m(robot: Robot) -> float:
 def _step_m(joint: Joint) -> float:
     step_m = math.hypot(*joint.origin.xyz)
     if joint.type is JointType.PRISMATIC and joint.limit:
-        step_m += max(abs(joint.limit.lower), abs(joint.limit.upper))
+        bounds_m = map(abs, joint.limit.bounds)
+        step_m += max((one for one in bounds_m if math.isfinite(one)), default=0.0)
     return step_m if math.isfinite(step_m) else 0.0
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from urllib.parse import unquote
 
 from studio.errors import MeshError, PackageError
+from studio.packages.lfs import LFS_REASON, is_lfs_pointer
 from studio.packages.roots import ServedRoots
 from studio.problems import Place, Problem, Severity
 from studio.settings import MESH_SIZE_LIMIT_BYTES
@@ -31,6 +32,7 @@ class MeshFiles:
         roots: Folders that may be read; without any, the mesh's own folder.
 
     Raises:
+        MeshError: It is a Git LFS pointer.
         PackageError: The mesh cannot be read.
     """
 
@@ -38,6 +40,8 @@ class MeshFiles:
         self.path = path
         self._roots = ServedRoots(tuple(roots) or (path.parent,))
         self.data = self._roots.read(path, MESH_SIZE_LIMIT_BYTES)
+        if is_lfs_pointer(self.data):
+            raise self.fault(f"it {LFS_REASON}")
         self.digest = content_digest(self.data)
         self.references: dict[str, str] = {}
         """Digest of each file that was asked for by absolute path; empty when it is missing."""
@@ -107,6 +111,8 @@ class MeshFiles:
         except PackageError as error:
             self.references[str(path)] = ""
             raise MeshError(str(self.path), f'it refers to "{path.name}": {error}') from error
+        if is_lfs_pointer(data):
+            raise self.fault(f'it refers to "{path.name}", which {LFS_REASON}')
         self._left_bytes -= len(data)
         self.references[str(path)] = content_digest(data)
         return data

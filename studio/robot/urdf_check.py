@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import io
 import logging
+from dataclasses import replace
 from typing import TYPE_CHECKING
 from xml.etree.ElementTree import tostring
 
@@ -17,7 +18,7 @@ from studio.robot.requests import CheckAnswer
 from studio.robot.xml_tree import parse_tree
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Iterator
 
 _NAME = "unnamed_robot"
 logging.getLogger("yourdfpy.urdf").disabled = True
@@ -33,7 +34,7 @@ def check_urdf(text: str) -> CheckAnswer:
         return CheckAnswer((), (), "", (_problem("bad-urdf", f"The URDF cannot be read. {error}"),))
     try:
         robot = yourdfpy.URDF.load(io.BytesIO(clean), load_meshes=False)
-        problems += (_problem("urdf-rule", str(one)) for one in _errors(robot))
+        problems += _broken_rules(robot)
         return CheckAnswer(
             tuple(map(str, robot.link_map)),
             tuple(map(str, robot.actuated_joint_names)),
@@ -67,6 +68,19 @@ def _clean(text: str, problems: list[Problem]) -> bytes:
         for key in [one for one in parent.attrib if ":" in one or one == "xmlns"]:
             del parent.attrib[key]
     return tostring(root)
+
+
+def _broken_rules(robot: yourdfpy.URDF) -> Iterator[Problem]:
+    """The rules that each link and joint breaks: yourdfpy does not say which of them it means."""
+    whole = robot.robot
+    links, joints = list(whole.links), list(whole.joints)
+    for kind, parts in (("link", links), ("joint", joints)):
+        for part in parts:
+            whole.links, whole.joints = ([part], []) if kind == "link" else ([], [part])
+            for error in _errors(robot):
+                sentence = f'{kind.capitalize()} "{part.name}": {error}'
+                yield replace(_problem("urdf-rule", sentence), parts=(f"{kind}:{part.name}",))
+    whole.links, whole.joints = links, joints
 
 
 def _errors(robot: yourdfpy.URDF) -> Iterable[object]:

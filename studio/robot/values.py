@@ -5,11 +5,14 @@ Source: the URDF specification as urdfdom reads it. Angles in rad, lengths in m,
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import TypeAlias
+from typing import Final, TypeAlias
 
 Vector3: TypeAlias = tuple[float, float, float]
+UNBOUNDED: Final = 1e12
+"""A limit, rad or m, from which on a joint has none: some robots write 1e16 and mean that."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,6 +127,14 @@ class Limit:
     upper: float = 0.0
     effort: float = 0.0
     velocity: float = 0.0
+
+    @property
+    def bounds(self) -> tuple[float, float]:
+        """Least and greatest position; infinite where a number is so large that it bounds none."""
+        return (
+            self.lower if self.lower > -UNBOUNDED else -math.inf,
+            self.upper if self.upper < UNBOUNDED else math.inf,
+        )
 
 
 @dataclass(frozen=True, slots=True)

@@ -69,3 +69,7 @@ def test_names_beyond_the_served_folders_are_not_told(tmp_path: Path):
     (tmp_path / "secret.stl").write_text("")
     for uri in ("../Secret.stl", str(tmp_path / "Secret.stl"), "package://no/Secret.stl"):
         assert near(tmp_path, uri) == ""
+
+
+def test_a_file_that_is_there_is_no_other_one(tmp_path: Path):
+    assert near(tmp_path, "meshes/e.dae", "e.dae", "e.stl") == ""

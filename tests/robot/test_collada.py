@@ -266,3 +266,19 @@ def test_every_real_collada_is_as_large_as_trimesh_says_times_its_unit(corpus: P
 def test_the_camera_of_turtlebot3_is_thirteen_centimetres_wide(corpus: Path):
     path = next(corpus.rglob("r200.dae"))
     assert size_m(read_mesh(MeshFiles(path))) == pytest.approx([0.130, 0.020, 0.006], abs=5e-4)
+
+
+@pytest.mark.parametrize(("before", "behind"), [("\n", ""), ("\ufeff \r\n", "\n"), ("", "\n\0\0")])
+def test_a_blank_line_before_the_declaration_and_nuls_at_the_end_are_passed_over(
+    tmp_path: Path, before: str, behind: str
+):
+    text = dae()
+    declared = text if text.startswith("<?xml") else f'<?xml version="1.0"?>\n{text}'
+    assert len(read(tmp_path / "a.dae", before + declared + behind).faces) == 2
+
+
+def test_a_document_in_utf_16_keeps_its_last_byte(tmp_path: Path):
+    text = '<?xml version="1.0" encoding="utf-16"?>\n' + dae().partition("?>")[2].strip() + "\n"
+    file = tmp_path / "a.dae"
+    file.write_bytes(text.encode("utf-16"))
+    assert len(read_mesh(MeshFiles(file)).faces) == 2

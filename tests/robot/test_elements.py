@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+import math
+
 import pytest
 
 from studio.robot.elements import parse_element
@@ -193,3 +195,20 @@ def test_a_long_mistake_is_cut_in_the_sentence():
         len(faults(f'<link name="a"><inertial><mass value="{"x" * 999}"/></inertial></link>')[0])
         < 150
     )
+
+
+def test_a_limit_may_be_of_any_size_and_a_very_large_one_bounds_nothing():
+    text = '<limit lower="-1e+16" upper="1e16" effort="1e300" velocity="1e15"/>'
+    parsed = parse_element(f'<joint name="j" type="revolute">{ENDS}{text}</joint>')
+    assert not parsed.faults
+    assert isinstance(parsed.value, Joint)
+    assert parsed.value.limit == Limit(-1e16, 1e16, 1e300, 1e15)
+    assert parsed.value.limit.bounds == (-math.inf, math.inf)
+    assert Limit(-1.5, 1e16).bounds == (-1.5, math.inf)
+
+
+@pytest.mark.parametrize("written", ["inf", "nan", "-inf", "1e999", "1 2", "a"])
+def test_a_limit_that_is_no_number_is_left_out(written: str):
+    text = f'<limit lower="{written}" upper="1" effort="1" velocity="1"/>'
+    parsed = parse_element(f'<joint name="j" type="revolute">{ENDS}{text}</joint>')
+    assert [str(fault).partition(":")[0] for fault in parsed.faults] == ['joint "j"']

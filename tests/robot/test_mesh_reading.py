@@ -106,3 +106,17 @@ def test_every_real_mesh_is_read(corpus: Path):
         assert len(mesh.faces) > 0, path
         assert max(size_m(mesh)) < 1000, path  # some are in millimetres and scaled by the URDF
     assert len(paths) > 90
+
+
+LFS_POINTER = (
+    "version https://git-lfs.github.com/spec/v1\n"
+    "oid sha256:4d7a214614ab2935c943f9e0ff69d22eadbb8f32b1258daaa5e2ca24d17e2393\n"
+    "size 12345\n"
+)
+
+
+@pytest.mark.parametrize("name", ["a.stl", "a.dae", "a.obj", "a.glb", "a.ply"])
+def test_a_git_lfs_pointer_is_said_to_be_one(tmp_path: Path, name: str):
+    (tmp_path / name).write_text(LFS_POINTER)
+    with pytest.raises(MeshError, match='run "git lfs pull"'):
+        read_mesh(MeshFiles(tmp_path / name))

@@ -20,3 +20,15 @@ def test_nothing_is_written_on_the_terminal(
     check_urdf(f'<robot name="r">{body}</robot>')
     assert caplog.records == []
     assert capfd.readouterr() == ("", "")
+
+
+def test_a_broken_rule_names_the_joint_that_breaks_it():
+    ends = '<parent link="a"/><child link="{}"/><limit effort="1" velocity="1"/>'
+    joints = "".join(
+        f'<joint name="to_{one}" type="revolute">{ends.format(one)}</joint>' for one in "bc"
+    )
+    found = check_urdf(
+        f'<robot name="r"><link name="a"/><link name="b"/><link name="c"/>{joints}</robot>'
+    )
+    assert {one.parts for one in found.problems} == {("joint:to_b",), ("joint:to_c",)}
+    assert all(one.sentence.startswith('Joint "to_') for one in found.problems)

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from studio.description.faults import misnamed
+from studio.packages.near_files import is_misspelt
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -22,7 +23,9 @@ def find_package(packages: Mapping[str, tuple[str, ...]], name: str, asking_file
     if not folders:
         sentence = f'The package "{name}" was not found'
         otherwise = "choose its folder or give --package-path."
-        fault = misnamed("package-not-found", sentence, name, packages, otherwise)
+        # A word that many packages end with, as _description, makes no two of them alike.
+        alike = [one for one in packages if is_misspelt(name, one)]
+        fault = misnamed("package-not-found", sentence, name, alike, otherwise)
         fault.package = name
         raise fault
     if len(folders) == 1:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from xml.parsers import expat
 
 from studio.description.syntax.xml_faults import cause_of, sentence_of
+from studio.packages.lfs import LFS_REASON, is_lfs_pointer
 from studio.problems import Place
 from studio.settings import SOURCE_SIZE_LIMIT_BYTES
 
@@ -160,6 +161,8 @@ def _refuse_what_is_no_text(path: str, data: bytes) -> None:
         raise refuse("file-too-large", f"The file is larger than {limit_mb} MB and was not read.")
     if not data.strip():
         raise refuse("file-empty", "The file is empty: a robot description starts with <robot>.")
+    if is_lfs_pointer(data):
+        raise refuse("file-lfs-pointer", f"The file {LFS_REASON}")
     if data.startswith(_UTF16_MARKS):
         raise refuse("file-utf16", "The file is UTF-16: save it as UTF-8.")
     if OUTSIDE_XML.search(data, 0, 1 << 16):

@@ -14,9 +14,9 @@ from studio.problems import Fix, Problem
 from studio.robot.assembly import Assembly
 
 if TYPE_CHECKING:
-    from collections.abc import Coroutine, Iterable, Sequence
+    from collections.abc import Callable, Coroutine, Iterable, Sequence
 
-    from studio.description.values import Expansion, Failure
+    from studio.description.values import Expansion, Failure, Part
     from studio.engine.document import Document
     from studio.robot.validation import UrdfValidator
 
@@ -119,7 +119,9 @@ class CheckDesk:
 
     async def _validate(self) -> None:
         await asyncio.sleep(_VALIDATE_AFTER_S)
-        self._second_opinion = tuple(await self._validator.validate(self._document.urdf()))
+        found = await self._validator.validate(self._document.urdf())
+        part = self._document.model.assembly.part
+        self._second_opinion = tuple(placed(one, part) for one in found)
         self._tell()
 
     def _with_undo(self, problem: Problem) -> Problem:
@@ -158,6 +160,12 @@ def merged(of_robot: Iterable[Problem], of_texts: Sequence[Problem]) -> tuple[Pr
     better = {_fact(one): one for one in of_texts if one.code in _OF_BOTH}
     found = [replace(better.get(_fact(one), one), severity=one.severity) for one in of_robot]
     return (*found, *(one for one in of_texts if one.code not in _OF_BOTH))
+
+
+def placed(problem: Problem, part: Callable[[str], Part | None]) -> Problem:
+    """A problem of a part of the robot, at the place where that is written."""
+    found = part(problem.parts[0]) if problem.parts else None
+    return replace(problem, place=found.place, macro_stack=found.calls) if found else problem
 
 
 def _fact(problem: Problem) -> tuple[str, tuple[str, ...]]:

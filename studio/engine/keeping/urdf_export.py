@@ -12,6 +12,7 @@ from studio.packages.companions import companions
 from studio.packages.packing import PackedFile
 from studio.packages.roots import package_folder_of
 from studio.packages.uris import resolve_uri
+from studio.robot.xml_tree import parse_tree
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -43,7 +44,7 @@ def with_copied_meshes(urdf: str, location: Location) -> tuple[str, list[PackedF
 def _renamed(urdf: str, location: Location, name_of: Callable[[str, Path], str]) -> str:
     """The URDF with other names for the files that are there."""
     assert location.entry is not None
-    root = ElementTree.fromstring(urdf)
+    root = parse_tree(urdf)
     for element in (one for tag in _NAMES_FILE for one in root.iter(tag)):
         uri = element.get("filename", "")
         try:

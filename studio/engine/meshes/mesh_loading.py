@@ -93,7 +93,10 @@ class MeshLoading:
 
 def mesh_problem(uri: str, error: StudioError) -> Problem:
     """Why a mesh, or a texture on a primitive, is not there to be drawn."""
-    what = "Texture" if uri != split_textured(uri)[1] else "Mesh"
+    file = split_textured(uri)[1]
+    what = "Texture" if uri != file else "Mesh"
+    if isinstance(error, PackageNotFoundError):  # the file that names it is where this is shown
+        error = PackageNotFoundError(error.name, file)
     return Problem(Severity.WARNING, "mesh", f"{what} {error}", fix=_fix_of(error))
 
 

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Final
 from xml.etree import ElementTree
 
 from studio.description.editing.line_diff import DiffLine, LineDiff, line_diff
+from studio.engine.model import part_element
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Sequence
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
 
     from studio.description.values import Part
 
@@ -37,13 +38,13 @@ def part_lines(
     opening, _, _ = ElementTree.tostring(root, encoding="unicode").partition("\n")
     return [
         PartLines("<robot>", ('<?xml version="1.0" ?>', opening)),
-        *(PartLines(part.key, _lines(part.xml)) for part in parts),
+        *(PartLines(part.key, _lines(part, root.attrib)) for part in parts),
         PartLines("</robot>", ("</robot>",)),
     ]
 
 
-def _lines(xml: str) -> tuple[str, ...]:
-    element = ElementTree.fromstring(xml)
+def _lines(part: Part, root_attributes: Mapping[str, str]) -> tuple[str, ...]:
+    element = part_element(part, root_attributes)
     ElementTree.indent(element)
     text = ElementTree.tostring(element, encoding="unicode").rstrip()
     return tuple(f"  {line}" for line in text.split("\n"))

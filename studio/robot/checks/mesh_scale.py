@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 _LARGEST_M: Final = 20.0
 _SMALLEST_M: Final = 0.0005
+_ORDINARY_M: Final = 0.01
+"""Where another part drawn in the same unit is that large, a tiny one is a marker."""
 _STRIKING_M: Final = 2.0
 """Of this size on a mesh is suspected when it dwarfs the rest of the robot."""
 _DWARFS: Final = 100.0
@@ -28,11 +30,17 @@ def mesh_scale_findings(
     """Meshes of a size that no part of this robot has; `mesh_bounds` as for `measure`."""
     sizes = _sizes_m(robot, mesh_bounds)
     usual_m = _usual_m([size_m for size_m, _, _ in sizes.values()])
+    ordinary = {_unit(mesh) for size_m, _, mesh in sizes.values() if size_m >= _ORDINARY_M}
     for size_m, link, mesh in sizes.values():
         if size_m > _LARGEST_M or (size_m > _STRIKING_M and 0 < usual_m * _DWARFS < size_m):
             yield _finding(link, mesh, size_m, 0.001)
-        elif 0 < size_m < _SMALLEST_M:
+        elif 0 < size_m < _SMALLEST_M and _unit(mesh) not in ordinary:
             yield _finding(link, mesh, size_m, 1000.0)
+
+
+def _unit(mesh: Mesh | None) -> float | None:
+    """What a mesh's numbers are scaled by; None for a shape, whose numbers are metres."""
+    return None if mesh is None else max(map(abs, mesh.scale))
 
 
 def _usual_m(sizes_m: list[float]) -> float:

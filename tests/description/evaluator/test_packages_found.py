@@ -31,3 +31,21 @@ def test_a_missing_package_names_itself():
         find_package(PACKAGES, "none", "/w/x.xacro")
     assert missing.value.package == "none"
     assert '"none" was not found' in missing.value.sentence
+
+
+@pytest.mark.parametrize(
+    ("name", "meant"),
+    [
+        ("realsense2_description", ""),
+        ("realsense_description", ""),
+        ("ur5_description", ""),
+        ("aliengo_descripton", "aliengo_description"),
+        ("aliengodescription", "aliengo_description"),
+        ("alliengo-description", "aliengo_description"),
+    ],
+)
+def test_only_a_misspelt_name_is_guessed(name: str, meant: str):
+    known = {"aliengo_description": ("/w/a",), "ur10_description": ("/w/u",), "zed_msgs": ("/z",)}
+    with pytest.raises(Fault) as missing:
+        find_package(known, name, "/w/x.xacro")
+    assert missing.value.misnamed == ((name, meant) if meant else None)

@@ -82,6 +82,7 @@ def test_xacro_is_recognised_by_its_namespace_in_either_spelling(uri: str):
     [
         (b"", "file-empty", "is empty", 1),
         (b"\0\1", "file-binary", "is binary", 1),
+        (b"version https://git-lfs.github.com/spec/v1\n", "file-lfs-pointer", "git lfs pull", 1),
         ("<r/>".encode("utf-16-le"), "file-utf16", "save it as UTF-8", 1),
         (b"x <?xml version='1.0'?><r/>", "xml-not-first", "before <?xml", 1),
         (b"<!--c-->\n<?xml version='1.0'?><r/>", "xml-malformed", "very first", 2),

@@ -121,3 +121,22 @@ def test_names_that_are_there_twice_are_told_once_and_mended(tmp_path: Path):
             assert list(document.model.robot.joints) == ["j", "j_2"]
 
     asyncio.run(run())
+
+
+def test_a_rule_that_yourdfpy_finds_broken_has_the_place_of_the_joint(tmp_path: Path):
+    text = (
+        '<robot name="r">\n<link name="a"/>\n<link name="b"/>\n'
+        '<joint name="j" type="revolute"><parent link="a"/><child link="b"/>'
+        '<limit effort="1" velocity="1"/></joint>\n</robot>'
+    )
+
+    async def run() -> None:
+        file = tmp_path / "r.urdf"
+        file.write_text(text)
+        async with engine(tmp_path / "data") as made:
+            document, _ = await opened(made, file)
+            await document.checks.settled()
+            rules = [one for one in document.board.found if one.code == "urdf-rule"]
+            assert {one.place and one.place.line for one in rules} == {4}
+
+    asyncio.run(run())

@@ -3,7 +3,8 @@ from __future__ import annotations
 import asyncio
 from typing import TYPE_CHECKING
 
-from studio.engine.meshes.mesh_loading import MeshLoading
+from studio.engine.meshes.mesh_loading import MeshLoading, mesh_problem
+from studio.errors import PackageNotFoundError
 from studio.robot.meshes import MeshLibrary
 from studio.robot.pool import mesh_pool
 
@@ -79,3 +80,14 @@ def test_problems_of_meshes_that_nobody_names_are_forgotten(tmp_path: Path):
         return told
 
     assert asyncio.run(run()).loading.problems == {}
+
+
+def test_a_missing_package_is_told_of_the_mesh_that_names_it():
+    problem = mesh_problem("package://no_such/m.stl", PackageNotFoundError("no_such", "/r/a.urdf"))
+    assert problem.sentence.startswith('Mesh package://no_such/m.stl: package "no_such" was not')
+    assert problem.fix is not None
+    assert problem.fix.target == "no_such"
+    textured = mesh_problem(
+        "textured-box:package://p/i.png", PackageNotFoundError("p", "/r/a.urdf")
+    )
+    assert textured.sentence.startswith("Texture package://p/i.png: ")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from studio.description.editing.line_diff import DiffLine
 from studio.description.values import Part
+from studio.engine.model import urdf_text
 from studio.engine.questions.urdf_lines import LINES_SHOWN, PartLines, difference, part_lines
 from studio.problems import Place
 
@@ -74,3 +75,16 @@ def test_of_very_many_lines_the_first_are_shown_and_the_rest_counted():
     assert shown == LINES_SHOWN
     assert found.added == found.removed == 3000
     assert shown + found.left_out == 2 + 4 * 3000 + 1
+
+
+def test_a_prefix_stays_as_it_was_written_and_is_declared_once():
+    controller = ("xmlns:controller", "http://example.org/controller")
+    attributes = (("name", "r"), controller)
+    xml = f'<controller:x {controller[0]}="{controller[1]}"><controller:y k="1"/></controller:x>'
+    text = urdf_text([part("other:0", xml), link("a")], attributes)
+    assert "<controller:x>" in text
+    assert '<controller:y k="1"' in text
+    assert "ns0" not in text
+    assert text.count("xmlns:controller") == 1
+    shown = [line for one in part_lines(attributes, [part("other:0", xml)]) for line in one.lines]
+    assert "  <controller:x>" in shown

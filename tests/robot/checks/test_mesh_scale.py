@@ -61,3 +61,24 @@ def test_a_shape_of_many_metres_is_found_too():
 
 def test_a_mesh_without_extent_is_no_question_of_scale():
     assert "mesh-scale" not in codes(meshed(), sized(0.0))
+
+
+def markers(scale: str) -> str:
+    """A link of ordinary size, and a mesh that is tiny."""
+    ordinary = '<visual><geometry><mesh filename="arm.stl" scale="0.001 0.001 0.001"/></geometry>'
+    tiny = f'<visual><geometry><mesh filename="m.stl" scale="{scale}"/></geometry></visual>'
+    return robot(link("base", f"{ordinary}</visual>"), link("marker", tiny))
+
+
+def test_a_tiny_mesh_among_ordinary_ones_in_the_same_unit_is_a_marker():
+    sizes = {"arm.stl": ((0.0, 0.0, 0.0), (300.0, 80.0, 80.0)), **sized(0.4)}
+    assert "mesh-scale" not in codes(markers("0.001 0.001 0.001"), sizes)
+    assert "mesh-scale" in codes(
+        markers("0.001 0.001 0.001"), {**sizes, "arm.stl": sized(1)["m.stl"]}
+    )
+
+
+def test_a_tiny_mesh_with_a_scale_of_its_own_is_found():
+    sizes = {"arm.stl": ((0.0, 0.0, 0.0), (300.0, 80.0, 80.0)), **sized(0.3)}
+    one = markers("1e-6 1e-6 1e-6")
+    assert "mesh-scale" in codes(one, sizes)
