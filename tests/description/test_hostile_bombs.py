@@ -33,6 +33,7 @@ OTHER_LISTS = chain("q", "${[2]}", "${[@, @]}")
 TUPLES = chain("t", "${(1,)}", "${(@, @)}")
 NEARLY = "'a'*250000 + 'b' + 'a'*250000"
 NESTED_LOOPS = "".join(f"[[{name}, {name}] for {name} in " for name in "abcdefghijklmnopqrstuvwxyz")
+NEEDLE = "['a'*400000 + 'b' + 'a'*50000]"
 SAME_HASH = "[i * (2**61 - 1) for i in range(60000)]"
 
 
@@ -114,6 +115,33 @@ LONG_WORK = {
     "many tabs": "('\\t'*10**6).expandtabs(10000)",
     "a wide padding": "'a'.center(10**9, 'b')",
     "many lines": "('\\n'*10**6).splitlines()",
+    "the type of a range": "python.sum(python.type(python.range(1))(10**12))",
+    "the type of a map": (
+        "list(python.type(map(len, []))(('a'*10**6).rfind, ['a'*90 + 'b']*9000))"
+    ),
+    "a list that grows as it is numbered": "[l.extend(python.enumerate(l)) for l in [[1]]]",
+    "a list that grows as it is zipped": "[l.extend(python.zip(l)) for l in [[1]]]",
+    "a list that grows as it is numbered, by its type": (
+        "[python.type(l).extend(l, python.enumerate(l)) for l in [[1]]]"
+    ),
+    "a zip of very many": "python.all(python.zip(*[range(100000)]*9999))",
+    "a search in a zip of very many": "1 in python.zip(*[range(100000)]*9999)",
+    "one of many mapped digits": (
+        "[x // y for x in map(int, ['f'*10**6], [16]) for y in map(int, ['e'*500000], [16])]"
+    ),
+    "many texts in capitals": f"len(('é'*900000){'.title()' * 2000})",
+    "many texts backwards": f"len(('é'*900000){'[::-1]' * 3000})",
+    "many searches of a text": f"[[{'b in a, ' * 2000}] for a in ['a'*900000] for b in {NEEDLE}]",
+    "many searches of a range": f"[[{'.5 in r, ' * 2000}] for r in [range(100000)]]",
+    "the largest of many": f"[[{'max(r), ' * 2000}] for r in [range(100000)]]",
+    "many formats": f"[[{'len(str(l)), ' * 1200}] for l in [[x * 1.1 for x in range(9000)]]]",
+    "many percents": f"[[{'len(t%l), ' * 1200}] for t in ['%s'] for l in [[[.1] * 9000]]]",
+    "many sets of one hash": f"[{'python.set(h), ' * 40}]".join(
+        ("[", " for h in [[i * (2**61 - 1) for i in range(9000)]]]")
+    ),
+    "sets of one hash compared": (
+        "[[python.set(h) == python.set(h)]*9 for h in [[i * (2**61 - 1) for i in range(9000)]]]"
+    ),
     "a map over a range": "len(list(map(xacro.message, range(10**6))))",
 }
 DOUBLING = '<xacro:macro name="m" params="*b"><a>{0}{0}</a></xacro:macro>'.format(

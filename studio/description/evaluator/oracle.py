@@ -29,7 +29,7 @@ from studio.description.evaluator.source_store import SourceStore
 from studio.description.evaluator.substitution import evaluate, variable
 from studio.description.expressions import guarded_operations as guarded
 from studio.description.expressions.budget import Budget, Limits
-from studio.description.expressions.expressions import HELPERS, compile_expression
+from studio.description.expressions.expressions import compile_expression, helpers_of
 from studio.description.expressions.guarded_functions import guarded_functions
 from studio.description.expressions.guarded_operations import METHODS
 from studio.description.faults import Fault, Refusal, Unsupported, problem_of
@@ -148,12 +148,13 @@ class _Guard:
         self._eval_text: Callable[[Any, Any], Any] = xacro.eval_text
         self._eval_all: Callable[[Any, Any, Any], None] = xacro.eval_all
         self.functions = guarded_functions(self._budget.steps)
+        self._helpers = helpers_of(self._budget.steps)
         self.environment = policy.environment
 
     def safe_eval(self, text: str, names: dict[str, Any], _locals: object = None) -> Any:  # noqa: ANN401
         """In place of `xacro.safe_eval`."""
         code = compile_expression(text).code
-        names.update(HELPERS, __steps=self._budget.steps)
+        names.update(self._helpers)
         return eval(code, names)
 
     def eval_text(self, text: str, names: Any) -> Any:  # noqa: ANN401

@@ -7,7 +7,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Final, Protocol
 
 from studio.description.evaluator.symbols import SAFE_BUILTINS
-from studio.description.expressions.expressions import HELPERS, compile_expression
+from studio.description.expressions.expressions import compile_expression, helpers_of
 from studio.description.expressions.guarded_functions import MATH, counted_functions
 from studio.description.expressions.guarded_operations import text_of
 from studio.description.faults import Fault, Refusal, shorten
@@ -129,9 +129,8 @@ class _EvalNames(dict[str, Any]):
     """The names of `$(eval ...)`: functions, then args, then builtins."""
 
     def __init__(self, context: Context) -> None:
-        super().__init__(HELPERS)
+        super().__init__(helpers_of(context.steps))
         self._context = context
-        self["__steps"] = context.steps
         self._builtins = SAFE_BUILTINS | counted_functions(context.steps)
         self.update(MATH)
         self.update({"true": True, "false": False, "True": True, "False": False})

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Final, Protocol
 
 from studio.description.evaluator.scopes import Namespace
 from studio.description.evaluator.yaml_values import YamlMapping
-from studio.description.expressions.expressions import HELPERS
+from studio.description.expressions.expressions import helpers_of
 from studio.description.expressions.guarded_functions import (
     MATH,
     bounded_range,
@@ -154,4 +154,4 @@ def pure_names(steps: Callable[[Iterable[Any]], Iterator[Any]]) -> dict[str, Any
     """What an expression of a YAML file knows; `steps` counts the turns of its loops."""
     counted = counted_functions(steps)
     known = {name: counted.get(name, one) for name, one in PURE_SYMBOLS.items()}
-    return {**HELPERS, "__steps": steps, **known}
+    return {**helpers_of(steps), **known}

@@ -16,7 +16,7 @@ from studio.description.evaluator.substitution import substitute
 from studio.description.evaluator.symbols import make_symbols
 from studio.description.evaluator.yaml_values import Reader, wrap
 from studio.description.expressions.bounded_values import is_lasting
-from studio.description.expressions.expressions import HELPERS, Expression, compile_expression
+from studio.description.expressions.expressions import Expression, compile_expression, helpers_of
 from studio.description.expressions.guarded_operations import SIZE_LIMIT, text_of
 from studio.description.faults import Fault, Refusal, misnamed, shorten
 from studio.description.syntax.templates import Cut, segments_of
@@ -89,7 +89,7 @@ class Texts:
         self.yaml: dict[str, YamlReads] = {}
         self.at: SourceElement | None = None
         self.symbols = make_symbols(self)
-        self.helpers = {**HELPERS, "__steps": budget.steps}
+        self.helpers = helpers_of(budget.steps)
         self.replay: Replay | None = None
         self.evaluations = 0
         """How many have ended; numbers the records."""

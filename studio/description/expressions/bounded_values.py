@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Final, cast
 from studio.description.faults import Refusal
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Collection, Iterable
 
 SIZE_LIMIT: Final = 1_000_000
 """Characters of a text."""
@@ -24,6 +24,8 @@ ITEMS_LIMIT: Final = 10_000
 numbers of one hash make a set in a second."""
 DEPTH_LIMIT: Final = 64
 """Lists inside lists."""
+_SAME_HASH_LIMIT: Final = 100
+"""Keys of one set or mapping that share a hash with another: each is compared with all of them."""
 _CONTAINERS: Final = (list, tuple, dict, set, frozenset, KeysView, ItemsView, ValuesView)
 _EMPTY: Final[dict[str, str]] = {}
 _KINDS: Final[frozenset[type[object]]] = frozenset(
@@ -37,6 +39,8 @@ _KINDS: Final[frozenset[type[object]]] = frozenset(
     )
 )
 """Those of Python; what a YAML file holds is bounded when it is read."""
+
+_HASHED: Final[frozenset[type[object]]] = frozenset((dict, set, frozenset))
 
 
 def too_large() -> Refusal:
@@ -61,7 +65,20 @@ def made(value: Any) -> Any:  # noqa: ANN401 - any value of a description
             raise too_large()
     elif kind in _KINDS:
         weight(value)
+        if kind in _HASHED:
+            _check_hashes(cast("Collection[Any]", value))
     return value
+
+
+def _check_hashes(keys: Collection[Any]) -> None:
+    """See that keys differ by their hashes: else to compare two sets takes a second.
+
+    Raises:
+        Refusal: They do not.
+    """
+    count = len(keys)
+    if count > _SAME_HASH_LIMIT and count - len(set(map(hash, keys))) > _SAME_HASH_LIMIT:
+        raise too_large()
 
 
 def is_lasting(value: Any) -> bool:  # noqa: ANN401

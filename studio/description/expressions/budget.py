@@ -16,7 +16,9 @@ _USUAL_BYTES: Final = 1 << 20
 _BYTES_A_SECOND: Final = 150_000
 _MOST_READING_S: Final = 30.0
 _CLOCK_EVERY: Final = 16
-"""Steps between two looks at the clock; one may take a tenth of a second."""
+"""Steps between two looks at the clock."""
+_LOOK_AFTER_S: Final = 0.05
+"""Or so long after the last one: a step may be the search of a long text."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,9 +41,17 @@ def reading_time_s(size_bytes: int) -> float:
 
 
 class Budget:
-    """Counts one run. Every step is an evaluated text, an element, or one turn of a loop."""
+    """Counts one run. Every step is an evaluated text, an element, a call or one turn of a loop."""
 
-    __slots__ = ("_began", "_characters", "_elements", "_evaluations", "_sources", "limits")
+    __slots__ = (
+        "_began",
+        "_characters",
+        "_elements",
+        "_evaluations",
+        "_looked_s",
+        "_sources",
+        "limits",
+    )
 
     def __init__(self, limits: Limits) -> None:
         self.limits = limits
@@ -51,7 +61,8 @@ class Budget:
     def restart(self) -> None:
         """Count anew, for an edit of what came out."""
         self._elements = self._evaluations = self._characters = 0
-        self._began = perf_counter(), thread_time()
+        self._looked_s = perf_counter()
+        self._began = self._looked_s, thread_time()
 
     def source(self, path: str, size_bytes: int) -> None:
         """A file is read: once, however often it is included."""
@@ -82,7 +93,8 @@ class Budget:
     def evaluation(self) -> None:
         """One text is evaluated; raises as `element`."""
         self._evaluations += 1
-        if not self._evaluations % _CLOCK_EVERY:
+        is_due = not self._evaluations % _CLOCK_EVERY
+        if is_due or perf_counter() - self._looked_s > _LOOK_AFTER_S:
             self._look_at_clock()
             if self._evaluations > self.limits.evaluations:
                 raise Refusal(
@@ -128,8 +140,9 @@ class Budget:
             Refusal: It is: of the processor, or of the clock and no small part of the processor.
         """
         began, began_working = self._began
+        self._looked_s = perf_counter()
         seconds, worked = self.seconds, thread_time() - began_working
-        if worked > seconds or (worked > seconds / 2 and perf_counter() - began > seconds):
+        if worked > seconds or (worked > seconds / 2 and self._looked_s - began > seconds):
             raise Refusal(
                 "expansion-too-slow",
                 f"The expansion takes longer than {seconds:.2g} s and was ended.",

@@ -15,6 +15,7 @@ from studio.description.expressions import guarded_operations as guarded
 from studio.description.faults import Fault, Refusal, shorten
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator
     from types import CodeType
 
 LENGTH_LIMIT: Final = 20_000
@@ -41,6 +42,9 @@ _OPERATIONS: Final[dict[type[ast.operator], str]] = {
     ast.Add: "__add",
     ast.Mod: "__modulo",
 }
+_COUNTED: Final = (ast.Mod, ast.BitOr, ast.BitXor, ast.BitAnd, ast.Sub)
+"""Operators whose work is no less for a small result: formats, and those of sets."""
+_ORDERING: Final = (ast.Eq, ast.NotEq, ast.Lt, ast.LtE, ast.Gt, ast.GtE)
 HELPERS: Final[dict[str, Any]] = {
     "__multiply": guarded.multiply,
     "__power": guarded.power,
@@ -51,7 +55,16 @@ HELPERS: Final[dict[str, Any]] = {
     "__made": guarded.made,
     "__builtins__": {},
 }
-"""Names that compiled expressions need; `__steps` (iterable -> iterable) comes from the run."""
+"""Names that compiled expressions need; `helpers_of` a run has them all."""
+
+
+def helpers_of(steps: Callable[[Iterable[Any]], Iterator[Any]]) -> dict[str, Any]:
+    """The helpers of one run: each call, search and slice is a step, as each turn of a loop is."""
+
+    def made(value: Any) -> Any:  # noqa: ANN401 - any value of a description
+        return guarded.made(next(steps((value,))))
+
+    return {**HELPERS, "__steps": steps, "__made": made}
 
 
 @dataclass(frozen=True, slots=True)
@@ -157,10 +170,28 @@ class _Guarding(ast.NodeTransformer):
 
     def visit_BinOp(self, node: ast.BinOp) -> ast.expr:
         self.generic_visit(node)
-        helper = _OPERATIONS.get(type(node.op))
-        if helper is None or _cannot_grow(node):
+        if _cannot_grow(node):
             return node
-        return _call(helper, node.left, node.right)
+        helper = _OPERATIONS.get(type(node.op))
+        guarded_node = _call(helper, node.left, node.right) if helper else node
+        return _call("__made", guarded_node) if isinstance(node.op, _COUNTED) else guarded_node
+
+    def visit_Compare(self, node: ast.Compare) -> ast.expr:
+        self.generic_visit(node)
+        sides = (node.left, *node.comparators)
+        if any(isinstance(side, ast.Constant) for side in sides) and not _searches(node):
+            return node
+        return _call("__made", node)
+
+    def visit_Subscript(self, node: ast.Subscript) -> ast.expr:
+        self.generic_visit(node)
+        return node if isinstance(node.slice, ast.Constant) else _call("__made", node)
+
+    def visit_Starred(self, node: ast.Starred) -> ast.Starred:
+        self.generic_visit(node)
+        if isinstance(node.ctx, ast.Load):
+            node.value = _call("__steps", node.value)
+        return node
 
     def visit_Call(self, node: ast.Call) -> ast.expr:
         self.generic_visit(node)
@@ -205,6 +236,14 @@ class _Guarding(ast.NodeTransformer):
         self.generic_visit(node)
         node.iter = _call("__steps", node.iter)
         return node
+
+
+def _searches(node: ast.Compare) -> bool:
+    """Whether it goes through a value that is not written out in it."""
+    return any(
+        not isinstance(operator, _ORDERING) and not isinstance(inside, ast.List | ast.Tuple)
+        for operator, inside in zip(node.ops, node.comparators, strict=True)
+    )
 
 
 def _cannot_grow(node: ast.BinOp) -> bool:

@@ -107,7 +107,7 @@ def counted_functions(steps: Callable[[Iterable[Any]], Iterator[Any]]) -> dict[s
 
         def call(*arguments: Any) -> Any:  # noqa: ANN401
             next(ticks)
-            return function(*arguments)
+            return made(function(*arguments))
 
         return call
 
@@ -125,12 +125,16 @@ def counted_functions(steps: Callable[[Iterable[Any]], Iterator[Any]]) -> dict[s
     def filtered(function: Callable[..., Any] | None, items: Iterable[Any]) -> Iterator[Any]:
         return filter(counted(function), items)
 
+    def zipped(*items: Iterable[Any], strict: bool = False) -> Iterator[Any]:
+        return steps(zip(*items, strict=strict))
+
     return {
         "map": mapped,
         "filter": filtered,
         "sorted": with_key(sorted),
         "min": with_key(min),
         "max": with_key(max),
+        "zip": zipped,
     }
 
 

@@ -10,11 +10,16 @@ import re
 from string import Formatter
 from typing import TYPE_CHECKING, Any, Final, cast
 
-from studio.description.expressions.bounded_values import SIZE_LIMIT, too_large, weight
+from studio.description.expressions.bounded_values import (
+    ITEMS_LIMIT,
+    SIZE_LIMIT,
+    too_large,
+    weight,
+)
 from studio.description.faults import Refusal
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Iterable, Iterator
 
 WORK_LIMIT: Final = 100_000_000
 """Comparisons of characters; a tenth of a second."""
@@ -53,11 +58,27 @@ def unbound_method(kind: type, name: str, look_up: Callable[[Any, str], Any]) ->
 
 def _weighing(value: Any, method: Callable[..., Any]) -> Callable[..., Any]:  # noqa: ANN401
     def call(*arguments: Any, **named: Any) -> Any:  # noqa: ANN401
-        result = method(*arguments, **named)
+        result = method(*map(_bounded, arguments), **named)
         weight(value)
         return result
 
     return call
+
+
+def _bounded(argument: Any) -> Any:  # noqa: ANN401
+    """The argument; an iterator ends in a Refusal where it gives too much.
+
+    One that reads the very list that it extends would never end.
+    """
+    kind = cast("type[object]", type(argument))
+    return _first_items(argument) if hasattr(kind, "__next__") else argument
+
+
+def _first_items(items: Iterator[Any]) -> Iterator[Any]:
+    for number, item in enumerate(items):
+        if number >= ITEMS_LIMIT:
+            raise too_large()
+        yield item
 
 
 def _sorting(method: Callable[..., None]) -> Callable[..., None]:

@@ -169,11 +169,15 @@ def type_of(value: object) -> type:
     """`type` with one argument; with three it would make a class, and so would the type of one.
 
     Raises:
-        Refusal: The value is a type.
+        Refusal: The value is a function, a range or a type, say: the type of one would make others
+            that nothing bounds.
     """
-    if isinstance(value, type):
-        raise Refusal("expression-refused", "The type of a type may not be used in an expression.")
-    return type(value)
+    kind = type(value)
+    if kind is range or not (kind in METHODS or isinstance(value, dict | list | None)):
+        raise Refusal(
+            "expression-refused", f"The type of a {kind.__name__} may not be used in an expression."
+        )
+    return kind
 
 
 def text_of(value: Any) -> str:  # noqa: ANN401
