@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import logging
 import signal
 import threading
 from dataclasses import dataclass
@@ -14,10 +15,13 @@ from studio.errors import RouterNotStartedError, WireSettingsError
 from studio.ros.wire.door import close, insert
 from studio.ros.wire.endpoints import Endpoint, parse_endpoint
 from studio.ros.wire.probing import Answer, probe
+from studio.ros.wire.refused_tokens import TokenRelay
 from studio.ros.wire.settings import LEASE_MS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
+
+_log = logging.getLogger(__name__)
 
 _ACCEPT_TIMEOUT_MS = 5_000
 """A peer that begins a handshake and falls silent is let go after this."""
@@ -53,13 +57,18 @@ def router_choice(text: str) -> RouterChoice:
 class EmbeddedRouter:
     """A router that listens at one endpoint until it is closed."""
 
-    def __init__(self, session: zenoh.Session, endpoint: Endpoint) -> None:
-        self._session = session
+    def __init__(
+        self, session: zenoh.Session, endpoint: Endpoint, relay: TokenRelay | None = None
+    ) -> None:
+        """Own a session in mode router, and what declares there the tokens that it refused."""
+        self._session, self._relay = session, relay
         self.endpoint = endpoint
         self.zid = str(session.info.zid())
 
     def close(self) -> None:
         """Hang up on everybody; again is harmless."""
+        if self._relay is not None:
+            self._relay.close()
         close(self._session)
 
     def __enter__(self) -> Self:
@@ -89,10 +98,22 @@ def start_router(
     config = _base(config_file)
     try:
         _complete(config, endpoint, overrides or {})
-        return EmbeddedRouter(zenoh.open(config), endpoint)
+        session = zenoh.open(config)
     except zenoh.ZError as error:
         reason = str(error).split(" at /")[0]
         raise RouterNotStartedError(endpoint.text, reason, held=_is_held(endpoint)) from None
+    return EmbeddedRouter(session, endpoint, _relay(session, endpoint, config))
+
+
+def _relay(session: zenoh.Session, endpoint: Endpoint, config: zenoh.Config) -> TokenRelay | None:
+    """Show the nodes that are older than the router; without, all others are seen as well."""
+    try:
+        return TokenRelay(session, endpoint, config)
+    except zenoh.ZError as error:
+        _log.warning(
+            "Nodes that are older than the router at %s stay unseen: %s", endpoint.text, error
+        )
+        return None
 
 
 def run_router(
@@ -150,6 +171,7 @@ def _base(config_file: str | None) -> zenoh.Config:
     insert(config, "transport/unicast/max_sessions", "10000")
     insert(config, "transport/link/tx/lease", str(LEASE_MS))
     insert(config, "routing/router/peers_failover_brokering", "false")
+    insert(config, "adminspace/enabled", "true")  # who is linked, for those who look for faults
     return config
 
 
