@@ -105,7 +105,8 @@ class Document:
         self.robot_checks = RobotChecks(self, services.meshes, self._meshes)
         self.variants = VariantDesk(self, services, self._meshes.want)
         self.live = LiveDesk(self, services, self._meshes)
-        self._files, self._watch = (self.path,), FileWatch(self._changed_on_disk)
+        self._files: tuple[str, ...] = (self.path,)
+        self._watch = FileWatch(self._changed_on_disk, troubled=self.disk.tell_watch)
         self._packages = PackagesUsed()
         self._packages_seen: dict[str, str] | None = None
         self._was_unsaved = False

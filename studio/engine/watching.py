@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import logging
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
@@ -16,8 +17,12 @@ if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable, Iterable
 
 _DEBOUNCE_MS: Final = 50
+_RETRY_S: Final = 2.0
+_STANDS_AFTER_MS: Final = 500
+"""A watch that has not failed for so long stands."""
 _TICK_NS: Final = 20_000_000
 """A file's time may be so much older than the moment that it was written."""
+_LOG = logging.getLogger(__name__)
 
 
 class FileWatch:
@@ -27,18 +32,24 @@ class FileWatch:
     Whoever asks has read the files since it asked before, so what changed between then and now,
     when nobody watched yet, is told as well; now and then that is a word too many.
 
+    Where the system has no watch left it is tried again every two seconds, and what changed until
+    then is told at each try.
+
     Args:
         changed: Told of each bundle of changes.
         fits: Whether a path that is not of the set is reported, too, when it comes, changes or
             goes; asked for each change in a watched folder.
+        troubled: Told why the system does not watch, and an empty text when it does again.
     """
 
     def __init__(
         self,
         changed: Callable[[set[str]], Awaitable[None]],
         fits: Callable[[str], bool] | None = None,
+        troubled: Callable[[str], None] = lambda _: None,
     ) -> None:
-        self._changed, self._fits = changed, fits
+        self._changed, self._fits, self._troubled = changed, fits, troubled
+        self._trouble = ""
         self._files: frozenset[str] = frozenset()
         self._folders: frozenset[str] = frozenset()
         self._beside: frozenset[str] = frozenset()
@@ -75,11 +86,10 @@ class FileWatch:
     async def close(self) -> None:
         """End the watch."""
         self._stop.set()
-        for task in (self._task, *self._catching_up):
-            if task:
-                task.cancel()
-                with contextlib.suppress(asyncio.CancelledError):
-                    await task
+        tasks = [task for task in (self._task, *self._catching_up) if task]
+        for task in tasks:
+            task.cancel()
+        await asyncio.gather(*tasks, return_exceptions=True)
 
     def _catch_up(self, since_ns: int) -> None:
         """Tell what changed before the watch stood; it stands as soon as its task has begun."""
@@ -88,18 +98,51 @@ class FileWatch:
             paths = self._files | self._beside
             touched = await asyncio.to_thread(_touched, paths, since_ns, time.time_ns())
             if meant := {path for path in touched if self._is_meant(path)}:
-                await self._changed(meant)
+                await self._tell(meant)
 
         task = asyncio.create_task(tell())
         self._catching_up.add(task)
         task.add_done_callback(self._catching_up.discard)
 
     async def _run(self, folders: frozenset[str], stop: asyncio.Event) -> None:
-        watched = awatch(*folders, recursive=False, stop_event=stop, debounce=_DEBOUNCE_MS)
+        since_ns = time.time_ns()
+        while not stop.is_set():
+            try:
+                await self._watch_until(folders, stop)
+            except (OSError, RuntimeError, ExceptionGroup) as error:
+                self._take_trouble(str(error) or type(error).__name__)
+                self._catch_up(since_ns - _TICK_NS)
+                since_ns = time.time_ns()
+                with contextlib.suppress(TimeoutError):
+                    await asyncio.wait_for(stop.wait(), _RETRY_S)
+
+    async def _watch_until(self, folders: frozenset[str], stop: asyncio.Event) -> None:
+        """Raises what the system says when it does not watch, or no longer."""
+        watched = awatch(
+            *folders,
+            recursive=False,
+            stop_event=stop,
+            debounce=_DEBOUNCE_MS,
+            yield_on_timeout=bool(self._trouble),
+            rust_timeout=_STANDS_AFTER_MS if self._trouble else None,
+        )
         async for changes in watched:
+            self._take_trouble("")
             touched = {path for _, path in changes if self._is_meant(path)}
             if touched and not stop.is_set():
-                await self._changed(touched)
+                await self._tell(touched)
+
+    def _take_trouble(self, trouble: str) -> None:
+        if trouble != self._trouble:
+            self._trouble = trouble
+            self._troubled(trouble)
+
+    async def _tell(self, paths: set[str]) -> None:
+        """Tell of changes; who cannot take them does not end the watch."""
+        try:
+            await self._changed(paths)
+        except Exception:  # noqa: BLE001 - a bug of ours must not leave the files unwatched
+            _LOG.exception("A change on disk was not taken")
 
     def _is_meant(self, path: str) -> bool:
         return path in self._files or (self._fits is not None and self._fits(path))

@@ -1,8 +1,29 @@
+from __future__ import annotations
+
 import asyncio
 import os
+import resource
+from contextlib import contextmanager
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from studio.engine.watching import FileWatch
+
+if TYPE_CHECKING:
+    from collections.abc import Generator
+
+
+@contextmanager
+def no_more_descriptors() -> Generator[None]:
+    """This process may open no file more."""
+    soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
+    lowest = os.dup(0)
+    os.close(lowest)
+    resource.setrlimit(resource.RLIMIT_NOFILE, (lowest, hard))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_NOFILE, (soft, hard))
 
 
 def write_long_ago(path: Path) -> None:
@@ -100,5 +121,59 @@ def test_what_changes_before_the_watch_stands_is_told_and_what_is_older_is_not(t
             assert await told.get() == {str(new), str(gone)}
         finally:
             await watch.close()
+
+    asyncio.run(run())
+
+
+def test_a_watch_that_the_system_refuses_is_told_tried_again_and_can_be_closed(tmp_path: Path):
+    a = tmp_path / "a.xacro"
+    write_long_ago(a)
+
+    async def run() -> None:
+        told: asyncio.Queue[set[str]] = asyncio.Queue()
+        troubles: asyncio.Queue[str] = asyncio.Queue()
+        watch = FileWatch(told.put, troubled=troubles.put_nowait)
+        with no_more_descriptors():
+            watch.watch([str(a)])
+            assert "open files" in await troubles.get()
+        a.write_text("written while nobody watched")
+        assert await told.get() == {str(a)}
+        assert await troubles.get() == ""
+        await watch.close()
+
+    asyncio.run(run())
+
+
+def test_a_watch_that_the_system_refuses_can_be_closed(tmp_path: Path):
+    async def run() -> None:
+        troubles: asyncio.Queue[str] = asyncio.Queue()
+        watch = FileWatch(asyncio.Queue[set[str]]().put, troubled=troubles.put_nowait)
+        with no_more_descriptors():
+            watch.watch([str(tmp_path / "a.xacro")])
+            await troubles.get()
+            await watch.close()
+
+    asyncio.run(run())
+
+
+def test_who_cannot_take_a_change_does_not_end_the_watch(tmp_path: Path):
+    a = tmp_path / "a.xacro"
+    write_long_ago(a)
+
+    async def run() -> None:
+        told: asyncio.Queue[set[str]] = asyncio.Queue()
+
+        async def take(paths: set[str]) -> None:
+            await told.put(paths)
+            raise ValueError(paths)
+
+        watch = FileWatch(take)
+        watch.watch([str(a)])
+        for _ in range(2):
+            while told.empty():
+                a.write_text(str(asyncio.get_running_loop().time()))
+                await asyncio.sleep(0.1)
+            told.get_nowait()
+        await watch.close()
 
     asyncio.run(run())

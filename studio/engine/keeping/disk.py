@@ -6,7 +6,7 @@ import hashlib
 from typing import TYPE_CHECKING, Final
 
 from studio.description.editing.disk_news import FileChange
-from studio.engine.keeping.disk_problems import changed_on_disk, file_gone
+from studio.engine.keeping.disk_problems import changed_on_disk, file_gone, not_watched
 from studio.engine.messages import Collisions, CollisionView, DiskMerged
 from studio.errors import EditError
 
@@ -72,6 +72,10 @@ class DiskDesk:
         gone = [file_gone(file) for file in sorted(self._gone)]
         waiting = [changed_on_disk(file) for file in sorted(self._sources.conflicts)]
         self._board.find("disk", (*gone, *waiting))
+
+    def tell_watch(self, trouble: str) -> None:
+        """Say that the system does not watch the files, and why; empty: that it does."""
+        self._board.find("watch", [not_watched(trouble)] if trouble else ())
 
     def _tell(self, found: dict[str, DiskNews]) -> None:
         self.tell_problems()
