@@ -1,9 +1,10 @@
 /** Texts of types that a person gives: dropped files, a package's folder, or pasted. */
 
 /** @import { DroppedFile } from "../lib/dropped.js" */
+/** @import { InterfaceFaultView } from "../types/wire.d.ts" */
 
 import { t } from "../lib/i18n.js";
-import { definesType, kindOf, typesAmong } from "../lib/interface-texts.js";
+import { definesType, faultPlace, kindOf, typesAmong } from "../lib/interface-texts.js";
 import { commandById } from "./commands.js";
 import { askInterfaces, draft, showInterface } from "./state/interfaces.js";
 import { notify } from "./state/view.js";
@@ -24,12 +25,22 @@ export async function addTypes(texts) {
     const [first] = answer.types;
     if (first) await showInterface(first.name);
     const waiting = answer.types.find(({ trouble }) => trouble !== "");
-    if (waiting) notify(waiting.trouble, { bad: true });
+    if (answer.faults.length > 0) notify(faultsNotice(answer.faults), { bad: true });
+    else if (waiting) notify(waiting.trouble, { bad: true });
     else notify(t("interfaces.added", { count: answer.types.length, name: first?.name ?? "" }));
     return "";
   } catch (error) {
     return error instanceof RefusedError ? error.message : "…";
   }
+}
+
+/** @param {readonly InterfaceFaultView[]} faults @returns {string} the first, and how many there are besides: the panel lists them */
+function faultsNotice(faults) {
+  const [first] = faults;
+  const said = first ? `${faultPlace(first)}: ${first.reason}.` : "";
+  return faults.length === 1
+    ? said
+    : t("interfaces.faults.more", { said, count: faults.length - 1 });
 }
 
 /** @param {string} text that was pasted @returns {boolean} it defines a type, whose name is to be given */

@@ -59,6 +59,12 @@ export function valueText(value) {
   return Array.isArray(value) ? `[${value.map(valueText).join(", ")}]` : JSON.stringify(value);
 }
 
+/** @param {{place: string, line: number}} fault @returns {string} its file without the folders above the package, and the line */
+export function faultPlace({ place, line }) {
+  const short = place.split(/[/\\]/).slice(-3).join("/");
+  return line > 0 ? `${short}:${line}` : short;
+}
+
 /** @param {string} text @returns {Kind} what a text defines, by the lines of dashes in it */
 export function kindOf(text) {
   const rules = text.split("\n").filter((line) => /^---\s*$/.test(line)).length;

@@ -1,5 +1,7 @@
 /** The types of ROS: all that are known, what each is made of, and texts of one's own. */
 
+/** @import { InterfaceFaultView } from "../types/wire.d.ts" */
+
 import { html, useEffect, useSignal } from "vendor/preact.js";
 import { Refusal } from "../app/refusal.js";
 import { connection, mayEdit } from "../app/state/connection.js";
@@ -12,7 +14,7 @@ import {
   showInterface,
 } from "../app/state/interfaces.js";
 import { t } from "../lib/i18n.js";
-import { byPackage, foundNames } from "../lib/interface-texts.js";
+import { byPackage, faultPlace, foundNames } from "../lib/interface-texts.js";
 import { Icon, ProgressBar, SearchBox } from "../lib/ui.js";
 import { InterfaceDetails } from "./interfaces-details.js";
 import { InterfaceForm } from "./interfaces-form.js";
@@ -52,8 +54,15 @@ function Names({ words }) {
   if (!known) return html`<${ProgressBar} label=${t("loading")} done=${0} total=${0} />`;
   const found = words.trim() === "" ? null : foundNames(known.names, words);
   return html`<nav class="interfaces-names scroll" aria-label=${t("interfaces.names")}>
+    ${known.faults.length > 0 && html`<${Faults} faults=${known.faults} />`}
     ${found ? html`<${Found} names=${found} words=${words} />` : html`<${Packages} names=${known.names} own=${known.own} />`}
   </nav>`;
+}
+
+/** @param {{faults: readonly InterfaceFaultView[]}} props texts that define no type: where, and what to write */
+function Faults({ faults }) {
+  return html`<section class="interfaces-faults" aria-label=${t("interfaces.faults")}><h4>${t("interfaces.faults")}</h4>
+    <ul>${faults.map((fault) => html`<li key=${fault.place} title=${fault.place}><${Icon} name="alert" size=${14} /><span><b>${faultPlace(fault)}</b> ${fault.reason}</span></li>`)}</ul></section>`;
 }
 
 /** @param {{names: readonly string[], words: string}} props */

@@ -17,7 +17,11 @@ export interface AddDisplay {
   topic?: string;
 }
 
-/** Take up texts of types: all or none, and usable at once; what needs others may come first. */
+/**
+ * Take up texts of types, usable at once; what needs others may come first.
+ *
+ * Of several, those that break a rule are left out and named; one alone is refused.
+ */
 export interface AddInterfaces {
   request?: number;
   document?: string;
@@ -1131,11 +1135,19 @@ export interface InterfaceAnswer {
   text: string;
 }
 
+/** A text that defines no type. */
+export interface InterfaceFaultView {
+  place: string;
+  line: number;
+  reason: string;
+}
+
 /** Answer to `add_interfaces`. */
 export interface InterfacesAdded {
   type: "interfaces_added";
   request: number;
   types: AddedInterface[];
+  faults: InterfaceFaultView[];
 }
 
 /** Answer to `list_interfaces`: full names in order. */
@@ -1145,6 +1157,7 @@ export interface InterfacesAnswer {
   distro: string;
   names: string[];
   own: string[];
+  faults: InterfaceFaultView[];
 }
 
 /** Positions of all movable joints by name, after a command; streams are binary frames. */

@@ -35,6 +35,7 @@ def faults_of(graph: Graph, types: TypeLibrary, profile: WireProfile) -> list[Fa
         *(fault for name, _ in graph.services() for fault in _service_faults(graph, name, types)),
         *_foreign_hashes(graph, types, profile),
         *_malformed(graph),
+        *(Fault("interface text", str(error)) for error in types.faults().values()),
     ]
 
 
@@ -64,9 +65,14 @@ def _topic_faults(graph: Graph, name: str, types: TypeLibrary) -> Iterator[Fault
 def _service_faults(graph: Graph, name: str, types: TypeLibrary) -> Iterator[Fault]:
     servers, clients = graph.servers(name), graph.clients(name)
     yield from _type_faults(name, [*servers, *clients], types)
-    if len(servers) > 1:
-        paths = ", ".join(server.node.path for server in servers)
-        yield Fault("two servers", f"{name} is served {len(servers)} times, by {paths}: keep one.")
+    paths = [server.node.path for server in servers]
+    # Of nodes with one name that is said, not each of their services.
+    is_one_name = len(set(paths)) == 1 and paths[0] in graph.duplicate_nodes()
+    if len(servers) > 1 and not is_one_name:
+        yield Fault(
+            "two servers",
+            f"{name} is served {len(servers)} times, by {', '.join(paths)}: keep one.",
+        )
 
 
 def _type_faults(name: str, ends: list[GraphEndpoint], types: TypeLibrary) -> Iterator[Fault]:

@@ -6,7 +6,7 @@ import sys
 from typing import TYPE_CHECKING
 
 from studio.cli.interface_asking import library_with
-from studio.cli.interface_types import known_types
+from studio.cli.interface_types import known_types, say_faults
 from studio.cli.pasted_types import PASTED, is_pasted
 from studio.cli.verbs import Verbs
 from studio.cli.wire import add_wire_options, profile_of
@@ -63,12 +63,15 @@ def _library(options: argparse.Namespace) -> TypeLibrary:
 
 
 def _list(options: argparse.Namespace) -> None:
-    names = _library(options).names()
+    library = _library(options)
+    names = library.names()
     for kind in options.kinds or _TITLES:
         print(f"{_TITLES[kind]}:")
         for name in names:
             if f"/{kind}/" in name:
                 print(f"    {name}")
+    if not options.interfaces:  # else said when they were read
+        say_faults(library.faults().values())
 
 
 def _packages(options: argparse.Namespace) -> None:
@@ -79,10 +82,14 @@ def _packages(options: argparse.Namespace) -> None:
 
 def _package(options: argparse.Namespace) -> int:
     wanted = f"{options.package_name}/"
-    names = [name for name in _library(options).names() if name.startswith(wanted)]
-    if not names:
+    library = _library(options)
+    names = [name for name in library.names() if name.startswith(wanted)]
+    faults = [fault for name, fault in library.faults().items() if name.startswith(wanted)]
+    if not options.interfaces:  # else said when they were read
+        say_faults(faults)
+    if not names and not faults:
         raise UnknownTypeError(options.package_name, f"no package {options.package_name} has types")
-    print(*names, sep="\n")
+    print("".join(f"{name}\n" for name in names), end="")
     return 0
 
 

@@ -9,14 +9,16 @@ from typing import TYPE_CHECKING
 
 from studio.cli.opened import add_package_options, opened_packages
 from studio.cli.pasted_types import is_pasted, pasted_texts
+from studio.cli.terminal import harmless
 from studio.errors import StudioError
 from studio.ros.names import KINDS
 from studio.ros.types.folders import texts_of_package
 
 if TYPE_CHECKING:
     import argparse
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
 
+    from studio.errors import InterfaceTextError
     from studio.ros.types.library import TypeLibrary
 
 
@@ -41,25 +43,37 @@ def add_interfaces_option(parser: argparse.ArgumentParser, says: str) -> None:
 def known_types(options: argparse.Namespace, distro: str) -> TypeLibrary:
     """Make the library of a distribution with the user's own types.
 
+    A text that breaks a rule is left out: the library says why, and a warning does at once where
+    `--interfaces` names it.
+
     Raises:
         UnreadableFileError: What `--interfaces` names is not there, or holds no types.
         SettingsError: What was pasted does not say which types it defines.
-        InterfaceTextError: A text given by `--interfaces` breaks a rule.
-        WireSettingsError: What the environment names is not there, or not sound.
+        WireSettingsError: What the environment names is not there, or holds no types.
     """
     from studio.ros.messages.own_types import take_own_types, texts_at
+    from studio.ros.types.folders import InterfaceTexts
     from studio.ros.types.library import TypeLibrary
 
     library = TypeLibrary(distro)
     index = opened_packages(options)
     for name in sorted(index.names):
-        _take_if_sound(library, index.best(name, Path.cwd()), name)
+        _take_package(library, index.best(name, Path.cwd()), name)
     take_own_types(library)
     for path in options.interfaces:
-        library.add_texts(
-            pasted_texts(sys.stdin) if is_pasted(path) else texts_at(path.expanduser().absolute())
+        found = (
+            InterfaceTexts(pasted_texts(sys.stdin))
+            if is_pasted(path)
+            else texts_at(path.expanduser().absolute())
         )
+        say_faults(library.add_sound_texts(found).values())
     return library
+
+
+def say_faults(faults: Iterable[InterfaceTextError]) -> None:
+    """Say on stderr which texts define no type, and why."""
+    for fault in faults:
+        print(f"WARNING: {harmless(str(fault))}", file=sys.stderr)
 
 
 def environment_with(paths: Sequence[Path]) -> dict[str, str]:
@@ -79,11 +93,11 @@ def environment_with(paths: Sequence[Path]) -> dict[str, str]:
     return {**os.environ, **added}
 
 
-def _take_if_sound(library: TypeLibrary, folder: Path, name: str) -> None:
-    """Take what an opened package defines; one that is not sound is nobody's question here."""
+def _take_package(library: TypeLibrary, folder: Path, name: str) -> None:
+    """Take what an opened package defines; one that as a whole cannot be read is passed over."""
     if not any((folder / kind).is_dir() for kind in KINDS):
         return
     try:
-        library.add_texts(texts_of_package(folder, name))
+        library.add_sound_texts(texts_of_package(folder, name))
     except StudioError:
         return

@@ -106,6 +106,10 @@ class InterfaceTextError(InterfaceError):
         super().__init__(f"{name if line is None else f'{name}:{line}'}: {reason}.")
         self.name, self.line, self.reason = name, line, reason
 
+    def at(self, path: str) -> InterfaceTextError:
+        """Give the same error of the file that the text stands in."""
+        return InterfaceTextError(path, self.line, self.reason)
+
 
 class UnknownTypeError(InterfaceError):
     """No type of that name is known, or one that it is made of is not."""

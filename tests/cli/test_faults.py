@@ -10,9 +10,11 @@ from studio.ros.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from studio.ros.types.library import TypeLibrary
 from tests.support.command_line import studio
 from tests.support.demos import node_at
+from tests.support.wire import wait_until
 
 if TYPE_CHECKING:
     from collections.abc import Generator
+    from pathlib import Path
 
     from studio.ros.client import Node
 
@@ -93,3 +95,39 @@ def test_n6_the_report_names_router_domain_nodes_and_findings(node: Node, endpoi
         "\n   FINDINGS\nnone : all is well\n",
     ):
         assert text in ran.out
+
+
+def test_two_nodes_of_one_name_are_one_finding(node: Node, endpoint: str):
+    kind = service("std_srvs/srv/Trigger")
+    node.create_service(kind, "/go", lambda _request, response: response)
+    with node_at(endpoint, "tester") as twin:
+        twin.create_service(kind, "/go", lambda _request, response: response)
+        wait_until("both", lambda: node.graph.duplicate_nodes() == {"/tester": 2})
+        wait_until("both serve", lambda: len(node.graph.servers("/go")) == 2)
+        assert list(found(node)) == ["duplicate name"]
+        lines = studio("doctor", "--connect", endpoint).out.splitlines()
+    assert lines == [
+        "duplicate name: 2 nodes are called /tester: start all but one with another name."
+    ]
+
+
+def test_one_node_that_serves_a_name_twice_is_a_finding_still(node: Node):
+    kind = service("std_srvs/srv/Trigger")
+    for _ in range(2):
+        node.create_service(kind, "/go", lambda _request, response: response)
+    assert found(node)["two servers"] == "/go is served 2 times, by /tester, /tester: keep one."
+
+
+def test_a_faulty_text_of_the_workspace_is_found(
+    node: Node, endpoint: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    package = tmp_path / "src" / "own_interfaces"
+    (package / "msg").mkdir(parents=True)
+    (package / "package.xml").write_text("<package><name>own_interfaces</name></package>")
+    (package / "msg" / "Bad.msg").write_text("int32 Speed\n")
+    monkeypatch.setenv("STUDIO_DATA_DIR", str(tmp_path / "data"))
+    monkeypatch.chdir(tmp_path)
+    ran = studio("doctor", "--connect", endpoint)
+    assert ran.code == 1
+    assert ran.out.startswith(f"interface text: {package / 'msg' / 'Bad.msg'}:1: ")
+    assert ran.out.endswith("single underscores: write speed.\n")

@@ -142,8 +142,37 @@ def test_a_mistake_is_one_sentence(words: tuple[str, ...], monkeypatch: pytest.M
     assert ran.err.count("\n") == 1
 
 
-def test_a_text_that_breaks_a_rule_names_its_line(tmp_path: Path):
-    package = package_at(tmp_path / "far", "own_interfaces", Bad="float32 v\nfloat31 w\n")
-    ran = studio("interface", "list", "--interfaces", str(package))
-    assert ran.code == 2
-    assert "own_interfaces/msg/Bad" in ran.err
+def test_a_faulty_text_is_told_with_file_line_and_mend_and_the_others_stay(tmp_path: Path):
+    package = package_at(
+        tmp_path / "src", "own_interfaces", Good="float32 v\n", Bad="float32 v\nfloat w\n"
+    )
+    bad = package / "msg" / "Bad.msg"
+    told = f'{bad}:2: "float" is no type: write float32 or float64.\n'
+    for words in (("list",), ("package", "own_interfaces")):
+        for named in ((), ("--interfaces", str(package))):
+            ran = studio("interface", *words, *named)
+            assert (ran.code, ran.err) == (0, f"WARNING: {told}")
+            assert "own_interfaces/msg/Good" in ran.out
+            assert "own_interfaces/msg/Bad" not in ran.out
+    shown = studio("interface", "show", "own_interfaces/msg/Good")
+    assert (shown.code, shown.out, shown.err) == (0, "float32 v\n", "")
+    endpoint = free_endpoint()
+    for words in (
+        ("interface", "show", "own_interfaces/msg/Bad"),
+        ("topic", "pub", "--once", "/x", "own_interfaces/msg/Bad", "{}", "--router", "auto"),
+    ):
+        ran = studio(*words, "--connect", endpoint)
+        assert (ran.code, ran.err) == (
+            2,
+            f'studio: The type "own_interfaces/msg/Bad" cannot be used: {told}',
+        )
+
+
+def test_a_file_whose_name_names_no_type_is_told_with_a_better_one(tmp_path: Path):
+    package = package_at(tmp_path / "src", "own_interfaces", Good="float32 v\n")
+    (package / "msg" / "battery_level.msg").write_text("float32 v\n")
+    listed = studio("interface", "package", "own_interfaces")
+    assert "battery_level.msg: its name defines no type" in listed.err
+    shown = studio("interface", "show", "own_interfaces/msg/BatteryLevel")
+    assert shown.code == 2
+    assert "call it BatteryLevel.msg" in shown.err

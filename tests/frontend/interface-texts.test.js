@@ -3,6 +3,7 @@ import { test } from "node:test";
 import {
   byPackage,
   definesType,
+  faultPlace,
   fieldType,
   foundNames,
   kindOf,
@@ -94,4 +95,10 @@ test("a field is written as in its text", () => {
   assert.equal(valueText([1, 2]), "[1, 2]");
   assert.equal(valueText("a"), '"a"');
   assert.equal(valueText(null), "");
+});
+
+test("the place of a fault is its file below the folders above the package, with the line", () => {
+  const place = "/ws/src/own_interfaces/msg/Bad.msg";
+  assert.equal(faultPlace({ place, line: 2 }), "own_interfaces/msg/Bad.msg:2");
+  assert.equal(faultPlace({ place: "own_interfaces/srv/Ask", line: 0 }), "own_interfaces/srv/Ask");
 });

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import asyncio
-from typing import TYPE_CHECKING, Literal, cast
+from itertools import islice
+from typing import TYPE_CHECKING, Final, Literal, cast
 
 from studio.engine.bridge.type_learning import TypeLearner
 from studio.engine.messages.interfaces import (
@@ -13,6 +14,7 @@ from studio.engine.messages.interfaces import (
     FieldView,
     GetInterface,
     InterfaceAnswer,
+    InterfaceFaultView,
     InterfacesAdded,
     InterfacesAnswer,
     ListInterfaces,
@@ -22,8 +24,11 @@ from studio.errors import UnknownTypeError
 
 if TYPE_CHECKING:
     from studio.engine.wire.desk import WireDesk
+    from studio.errors import InterfaceTextError
     from studio.ros.types.definitions import Constant, Field, Message
     from studio.ros.types.library import TypeLibrary
+
+_FAULTS_MAX: Final = 200
 
 
 class InterfaceDesk:
@@ -59,9 +64,12 @@ class InterfaceDesk:
     async def add(self, command: AddInterfaces) -> InterfacesAdded:
         """Take up texts, for this studio and as long as it runs; files stay where they are.
 
+        Of several texts the sound ones are taken, and the answer says what is wrong with others.
+
         Raises:
-            InterfaceTextError: A text breaks a rule, or makes a type too large or part of itself.
-            RosNameError: A name does.
+            InterfaceTextError: A text that came alone breaks a rule, or makes a type too large or
+                part of itself.
+            RosNameError: Its name does.
         """
         return await asyncio.to_thread(self._add, command)
 
@@ -79,17 +87,23 @@ class InterfaceDesk:
             distro=library.distro,
             names=tuple(library.names()),
             own=tuple(library.own_names()),
+            faults=tuple(map(_fault_view, islice(library.faults().values(), _FAULTS_MAX))),
         )
 
     def _add(self, command: AddInterfaces) -> InterfacesAdded:
+        from studio.ros.types.folders import InterfaceTexts  # noqa: PLC0415
+
         library = self.library()
+        faults: dict[str, InterfaceTextError] = {}
         # Only what is new: whoever holds a class of a type that is taken again loses it.
-        news = {name: text for name, text in command.texts.items() if library.text_of(name) != text}
-        if news:
-            library.add_texts(news)
+        if len(command.texts) > 1:
+            faults = library.add_sound_texts(InterfaceTexts(dict(command.texts)))
+        elif any(library.text_of(name) != text for name, text in command.texts.items()):
+            library.add_texts(command.texts)
         return InterfacesAdded(
             request=command.request,
-            types=tuple(_added(library, name) for name in command.texts),
+            types=tuple(_added(library, name) for name in command.texts if name not in faults),
+            faults=tuple(map(_fault_view, islice(faults.values(), _FAULTS_MAX))),
         )
 
     def _answer(self, command: GetInterface) -> InterfaceAnswer:
@@ -130,6 +144,10 @@ def _added(library: TypeLibrary, name: str) -> AddedInterface:
         return AddedInterface(name=name, hash=library.hash_of(name), trouble="")
     except UnknownTypeError as error:
         return AddedInterface(name=name, hash="", trouble=str(error))
+
+
+def _fault_view(fault: InterfaceTextError) -> InterfaceFaultView:
+    return InterfaceFaultView(place=fault.name, line=fault.line or 0, reason=fault.reason)
 
 
 def _all_of(parts: tuple[Message, ...], library: TypeLibrary) -> list[Message]:

@@ -79,6 +79,17 @@ class ListInterfaces(CommandMessage):
     type: Literal["list_interfaces"] = "list_interfaces"
 
 
+class InterfaceFaultView(Message):
+    """A text that defines no type."""
+
+    place: str
+    """Its file, or the name that its type would have where it came without one."""
+    line: int
+    """From 1; 0: the text as a whole."""
+    reason: str
+    """What is wrong and what to write, half a sentence."""
+
+
 class InterfacesAnswer(Message):
     """Answer to `list_interfaces`: full names in order."""
 
@@ -88,10 +99,15 @@ class InterfacesAnswer(Message):
     names: tuple[str, ...]
     own: tuple[str, ...]
     """Those among them that a user gave: by a package, an option, or on the page."""
+    faults: tuple[InterfaceFaultView, ...]
+    """Of a user's texts that define no type."""
 
 
 class AddInterfaces(CommandMessage):
-    """Take up texts of types: all or none, and usable at once; what needs others may come first."""
+    """Take up texts of types, usable at once; what needs others may come first.
+
+    Of several, those that break a rule are left out and named; one alone is refused.
+    """
 
     type: Literal["add_interfaces"] = "add_interfaces"
     texts: Annotated[
@@ -119,6 +135,8 @@ class InterfacesAdded(Message):
     type: Literal["interfaces_added"] = "interfaces_added"
     request: int
     types: tuple[AddedInterface, ...]
+    faults: tuple[InterfaceFaultView, ...]
+    """Of texts that were left out."""
 
 
 InterfaceCommand: TypeAlias = GetInterface | ListInterfaces | AddInterfaces

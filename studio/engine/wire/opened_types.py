@@ -6,12 +6,13 @@ from typing import TYPE_CHECKING, Final
 
 from studio.errors import PackageError, StudioError
 from studio.packages.index import Standing
-from studio.problems import Problem, Severity
+from studio.problems import Place, Problem, Severity
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
+    from studio.errors import InterfaceTextError
     from studio.packages.workspace import Location
     from studio.ros.types.library import TypeLibrary
 
@@ -27,7 +28,7 @@ def take_types(location: Location, library: TypeLibrary | None = None) -> tuple[
         library: Of the wire; that which all nodes of the process share, if none is given.
 
     Returns:
-        A warning for each package whose texts cannot be used.
+        A warning for each file that defines no type, and for each package that cannot be read.
     """
     found: list[Problem] = []
     for name, folder in _packages(location):
@@ -35,14 +36,12 @@ def take_types(location: Location, library: TypeLibrary | None = None) -> tuple[
         from studio.ros.types.folders import texts_of_package  # noqa: PLC0415
 
         try:
-            taken = library or shared_types()
-            texts = texts_of_package(folder, name)
             # Only what is new: whoever holds a class of a type that is taken again loses it.
-            news = {one: text for one, text in texts.items() if taken.text_of(one) != text}
-            if news:
-                taken.add_texts(news)
+            faults = (library or shared_types()).add_sound_texts(texts_of_package(folder, name))
         except StudioError as error:
             found.append(_problem(name, error))
+        else:
+            found += [_text_problem(fault) for fault in faults.values()]
     return tuple(found)
 
 
@@ -59,3 +58,8 @@ def _packages(location: Location) -> Iterator[tuple[str, Path]]:
 def _problem(package: str, error: StudioError) -> Problem:
     sentence = f"The types of the package {package} are not known on the wire: {error}"
     return Problem(Severity.WARNING, CODE, sentence)
+
+
+def _text_problem(fault: InterfaceTextError) -> Problem:
+    sentence = f"This type is not known on the wire: {fault.reason}."
+    return Problem(Severity.WARNING, CODE, sentence, Place(fault.name, fault.line or 0))

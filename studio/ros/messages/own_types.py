@@ -6,11 +6,11 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from studio.errors import RosNameError, StudioError, UnreadableFileError, WireSettingsError
+from studio.errors import StudioError, UnreadableFileError, WireSettingsError
 from studio.packages.manifest import FILE_NAME, SIZE_LIMIT_BYTES, package_name
 from studio.packages.roots import ServedRoots, package_folder_of
-from studio.ros.names import KINDS, split_type_name
-from studio.ros.types.folders import read_text, texts_of_package
+from studio.ros.names import KINDS
+from studio.ros.types.folders import InterfaceTexts, texts_of_package
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -22,20 +22,20 @@ VARIABLE = "STUDIO_INTERFACES"
 
 
 def take_own_types(library: TypeLibrary, environment: Mapping[str, str] = os.environ) -> None:
-    """Take up the types that the environment names.
+    """Take up the types that the environment names; why a text is not one, the library says.
 
     Raises:
-        WireSettingsError: One of the paths is not there, or holds no sound types.
+        WireSettingsError: One of the paths is not there, or holds no types.
     """
     for path in filter(None, environment.get(VARIABLE, "").split(os.pathsep)):
         try:
-            library.add_texts(texts_at(Path(path).expanduser().absolute()))
+            library.add_sound_texts(texts_at(Path(path).expanduser().absolute()))
         except StudioError as error:
             raise WireSettingsError(f"{VARIABLE}: {error}") from None
 
 
-def texts_at(path: Path) -> dict[str, str]:
-    """Read the texts at a path by the full names of their types.
+def texts_at(path: Path) -> InterfaceTexts:
+    """Read the texts at a path.
 
     Raises:
         UnreadableFileError: Nothing is there, or it holds no types.
@@ -44,17 +44,15 @@ def texts_at(path: Path) -> dict[str, str]:
     if path.is_file():
         package = package_folder_of(path)
         owner = _name_of(package) if package else path.parent.parent.name
-        return {_type_name(owner, path): read_text(path)}
+        return _text_of_file(owner, path)
     folders = [path] if _holds_types(path) else [one for one in path.glob("*") if _holds_types(one)]
     if not folders:
         raise UnreadableFileError(
             str(path), "holds no msg, srv or action folder: name a package's folder or one file."
         )
-    return {
-        name: text
-        for folder in sorted(folders)
-        for name, text in texts_of_package(folder, _name_of(folder)).items()
-    }
+    return InterfaceTexts.of_all(
+        texts_of_package(folder, _name_of(folder)) for folder in sorted(folders)
+    )
 
 
 def _holds_types(folder: Path) -> bool:
@@ -69,10 +67,9 @@ def _name_of(folder: Path) -> str:
     return package_name(ServedRoots([folder]).read(manifest, SIZE_LIMIT_BYTES)) or folder.name
 
 
-def _type_name(package: str, path: Path) -> str:
-    name = f"{package}/{path.suffix.removeprefix('.')}/{path.stem}"
-    try:
-        split_type_name(name)
-    except RosNameError as error:
-        raise UnreadableFileError(str(path), f"defines no type ({error.reason}).") from None
-    return name
+def _text_of_file(package: str, path: Path) -> InterfaceTexts:
+    if path.suffix.removeprefix(".") not in KINDS:
+        raise UnreadableFileError(str(path), "defines no type: name a .msg, .srv or .action file.")
+    found = InterfaceTexts()
+    found.take(package, path)
+    return found

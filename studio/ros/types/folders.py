@@ -3,33 +3,80 @@
 from __future__ import annotations
 
 import os
+import re
 import stat
+from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TYPE_CHECKING
 
-from studio.errors import RosNameError, UnreadableFileError
+from studio.errors import InterfaceTextError, RosNameError, UnreadableFileError
 from studio.ros.names import KINDS, check_package_name, split_type_name
 from studio.ros.types.parser import TEXT_BYTES_MAX
 
 if TYPE_CHECKING:
-    from pathlib import Path
+    from collections.abc import Iterable, Mapping
 
 FILES_MAX = 5_000
 
 
-def texts_of_package(folder: Path, package: str) -> dict[str, str]:
-    """Read the texts in `msg`, `srv` and `action` of a package's folder, by full names.
+@dataclass(frozen=True, slots=True)
+class InterfaceTexts:
+    """Texts by the full names of their types, with the files that they come from.
+
+    Attributes:
+        faults: What keeps a file from being one of them, by the name that its type would have.
+    """
+
+    texts: dict[str, str] = field(default_factory=dict[str, str])
+    files: dict[str, Path] = field(default_factory=dict[str, Path])
+    faults: dict[str, InterfaceTextError] = field(default_factory=dict[str, InterfaceTextError])
+
+    def take(self, package: str, path: Path) -> None:
+        """Read a file of a package, or note why it cannot be one of its types."""
+        name = f"{package}/{path.suffix.removeprefix('.')}/{path.stem}"
+        try:
+            _check_whole(name)
+            self.texts[name], self.files[name] = read_text(path), path
+        except RosNameError as error:
+            self.faults[name] = InterfaceTextError(str(path), None, _rename(path, error))
+        except UnreadableFileError as error:
+            self.faults[name] = InterfaceTextError(str(path), None, error.reason.rstrip("."))
+
+    def placed(self, faults: Mapping[str, InterfaceTextError]) -> dict[str, InterfaceTextError]:
+        """Give faults of these texts as those of their files, where they come from files."""
+        files = self.files
+        return {
+            name: one.at(str(files[name])) if name in files else one for name, one in faults.items()
+        }
+
+    @classmethod
+    def of_all(cls, parts: Iterable[InterfaceTexts]) -> InterfaceTexts:
+        """Put several together; of texts with one name, the last."""
+        whole = cls()
+        for part in parts:
+            whole.texts.update(part.texts)
+            whole.files.update(part.files)
+            whole.faults.update(part.faults)
+        return whole
+
+
+def texts_of_package(folder: Path, package: str) -> InterfaceTexts:
+    """Read the texts in `msg`, `srv` and `action` of a package's folder.
 
     Links that lead out of the folder, and what is no regular file, are passed over.
 
     Raises:
-        RosNameError: The package, or a file, has a name that no type may have.
-        UnreadableFileError: A file is too large or cannot be read, or there are too many.
+        RosNameError: The package has a name that none may have.
+        UnreadableFileError: There are too many files.
     """
     check_package_name(package)
     paths = [path for kind in KINDS for path in _files(folder, kind)]
     if len(paths) > FILES_MAX:
         raise UnreadableFileError(str(folder), f"it holds more than {FILES_MAX} interfaces.")
-    return {_full_name(package, path): read_text(path) for path in paths}
+    found = InterfaceTexts()
+    for path in paths:
+        found.take(package, path)
+    return found
 
 
 def read_text(path: Path) -> str:
@@ -59,10 +106,20 @@ def _files(folder: Path, kind: str) -> list[Path]:
     return [path for path in found if path.resolve().is_relative_to(root) and path.is_file()]
 
 
-def _full_name(package: str, path: Path) -> str:
-    name = f"{package}/{path.suffix.removeprefix('.')}/{path.stem}"
-    try:
-        split_type_name(name)
-    except RosNameError as error:
-        raise RosNameError(path.name, error.reason) from None
-    return name
+def _check_whole(name: str) -> None:
+    """Refuse what names no type, or only a part of one.
+
+    Raises:
+        RosNameError: It is so.
+    """
+    _, _, base = split_type_name(name)
+    if "_" in base:
+        raise RosNameError(name, "a type is named in letters and digits, the first a capital")
+
+
+def _rename(path: Path, error: RosNameError) -> str:
+    """Say how a file would have to be called."""
+    words = re.split(r"[^A-Za-z0-9]+", path.stem)
+    better = "".join(word[:1].upper() + word[1:] for word in words).lstrip("0123456789")
+    mend = f": call it {better[:1].upper()}{better[1:]}{path.suffix}" if better else ""
+    return f"its name defines no type, {error.reason}{mend}"

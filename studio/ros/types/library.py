@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import re
 import threading
 from dataclasses import dataclass, field
 from functools import cache
 from typing import TYPE_CHECKING
 
-from studio.errors import InterfaceTextError, UnknownTypeError
+from studio.errors import InterfaceTextError, RosNameError, UnknownTypeError
 from studio.interfaces import carried_texts
 from studio.ros.names import split_type_name
 from studio.ros.types.calls import (
@@ -26,7 +27,9 @@ from studio.ros.types.parser import parse_interface
 from studio.ros.types.stores import MessageStore
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Mapping
+
+    from studio.ros.types.folders import InterfaceTexts
 
 # What nodes themselves speak: a text that says otherwise would cut them off from all others.
 _SETTLED = {
@@ -80,6 +83,13 @@ class _Known:
         self.texts[interface.name] = text
         self.messages |= {message.name: message for message in _all_messages(interface)}
 
+    def with_more(self, read: Iterable[tuple[Interface, str]]) -> _Known:
+        """Give a copy with more texts."""
+        made = _Known({**self.interfaces}, {**self.messages}, {**self.texts})
+        for interface, text in read:
+            made.take(interface, text)
+        return made
+
 
 class TypeLibrary:
     """The types of one distribution; a user's own come before those it has, as in an overlay.
@@ -93,6 +103,8 @@ class TypeLibrary:
         self._store = MessageStore(distro)
         self._carried = _carried()
         self._own = _Known()
+        self._faults: dict[str, InterfaceTextError] = {}
+        """By the name that the type of each text would have."""
         self._lock = threading.RLock()
         self._classes: dict[str, type[MessageValue]] = {}
         self._hashes: dict[str, str] = {}
@@ -108,23 +120,88 @@ class TypeLibrary:
         """
         read = [(parse_interface(name, text), text) for name, text in texts.items()]
         with self._lock:
-            if len(self._own.texts.keys() | texts.keys()) > TEXTS_MAX:
-                raise InterfaceTextError("types", None, f"more than {TEXTS_MAX} were given")
-            tried = _Known({**self._own.interfaces}, {**self._own.messages}, {**self._own.texts})
-            for interface, text in read:
+            self._check_count(texts)
+            for interface, _ in read:
                 self._refuse_settled(interface)
-                tried.take(interface, text)
-            before, self._own = self._own, tried
-            try:
-                for interface, _ in read:
-                    self._check(interface)
-            except InterfaceTextError:
+            before = self._own
+            unsound = self._take(read)
+            if unsound:
                 self._own = before
-                raise
-            self.generation += 1
-            self._classes.clear()
-            self._hashes.clear()
+                raise next(iter(unsound.values()))
+            self._changed()
+            self._faults = {one: it for one, it in self._faults.items() if one not in texts}
         return list(texts)
+
+    def add_sound_texts(self, found: InterfaceTexts) -> dict[str, InterfaceTextError]:
+        """Take up those texts that are sound, and keep in mind why the others are not.
+
+        What is known already stays as it is.
+
+        Returns:
+            What is wrong with the others, by the name of the type; each error names the file.
+
+        Raises:
+            InterfaceTextError: There are too many.
+        """
+        news = {one: text for one, text in found.texts.items() if self.text_of(one) != text}
+        with self._lock:
+            self._check_count(news)
+            read, faults = self._parsed(news)
+            before = self._own
+            unsound = self._take(read)
+            if unsound:
+                self._own = before.with_more(one for one in read if one[0].name not in unsound)
+            faults |= unsound
+            if len(faults) < len(news):
+                self._changed()
+            told = {**found.placed(faults), **found.faults}
+            kept = {name: one for name, one in self._faults.items() if name not in found.texts}
+            self._faults = {**kept, **told}
+        return told
+
+    def faults(self) -> dict[str, InterfaceTextError]:
+        """Say what is wrong with texts that were not taken up, by the name of each type."""
+        with self._lock:
+            return dict(sorted(self._faults.items()))
+
+    def _check_count(self, texts: Mapping[str, str]) -> None:
+        if len(self._own.texts.keys() | texts.keys()) > TEXTS_MAX:
+            raise InterfaceTextError("types", None, f"more than {TEXTS_MAX} were given")
+
+    def _parsed(
+        self, texts: Mapping[str, str]
+    ) -> tuple[list[tuple[Interface, str]], dict[str, InterfaceTextError]]:
+        """Read each text by itself; give those that can be read, and why the others cannot."""
+        read: list[tuple[Interface, str]] = []
+        faults: dict[str, InterfaceTextError] = {}
+        for name, text in texts.items():
+            try:
+                interface = parse_interface(name, text)
+                self._refuse_settled(interface)
+            except InterfaceTextError as error:
+                faults[name] = error
+            except RosNameError as error:
+                faults[name] = InterfaceTextError(name, None, error.reason)
+            else:
+                read.append((interface, text))
+        return read, faults
+
+    def _take(self, read: list[tuple[Interface, str]]) -> dict[str, InterfaceTextError]:
+        """Take all, then say which are not sound among the others; the lock is held."""
+        self._own = self._own.with_more(read)
+        unsound: dict[str, InterfaceTextError] = {}
+        for interface, _ in read:
+            try:
+                self._check(interface)
+            except InterfaceTextError as error:
+                unsound[interface.name] = error
+        return unsound
+
+    def _changed(self) -> None:
+        """Forget what was made of other texts; the lock is held."""
+        self.generation += 1
+        self._classes.clear()
+        self._hashes.clear()
 
     def copy(self) -> TypeLibrary:
         """Give a library of the same types, in which texts can be tried."""
@@ -167,8 +244,16 @@ class TypeLibrary:
         own = self._own.messages.get(name)
         found = own or _richer(self._store.find(name), self._carried.messages.get(name))
         if found is None:
-            raise UnknownTypeError(name)
+            raise self._unknown(name)
         return found
+
+    def _unknown(self, name: str) -> UnknownTypeError:
+        """Say why a type is not known: its text breaks a rule, or there is none."""
+        folder, _, base = name.rpartition("/")
+        owner = f"{folder}/{base.partition('_')[0]}"
+        alike = (fault for one, fault in self._faults.items() if _plain(one) == _plain(owner))
+        fault = self._faults.get(owner) or next(alike, None)
+        return UnknownTypeError(name, None if fault is None else str(fault).rstrip("."))
 
     def message(self, name: str) -> type[MessageValue]:
         """Give the class of a message's values; the same class each time.
@@ -249,6 +334,11 @@ class TypeLibrary:
                 check_sizes(message, self.find)
             except UnknownTypeError:
                 continue
+
+
+def _plain(name: str) -> str:
+    """Give a name as it is compared with those that break the rules of names."""
+    return re.sub(r"[^a-z0-9/]", "", name.lower())
 
 
 def _all_messages(interface: Interface) -> list[Message]:

@@ -74,8 +74,8 @@ class _Walk:
     def _part(self, message: Message, field: Field) -> Message:
         try:
             return self._find(field.type.base)
-        except UnknownTypeError:
+        except UnknownTypeError as error:
+            why = f"cannot be used ({error.reason})" if error.reason else "no known package defines"
             raise UnknownTypeError(
-                message.name,
-                f'its field {field.name} is a "{field.type.base}", which no known package defines',
+                message.name, f'its field {field.name} is a "{field.type.base}", which {why}'
             ) from None

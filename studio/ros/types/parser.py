@@ -20,6 +20,7 @@ from studio.ros.types.definitions import (
     Shape,
 )
 from studio.ros.types.literals import parse_literal, parse_scalar
+from studio.ros.types.text_mends import is_part_rule, mend_of
 
 TEXT_BYTES_MAX = 1_000_000
 MEMBERS_MAX = 2_000
@@ -50,11 +51,7 @@ def parse_interface(name: str, text: str) -> Interface:
         raise InterfaceTextError(name, None, f"the text is longer than {TEXT_BYTES_MAX} bytes")
     parts = _split(text)
     if len(parts) != _PARTS[kind]:
-        raise InterfaceTextError(
-            name,
-            None,
-            f"a .{kind} has parts, {_PARTS[kind]} between lines of ---, not {len(parts)}",
-        )
+        raise _wrong_parts(name, kind, parts)
     if kind == "msg":
         return _message(name, name, parts[0])
     if kind == "srv":
@@ -81,6 +78,27 @@ def _split(text: str) -> list[list[tuple[int, str]]]:
     return parts
 
 
+def _wrong_parts(name: str, kind: str, parts: list[list[tuple[int, str]]]) -> InterfaceTextError:
+    """Say that a text has too many parts, or too few: at the line that was meant to part it."""
+    wanted = _PARTS[kind] - 1
+    meant = [(number, line) for part in parts for number, line in part if is_part_rule(line)]
+    if len(parts) <= wanted and meant:
+        number, line = meant[0]
+        return InterfaceTextError(
+            name, number, f'"{line.strip()[:20]}" parts nothing: write three dashes, ---'
+        )
+    lines = {0: "no line", 1: "one line", 2: "two lines"}[wanted]
+    between = {"msg": "", "srv": " between request and response"}.get(
+        kind, " between goal, result and feedback"
+    )
+    has = len(parts) - 1
+    return InterfaceTextError(name, None, f"a .{kind} has {lines} of ---{between}, and here {has}")
+
+
+class _MendedError(ValueError):
+    """A rule that is broken, with what to do already in the sentence."""
+
+
 @dataclass
 class _Draft:
     """What was read of one message so far; `above` are comments that wait for a member."""
@@ -90,8 +108,10 @@ class _Draft:
     constants: list[Constant] = field(default_factory=list[Constant])
     above: list[str] = field(default_factory=list[str])
     comment: str = ""
+    lines: dict[str, int] = field(default_factory=dict[str, int])
+    """In which line each member stands."""
 
-    def take(self, line: str) -> None:
+    def take(self, number: int, line: str) -> None:
         """Read one line.
 
         Raises:
@@ -103,7 +123,7 @@ class _Draft:
         if not code.strip():
             self._note(comment)
         else:
-            self._member(code.strip(), comment or "")
+            self._member(number, code.strip(), comment or "")
 
     def _note(self, comment: str | None) -> None:
         """Keep a comment for what follows; the first, set off by an empty line, is the type's."""
@@ -114,7 +134,7 @@ class _Draft:
             self.comment = "\n".join(self.above)
         self.above.clear()
 
-    def _member(self, code: str, comment: str) -> None:
+    def _member(self, number: int, code: str, comment: str) -> None:
         found = _LINE.fullmatch(code)
         if not found:
             raise ValueError(f'"{code[:60]}" is no type and name')
@@ -130,23 +150,30 @@ class _Draft:
             raise ValueError(f'"{found["name"]}{rest[:20]}" is no name of a field')
         else:
             self.fields.append(_field(found["name"], kind, rest, said))
-        self._check_unique(found["name"])
-
-    def _check_unique(self, name: str) -> None:
-        names = [one.name for one in (*self.fields, *self.constants)]
-        if names.count(name) > 1:
-            raise ValueError(f"{name} stands there twice")
+        first = self.lines.setdefault(found["name"], number)
+        if first != number:
+            raise _MendedError(
+                f"{found['name']} stands there twice, first in line {first}: rename one of them"
+            )
 
 
 def _message(text_name: str, name: str, lines: list[tuple[int, str]]) -> Message:
     draft = _Draft(name.partition("/")[0])
     for number, line in lines:
         try:
-            draft.take(line)
+            draft.take(number, line)
         except (ValueError, RosNameError) as error:
-            raise InterfaceTextError(text_name, number, str(error).rstrip(".")) from None
-    draft.take("")
+            raise InterfaceTextError(text_name, number, _with_mend(error, line)) from None
+    draft.take(0, "")
     return Message(name, tuple(draft.fields), tuple(draft.constants), draft.comment)
+
+
+def _with_mend(error: Exception, line: str) -> str:
+    reason = str(error).rstrip(".")
+    if isinstance(error, _MendedError):
+        return reason
+    mend = mend_of(_split_comment(line)[0].strip())
+    return f"{reason}: {mend}" if mend else reason
 
 
 def _split_comment(line: str) -> tuple[str, str | None]:
@@ -203,6 +230,8 @@ def _base(text: str, package: str) -> str:
     if text == "Header":
         return _HEADER
     parts = text.split("/")
+    if len(parts) == 1 and not text[:1].isupper():
+        raise ValueError(f'"{text[:60]}" is no type')
     if len(parts) == 1:
         parts = [package, "msg", text]
     elif len(parts) == 2:

@@ -12,13 +12,22 @@ from studio.errors import InterfaceTextError, StudioError
 from studio.settings import WireChoice
 
 if TYPE_CHECKING:
-    from studio.engine.messages.interfaces import InterfaceAnswer, InterfacesAdded
+    from studio.engine.messages.interfaces import (
+        InterfaceAnswer,
+        InterfacesAdded,
+        InterfacesAnswer,
+    )
     from studio.ros.types.library import TypeLibrary
 
 
 def added(texts: dict[str, str]) -> InterfacesAdded:
     desk = InterfaceDesk(WireDesk(WireChoice()))
     return asyncio.run(desk.add(AddInterfaces(request=2, texts=texts)))
+
+
+def listed() -> InterfacesAnswer:
+    desk = InterfaceDesk(WireDesk(WireChoice()))
+    return asyncio.run(desk.names(ListInterfaces(request=3)))
 
 
 def asked(name: str) -> InterfaceAnswer:
@@ -116,7 +125,7 @@ def test_what_a_type_needs_may_come_after_it():
         {"../msg/X": "int32 x"},
         {"mine/msg/Loop": "mine/Loop again"},
         {"mine/msg/Huge": "float64[4000000000] x"},
-        {"mine/msg/Good": "int32 x", "mine/srv/Bad": "int32 x\n---\n---\n---\n"},
+        {"mine/srv/Bad": "int32 x\n---\n---\n---\n"},
         {"builtin_interfaces/msg/Time": "int64 nanoseconds"},
     ],
 )
@@ -126,6 +135,20 @@ def test_texts_that_break_a_rule_are_refused_and_none_is_taken(
     with pytest.raises(StudioError, match=r"."):
         added(texts)
     assert library.own_names() == []
+
+
+def test_of_several_texts_the_sound_ones_are_taken_and_the_others_named_until_they_are_mended(
+    library: TypeLibrary,
+):
+    answer = added({"mine/msg/Good": "int32 x", "mine/srv/Bad": "int32 x\n--\n"})
+    assert [one.name for one in answer.types] == ["mine/msg/Good"]
+    (fault,) = answer.faults
+    assert (fault.place, fault.line) == ("mine/srv/Bad", 2)
+    assert fault.reason == '"--" parts nothing: write three dashes, ---'
+    assert listed().faults == answer.faults
+    assert library.own_names() == ["mine/msg/Good"]
+    added({"mine/srv/Bad": "int32 x\n---\n"})
+    assert listed().faults == ()
 
 
 def test_a_type_that_was_taken_already_keeps_its_class(library: TypeLibrary):

@@ -5,6 +5,7 @@ import pytest
 from studio.engine.wire.opened_types import take_types
 from studio.errors import UnknownTypeError
 from studio.packages.workspace import Location, open_location
+from studio.problems import Place
 from studio.ros.types.library import TypeLibrary
 from tests.support.packages import write_package
 
@@ -38,13 +39,18 @@ def test_what_is_known_already_is_not_taken_again(location: Location):
     assert library.message(WHEELS) is kind
 
 
-def test_a_text_that_breaks_a_rule_is_a_warning_that_names_package_file_and_rule(
+def test_a_text_that_breaks_a_rule_is_a_warning_at_its_line_and_the_others_are_known(
     location: Location, tmp_path: Path
 ):
-    (tmp_path / "src/course_rover/msg/Wheels.msg").write_text("uint8 count\nuint8 count\n")
+    folder = tmp_path / "src/course_rover/msg"
+    (folder / "Axle.msg").write_text("uint8 count\nuint8 count\n")
     library = TypeLibrary("jazzy")
     (problem,) = take_types(location, library)
-    assert "course_rover" in problem.sentence
-    assert "count" in problem.sentence
-    with pytest.raises(UnknownTypeError):
-        library.message(WHEELS)
+    assert (problem.code, problem.place) == (
+        "unusable-interfaces",
+        Place(str(folder / "Axle.msg"), 2),
+    )
+    assert "count stands there twice, first in line 1" in problem.sentence
+    assert library.message(WHEELS)().count == 4
+    with pytest.raises(UnknownTypeError, match=r"Axle\.msg:2"):
+        library.message("course_rover/msg/Axle")

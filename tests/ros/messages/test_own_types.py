@@ -28,7 +28,7 @@ def package(tmp_path: Path) -> Path:
 def test_a_package_a_folder_of_packages_and_a_file_are_read_alike(package: Path):
     told = {CELL: "float32 voltage\n"}
     for path in (package, package.parent, package / "msg" / "Cell.msg"):
-        assert texts_at(path) == told
+        assert texts_at(path).texts == told
 
 
 def test_what_holds_no_types_is_one_sentence(tmp_path: Path, package: Path):
@@ -56,7 +56,16 @@ def test_without_the_variable_nothing_is_added():
 
 
 def test_a_path_that_cannot_be_is_said_with_the_variable(tmp_path: Path, package: Path):
-    (package / "msg" / "Bad.msg").write_text("float31 x\n")
-    for path in (tmp_path / "none", package):
+    for path in (tmp_path / "none", package / "package.xml"):
         with pytest.raises(WireSettingsError, match=f"^{VARIABLE}: "):
             take_own_types(TypeLibrary("jazzy"), {VARIABLE: str(path)})
+
+
+def test_of_a_package_with_a_faulty_text_the_others_are_known(package: Path):
+    bad = package / "msg" / "Bad.msg"
+    bad.write_text("# Mine.\nfloat x\n")
+    library = TypeLibrary("jazzy")
+    take_own_types(library, {VARIABLE: str(package)})
+    assert library.message(CELL)(voltage=1.5).voltage == 1.5
+    with pytest.raises(UnknownTypeError, match=f'{bad}:2: "float" is no type: write float32 or'):
+        library.message("own_interfaces/msg/Bad")

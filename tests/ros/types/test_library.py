@@ -1,11 +1,14 @@
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 from studio.errors import InterfaceTextError, RosNameError, UnknownTypeError
 from studio.ros.profiles import PROFILES
 from studio.ros.types.classes import definition_of
 from studio.ros.types.definitions import Service
+from studio.ros.types.folders import InterfaceTexts
 from studio.ros.types.library import TypeLibrary
 
 
@@ -116,3 +119,39 @@ def test_a_bad_text_among_good_ones_keeps_all_out(library: TypeLibrary):
         library.add_texts({"p/msg/Good": "int8 x", "nonsense": "int8 x"})
     with pytest.raises(UnknownTypeError):
         library.find("p/msg/Good")
+
+
+def test_of_several_texts_the_sound_ones_are_taken_and_each_other_one_is_told(
+    library: TypeLibrary,
+):
+    good, bad = "p/msg/Good", "p/msg/Bad"
+    texts = {
+        good: "int8 x",
+        bad: "int8 x\nfloat y",
+        "p/msg/Loop": "Loop again",
+        "p/msg/User": "Good good\nBad bad",
+        "p/srv/Ask": "int8 a\n--\nint8 b",
+        "builtin_interfaces/msg/Time": "float64 seconds",
+    }
+    told = library.add_sound_texts(InterfaceTexts(texts, {bad: Path("/ws/p/msg/Bad.msg")}))
+    assert str(told.pop(bad)) == (
+        '/ws/p/msg/Bad.msg:2: "float" is no type: write float32 or float64.'
+    )
+    assert set(told) == {"p/msg/Loop", "p/srv/Ask", "builtin_interfaces/msg/Time"}
+    assert library.message(good)(x=1).x == 1
+    with pytest.raises(UnknownTypeError, match=r"Bad\.msg:2: \"float\" is no type: write"):
+        library.hash_of(bad)
+    with pytest.raises(UnknownTypeError, match=r"its field bad is .*Bad\.msg:2"):
+        library.message("p/msg/User")
+    with pytest.raises(UnknownTypeError, match="p/srv/Ask:2"):
+        library.message("p/srv/Ask_Request")
+
+
+def test_a_text_that_was_mended_is_known_and_its_fault_forgotten(library: TypeLibrary):
+    library.add_sound_texts(InterfaceTexts({"p/msg/A": "float x"}))
+    assert list(library.faults()) == ["p/msg/A"]
+    assert library.add_sound_texts(InterfaceTexts({"p/msg/A": "float32 x"})) == {}
+    assert library.message("p/msg/A")(x=0.5).x == 0.5
+    library.add_sound_texts(InterfaceTexts({"p/msg/A": "float x"}))
+    library.add_texts({"p/msg/A": "float64 x"})
+    assert library.faults() == {}

@@ -121,11 +121,11 @@ def test_a_service_has_two_parts_and_an_action_three():
         ("int32[-1] a", "is no type"),
         ("int32<=3 a", "only strings have a bound"),
         ("string<=0 a", "only strings have a bound"),
-        ("int a", "letters and digits"),
+        ("int a", '"int" is no type: write int32 or int64'),
         ("a/b/c/D a", "only those are fields"),
         ("a/srv/D a", "only those are fields"),
         ("Std/Thing a", "lower case"),
-        ("int32 a\n---\nint32 b", "1 between lines of ---, not 2"),
+        ("int32 a\n---\nint32 b", "a .msg has no line of ---, and here 1"),
     ],
 )
 def test_a_text_that_rosidl_would_refuse_is_refused_with_its_line(text: str, sentence: str):
