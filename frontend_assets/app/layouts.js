@@ -70,6 +70,7 @@ export const isPanel = (id) => Object.hasOwn(PANELS, id);
  * @typedef {object} LayoutDesk
  * @property {() => Arrangement} present how the panels stand now
  * @property {(name: string) => void} use a layout; the empty name is the studio's own
+ * @property {(id: string, other: string) => void} showBeside a panel, with another one kept in sight
  * @property {() => void} reset to the layout in use as it was saved
  */
 
@@ -131,6 +132,7 @@ function deskFor(dock, arrange) {
       layoutInUse.value = name;
       forget();
     },
+    showBeside: dock.showBeside,
     reset: forget,
   };
 }

@@ -17,6 +17,7 @@
  *   `[words](actions /fibonacci example_interfaces/action/Fibonacci)`, `[words](publish /cmd_vel
  *   geometry_msgs/msg/Twist)`  likewise
  *   `[words](lessons listener)`  another lesson
+ *   `[words](open r2d2_description stands:=false)`  a robot that comes with the studio, with its arguments
  *
  * Names of topics, services, actions and nodes stand in backticks with their slash, as `/chatter`:
  * a test looks whether the demo's code, or that of one which it needs, has them.
@@ -29,8 +30,9 @@
 import { readLesson } from "../lib/lesson-text.js";
 import { textFiles } from "../lib/text-files.js";
 import { ask } from "./actions.js";
-import { commandById } from "./commands.js";
-import { askLessons, chosenLesson, lessonTexts, underWay } from "./state/lessons.js";
+import { layoutDesk } from "./layouts.js";
+import { openNamed } from "./start-lists.js";
+import { askLessons, chosenLesson, demoCode, lessonTexts, underWay } from "./state/lessons.js";
 import { goalForm, publishForm, serviceForm } from "./state/message-forms.js";
 import { chooseNode } from "./state/parameters.js";
 import { chosenTopic } from "./state/topics.js";
@@ -44,6 +46,13 @@ const known = textFiles(new URL("../lessons/", import.meta.url).href, (text) => 
 export async function fetchLessons(language, demos) {
   const texts = await Promise.all(demos.map((demo) => known(`${language}/${demo}.md`)));
   lessonTexts.value = new Map(texts.map((text, at) => [demos[at] ?? "", text]));
+}
+
+/** Have the code of a demo, once. @param {string} demo */
+export async function fetchCode(demo) {
+  if (demoCode.peek().has(demo)) return;
+  const told = await ask({ type: "get_demo_code", demo });
+  if (told?.type === "demo_code") demoCode.value = new Map(demoCode.peek()).set(demo, told.files);
 }
 
 /** @param {Asked<Command>} command and look what became of it */
@@ -73,11 +82,19 @@ export const pressKey = (demo, pressed) => ask({ type: "press_key", demo, presse
 /** @type {Record<string, MessageForm>} */
 const FORMS = { services: serviceForm, actions: goalForm, publish: publishForm };
 
-/** Where a link of a lesson leads. @param {string} panel @param {readonly string[]} about a name, and perhaps its type */
-export function followLink(panel, [name = "", type = ""]) {
+/** Where a link of a lesson leads, with the lesson kept in sight. @param {string} panel @param {readonly string[]} about a name, and perhaps its type */
+export function followLink(panel, [name = "", type = "", ...more]) {
+  if (panel === "open") {
+    void openNamed({ type: "open_example", name, arguments: argumentsOf([type, ...more]) });
+    return;
+  }
   if (name !== "" && panel === "lessons") chosenLesson.value = name;
   if (name !== "" && panel === "topics") chosenTopic.value = name;
   if (name !== "" && panel === "parameters") chooseNode(name);
   if (type !== "") void FORMS[panel]?.open({ name, type });
-  commandById(`panel.${panel}`)?.run();
+  layoutDesk.value?.showBeside(panel, "lessons");
 }
+
+/** @param {readonly string[]} words each `name:=value` @returns {Record<string, string>} */
+const argumentsOf = (words) =>
+  Object.fromEntries(words.filter(Boolean).map((word) => word.split(/:=(.*)/s).slice(0, 2)));

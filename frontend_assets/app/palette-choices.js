@@ -1,16 +1,20 @@
 /** What the palette offers: commands, panels, and every named thing of the robot and its files. */
 
 /** @import { Ranked } from "../lib/ranking.js" */
-/** @import { JointView, Problem, SiteView } from "../types/wire.d.ts" */
+/** @import { Signal } from "vendor/preact.js" */
+/** @import { ExampleEntry, JointView, Problem, SiteView } from "../types/wire.d.ts" */
 
+import { signal } from "vendor/preact.js";
 import { shownText } from "../lib/expressions.js";
 import { t } from "../lib/i18n.js";
 import { shortcutText } from "../lib/keys.js";
 import { baseName, placeText, shortPath } from "../lib/paths.js";
+import { ask } from "./actions.js";
 import { commandById, commandLabel, commands, onMac } from "./commands.js";
 import { compareWith } from "./menu-commands.js";
 import { panelTitle } from "./panels.js";
 import { applyPose } from "./poses.js";
+import { openNamed } from "./start-lists.js";
 import { mayEdit } from "./state/connection.js";
 import { allSites, documentState, movable, problems, robot, siteOrder } from "./state/document.js";
 import { poses } from "./state/poses.js";
@@ -26,10 +30,21 @@ import { focusLink, viewport } from "./viewport.js";
  *   `does`: what Enter does, in words
  */
 
+/** The robots that come with the studio; null: not told yet. @type {Signal<readonly ExampleEntry[] | null>} */
+export const examples = signal(null);
+
+/** Ask for them, once. */
+export async function askExamples() {
+  if (examples.peek()) return;
+  const told = await ask({ type: "list_examples" });
+  if (told?.type === "examples") examples.value = told.examples;
+}
+
 /** @returns {Choice[]} */
 export function allChoices() {
   return [
     ...commandChoices(),
+    ...exampleChoices(),
     ...linkChoices(),
     ...jointChoices(),
     ...poseChoices(),
@@ -52,12 +67,34 @@ export function commandChoices() {
         key: command.id,
         icon: command.icon,
         label: panel ? panelTitle(panel) : commandLabel(command),
-        words: commandLabel(command),
+        words: `${commandLabel(command)} ${wordsFor(command.id)}`,
         hint: key ? shortcutText(key, onMac) : "",
         does: panel ? t("palette.does.panel") : t("palette.does.command"),
         run: command.run,
       };
     });
+}
+
+/** @param {string} id of a command @returns {string} what else people call it; empty: nothing */
+function wordsFor(id) {
+  const key = `palette.also.${id}`;
+  const words = t(key);
+  return words === key ? "" : words;
+}
+
+/** @returns {Choice[]} the robots that come with the studio, once they are told */
+function exampleChoices() {
+  if (!mayEdit.value) return [];
+  return (examples.value ?? []).map(({ name, robot: title }) => ({
+    rank: "example",
+    key: `example ${name}`,
+    icon: "robot",
+    label: t("palette.example", { name: title }),
+    words: name,
+    hint: name,
+    does: t("palette.does.example"),
+    run: () => void openNamed({ type: "open_example", name }),
+  }));
 }
 
 /** @returns {Choice[]} */

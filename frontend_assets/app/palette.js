@@ -10,7 +10,15 @@ import { fitting, readSearch, SIGNS, sectionsOf } from "../lib/palette-search.js
 import { marksOf } from "../lib/ranking.js";
 import { recall, remember } from "../lib/remembered.js";
 import { Dialog, Icon } from "../lib/ui.js";
-import { allChoices, commandChoices, fileChoices, lineChoices } from "./palette-choices.js";
+import {
+  allChoices,
+  askExamples,
+  commandChoices,
+  examples,
+  fileChoices,
+  lineChoices,
+} from "./palette-choices.js";
+import { mayEdit } from "./state/connection.js";
 
 const RECENT = "palette.recent";
 const RECENT_MOST = 5;
@@ -23,9 +31,24 @@ export function Palette({ onClose }) {
   const typed = useSignal("");
   const at = useSignal(0);
   const list = useRef(/** @type {HTMLElement | null} */ (null));
-  const all = useMemo(allChoices, []);
+  // Lessons, demos and lines of ROS 2 come with the palette, not with the page.
+  const ros = useSignal(/** @type {typeof import("./palette-ros.js") | null} */ (null));
+  useEffect(() => {
+    void import("./palette-ros.js").then((part) => {
+      ros.value = part;
+      return part.askForLessons();
+    });
+    if (mayEdit.value) void askExamples();
+  }, []);
+  const known = useMemo(allChoices, [examples.value]);
+  const all = [
+    ...known,
+    ...(ros.value?.lessonChoices() ?? []),
+    ...(ros.value?.demoChoices() ?? []),
+  ];
   const search = readSearch(typed.value);
-  const sections = useMemo(() => found(all, typed.value), [typed.value]);
+  const lines = ros.value?.ros2Choices(typed.value) ?? [];
+  const sections = [...sectionsOf(lines, ONE_MOST), ...found(all, typed.value)];
   const choices = sections.flatMap((section) => section.choices);
   const active = Math.min(at.value, choices.length - 1);
   useEffect(() => {

@@ -4,6 +4,7 @@ import { html } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
 import { Icon } from "../lib/ui.js";
 import { commandById } from "./commands.js";
+import { PublishingStatus } from "./publishing-status.js";
 import { RosStatus } from "./ros-status.js";
 import { heldBack } from "./state/alarm.js";
 import { connection, role, version } from "./state/connection.js";
@@ -25,6 +26,7 @@ export function StatusBar() {
     <${Size} />
     <${Work} />
     <span class="push"></span>
+    <${PublishingStatus} />
     <${RosStatus} />
     <${Build} />
     <${ProblemsLink} />

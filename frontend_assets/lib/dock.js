@@ -25,6 +25,7 @@ import { keepTabsWhole } from "./tight-tabs.js";
 /**
  * @typedef {object} Dock
  * @property {(id: string) => void} show bring a panel to the front, opened where it is missing
+ * @property {(id: string, other: string) => void} showBeside the same, with another one kept in sight
  * @property {(id: string) => boolean} isOpen
  * @property {() => string | null} active
  * @property {(step: 1 | -1) => void} focusNext
@@ -97,6 +98,10 @@ export function createDock(element, panels, options) {
 
   return {
     show: (id) => show(api, panels, id),
+    showBeside: (id, other) => {
+      show(api, panels, id);
+      if (!single) uncover(api, panels, id, other);
+    },
     isOpen: (id) => api.getPanel(id) !== undefined,
     active: () => api.activePanel?.id ?? null,
     focusNext: (step) => focusNext(api, step),
@@ -192,6 +197,28 @@ function show(api, panels, id) {
     renderer: panel.keepsFrame ? "always" : "onlyWhenVisible",
     ...(group ? { position: { referenceGroup: group } } : {}),
   });
+}
+
+/**
+ * Move a panel that was just shown out of the group of another one, which it would cover.
+ *
+ * @param {DockviewApi} api @param {Record<string, Panel>} panels @param {string} id @param {string} other
+ */
+function uncover(api, panels, id, other) {
+  if (api.hasMaximizedGroup()) api.exitMaximizedGroup();
+  const [panel, kept] = [api.getPanel(id), api.getPanel(other)];
+  if (!panel || !kept || panel === kept || panel.group !== kept.group) return;
+  const area = (/** @type {DockviewApi["groups"][number]} */ { element }) =>
+    element.clientWidth * element.clientHeight;
+  const [largest] = api.groups
+    .filter(
+      (group) => group !== kept.group && !group.panels.some((one) => panels[one.id]?.keepsFrame),
+    )
+    .sort((a, b) => area(b) - area(a));
+  if (largest) movePanel(api, id, { kind: "beside", group: largest.id, names: [] });
+  else movePanel(api, id, { kind: "split", edge: "right" });
+  kept.api.setActive();
+  api.getPanel(id)?.api.setActive();
 }
 
 /** @param {DockviewApi} api @param {1 | -1} step focus goes into the shown panel of the next group */

@@ -30,14 +30,24 @@ export function rangeOf(joint) {
 }
 
 /**
+ * How a joint's position is shown and taken; one that turns without end is shown within one turn.
+ *
  * @param {JointView} joint
  * @param {boolean} degrees
  * @returns {{unit: string, show: (value: number) => number, take: (shown: number) => number, step: number}}
  */
 export function unitsOf(joint, degrees) {
   const { lower, upper } = rangeOf(joint);
-  if (isAngle(joint) && degrees) return { unit: "°", show: toDegrees, take: toRadians, step: 1 };
   const same = (/** @type {number} */ value) => value;
+  const seen = joint.type === "continuous" ? wrapped : same;
+  if (isAngle(joint) && degrees)
+    return { unit: "°", show: (rad) => toDegrees(seen(rad)), take: toRadians, step: 1 };
   const unit = isAngle(joint) ? "rad" : "m";
-  return { unit, show: same, take: same, step: niceStep(lower, upper) };
+  return { unit, show: seen, take: same, step: niceStep(lower, upper) };
+}
+
+/** @param {number} rad @returns {number} the same direction, from -pi to pi; what is there already stays as it is */
+function wrapped(rad) {
+  if (Math.abs(rad) <= Math.PI || !Number.isFinite(rad)) return rad;
+  return rad - 2 * Math.PI * Math.round(rad / (2 * Math.PI));
 }

@@ -1,11 +1,20 @@
 /** One lesson: its demo and those that it needs, what it says, and what they print. */
 
-/** @import { LessonView } from "../types/wire.d.ts" */
+/** @import { CodeFile, LessonView } from "../types/wire.d.ts" */
 
 import { html, useEffect, useLayoutEffect, useRef, useSignal } from "vendor/preact.js";
 import { drawnBlock } from "../app/help-drawing.js";
-import { followLink } from "../app/lessons.js";
-import { chosenLesson, demos, lessonTexts, output, showOutput } from "../app/state/lessons.js";
+import { fetchCode, followLink } from "../app/lessons.js";
+import {
+  chosenLesson,
+  demoCode,
+  demos,
+  lessonTexts,
+  output,
+  showOutput,
+} from "../app/state/lessons.js";
+import { notify } from "../app/state/view.js";
+import { copyText } from "../lib/clipboard.js";
 import { t } from "../lib/i18n.js";
 import { IconButton } from "../lib/ui.js";
 import { LessonRuns } from "./lessons-runs.js";
@@ -29,9 +38,31 @@ export function LessonPage({ lesson, all }) {
       <${LessonRuns} parts=${parts} />
       ${text?.blocks.length === 0 && html`<p class="note padded">${t("lessons.lost")}</p>`}
       <article class="help-article lesson-text">${text?.blocks.map((block) => drawnBlock(block, followLink))}</article>
+      ${parts.map((part) => html`<${Code} key=${part.demo} demo=${part.demo} />`)}
     </div>
     <${Output} own=${demo} parts=${parts} />
   </div>`;
+}
+
+/** The source code of a demo, asked for when it is unfolded. @param {{demo: string}} props */
+function Code({ demo }) {
+  const onToggle = (/** @type {any} */ event) => {
+    if (event.currentTarget.open) void fetchCode(demo);
+  };
+  return html`<details class="lesson-code" onToggle=${onToggle}>
+    <summary>${t("lessons.code", { demo })}</summary>
+    ${demoCode.value.get(demo)?.map((file) => html`<${CodeOfFile} key=${file.name} file=${file} />`)}
+  </details>`;
+}
+
+/** @param {{file: CodeFile}} props */
+function CodeOfFile({ file: { name, text } }) {
+  const copy = async () => {
+    if (await copyText(text)) notify(t("lessons.code.copied", { file: name }));
+  };
+  return html`<section class="lesson-file" aria-label=${name}>
+    <header><code>${name}</code><${IconButton} icon="copy" size=${14} label=${t("lessons.code.copy", { file: name })} onClick=${copy} /></header>
+    <pre class="scroll" tabindex="0" role="region" aria-label=${t("lessons.code.of", { file: name })}>${text}</pre></section>`;
 }
 
 /** What one of them printed: that of the lesson itself, until another is chosen. @param {{own: string, parts: readonly LessonView[]}} props */

@@ -7,7 +7,7 @@ import { html, useSignal } from "vendor/preact.js";
 import { publish, stopPublishing } from "../app/deeds.js";
 import { mayEdit } from "../app/state/connection.js";
 import { followDeeds } from "../app/state/deed-following.js";
-import { publications } from "../app/state/deeds.js";
+import { publications, repeatedPublications } from "../app/state/deeds.js";
 import { publishForm, publishing } from "../app/state/message-forms.js";
 import {
   askPublishable,
@@ -79,13 +79,24 @@ function AnotherTopic() {
 function Chosen() {
   const { rate_hz: rate } = publishing.value;
   const blocked = !mayEdit.value || publishForm.wrong.value;
+  const name = publishForm.chosen.value?.name;
+  const repeated = repeatedPublications.value.filter((one) => one.name === name);
   return html`<div class="deeds-chosen scroll">
     <${DeedForm} form=${publishForm} onSubmit=${() => publish({ once: true })} actions=${html`
       <button type="submit" class="button primary" disabled=${blocked}><${Icon} name="send" />${t("publish.once")}</button>
-      <button type="button" class="button" disabled=${blocked} onClick=${() => publish({ once: false })}><${Icon} name="animate" />${t("publish.at", { rate, count: rate })}</button>
+      ${
+        repeated.length > 0
+          ? html`<button type="button" class="button danger" disabled=${!mayEdit.value} onClick=${() => stopAll(repeated)}><${Icon} name="stop" />${t("publish.stop.rate", { rate: repeated[0]?.rate_hz ?? 0 })}</button>`
+          : html`<button type="button" class="button" disabled=${blocked} onClick=${() => publish({ once: false })}><${Icon} name="animate" />${t("publish.at", { rate, count: rate })}</button>`
+      }
       <${Rate} rate=${rate} />`}><${Quality} /><//>
     <${Publications} all=${false} />
   </div>`;
+}
+
+/** @param {readonly PublicationView[]} running */
+function stopAll(running) {
+  for (const { deed } of running) void stopPublishing(deed);
 }
 
 /** @param {{rate: number}} props */
@@ -113,8 +124,8 @@ function Quality() {
 /** @param {{all: boolean}} props all that run, or the last ones of the topic that is chosen */
 function Publications({ all }) {
   const name = publishForm.chosen.value?.name;
-  const running = publications.value.filter(({ state }) => state === "running");
   const own = publications.value.filter((one) => one.name === name);
+  const running = repeatedPublications.value;
   const shown = all ? running : own.slice(-SHOWN).reverse();
   if (shown.length === 0) return null;
   return html`<section class="goals-running" aria-label=${t(all ? "publish.now" : "publish.last")}>

@@ -206,6 +206,12 @@ export interface CloseDocument {
   discard?: boolean;
 }
 
+/** One Python file of a demo. */
+export interface CodeFile {
+  name: string;
+  text: string;
+}
+
 /** Whole lines that were edited here and changed on disk; `line` counts from 1 in the base. */
 export interface CollisionView {
   line: number;
@@ -314,6 +320,13 @@ export interface DeleteVariant {
   document?: string;
   type: "delete_variant";
   name: string;
+}
+
+/** Answer to `get_demo_code`: the file that is run first, then those of its own package. */
+export interface DemoCode {
+  type: "demo_code";
+  request: number;
+  files: CodeFile[];
 }
 
 /** Answer to `get_demo_output`. */
@@ -793,6 +806,14 @@ export interface GetCollisions {
   document?: string;
   type: "get_collisions";
   file: string;
+}
+
+/** Ask for the source code of a demo. */
+export interface GetDemoCode {
+  request?: number;
+  document?: string;
+  type: "get_demo_code";
+  demo: string;
 }
 
 /** Ask what a demo printed, in its last run. */
@@ -1482,6 +1503,7 @@ export interface OpenExample {
   document?: string;
   type: "open_example";
   name: string;
+  arguments?: Record<string, string>;
 }
 
 /** Open a robot whose description comes from a topic, or from a parameter of a node. */
@@ -2725,6 +2747,7 @@ export type Command =
   | GetLessons
   | GetDemos
   | GetDemoOutput
+  | GetDemoCode
   | StartDemo
   | StopDemo
   | PressKey
@@ -2819,6 +2842,7 @@ export type Event =
   | Lessons
   | Demos
   | DemoOutput
+  | DemoCode
   | Recent
   | Examples
   | Places

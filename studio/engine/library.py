@@ -126,7 +126,7 @@ class Library:
                 copy = await asyncio.to_thread(
                     working_copy, self._models, self._data_folder, command.name, fresh=False
                 )
-                return await self._open_new(copy, None)
+                return await self._opener.open_at(copy, command.arguments, None)
             case m.NewRobot():
                 text = template_text(command.template, robot_of(command.name))
                 folder = self._place(command.folder)

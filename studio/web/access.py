@@ -76,6 +76,7 @@ _LOOK: Final = frozenset(
         "get_lessons",
         "get_demos",
         "get_demo_output",
+        "get_demo_code",
         "get_diagnostics",
         "get_services",
         "get_actions",

@@ -162,8 +162,11 @@ def publish_as_pasted(tab: StudioPage, node: Node) -> None:
     hand.paste(PUB)
     hand.press("20 times a second")
     wait_until("twists", lambda: len(twists) > 3)
-    hand.press("Stop")
+    tab.page.evaluate(SHOW_PANEL, "services")  # what is published is seen from any panel
+    tab.page.get_by_role("button", name="Publishing /turtle1/cmd_vel at 20 Hz").click()
+    hand.press("Stop publishing (20 Hz)")
     hand.see("stopped after")
+    hand.panel.get_by_role("button", name="20 times a second").wait_for()
     assert {(one.linear.x, one.angular.z) for one in twists} == {(2.0, 1.8)}
 
 

@@ -8,7 +8,7 @@ import pytest
 
 from tests.support.panel_pictures import SHOW_PANEL
 from tests.support.server import running_studio
-from tests.support.studio_page import StudioPage, studio_context, studio_page
+from tests.support.studio_page import StudioPage, studio_context, studio_page, wait_until
 from tests.support.wire import running_router
 
 if TYPE_CHECKING:
@@ -17,6 +17,18 @@ if TYPE_CHECKING:
     from playwright.sync_api import Browser, Locator
 
     from tests.support.server import RunningStudio
+
+_MOVED_M = """() => {
+  const { nodeRefFromName } = document.querySelector("iframe").contentWindow.__viserMutable;
+  const name = Object.keys(nodeRefFromName).find((one) => /head\\/visual/.test(one));
+  const head = name && nodeRefFromName[name];
+  if (!head) return 0;
+  head.updateWorldMatrix(true, false);
+  const [x, y, z] = head.matrixWorld.elements.slice(12, 15);
+  window.headBefore ??= [x, y, z];
+  const [x0, y0, z0] = window.headBefore;
+  return Math.hypot(x - x0, y - y0, z - z0);
+}"""
 
 pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(600)]
 
@@ -46,6 +58,39 @@ def follow_a_link_to_the_topic(tab: StudioPage, panel: Locator) -> None:
     panel.get_by_role("article").get_by_role("button", name="Topics", exact=True).click()
     topics = tab.page.get_by_role("region", name="Topics", exact=True)
     topics.get_by_text("Hello World", exact=True).wait_for()
+    assert panel.get_by_role("article").is_visible()  # beside it, not in its place
+
+
+def read_its_code(panel: Locator) -> None:
+    panel.get_by_text("Code of talker", exact=True).click()
+    panel.get_by_role("region", name="Text of talker.py").get_by_text("create_publisher").wait_for()
+
+
+def see_r2d2_drive(tab: StudioPage, panel: Locator) -> None:
+    """The end of the lesson about it, as its text says."""
+    panel.get_by_role("searchbox").fill("state_publisher")
+    panel.get_by_role("button", name="state_publisher").first.click()
+    panel.get_by_role("button", name="Start state_publisher").click()
+    panel.get_by_role("button", name="Stop state_publisher").wait_for()
+    panel.get_by_role("button", name="Open the R2D2 model").click()
+    wait_until("R2D2 is drawn", lambda: "r2d2" in tab.page.title() and tab.has_drawn_robot())
+    frame = tab.page.get_by_role("textbox", name="Fixed frame")
+    frame.fill("odom")
+    frame.press("Enter")
+    panel.get_by_role("article").get_by_role("button", name="Joints").click()
+    joints = tab.page.get_by_role("region", name="Joints", exact=True)
+    joints.get_by_label("Joints are moved by").select_option("/joint_states")
+    swivel = joints.get_by_role("textbox", name="swivel")
+    before = swivel.input_value()
+    wait_until("the head turns", lambda: swivel.input_value() != before)
+    wait_until("R2D2 goes", lambda: moved_m(tab) > 0.05)
+    panel.get_by_role("button", name="Stop state_publisher").click()
+    panel.get_by_role("button", name="Start state_publisher").wait_for()
+
+
+def moved_m(tab: StudioPage) -> float:
+    """How far the head of R2D2 is from where it was when this was first asked."""
+    return float(tab.page.evaluate(_MOVED_M))
 
 
 def a_viewer_reads_and_starts_nothing(browser: Browser, studio: RunningStudio) -> None:
@@ -69,7 +114,7 @@ def a_viewer_reads_and_starts_nothing(browser: Browser, studio: RunningStudio) -
 def stop_one_and_then_all(panel: Locator) -> None:
     panel.get_by_role("button", name="Stop listener").click()
     panel.get_by_role("button", name="Start listener").wait_for()
-    panel.get_by_text("Stopped").wait_for()
+    panel.get_by_text("Stopped", exact=True).wait_for()
     panel.get_by_role("button", name="Back to the list").click()
     panel.get_by_text("1 demo runs").wait_for()
     panel.get_by_role("button", name="Stop all").click()
@@ -89,7 +134,9 @@ def test_a_lesson_is_read_beside_its_demos_which_start_and_stop_there(
             panel = lessons_of(tab)
             start_both(panel)
             follow_a_link_to_the_topic(tab, panel)
+            read_its_code(panel)
             a_viewer_reads_and_starts_nothing(browser, studio)
             tab.page.evaluate(SHOW_PANEL, "lessons")
             stop_one_and_then_all(panel)
+            see_r2d2_drive(tab, panel)
             assert tab.errors == []

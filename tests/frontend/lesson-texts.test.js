@@ -54,9 +54,14 @@ function isKnown(part) {
 /** @param {Extract<Part, {kind: "link"}>} link */
 function leadsSomewhere({ page, about: [name, ...more] }) {
   const words = name === undefined ? 0 : 1 + more.length;
+  if (page === "open")
+    return existsSync(new URL(`models/${name}/package.xml`, ROOT)) && more.every(isArgument);
   const isThere = page !== "lessons" || name === undefined || DEMOS.includes(name);
   return isThere && PANELS.includes(page) && (ABOUT[page] ?? [0]).includes(words);
 }
+
+/** @param {string} word */
+const isArgument = (word) => /^\w+:=\S+$/.test(word);
 
 /** @param {Part} part @returns {string} the first part of a name of ROS; empty: it is none */
 const rosName = ({ kind, text }) => (kind === "code" && /^\/[a-z]\w*/.exec(text)?.[0]) || "";

@@ -93,6 +93,16 @@ test("degrees are for angles only", () => {
   assert.equal(unitsOf(joint({ type: "prismatic" }), true).unit, "m");
 });
 
+test("a joint that turns without end is shown within one turn", () => {
+  const wheel = joint({ type: "continuous" });
+  const { show } = unitsOf(wheel, false);
+  assert.deepEqual([show(0.5), show(Math.PI), show(-Math.PI)], [0.5, Math.PI, -Math.PI]);
+  assert.ok(Math.abs(show(100.5 * Math.PI * 2) + Math.PI) < 1e-9);
+  assert.ok(Math.abs(show(-2 * Math.PI - 0.25) + 0.25) < 1e-9);
+  assert.ok(Math.abs(unitsOf(wheel, true).show(2.5 * Math.PI) - 90) < 1e-9);
+  assert.equal(unitsOf(joint({ type: "revolute" }), false).show(7), 7);
+});
+
 test("a burst of edits is one gesture; a pause or an end begins a new one", () => {
   let now = 0;
   const gesture = createGesture(() => now);

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 COMMANDS = sorted(kind.model_fields["type"].default for kind in get_args(get_args(Command)[0]))
 VIEWER_COMMANDS = {
     *("get_managed", "get_diagnostics"),
-    *("get_lessons", "get_demos", "get_demo_output"),
+    *("get_lessons", "get_demos", "get_demo_output", "get_demo_code"),
     *("watch", "get_urdf", "get_text", "get_origin", "get_effects"),
     *("get_outline", "look_up", "get_references"),
     *("get_frames", "get_masses", "get_display_kinds", "get_topics", "get_tf"),

@@ -3,7 +3,7 @@
 /** @import { Calls, CallView, Goals, GoalView, Publications, PublicationView } from "../../types/wire.d.ts" */
 /** @import { Signal } from "vendor/preact.js" */
 
-import { signal } from "vendor/preact.js";
+import { computed, signal } from "vendor/preact.js";
 import { withDeeds } from "../../lib/deeds.js";
 
 /** The newest last. @type {Signal<readonly CallView[]>} */
@@ -13,6 +13,10 @@ export const calls = signal([]);
 export const goals = signal([]);
 /** @type {Signal<readonly PublicationView[]>} */
 export const publications = signal([]);
+/** Those that go on, so many times a second, until they are stopped. */
+export const repeatedPublications = computed(() =>
+  publications.value.filter(({ state, rate_hz: rate }) => state === "running" && rate > 0),
+);
 
 /** @param {Calls} event */
 export function takeCalls(event) {

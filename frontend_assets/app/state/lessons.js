@@ -1,6 +1,6 @@
 /** The lessons: which demos there are and run, asked while somebody looks, and which one is read. */
 
-/** @import { DemoView, LessonView } from "../../types/wire.d.ts" */
+/** @import { CodeFile, DemoView, LessonView } from "../../types/wire.d.ts" */
 /** @import { Output } from "../../lib/demo-output.js" */
 /** @import { Lesson } from "../../lib/lesson-text.js" */
 /** @import { Signal } from "vendor/preact.js" */
@@ -25,6 +25,8 @@ export const lessonsRefused = signal("");
 export const chosenLesson = remembered("lessons.chosen", "");
 /** The texts by demo, in the language of the page. @type {Signal<ReadonlyMap<string, Lesson & {text: string}>>} */
 export const lessonTexts = signal(new Map());
+/** The source code of demos, by name. @type {Signal<ReadonlyMap<string, readonly CodeFile[]>>} */
+export const demoCode = signal(new Map());
 /** What the demo that is looked at printed. @type {Signal<Output>} */
 export const output = signal(NOTHING_PRINTED);
 

@@ -154,6 +154,7 @@ _LESSONS: Final = (
     _row(le.GetLessons, lambda d, c, _: d.lessons.lessons(c)),
     _row(le.GetDemos, lambda d, c, _: d.lessons.demos(c)),
     _row(le.GetDemoOutput, lambda d, c, _: d.lessons.output(c)),
+    _row(le.GetDemoCode, lambda d, c, _: d.lessons.code(c)),
     _row(le.StartDemo, lambda d, c, _: d.lessons.start(c)),
     _row(le.StopDemo, lambda d, c, _: d.lessons.stop(c)),
     _row(le.PressKey, lambda d, c, _: d.lessons.press(c)),

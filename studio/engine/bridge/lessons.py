@@ -7,15 +7,24 @@ import itertools
 from typing import TYPE_CHECKING, Final
 
 from studio.engine.bridge.demo_run import DemoRun
-from studio.engine.messages.lessons import DemoOutput, Demos, Lessons, LessonView
+from studio.engine.messages.lessons import (
+    CodeFile,
+    DemoCode,
+    DemoOutput,
+    Demos,
+    Lessons,
+    LessonView,
+)
 from studio.errors import CommandError
 from studio.nodes.demos.chapters import CHAPTERS, LESSONS, Lesson
+from studio.nodes.demos.code import code_of
 from studio.nodes.demos.starting import environment_for
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from studio.engine.messages.lessons import (
+        GetDemoCode,
         GetDemoOutput,
         GetDemos,
         GetLessons,
@@ -68,6 +77,16 @@ class LessonDesk:
             return DemoOutput(request=command.request, run=0, lines=(), last=0)
         lines, last = run.printed.after(command.after if command.run == run.number else 0)
         return DemoOutput(request=command.request, run=run.number, lines=lines, last=last)
+
+    async def code(self, command: GetDemoCode) -> DemoCode:
+        """Give the source code of a demo.
+
+        Raises:
+            CommandError: It is none.
+        """
+        found = await asyncio.to_thread(code_of, _lesson(command.demo).demo)
+        files = tuple(CodeFile(name=name, text=text) for name, text in found.items())
+        return DemoCode(request=command.request, files=files)
 
     async def start(self, command: StartDemo) -> None:
         """Start a demo.

@@ -95,6 +95,29 @@ class DemoOutput(Message):
     """Number of the last of them; the first of a run is 1."""
 
 
+class GetDemoCode(CommandMessage):
+    """Ask for the source code of a demo."""
+
+    type: Literal["get_demo_code"] = "get_demo_code"
+    demo: DemoName
+
+
+class CodeFile(Message):
+    """One Python file of a demo."""
+
+    name: str
+    """Below the folder of the demos, as `turtlesim/turtle.py`."""
+    text: str
+
+
+class DemoCode(Message):
+    """Answer to `get_demo_code`: the file that is run first, then those of its own package."""
+
+    type: Literal["demo_code"] = "demo_code"
+    request: int
+    files: tuple[CodeFile, ...]
+
+
 class StartDemo(CommandMessage):
     """Start a demo as a process of its own, in the system that the studio is connected with."""
 
@@ -117,5 +140,7 @@ class PressKey(CommandMessage):
     pressed: Key
 
 
-LessonCommand: TypeAlias = GetLessons | GetDemos | GetDemoOutput | StartDemo | StopDemo | PressKey
-LessonEvent: TypeAlias = Lessons | Demos | DemoOutput
+LessonCommand: TypeAlias = (
+    GetLessons | GetDemos | GetDemoOutput | GetDemoCode | StartDemo | StopDemo | PressKey
+)
+LessonEvent: TypeAlias = Lessons | Demos | DemoOutput | DemoCode

@@ -6,7 +6,7 @@ from typing import Literal, TypeAlias
 
 from pydantic import Field
 
-from studio.engine.messages.message import CommandMessage, Message
+from studio.engine.messages.message import ArgumentName, CommandMessage, Message
 
 
 class ListRecent(CommandMessage):
@@ -40,6 +40,8 @@ class OpenExample(CommandMessage):
 
     type: Literal["open_example"] = "open_example"
     name: str = Field(max_length=200)
+    arguments: dict[ArgumentName, str] = Field(default_factory=dict)
+    """That the model is opened with."""
 
 
 class ListPlaces(CommandMessage):

@@ -1,0 +1,120 @@
+/** What the palette offers of ROS 2: lessons, their demos, and command lines of `ros2`. */
+
+/** @import { Ros2Line } from "../lib/ros2-lines.js" */
+/** @import { LessonView } from "../types/wire.d.ts" */
+/** @import { Choice } from "./palette-choices.js" */
+
+import { language, t } from "../lib/i18n.js";
+import { readLine } from "../lib/pasted-line.js";
+import { ros2LinesFor } from "../lib/ros2-lines.js";
+import { commandById, commandLabel } from "./commands.js";
+import { fetchLessons, startDemos, stopDemo } from "./lessons.js";
+import { panelTitle } from "./panels.js";
+import { mayEdit } from "./state/connection.js";
+import { askLessons, chosenLesson, isUnderWay, lessons, lessonTexts } from "./state/lessons.js";
+import { goalForm, publishForm, serviceForm } from "./state/message-forms.js";
+import { chooseNode } from "./state/parameters.js";
+import { ros } from "./state/ros.js";
+import { chosenTopic } from "./state/topics.js";
+
+/** Have the list of lessons, what runs of them, and their texts. */
+export async function askForLessons() {
+  await askLessons();
+  const all = lessons.peek() ?? [];
+  await fetchLessons(
+    language.peek(),
+    all.map(({ demo }) => demo),
+  );
+}
+
+/** @param {string} demo */
+function showLesson(demo) {
+  chosenLesson.value = demo;
+  commandById("panel.lessons")?.run();
+}
+
+/** @param {LessonView} lesson @returns {string} */
+const titleOf = ({ demo }) => lessonTexts.value.get(demo)?.title || demo;
+
+/** @returns {Choice[]} each is also found by its demo, its node and what its first sentences say */
+export function lessonChoices() {
+  return (lessons.value ?? []).map((lesson) => ({
+    rank: "lesson",
+    key: `lesson ${lesson.demo}`,
+    icon: "lessons",
+    label: t("palette.lesson", { name: titleOf(lesson) }),
+    words: `${lesson.demo} ${lesson.node} ${firstParagraph(lesson.demo)}`,
+    hint: lesson.demo,
+    does: t("palette.does.lesson"),
+    run: () => showLesson(lesson.demo),
+  }));
+}
+
+/** @param {string} demo @returns {string} */
+function firstParagraph(demo) {
+  const block = lessonTexts.value.get(demo)?.blocks[0];
+  return block?.kind === "text" ? block.parts.map(({ text }) => text).join("") : "";
+}
+
+/** @returns {Choice[]} demos to be started, and those that run to be stopped */
+export function demoChoices() {
+  if (!mayEdit.value || ros.value.state !== "connected") return [];
+  return (lessons.value ?? []).map((lesson) => {
+    const { demo, node } = lesson;
+    const runs = isUnderWay(demo);
+    return {
+      rank: "demo",
+      key: `demo ${demo}`,
+      icon: runs ? "stop" : "animate",
+      label: t(runs ? "palette.demo.stop" : "palette.demo.start", { name: demo }),
+      words: `${node} ${titleOf(lesson)} demo`,
+      hint: node,
+      does: t(runs ? "palette.does.demo.stop" : "palette.does.demo.start"),
+      run: () => {
+        showLesson(demo);
+        void (runs ? stopDemo(demo) : startDemos([demo]));
+      },
+    };
+  });
+}
+
+/** @param {string} text that was typed @returns {Choice[]} none where it is no line of ROS 2 */
+export function ros2Choices(text) {
+  return ros2LinesFor(text).map(({ line, rest }) => ({
+    rank: "ros2",
+    key: line.line,
+    icon: "keyboard",
+    label: [line.line, ...rest].join(" "),
+    hint: placeName(line),
+    does: t(line.form && rest.length > 1 ? "palette.does.form" : "palette.does.ros2", {
+      panel: placeName(line),
+    }),
+    run: () => follow(line, rest, text),
+  }));
+}
+
+/** @param {Ros2Line} line @returns {string} where it is done: a panel, or a window */
+function placeName({ panel }) {
+  if (commandById(`panel.${panel}`)) return panelTitle(panel);
+  const command = commandById(panel);
+  return command ? commandLabel(command) : panel;
+}
+
+const FORMS = { topic: publishForm, service: serviceForm, action: goalForm };
+
+/** @param {Ros2Line} line @param {readonly string[]} rest @param {string} text */
+function follow({ panel, about, form }, rest, text) {
+  const pasted = form && readLine(text);
+  if (pasted) void FORMS[form].open({ name: rooted(pasted.name), type: pasted.type }, pasted.text);
+  const [name] = rest.filter((word) => !word.startsWith("-"));
+  if (name && about === "topic") chosenTopic.value = rooted(name);
+  if (name && about === "node") chooseNode(rooted(name));
+  if (about === "demo") {
+    const known = lessons.value?.find(({ demo }) => rest.includes(demo));
+    if (known) chosenLesson.value = known.demo;
+  }
+  (commandById(`panel.${panel}`) ?? commandById(panel))?.run();
+}
+
+/** @param {string} name @returns {string} */
+const rooted = (name) => (name.startsWith("/") ? name : `/${name}`);
