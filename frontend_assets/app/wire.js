@@ -17,6 +17,9 @@ import { documentId, receive, takeJointFrame } from "./state/document.js";
 
 const RETRY_MS = [250, 500, 1000, 2000, 3000];
 const ASK_WHY_EVERY = 3;
+/** The studio ends a lane on which a longer one comes. */
+const COMMAND_LIMIT_BYTES = 1 << 20;
+const BYTES_PER_LETTER_MAX = 3;
 /** Nothing came for so long that the lane is given up: the socket alone may not notice. */
 const GREETING_TIMEOUT_MS = 8000;
 
@@ -63,9 +66,19 @@ export function send(command) {
   if (socket?.readyState !== WebSocket.OPEN) return Promise.reject(new LostError());
   lastRequest += 1;
   const request = lastRequest;
-  socket.send(JSON.stringify({ document: documentId.value, ...command, request }));
+  const text = JSON.stringify({ document: documentId.value, ...command, request });
+  if (isTooLong(text)) {
+    const reason = `A command of more than ${COMMAND_LIMIT_BYTES} bytes is not read.`;
+    return Promise.reject(new RefusedError({ kind: "CommandError", reason }));
+  }
+  socket.send(text);
   return new Promise((resolve, reject) => waiting.set(request, { resolve, reject }));
 }
+
+/** @param {string} text */
+const isTooLong = (text) =>
+  text.length * BYTES_PER_LETTER_MAX > COMMAND_LIMIT_BYTES &&
+  new TextEncoder().encode(text).length > COMMAND_LIMIT_BYTES;
 
 /** @type {ReturnType<typeof setTimeout> | undefined} */
 let retryTimer;

@@ -4,6 +4,7 @@ StudioError
     SettingsError
         PortTakenError
         DataFolderError
+        UnsafeKeyError
     PackageError
         PackageNotFoundError
         OutsideRootsError
@@ -126,6 +127,7 @@ from studio.errors.files import (
     SettingsError,
     UnreadableFileError,
     UnsafeArchiveError,
+    UnsafeKeyError,
     UploadError,
 )
 from studio.errors.frames import (
@@ -278,6 +280,7 @@ __all__ = [
     "UnknownTypeError",
     "UnreadableFileError",
     "UnsafeArchiveError",
+    "UnsafeKeyError",
     "UnsupportedEventTypeError",
     "UploadError",
     "VariantsFileError",

@@ -27,6 +27,17 @@ class DataFolderError(SettingsError):
         self.path, self.reason = path, reason
 
 
+class UnsafeKeyError(SettingsError):
+    """Others may know the key that proves who may present, or gave it."""
+
+    def __init__(self, path: str, reason: str) -> None:
+        super().__init__(
+            f"The file {path} {reason}, and who knows it can open this studio: delete it, or "
+            "choose another --data-dir."
+        )
+        self.path, self.reason = path, reason
+
+
 class PackageError(StudioError):
     """A package, a file of one, or a folder of them is not as it must be."""
 

@@ -84,9 +84,7 @@ async def _say(connection: Request | WebSocket, error: Exception) -> Response:
     """An error of the studio as an answer in one sentence; a websocket is not opened then."""
     status = next(status for kind, status in _STATUS if isinstance(error, kind))
     if isinstance(connection, WebSocket):
-        response = _plain(error, status)
-        await connection.send_denial_response(response)
-        return response
+        return _plain(error, status)
     if _wants_page(connection):
         missing = status is HTTPStatus.NOT_FOUND
         return not_found_page() if missing else trouble_page(str(error), status)

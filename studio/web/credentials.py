@@ -5,11 +5,13 @@ from __future__ import annotations
 import hmac
 import os
 import secrets
+import stat
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from studio.engine.roles import Role
-from studio.errors import DataFolderError
+from studio.errors import DataFolderError, UnsafeKeyError
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -17,6 +19,7 @@ if TYPE_CHECKING:
 _KEY_FILE = "cookie.key"
 _KEY_BYTES = 32
 _KEY_LIFE_S = 24 * 3600.0
+_OTHERS = stat.S_IRWXG | stat.S_IRWXO
 
 
 def new_token() -> str:
@@ -24,17 +27,26 @@ def new_token() -> str:
     return secrets.token_urlsafe(24)
 
 
-@dataclass(frozen=True, slots=True, repr=False)
-class Credentials:
-    """Tokens and cookies of both roles.
+@dataclass(frozen=True, slots=True)
+class Visitor:
+    """Who asks: `person` is the same for all that comes with one cookie, or with one token."""
 
-    The presenter's `token` is fresh for every start. `cookie_key` is kept for a day, so that a page
-    that was open when the studio was started anew comes back by itself. `token` None: nobody is
-    asked, everyone who reaches the port is a presenter.
+    role: Role
+    person: str = ""
+
+
+class Credentials:
+    """Tokens, cookies and one-time codes.
+
+    The presenter's `token` is fresh for every start. The cookies' key is kept for a day, so that a
+    page that was open when the studio was started anew comes back by itself; `revoke` ends all
+    cookies before. `token` None: nobody is asked, everyone who reaches the port is a presenter.
     """
 
-    token: str | None
-    cookie_key: bytes
+    def __init__(self, token: str | None, key: bytes, key_folder: Path | None = None) -> None:
+        self.token = token
+        self._key, self._key_folder = key, key_folder
+        self._codes: set[str] = set()
 
     def token_of(self, role: Role) -> str | None:
         """The token that an address carries; the viewer's does not betray the presenter's."""
@@ -42,17 +54,51 @@ class Credentials:
             return self.token
         return _sign(self.token.encode(), role.value)
 
-    def cookie_of(self, role: Role) -> str:
-        """The cookie's value."""
-        return _sign(self.cookie_key, role.value)
-
     def role_of_token(self, given: str) -> Role | None:
         """Whose token this is."""
         return _match(given, {role: self.token_of(role) or "" for role in Role})
 
-    def role_of_cookie(self, given: str) -> Role | None:
+    def new_code(self) -> str:
+        """A code that makes a presenter of the first who shows it, and of nobody else."""
+        code = secrets.token_urlsafe(24)
+        self._codes.add(code)
+        return code
+
+    def redeem(self, code: str) -> Role | None:
+        """The role that a one-time code gives, once."""
+        if code not in self._codes:
+            return None
+        self._codes.discard(code)
+        return Role.PRESENTER
+
+    def cookie_of(self, role: Role) -> str:
+        """The value of a new cookie: who has it is a person, apart from all others."""
+        person = secrets.token_hex(8)
+        return f"{person}.{self._signed(role, person)}"
+
+    def visitor_of_cookie(self, given: str) -> Visitor | None:
         """Whose cookie this is."""
-        return _match(given, {role: self.cookie_of(role) for role in Role})
+        person, _, proof = given.partition(".")
+        role = _match(proof, {role: self._signed(role, person) for role in Role})
+        return Visitor(role, person) if role else None
+
+    def revoke(self) -> None:
+        """Make all cookies invalid that were ever given.
+
+        Raises:
+            DataFolderError: The new key cannot be written; the cookies are invalid all the same,
+                until the studio is started anew.
+        """
+        self._key = secrets.token_bytes(_KEY_BYTES)
+        if self._key_folder is None:
+            return
+        try:
+            _write_key(self._key_folder / _KEY_FILE, self._key)
+        except OSError as error:
+            raise _unusable(self._key_folder, error) from error
+
+    def _signed(self, role: Role, person: str) -> str:
+        return _sign(self._key, f"{role.value} {person}")
 
 
 def _sign(key: bytes, message: str) -> str:
@@ -77,24 +123,62 @@ def cookie_key(data_folder: Path, now_s: float) -> bytes:
 
     Raises:
         DataFolderError: The file cannot be read or written.
+        UnsafeKeyError: Others may know the key, or gave it.
     """
     path = data_folder / _KEY_FILE
     try:
-        if path.is_file() and 0 <= now_s - path.stat().st_mtime < _KEY_LIFE_S:
-            kept = path.read_bytes()
-            if len(kept) == _KEY_BYTES:
-                return kept
-        return _write_new_key(path)
+        kept = _kept_key(path, now_s)
+        if kept is not None:
+            return kept
+        key = secrets.token_bytes(_KEY_BYTES)
+        _write_key(path, key)
     except OSError as error:
-        raise DataFolderError(str(data_folder), error.strerror or "not readable") from error
-
-
-def _write_new_key(path: Path) -> bytes:
-    """Write beside it and rename: two studios that start at once never read half a key."""
-    key = secrets.token_bytes(_KEY_BYTES)
-    draft = path.with_name(f"{path.name}.{os.getpid()}")
-    descriptor = os.open(draft, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600)
-    with os.fdopen(descriptor, "wb") as file:
-        file.write(key)
-    draft.replace(path)
+        raise _unusable(data_folder, error) from error
     return key
+
+
+def _kept_key(path: Path, now_s: float) -> bytes | None:
+    """The key in the file; None when there is none, or one that is too old or broken."""
+    try:
+        descriptor = os.open(path, os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0))
+    except FileNotFoundError:
+        return None
+    with os.fdopen(descriptor, "rb") as file:
+        status = os.fstat(descriptor)
+        if os.name == "posix":
+            _check_owner(path, status)
+        kept = file.read(_KEY_BYTES + 1)
+    is_young = 0 <= now_s - status.st_mtime < _KEY_LIFE_S
+    return kept if is_young and len(kept) == _KEY_BYTES else None
+
+
+def _check_owner(path: Path, status: os.stat_result) -> None:
+    """Pass, or refuse a key that others may have read or written."""
+    if status.st_uid != os.geteuid():
+        raise UnsafeKeyError(str(path), "belongs to another user")
+    if status.st_mode & _OTHERS:
+        raise UnsafeKeyError(str(path), "can be read or written by other users")
+
+
+def _write_key(path: Path, key: bytes) -> None:
+    """Write beside it and rename: two studios that start at once never read half a key."""
+    draft = path.with_name(f"{path.name}.{os.getpid()}")
+    write_private(draft, key)
+    draft.replace(path)
+
+
+def write_private(path: Path, content: bytes) -> None:
+    """Write a new file that only its owner may read; what stands there is replaced, not followed.
+
+    Raises:
+        OSError: It cannot be written.
+    """
+    with suppress(FileNotFoundError):
+        path.unlink()
+    descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
+    with os.fdopen(descriptor, "wb") as file:
+        file.write(content)
+
+
+def _unusable(folder: Path, error: OSError) -> DataFolderError:
+    return DataFolderError(str(folder), error.strerror or "not readable")

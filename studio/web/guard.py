@@ -2,17 +2,25 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
+from http import HTTPStatus
 from http.cookies import CookieError, SimpleCookie
 from typing import TYPE_CHECKING
 from urllib.parse import parse_qsl, quote, urlencode
 
 from starlette.datastructures import Headers, MutableHeaders
+from starlette.requests import ClientDisconnect
 from starlette.responses import PlainTextResponse, RedirectResponse, Response
+from starlette.websockets import WebSocketDisconnect
 
 from studio.engine.roles import Role
+from studio.web.credentials import Visitor
+from studio.web.http_protocol import connection_of
 from studio.web.origin import Authority, KnownHosts, is_same_origin, parse_authority
 from studio.web.pages import no_access_page, return_page
 from studio.web.policy import COMMON_HEADERS, NOTHING_POLICY
+from studio.web.ports import CODE
+from studio.web.protocol import socket_of
 
 if TYPE_CHECKING:
     from starlette.types import ASGIApp, Message, Receive, Scope, Send
@@ -22,6 +30,7 @@ if TYPE_CHECKING:
 _SAFE_METHODS = frozenset({"GET", "HEAD"})
 _PUBLIC_PREFIXES = ("/a/", "/favicon.ico")
 _BEARER = "bearer "
+_CROWDED = "As many look on as this studio lets in: close a tab, or try again later."
 
 
 class Guard:
@@ -37,29 +46,35 @@ class Guard:
         if scope["type"] == "lifespan":
             await self._app(scope, receive, send)
             return
+        answer, visitor = self._settle(scope)
         if scope["type"] == "http":
-            send = _with_headers(send)
-        answer = self._settle(scope)
-        await (answer or self._app)(scope, receive, send)
+            send = _with_headers(send, closing=visitor is None)
+        with suppress(ClientDisconnect, WebSocketDisconnect):  # who left hears no answer
+            await (answer or self._app)(scope, receive, send)
 
-    def _settle(self, scope: Scope) -> Response | None:
-        """The answer to a caller who may not pass, or is sent on; None for one who may."""
+    def _settle(self, scope: Scope) -> tuple[Response | None, Visitor | None]:
+        """The answer to a caller who may not pass, or is sent on; and who it is."""
         headers = Headers(scope=scope)
         host = self._host(headers)
         if host is None:
-            return _forbidden("This studio does not go by that name: use the address it printed.")
+            sentence = "This studio does not go by that name: use the address it printed."
+            return _forbidden(sentence), None
+        bearer = self._visitor_of_bearer(headers)
+        visitor = bearer or self._visitor_of_cookie(headers, host)
+        if not _recognise(scope, visitor):
+            return PlainTextResponse(_CROWDED, HTTPStatus.SERVICE_UNAVAILABLE), None
         if scope["type"] == "http" and scope["path"].startswith(_PUBLIC_PREFIXES):
-            return None
-        bearer = self._role_of_bearer(headers)
+            return None, visitor
         if not _may_ask_from_there(scope, headers, host, has_bearer=bearer is not None):
-            return _forbidden("Another page may not do this: only the studio's own page may.")
-        role = bearer or self._role_of_cookie(headers, host)
+            sentence = "Another page may not do this: only the studio's own page may."
+            return _forbidden(sentence), visitor
+        role = visitor.role if visitor else None
         if _is_page_request(scope):
             answer = self._exchange(scope, headers, host, role)
             if answer is not None:
-                return answer
+                return answer, visitor
         scope.setdefault("state", {})["role"] = role
-        return None if role else _stranger(scope, headers)
+        return None if role else _stranger(scope, headers), visitor
 
     def _host(self, headers: Headers) -> Authority | None:
         """The one known name that the request is addressed to."""
@@ -67,40 +82,50 @@ class Guard:
         host = parse_authority(given[0]) if len(given) == 1 else None
         return host if host and self._hosts.knows(host) else None
 
-    def _role_of_bearer(self, headers: Headers) -> Role | None:
+    def _visitor_of_bearer(self, headers: Headers) -> Visitor | None:
         """For scripts, which have no cookie: `Authorization: Bearer <token>`."""
         given = headers.get("authorization", "")
         if given[: len(_BEARER)].lower() != _BEARER:
             return None
-        return self._credentials.role_of_token(given[len(_BEARER) :].strip())
+        role = self._credentials.role_of_token(given[len(_BEARER) :].strip())
+        return Visitor(role) if role else None
 
-    def _role_of_cookie(self, headers: Headers, host: Authority) -> Role | None:
+    def _visitor_of_cookie(self, headers: Headers, host: Authority) -> Visitor | None:
+        """A browser that has a presenter's cookie and a viewer's is a presenter's."""
         if self._credentials.token is None:
-            return Role.PRESENTER
+            return Visitor(Role.PRESENTER)
         jar = _cookies(headers)
-        given = jar.get(self._cookie_name(host))
-        return self._credentials.role_of_cookie(given) if given else None
+        for role in (Role.PRESENTER, Role.VIEWER):
+            given = jar.get(self._cookie_name(host, role))
+            visitor = self._credentials.visitor_of_cookie(given) if given else None
+            if visitor is not None:
+                return visitor
+        return None
 
-    def _cookie_name(self, host: Authority) -> str:
-        """By the port that the browser sees: cookies are shared by all ports of a host."""
-        return f"studio-{host.port or self._port}"
+    def _cookie_name(self, host: Authority, role: Role) -> str:
+        """By the port that the browser sees, for cookies are shared by all ports of a host.
+
+        Each role has its own: a viewer's link does not replace the presenter's cookie, not even
+        where it comes from another site and the cookie does not come along.
+        """
+        name = f"studio-{host.port or self._port}"
+        return name if role is Role.PRESENTER else f"{name}-{role.value}"
 
     def _exchange(
         self, scope: Scope, headers: Headers, host: Authority, role: Role | None
     ) -> Response | None:
-        """Take the token out of the address and give the cookie for it."""
+        """Take the token or the one-time code out of the address and give the cookie for it."""
         query = parse_qsl(scope["query_string"].decode("latin-1"), keep_blank_values=True)
-        tokens = [value for name, value in query if name == "token"]
-        if not tokens:
+        earned, rest = self._earned(query, is_head=scope["method"] == "HEAD")
+        if len(rest) == len(query):
             return None
-        earned = self._credentials.role_of_token(tokens[-1])
         if earned is None and role is None:
             return no_access_page(spent=True)
-        rest = urlencode([pair for pair in query if pair[0] != "token"])
-        response = _go_to(_own_path(scope) + (f"?{rest}" if rest else ""), headers)
-        if earned is not None:
+        asked = urlencode(rest)
+        response = _go_to(_own_path(scope) + (f"?{asked}" if asked else ""), headers)
+        if earned is not None and earned is not role and role is not Role.PRESENTER:
             response.set_cookie(
-                self._cookie_name(host),
+                self._cookie_name(host, earned),
                 self._credentials.cookie_of(earned),
                 path="/",
                 httponly=True,
@@ -108,9 +133,28 @@ class Guard:
             )
         return response
 
+    def _earned(
+        self, query: list[tuple[str, str]], *, is_head: bool
+    ) -> tuple[Role | None, list[tuple[str, str]]]:
+        """The role that a query gives, and what else is in it."""
+        given = dict(query)
+        earned = self._credentials.role_of_token(given.get("token", ""))
+        if earned is None and not is_head:  # a look at the address does not spend the code
+            earned = self._credentials.redeem(given.get(CODE, ""))
+        return earned, [pair for pair in query if pair[0] not in {"token", CODE}]
 
-def _with_headers(send: Send) -> Send:
-    """Every answer tells the browser how to treat it; pages bring their own policy."""
+
+def _recognise(scope: Scope, visitor: Visitor | None) -> bool:
+    """Tell the connection whose it is; False when they have as many as they may have."""
+    connection = connection_of(scope) if scope["type"] == "http" else socket_of(scope)
+    return connection.recognise(visitor)
+
+
+def _with_headers(send: Send, *, closing: bool) -> Send:
+    """Every answer tells the browser how to treat it; pages bring their own policy.
+
+    A connection that is `closing` ends with the answer.
+    """
 
     async def send_with_headers(message: Message) -> None:
         if message["type"] == "http.response.start":
@@ -119,6 +163,8 @@ def _with_headers(send: Send) -> Send:
                 headers.setdefault(name.decode(), value.decode())
             headers.setdefault("content-security-policy", NOTHING_POLICY)
             headers.setdefault("cache-control", "no-store")
+            if closing:
+                headers["connection"] = "close"
         await send(message)
 
     return send_with_headers

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import gc
 import logging
+import os
 import secrets
 import sys
 from contextlib import suppress
@@ -18,10 +19,10 @@ from studio.errors import SettingsError
 from studio.settings import DEFAULT_PORT, Settings, repository_or_wheel
 from studio.web.app import make_app
 from studio.web.assets import Assets
-from studio.web.browser import show
+from studio.web.browser import Window, has_display
 from studio.web.credentials import Credentials, cookie_key
 from studio.web.origin import is_loopback
-from studio.web.ports import address, bind, port_of
+from studio.web.ports import address, bind, code_address, port_of
 from studio.web.progress_bar import ProgressBar
 from studio.web.server import Server
 
@@ -59,20 +60,25 @@ def launch(settings: Settings, opening: Opening, *, viewer_link: bool = False) -
     if settings.trusted and not is_loopback(settings.host):
         raise SettingsError("--trust is only for this machine: leave it out with this --host.")
     key = cookie_key(settings.data_folder, datetime.now(UTC).timestamp())
-    credentials = Credentials(settings.token, key)
+    credentials = Credentials(settings.token, key, settings.data_folder)
     with bind(settings.host, settings.port) as listener:
         port = port_of(listener)
-        for sentence in remarks(settings, port):
+        for sentence in remarks(settings, port, is_root=_is_root()):
             _warn(sentence)
         roles = (Role.PRESENTER, Role.VIEWER) if viewer_link else (Role.PRESENTER,)
         links = [address(settings.host, port, credentials.token_of(role)) for role in roles]
-        visit = _Visit(opening, links, open_browser=settings.open_browser)
+        visit = _Visit(opening, links)
         visit.run(settings, credentials, listener)
 
 
-def remarks(settings: Settings, port: int) -> list[str]:
-    """What is not as usual about where the studio listens, in sentences."""
+def remarks(settings: Settings, port: int, *, is_root: bool = False) -> list[str]:
+    """What is not as usual about how the studio runs and where it listens, in sentences."""
     said: list[str] = []
+    if is_root:
+        said.append(
+            "The studio runs as root, and so does all that a file or a visitor makes it do: "
+            "start it as an ordinary user."
+        )
     if settings.port is None and port != DEFAULT_PORT:
         said.append(f"Port {DEFAULT_PORT} is taken by another program: this studio uses {port}.")
     if not is_loopback(settings.host):
@@ -83,12 +89,15 @@ def remarks(settings: Settings, port: int) -> list[str]:
     return said
 
 
+def _is_root() -> bool:
+    return os.name == "posix" and os.geteuid() == 0
+
+
 class _Visit:
     """The life beside the server: the engine, and the opening of the first document."""
 
-    def __init__(self, opening: Opening, links: list[str], *, open_browser: bool) -> None:
+    def __init__(self, opening: Opening, links: list[str]) -> None:
         self._opening, self._links = opening, links
-        self._open_browser = open_browser
         self._opens: asyncio.Task[None] | None = None
         self._failure: Exception | None = None
 
@@ -99,7 +108,10 @@ class _Visit:
             Exception: What ended it early; a StudioError unless it is a bug.
         """
         self._engine = Engine(settings)
-        bound = (settings.host, port_of(listener))
+        self._window = Window(settings.data_folder)
+        self._settings, self._credentials = settings, credentials
+        self._port = port_of(listener)
+        bound = (settings.host, self._port)
         assets = Assets(repository_or_wheel("frontend_assets"))
         app = make_app(self._engine, assets, credentials, secrets.token_hex(8), bound)
         self._server = Server(app, self)
@@ -121,6 +133,7 @@ class _Visit:
             self._opens.cancel()
             with suppress(asyncio.CancelledError):
                 await self._opens
+        self._window.close()
         await self._engine.close()
 
     async def _open(self) -> None:
@@ -138,10 +151,17 @@ class _Visit:
         gc.freeze()  # what stands by now stays: a collection that looks at all of it takes 40 ms
         for name, link in zip(("Studio", "Viewer"), self._links, strict=False):
             _say(f"{name}: {link}")
-        if self._open_browser:
-            show(self._links[0])
+        if self._settings.open_browser and has_display():
+            self._open_browser()
         if opening.then is not None:
             opening.then()
+
+    def _open_browser(self) -> None:
+        if self._credentials.token is None:
+            self._window.show(self._links[0])
+            return
+        code = self._credentials.new_code()
+        self._window.show(code_address(self._settings.host, self._port, code))
 
 
 def _say(line: str) -> None:

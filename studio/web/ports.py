@@ -10,6 +10,8 @@ from typing import Final
 from studio.errors import PortTakenError, SettingsError
 from studio.settings import DEFAULT_PORT
 
+CODE: Final = "code"
+"""The part of an address that holds a one-time code."""
 _PORTS_TRIED: Final = 100
 
 
@@ -60,6 +62,14 @@ def port_of(listener: socket.socket) -> int:
 
 def address(host: str, port: int, token: str | None) -> str:
     """What to open in a browser on this machine; the token, where one is asked for, with it."""
+    return _page(host, port) + (f"?token={token}" if token else "")
+
+
+def code_address(host: str, port: int, code: str) -> str:
+    """The same with a one-time code instead of the token."""
+    return f"{_page(host, port)}?{CODE}={code}"
+
+
+def _page(host: str, port: int) -> str:
     name = {"0.0.0.0": "127.0.0.1", "::": "::1"}.get(host, host)
-    authority = f"[{name}]:{port}" if ":" in name else f"{name}:{port}"
-    return f"http://{authority}/" + (f"?token={token}" if token else "")
+    return f"http://[{name}]:{port}/" if ":" in name else f"http://{name}:{port}/"

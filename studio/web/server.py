@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Final, Protocol
 
 import uvicorn
 
+from studio.web.commands import COMMAND_LIMIT_BYTES
+from studio.web.crowd import CrowdedState
 from studio.web.http_protocol import StudioConnection
 from studio.web.protocol import StudioSocket
 
@@ -18,7 +20,6 @@ if TYPE_CHECKING:
 
     from starlette.types import ASGIApp
 
-_MESSAGE_LIMIT_BYTES: Final = 64 << 20
 _PING_INTERVAL_S: Final = 20.0
 _PING_TIMEOUT_S: Final = 60.0
 _END_DEADLINE_S: Final = 1.7
@@ -46,6 +47,7 @@ class Server(uvicorn.Server):
 
     def __init__(self, app: ASGIApp, life: Life) -> None:
         super().__init__(_configuration(app))
+        self.server_state = CrowdedState()
         self._life = life
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
@@ -78,7 +80,7 @@ def _configuration(app: ASGIApp) -> uvicorn.Config:
         http=StudioConnection,
         ws=StudioSocket,
         ws_per_message_deflate=False,
-        ws_max_size=_MESSAGE_LIMIT_BYTES,
+        ws_max_size=COMMAND_LIMIT_BYTES,
         ws_ping_interval=_PING_INTERVAL_S,
         ws_ping_timeout=_PING_TIMEOUT_S,
         server_header=False,

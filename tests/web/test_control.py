@@ -80,7 +80,6 @@ def test_binary_frames_and_text_keep_their_order(web: RunningWeb):
         ('{"type": "set_joints", "request": 8, "positions": {"a": 1e999}}', 8),
         ('{"type": "set_joints", "request": 9, "positions": {"a": "\\ud800"}}', 0),
         ("[" * 100_000, 0),
-        ('{"type": "undo", "a": "' + "x" * (1 << 20) + '"}', 0),
         (b"\xff\xfe", 0),
     ],
 )

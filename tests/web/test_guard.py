@@ -3,6 +3,7 @@ from __future__ import annotations
 import socket
 from typing import TYPE_CHECKING
 
+import httpx2
 import pytest
 from websockets.exceptions import InvalidStatus
 
@@ -100,6 +101,44 @@ def test_a_wrong_token_gives_no_cookie(web: RunningWeb, token: str):
         answer = client.get(f"/?token={token}", headers=HTML)
         assert answer.status_code == 403
         assert "set-cookie" not in answer.headers
+
+
+def test_a_viewer_s_link_leaves_a_presenter_the_presenter(web: RunningWeb):
+    link = f"/?token={web.credentials.token_of(Role.VIEWER)}"
+    with web.client(headers={"origin": web.origin}) as client:
+        client.get(f"/?token={TOKEN}")
+        assert "set-cookie" not in client.get(link).headers
+        # From another site the strict cookie does not come along: who asks is not known.
+        from_chat = {"sec-fetch-site": "cross-site", "sec-fetch-mode": "navigate"}
+        kept = client.cookies
+        client.cookies = httpx2.Cookies()
+        came = client.get(link, headers=from_chat | {"sec-fetch-dest": "document"})
+        kept.update(came.cookies)
+        client.cookies = kept
+        assert len(kept) == 2
+        assert client.post("/api/commands", content='{"type":"zero_joints"}').status_code == 200
+
+
+def test_a_presenter_s_link_makes_a_viewer_the_presenter(web: RunningWeb):
+    with web.client() as client:
+        for role, status in {Role.VIEWER: 403, Role.PRESENTER: 200}.items():
+            client.get(f"/?token={web.credentials.token_of(role)}")
+            did = client.post(
+                "/api/commands", content='{"type":"zero_joints"}', headers={"origin": web.origin}
+            )
+            assert did.status_code == status
+
+
+def test_a_one_time_code_opens_the_page_for_the_first_who_shows_it(web: RunningWeb):
+    code = web.credentials.new_code()
+    with web.client() as owner, web.client() as thief:
+        assert owner.head(f"/?code={code}").status_code == 403  # a look does not spend it
+        came = owner.get(f"/?code={code}&theme=dark")
+        assert (came.status_code, came.headers["location"]) == (303, "/?theme=dark")
+        assert owner.get("/api/health").status_code == 200
+        assert thief.get(f"/?code={code}").status_code == 403
+        assert thief.get("/api/health").status_code == 403
+        assert owner.get(f"/?code={code}").status_code == 303  # the same tab, opened again
 
 
 def test_an_old_address_still_works_for_who_is_known(web: RunningWeb):

@@ -12,6 +12,8 @@ from contextlib import suppress
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+from urllib.parse import urlsplit
+from urllib.request import url2pathname
 
 import httpx2
 import pytest
@@ -20,7 +22,7 @@ from websockets.exceptions import ConnectionClosed
 from studio.scene import SUBPROTOCOL
 from studio.settings import DEFAULT_PORT, Settings
 from studio.web.launch import remarks
-from tests.support.server import RunningStudio, running_studio
+from tests.support.server import RunningStudio, running_process, running_studio
 from tests.support.studio_page import wait_until
 from tests.support.wire import free_port
 
@@ -116,7 +118,7 @@ def test_a_signal_ends_it_with_all_its_workers_within_two_seconds(
         for lane in (control, scene):
             with pytest.raises(ConnectionClosed):
                 deque(iter(partial(lane.recv, timeout=60), None), maxlen=0)
-        assert studio.stderr == ""
+        assert not [line for line in studio.stderr.splitlines() if "runs as root" not in line]
 
 
 def test_the_default_port_or_the_next_free_one_and_it_says_so(tmp_path: Path):
@@ -166,6 +168,44 @@ def test_beyond_this_machine_it_warns():
     assert remarks(Settings(), DEFAULT_PORT) == []
     (warning,) = remarks(Settings(host="0.0.0.0", port=8000), 8000)
     assert "not encrypted" in warning
+
+
+def test_as_root_it_warns_once():
+    (warning,) = remarks(Settings(), DEFAULT_PORT, is_root=True)
+    assert "runs as root" in warning
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="xdg-open and BROWSER")
+def test_no_command_line_shows_the_token_and_the_opened_page_is_the_presenter_s(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    shown = tmp_path / "shown"
+    browser = tmp_path / "browser"
+    browser.write_text(f'#!/bin/sh\necho "$0 $@" > {shown}.part && mv {shown}.part {shown}\n')
+    browser.chmod(0o755)
+    monkeypatch.setenv("BROWSER", f"{browser} %s")
+    monkeypatch.setenv("DISPLAY", ":0")
+    errors = tmp_path / "stderr"
+    options = ["--data-dir", str(tmp_path / "data"), "--port", "0", "--no-graph"]
+    with running_process(["studio", "demo", *options], errors) as studio:
+        wait_until("the browser", shown.exists)
+        command = shown.read_text()
+        assert studio.token not in command
+        file = Path(url2pathname(urlsplit(command.split()[1]).path))
+        text = file.read_text()
+        assert studio.token not in text
+        found = re.search(r'href="(http://[^"]+)"', text)
+        assert found
+        with httpx2.Client(trust_env=False, follow_redirects=True) as client:
+            assert client.get(found[1]).status_code == 200
+            command = '{"type": "zero_joints", "document": "rover"}'
+            did = client.post(
+                f"{studio.origin}/api/commands", content=command, headers={"origin": studio.origin}
+            )
+            assert did.status_code == 200
+        assert httpx2.get(found[1], trust_env=False).status_code == 403
+        studio.stop()
+        assert not file.exists()
 
 
 def asked(studio: RunningStudio, **command: object) -> list[dict[str, Any]]:
