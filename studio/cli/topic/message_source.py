@@ -37,10 +37,12 @@ def source_of(options: argparse.Namespace, kind: type[MessageValue]) -> MessageS
         SettingsError: There is nothing to read.
     """
     if options.yaml_file is not None:
-        texts = _documents(_read(options.yaml_file.expanduser()))
-        return MessageSource(iter([_message(kind, text) for text in texts]), len(texts))
+        path = options.yaml_file.expanduser()
+        texts = _documents(_read(path))
+        return MessageSource(iter([_message(kind, text, str(path)) for text in texts]), len(texts))
     text = sys.stdin.read(TEXT_BYTES_MAX) if options.stdin else options.values
-    return MessageSource(_again_and_again(kind, text, _message(kind, text)))
+    source = "standard input" if options.stdin else ""
+    return MessageSource(_again_and_again(kind, text, _message(kind, text, source)))
 
 
 def _again_and_again(
@@ -52,14 +54,20 @@ def _again_and_again(
         yield _message(kind, text) if has_time else first
 
 
-def _message(kind: type[MessageValue], text: str) -> MessageValue:
+def _message(kind: type[MessageValue], text: str, source: str = "") -> MessageValue:
     from studio.ros.types.plain import from_yaml
 
-    return from_yaml(kind, text, now_ns=time.time_ns())
+    return from_yaml(kind, text, now_ns=time.time_ns(), source=source)
 
 
 def _documents(text: str) -> list[str]:
-    found = [one for one in _BETWEEN.split(text) if one.strip()]
+    """Part a file into its messages, each with the empty lines that keep its place in the file."""
+    found: list[str] = []
+    lines_before = 0
+    for one in _BETWEEN.split(text):
+        if one.strip():
+            found.append("\n" * lines_before + one)
+        lines_before += one.count("\n")
     if not found:
         raise SettingsError("--yaml-file holds no message: nothing stands between its lines ---.")
     return found

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from studio.errors import ParameterFileError, RosArgumentError
 from studio.ros.names import expand
@@ -106,13 +106,21 @@ class NodeArguments:
         Raises:
             ParameterFileError: A file cannot be read, or is none of parameters.
             InvalidParameterTypeError: A value is of no type that parameters have.
+            RosArgumentError: A value is no YAML.
         """
         found: dict[str, Parameter] = {}
         for file in self.files:
             found |= {one.name: one for one in read_parameters(_text_of(file), path, file)}
         for rule in self.parameters:
-            found[rule.source] = Parameter(rule.source, value=read_yaml(rule.target))
+            found[rule.source] = Parameter(rule.source, value=_value(rule))
         return list(found.values())
+
+
+def _value(rule: Rule) -> Any:  # noqa: ANN401 - whatever YAML holds
+    try:
+        return read_yaml(rule.target, "its value")
+    except ValueError as error:
+        raise RosArgumentError(f"{rule.source}:={rule.target}", str(error)) from None
 
 
 def parse_arguments(words: Sequence[str]) -> RosArguments:

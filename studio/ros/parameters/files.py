@@ -43,7 +43,7 @@ def read_parameters(
         ParameterFileError: It is no such file, or a value is none that a parameter can hold.
     """
     try:
-        tree = read_yaml(text)
+        tree = read_yaml(text, "it")
     except ValueError as error:
         raise ParameterFileError(where, str(error)) from None
     if not isinstance(tree, dict):

@@ -76,15 +76,19 @@ def from_dict(
     return _Reader(now_ns).message(kind, values, definition_of(kind).name)
 
 
-def from_yaml(kind: type[MessageValue], text: str, *, now_ns: int | None = None) -> MessageValue:
+def from_yaml(
+    kind: type[MessageValue], text: str, *, now_ns: int | None = None, source: str = ""
+) -> MessageValue:
     """Make a message of YAML, as a command line gives it; empty is all defaults.
+
+    `source` names the text in errors; without one, it is quoted.
 
     Raises:
         MessageValueError: It is no YAML, or a field does not take its value.
     """
     name = definition_of(kind).name
     try:
-        values = read_yaml(text)
+        values = read_yaml(text, source)
     except ValueError as error:
         raise MessageValueError(name, str(error)) from None
     return from_dict(kind, {} if values is None else values, now_ns=now_ns)

@@ -8,22 +8,46 @@ from typing import Any
 import yaml
 
 YAML_CHARACTERS_MAX = 10_000_000
+_QUOTED_CHARACTERS_MAX = 60
 _RARE_LINE_ENDS = frozenset("\r\x85\u2028\u2029\ufeff")
 
 
-def read_yaml(text: str) -> Any:  # noqa: ANN401
+def read_yaml(text: str, source: str = "") -> Any:  # noqa: ANN401
     """Read one document of YAML; empty is None.
 
+    `source` names the text in errors, such as a file; without one, its beginning is quoted.
+
     Raises:
-        ValueError: It is no YAML, or too long; half a sentence says why.
+        ValueError: It is no YAML, or too long; half a sentence says what, where and why.
     """
     if len(text) > YAML_CHARACTERS_MAX:
         raise ValueError(f"more than {YAML_CHARACTERS_MAX} characters were given")
     try:
         return yaml.load(text, Loader=_Loader)
     except (yaml.YAMLError, RecursionError, ValueError) as error:
-        said = " ".join(str(error).split())
-        raise ValueError(f"the text is no YAML ({said})") from None
+        named = source or _quoted(text)
+        raise ValueError(f"{named} is no YAML ({_reason(error)})") from None
+
+
+def _quoted(text: str) -> str:
+    """Quote the first line of a text that has some letters."""
+    line = text.strip().partition("\n")[0].rstrip()
+    shown = line if len(line) <= _QUOTED_CHARACTERS_MAX else f"{line[:_QUOTED_CHARACTERS_MAX]}..."
+    return f"'{shown}'"
+
+
+def _reason(error: Exception) -> str:
+    """Say what is wrong, and where in the text; PyYAML's own name of the text is left out."""
+    if isinstance(error, RecursionError):
+        return "it is nested too deeply"
+    if isinstance(error, yaml.reader.ReaderError):
+        return f"the letter at place {error.position + 1} is none that YAML allows"
+    said = str(error)
+    if isinstance(error, yaml.MarkedYAMLError):
+        mark = error.problem_mark or error.context_mark
+        problem = error.problem or error.context or "it cannot be read"
+        said = f"line {mark.line + 1}, column {mark.column + 1}: {problem}" if mark else problem
+    return " ".join(said.replace("'<stream end>'", "the end").split())
 
 
 def write_yaml(value: object, *, flow: bool = False) -> str:

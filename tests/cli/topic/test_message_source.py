@@ -43,6 +43,21 @@ def test_t2_the_messages_of_a_file_come_one_after_another(tmp_path: Path):
     assert [one.data for one in said.messages] == ["one", "a --- b", ""]
 
 
+def test_a_text_that_is_no_yaml_is_named_by_where_it_came_from(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    file = tmp_path / "said.yaml"
+    file.write_text("data: one\n---\n# two\ndata: [\n")
+    monkeypatch.setattr("sys.stdin", io.StringIO("data: [1\n"))
+    for made, said in (
+        (lambda: source(yaml_file=file), rf"{file} is no YAML \(line 5, column 1: "),
+        (lambda: source(stdin=True), r"standard input is no YAML \(line 2, column 1: "),
+        (lambda: source("{data: ["), r"'\{data: \[' is no YAML \(line 1, column 9: "),
+    ):
+        with pytest.raises(MessageValueError, match=said):
+            made()
+
+
 def test_fields_are_read_from_standard_input(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr("sys.stdin", io.StringIO("data: piped\n"))
     assert next(source(stdin=True).messages).data == "piped"

@@ -93,3 +93,14 @@ def test_what_is_said_to_a_node_counts_before_what_is_said_to_all():
 def test_words_that_ros_does_not_know_are_refused(words: list[str]):
     with pytest.raises(RosArgumentError):
         parse_arguments(["--ros-args", *words])
+
+
+def test_a_value_that_is_no_yaml_is_told_with_its_argument(tmp_path: Path):
+    said = of_talker("-p", "rate:=[1")
+    with pytest.raises(RosArgumentError, match=r'"rate:=\[1" is not understood: its value is no Y'):
+        said.overrides("/ns/talker")
+    file = tmp_path / "p.yaml"
+    file.write_text("a:\n  b: [\n")
+    with pytest.raises(ParameterFileError) as caught:
+        of_talker("--params-file", str(file)).overrides("/ns/talker")
+    assert str(caught.value).startswith(f"{file}: it is no YAML (line 3, column 1: expected")
