@@ -74,13 +74,21 @@ def _broken_rules(robot: yourdfpy.URDF) -> Iterator[Problem]:
     """The rules that each link and joint breaks: yourdfpy does not say which of them it means."""
     whole = robot.robot
     links, joints = list(whole.links), list(whole.joints)
-    for kind, parts in (("link", links), ("joint", joints)):
-        for part in parts:
-            whole.links, whole.joints = ([part], []) if kind == "link" else ([], [part])
-            for error in _errors(robot):
-                sentence = f'{kind.capitalize()} "{part.name}": {error}'
-                yield replace(_problem("urdf-rule", sentence), parts=(f"{kind}:{part.name}",))
+    whole.links, whole.joints = [], []
+    for link in links:
+        whole.links = [link]
+        yield from _of_part("link", link.name, _errors(robot))
+    whole.links = []
+    for joint in joints:
+        whole.joints = [joint]
+        yield from _of_part("joint", joint.name, _errors(robot))
     whole.links, whole.joints = links, joints
+
+
+def _of_part(kind: str, name: str, errors: Iterable[object]) -> Iterator[Problem]:
+    for error in errors:
+        sentence = f'{kind.capitalize()} "{name}": {error}'
+        yield replace(_problem("urdf-rule", sentence), parts=(f"{kind}:{name}",))
 
 
 def _errors(robot: yourdfpy.URDF) -> Iterable[object]:

@@ -76,7 +76,7 @@ class Evaluation:
             Unsupported: It cannot by us.
         """
         try:
-            with _deep_recursion():
+            with deep_recursion():
                 return self._root(entry)
         except RecursionError:
             raise self.explain(
@@ -204,6 +204,7 @@ class Evaluation:
         self.texts.at = node.origin
         made = OutputElement(node.tag, node.origin, self.frame)
         outer = self.path
+        self.budget.nesting(outer)
         self.path = f"{outer}/{node.tag}" if outer else node.tag
         self.attributes(node, made, scope)
         if node.children:
@@ -300,7 +301,8 @@ _HANDLERS: Final[dict[str, _Handler]] = {
 
 
 @contextmanager
-def _deep_recursion() -> Generator[None]:
+def deep_recursion() -> Generator[None]:
+    """Let Python nest calls as deeply as a robot may nest its macros."""
     before = sys.getrecursionlimit()
     sys.setrecursionlimit(max(before, RECURSION_LIMIT))
     try:

@@ -23,9 +23,12 @@ _LOOK_AFTER_S: Final = 0.05
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """Bounds of one run; of the corpus none needs more than 6 % of any but the depth (10 %)."""
+    """Bounds of one run; of the corpus none needs more than 6 % of any but the depths (10 %)."""
 
-    macro_depth: int = 200
+    macro_depth: int = 350
+    """Stock xacro ends at Python's 1000 frames, of which a call takes three or more."""
+    element_depth: int = 450
+    """Elements inside elements: whoever writes or reads them goes as deep, within those frames."""
     elements: int = 50_000
     evaluations: int = 500_000
     text: int = 20_000_000
@@ -119,6 +122,16 @@ class Budget:
         for item in items:
             self.evaluation()
             yield item
+
+    def nesting(self, path: str) -> None:
+        """An element comes out inside those that `path` names, with `/` between them.
+
+        Raises:
+            Refusal: That is too deep.
+        """
+        most = self.limits.element_depth
+        if len(path) >= 2 * most - 1 and path.count("/") + 1 >= most:
+            raise Refusal("xml-too-deep", f"It nests elements deeper than {most}.")
 
     def depth(self, depth: int, macro: str) -> None:
         """A macro is called inside `depth - 1` others.

@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import subprocess
+import time
 from typing import TYPE_CHECKING, NamedTuple
 
 import pytest
 
 from studio.description.evaluator.oracle import expand_root, export_urdf
 from studio.description.evaluator.source_store import SourceStore
+from studio.description.expressions.budget import Limits
 from studio.description.faults import Fault
-from studio.errors import ExpansionError
+from studio.description.session import open_session
+from studio.description.values import Expansion, Failure, OpenRequest
+from studio.errors import ExpansionError, RefusedError
 from studio.packages.roots import ServedRoots
 from tests.support.descriptions import (
     canonical,
@@ -152,3 +156,50 @@ def test_the_fallback_gives_the_root_alone(tmp_path: Path):
     assert expand_root(str(file), {}, policy_for(tmp_path), store) == (
         '<robot name="r"><link name="2"/></robot>'
     )
+
+
+def recursive(depth: int, inside: int = 0) -> str:
+    """A macro that calls itself, each time inside so many elements."""
+    call = '<xacro:if value="${n > 0}"><link name="l${n}"/><xacro:m n="${n - 1}"/></xacro:if>'
+    wrapped = "<a>" * inside + call + "</a>" * inside
+    return robot(f'<xacro:macro name="m" params="n">{wrapped}</xacro:macro><xacro:m n="{depth}"/>')
+
+
+def test_macros_call_themselves_as_deeply_as_in_stock_xacro(tmp_path: Path):
+    file = write(tmp_path, {"a.xacro": recursive(247)})
+    assert export_urdf(str(file), {}, policy_for(tmp_path)).count("<link") == 247
+    request = OpenRequest(str(file), {}, policy_for(tmp_path), {})
+    _, opened = open_session(request)
+    assert isinstance(opened, Expansion)
+    assert len(opened.changed_parts) == 247
+
+
+@pytest.mark.parametrize(
+    ("text", "code"),
+    [
+        (recursive(5_000), "macro-recursion"),
+        (recursive(200, inside=10), "xml-too-deep"),
+        (recursive(340, inside=200), "xml-too-deep"),
+    ],
+)
+def test_what_is_nested_too_deeply_is_refused_by_both(text: str, code: str, tmp_path: Path):
+    file = write(tmp_path, {"a.xacro": text})
+    with pytest.raises(RefusedError) as refused:
+        export_urdf(str(file), {}, policy_for(tmp_path))
+    _, answer = open_session(OpenRequest(str(file), {}, policy_for(tmp_path), {}))
+    assert isinstance(answer, Failure)
+    assert (refused.value.problem.code, answer.problem.code) == (code, code)
+    assert refused.value.problem.sentence == answer.problem.sentence
+
+
+def test_macros_that_double_are_refused_for_what_the_evaluator_refuses_them(tmp_path: Path):
+    levels = "".join(
+        f'<xacro:macro name="m{n}"><xacro:m{n + 1}/><xacro:m{n + 1}/></xacro:macro>'
+        for n in range(40)
+    )
+    last = '<xacro:macro name="m40"><link name="l"/></xacro:macro>'
+    file = write(tmp_path, {"a.xacro": robot(f"{levels}{last}<xacro:m0/>")})
+    began_s = time.thread_time()
+    with pytest.raises(RefusedError):
+        export_urdf(str(file), {}, policy_for(tmp_path))
+    assert time.thread_time() - began_s < 2 * Limits().seconds
