@@ -31,6 +31,7 @@ _NO_PYTHON: Final = "Python 3.11 is needed"
 _IN_ROS: Final = '. "$0/env.sh" && exec "$@"'
 _ROUTER: Final = '. "$0/env.sh" && real_router'
 _END_S: Final = 20.0
+_SCRIPT: Final = Path(__file__).with_name("ros2_script.py")
 
 
 @cache
@@ -129,6 +130,37 @@ def real_node(
         node.end()
 
 
+class RealNodes(RealNode):
+    """A process of `ros2_script.py`: it does what it is asked to, and says what it hears."""
+
+    def __init__(self, process: subprocess.Popen[str]) -> None:
+        super().__init__(process)
+        self._asked = 0
+
+    def ask(self, do: str, **arguments: object) -> Any:  # noqa: ANN401  # as JSON gives it
+        """Have one thing done; its answer. `do` is a method of `Process` in the script."""
+        assert self.process.stdin is not None
+        self._asked += 1
+        line = json.dumps({"do": do, "id": self._asked, **arguments})
+        print(line, file=self.process.stdin, flush=True)
+        done = self.wait_said("done", id=self._asked)
+        assert "error" not in done, done["error"]
+        return done["answer"]
+
+
+@contextmanager
+def real_nodes(endpoint: str, environment: Mapping[str, str] | None = None) -> Generator[RealNodes]:
+    """Real nodes in one process that do what the test asks for, until the end of the block."""
+    words = ("python3", str(_SCRIPT))
+    nodes = RealNodes(_started(_IN_ROS, endpoint, words, environment, stdin=subprocess.PIPE))
+    try:
+        nodes.wait_said("ready")
+        yield nodes
+    finally:
+        nodes.kill()
+        nodes.process.communicate()
+
+
 @contextmanager
 def real_router(endpoint: str) -> Generator[subprocess.Popen[str]]:
     """The router rmw_zenohd, listening, until the end of the block."""
@@ -168,6 +200,7 @@ def _started(
     words: tuple[str, ...],
     environment: Mapping[str, str] | None,
     output: int = subprocess.PIPE,
+    stdin: int = subprocess.DEVNULL,
 ) -> subprocess.Popen[str]:
     unwanted = ("ROS", "ZENOH", "RMW", "AMENT", "PYTHON", "LD_")
     kept = {name: value for name, value in os.environ.items() if not name.startswith(unwanted)}
@@ -179,7 +212,7 @@ def _started(
             "ZENOH_ROUTER_CHECK_ATTEMPTS": "-1",
             **(environment or {}),
         },
-        stdin=subprocess.DEVNULL,
+        stdin=stdin,
         stdout=output,
         stderr=subprocess.STDOUT,
         text=True,
