@@ -23,14 +23,14 @@ export function Report({ report, onConnect }) {
 
 /** @param {WireReport} report @returns {string} */
 function sentence(report) {
-  const { verdict, endpoint, domain, distro, nodes } = report;
+  const { verdict, endpoint, domain, distro, nodes, unseen } = report;
   const named = report.types.slice(0, NAMED).join(", ");
   const more = report.types.length - NAMED;
   return t(`ros.report.${verdict}`, {
     endpoint,
     domain,
     distro,
-    count: nodes,
+    count: verdict === "unseen" ? unseen : nodes,
     distros: report.distros.join(t("ros.report.or")),
     types: more > 0 ? t("ros.report.types", { named, count: more }) : named,
   });
@@ -45,6 +45,9 @@ function Remedy({ report, onConnect }) {
       return html`<${Domains} report=${report} onConnect=${onConnect} />`;
     case "other_distro":
       return html`<${Distros} report=${report} onConnect=${onConnect} />`;
+    case "unseen":
+      return html`<p class="ros-hint">${t("ros.report.unseen.do")}</p>
+        <${CodeLine} code="ros2 run rmw_zenoh_cpp rmw_zenohd" />`;
     case "alone":
       return html`<${CodeLine} code="export RMW_IMPLEMENTATION=rmw_zenoh_cpp" />`;
     default:

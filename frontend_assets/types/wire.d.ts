@@ -2601,12 +2601,13 @@ export interface WireReport {
   endpoint: string;
   domain: number;
   distro: string;
-  verdict: "fine" | "no_router" | "foreign" | "not_admitted" | "alone" | "other_domain" | "other_distro" | "bridge";
+  verdict: "fine" | "no_router" | "foreign" | "not_admitted" | "alone" | "other_domain" | "other_distro" | "bridge" | "unseen";
   starts_router: boolean;
   nodes: number;
   domains: DomainView[];
   distros: string[];
   types: string[];
+  unseen: number;
 }
 
 /** Answer to `find_wire_robots`: topics with a robot description, the usual one first. */

@@ -43,7 +43,7 @@ def _run(options: argparse.Namespace) -> int:
 
     with opened_wire(options) as wire, Graph(wire) as graph:
         settle(graph, options)
-        faults = faults_of(graph, wire.types, wire.profile)
+        faults = [*_unseen(wire), *faults_of(graph, wire.types, wire.profile)]
         if options.report:
             _print_sections([*_sections(wire, graph), *_fault_sections(faults)])
         elif options.report_failed:
@@ -53,17 +53,28 @@ def _run(options: argparse.Namespace) -> int:
     return 1 if faults else 0
 
 
+def _unseen(wire: WireSession) -> list[Fault]:
+    from studio.cli.faults import Fault
+    from studio.ros.graph.unseen import unseen_nodes, why_unseen
+
+    found = unseen_nodes(wire)
+    return [Fault("unseen nodes", why_unseen(found))] if found else []
+
+
 def _print_verdict(wire: WireSession, graph: Graph, faults: list[Fault]) -> None:
     for fault in faults:
         print(f"{fault.kind}: {harmless(fault.sentence)}")
     if not graph.nodes():
-        print(why_empty(wire))
+        if not faults:
+            print(why_empty(wire))
     elif not faults:
         topics = [name for name, _ in graph.topics() if not is_hidden(name)]
         print(f"All is well: {len(graph.nodes())} nodes, {len(topics)} topics.")
 
 
 def _sections(wire: WireSession, graph: Graph) -> list[Section]:
+    from studio.ros.graph.unseen import router_versions
+
     return [
         (
             "PLATFORM INFORMATION",
@@ -79,6 +90,7 @@ def _sections(wire: WireSession, graph: Graph) -> list[Section]:
                 ("middleware name", "rmw_zenoh's wire, spoken by the studio"),
                 ("distribution", wire.profile.distro),
                 ("router", ", ".join(wire.settings.connect) or "of the configuration"),
+                ("router's Zenoh", ", ".join(router_versions(wire)) or "not told"),
                 ("domain", wire.domain),
                 ("session", wire.zid),
             ],

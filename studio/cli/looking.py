@@ -42,10 +42,14 @@ def looking(options: argparse.Namespace) -> Generator[Graph]:
 
 
 def why_empty(wire: WireSession) -> str:
-    """Say why no node is seen, with the domains in which there are some."""
+    """Say why no node is seen: the router shows none, they are in other domains, or none is."""
     from studio.ros.graph.diagnosis import why_nobody
     from studio.ros.graph.domains import nodes_by_domain
+    from studio.ros.graph.unseen import unseen_nodes, why_unseen
 
+    unseen = unseen_nodes(wire)
+    if unseen is not None:
+        return why_unseen(unseen)
     counts = dict(nodes_by_domain(wire))
     counts.pop(wire.domain, None)  # what came while this was asked
     endpoint = ", ".join(wire.settings.connect) or "the configured address"

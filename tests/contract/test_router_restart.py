@@ -2,19 +2,28 @@
 
 from __future__ import annotations
 
-from contextlib import ExitStack
+import json
+from contextlib import ExitStack, contextmanager
 from typing import TYPE_CHECKING
 
 import pytest
+import zenoh
 
+from studio.engine.wire.report import examine
 from studio.ros.client import DurabilityPolicy, QoSProfile
 from studio.ros.graph.graph import Graph
+from studio.ros.graph.unseen import unseen_nodes
 from studio.ros.messages import service
+from studio.ros.wire.door import close, insert
+from studio.settings import WireChoice
+from tests.support.command_line import studio
 from tests.support.demos import heard, node_at
 from tests.support.ros2_peer import real_node, real_router, ros2, ros2_peer
 from tests.support.wire import PATIENCE_S, free_endpoint, open_test_session, router_at, wait_until
 
 if TYPE_CHECKING:
+    from collections.abc import Generator
+
     from studio.ros.node.node import Node
 
 pytestmark = pytest.mark.network
@@ -27,6 +36,21 @@ ROUTERS = {"ours": router_at, "rmw_zenohd": real_router}
 @pytest.fixture(autouse=True)
 def _ros2() -> None:
     ros2_peer()
+
+
+@contextmanager
+def bare_router(endpoint: str) -> Generator[None]:
+    """A router of others, of the Zenoh that the studio has."""
+    config = zenoh.Config()
+    insert(config, "mode", '"router"')
+    insert(config, "listen/endpoints", json.dumps([endpoint]))
+    insert(config, "scouting/multicast/enabled", "false")
+    insert(config, "adminspace/enabled", "true")
+    session = zenoh.open(config)
+    try:
+        yield
+    finally:
+        close(session)
 
 
 def sees(graph: Graph, count: int = 1) -> None:
@@ -94,3 +118,18 @@ def test_real_nodes_keep_each_other_when_our_router_goes_and_are_there_once():
         before = len(listener.all_said("message"))
         wait_until("it hears on", lambda: len(listener.all_said("message")) > before + 10)
         assert [one["current"] for one in listener.all_said("matched")] == [1]
+
+
+def test_a_router_of_others_that_shows_no_older_node_is_said_with_what_to_do():
+    endpoint = free_endpoint()
+    with real_node(endpoint, "server") as real:
+        real.wait_said("ready")
+        with bare_router(endpoint):
+            with open_test_session(endpoint) as wire:
+                wait_until("its process is found", lambda: unseen_nodes(wire) is not None)
+            told = studio("doctor", "--connect", endpoint)
+            assert told.code == 1
+            assert "1 process publishes (Zenoh 1.8.0), but the router (Zenoh 1.10" in told.out
+            assert "refuse to show older nodes" in studio("node", "list", "--connect", endpoint).err
+            report = examine(WireChoice("auto", (endpoint,), 0, "jazzy"), ())
+            assert (report.verdict, report.nodes, report.unseen) == ("unseen", 0, 1)

@@ -155,10 +155,12 @@ Verdict: TypeAlias = Literal[
     "other_domain",
     "other_distro",
     "bridge",
+    "unseen",
 ]
 """`foreign`: something else holds the place; `not_admitted`: the router wants another name or
 certificate; `alone`: a router without nodes; `bridge`: only one for DDS, which speaks other
-keys; `other_distro`: nodes are there, and types of theirs have another form."""
+keys; `other_distro`: nodes are there, and types of theirs have another form; `unseen`: processes
+publish, whose nodes the router does not show, for it is newer than they are."""
 
 
 class DomainView(Message):
@@ -188,6 +190,8 @@ class WireReport(Message):
     """Whose types the nodes of the domain have, as far as their tokens tell."""
     types: tuple[str, ...]
     """Of another form than here; the first ones."""
+    unseen: int
+    """Processes that publish in the domain, while none of their nodes is seen."""
 
 
 WireEvent: TypeAlias = WireState | WireFeed | WireRobots | WireReport

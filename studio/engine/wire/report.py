@@ -14,6 +14,7 @@ from studio.engine.wire.plan import planned_wire
 from studio.errors import NoRouterError, TokenError
 from studio.ros.graph.diagnosis import DistroHashes, foreign_hashes
 from studio.ros.graph.endpoints import GraphEndpoint, GraphNode
+from studio.ros.graph.unseen import unseen_nodes
 from studio.ros.messages.shared import types_of
 from studio.ros.profiles import PROFILES
 from studio.ros.tokens import ADMIN_SPACE, EndpointToken, NodeToken, parse_token
@@ -45,6 +46,7 @@ class Census:
         nodes: How many of others each domain has.
         endpoints: Of others in the domain that is looked at, one for each form of a type.
         has_bridge: Somebody bridges to DDS there.
+        unseen: How many processes publish in that domain, of which no node is seen.
     """
 
     nodes: Counter[int] = field(default_factory=Counter[int])
@@ -52,6 +54,7 @@ class Census:
         default_factory=dict[tuple[str, str], GraphEndpoint]
     )
     has_bridge: bool = False
+    unseen: int = 0
 
     def take(self, token: str, domain: int, own: Collection[str]) -> None:
         """Count one token, unless it is of the studio's own or none of ROS."""
@@ -93,6 +96,8 @@ def examine(choice: WireChoice, own: Collection[str], request: int = 0) -> WireR
     try:
         with open_session(settings, types_of(settings.profile.distro)) as wire:
             census = count(wire, own)
+            unseen = unseen_nodes(wire)
+            census.unseen = unseen.count if unseen else 0
     except NoRouterError:
         verdict = "no_router" if answer is Answer.UNKNOWN else "not_admitted"
         return _report(settings, verdict, request)
@@ -146,6 +151,8 @@ def _judged(settings: WireSettings, census: Census, request: int) -> WireReport:
 
 
 def _verdict(domain: int, census: Census, *, is_foreign: bool) -> Verdict:
+    if census.unseen:
+        return "unseen"
     if census.nodes[domain]:
         return "other_distro" if is_foreign else "fine"
     if census.nodes.total():
@@ -176,4 +183,5 @@ def _report(  # noqa: PLR0913 - the fields of one answer
         domains=tuple(domains[:_SHOWN_MAX]),
         distros=distros,
         types=types,
+        unseen=census.unseen if census else 0,
     )

@@ -239,6 +239,15 @@ def standing_tokens(session: zenoh.Session, tokens: str, timeout_s: float) -> It
             yield str(reply.ok.key_expr)
 
 
+def admin_answers(
+    session: zenoh.Session, key: str, timeout_s: float
+) -> Iterator[tuple[str, bytes]]:
+    """Ask Zenoh's admin space; ends with the last answer or the time-out."""
+    for reply in cast("Iterator[zenoh.Reply]", session.get(key, queue(), timeout=timeout_s)):
+        if reply.ok is not None:
+            yield str(reply.ok.key_expr), reply.ok.payload.to_bytes()
+
+
 def watch_transports(session: zenoh.Session) -> Incoming[zenoh.TransportEvent]:
     """Collect what opens and closes between this session and others, what is open first."""
     return Incoming(session.info.declare_transport_events_listener(queue(), history=True))
