@@ -9,6 +9,7 @@ import { LongList } from "../lib/long-list.js";
 import { remembered } from "../lib/remembered.js";
 import { ageWords, flowWords } from "../lib/topic-rates.js";
 import { Dialog, Icon, SearchBox } from "../lib/ui.js";
+import { ask } from "./actions.js";
 import { addDisplay, needKinds, topicsNow } from "./live.js";
 import { useTold } from "./looking.js";
 import { connectRos } from "./ros.js";
@@ -21,6 +22,8 @@ import { useTopicRates } from "./topic-rates.js";
 /** @typedef {{key: string, icon: string, label: string, note: string, aside: string, off: string, kind: string, topic: string}} Offer `off`: why it cannot be added */
 
 const TABS = /** @type {const} */ (["topic", "kind"]);
+/** The demo that publishes what displays show. */
+const ROVER = "rover";
 /** Nodes come and go while the window is open. */
 const LOOK_EVERY_MS = 1000;
 const lastTab = remembered("live.add.tab", /** @type {By} */ ("topic"), (value) =>
@@ -162,7 +165,7 @@ function Tabs({ chosen, onChoose }) {
 /** @param {{count: number, onDone: () => void}} props why there are no topics, and what to do */
 function Connection({ count, onDone }) {
   const busy = useSignal(false);
-  const { state, endpoint } = ros.value;
+  const { state, endpoint, nearby_count: nearby } = ros.value;
   if (count > 0) return null;
   const connect = async () => {
     busy.value = true;
@@ -170,13 +173,24 @@ function Connection({ count, onDone }) {
     busy.value = false;
     onDone();
   };
+  const startRover = async () => {
+    busy.value = true;
+    if (await connectRos()) await ask({ type: "start_demo", demo: ROVER });
+    busy.value = false;
+    onDone();
+  };
   if (state === "connected" || state === "connecting")
     return html`<p class="add-display-none" role="status">${t("live.add.no_topics", { endpoint })}</p>`;
   return html`<div class="add-display-none" role="status">
-    <p>${t("live.add.not_connected")}</p>
-    <button type="button" class="button" disabled=${busy.value || !mayEdit.value} onClick=${connect}>
+    <p>${nearby > 0 ? t("ros.first.nearby", { count: nearby }) : t("live.add.not_connected")}</p>
+    <button type="button" class="button primary" disabled=${busy.value || !mayEdit.value} onClick=${connect}>
       ${busy.value ? html`<span class="spinner"></span>` : html`<${Icon} name="link" />`}${t("ros.connect")}</button>
-    <p class="form-note">${t("live.add.demo")}</p>
+    ${
+      nearby === 0 &&
+      html`<p class="form-note">${t("live.add.demo")}</p>
+    <button type="button" class="button" disabled=${busy.value || !mayEdit.value} onClick=${startRover}>
+      <${Icon} name="animate" />${t("live.add.start_rover")}</button>`
+    }
   </div>`;
 }
 

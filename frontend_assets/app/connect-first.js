@@ -35,7 +35,8 @@ export function ConnectFirst({ icon }) {
     dialog.value = { kind: "ros" };
   };
   const isUnderWay = busy.value || ros.value.state === "connecting";
-  return html`<${EmptyState} icon=${icon} title=${t("ros.first")}>
+  const { nearby_count: count } = ros.value;
+  return html`<${EmptyState} icon=${icon} title=${count > 0 ? t("ros.first.nearby", { count }) : t("ros.first")}>
     ${
       mayEdit.value
         ? html`<p class="connect-first">

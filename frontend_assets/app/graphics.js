@@ -89,7 +89,7 @@ export function graphicsItems() {
 /** Over the 3D view: what of clouds is left out, as long as it is; else that it is drawn lightly. */
 export function GraphicsNotice() {
   if (pointsOneIn.value > 1)
-    return html`<div class="graphics-notice" role="status"><${Icon} name="system" size=${15} />
+    return html`<div class="scene-hint" role="status"><${Icon} name="system" size=${15} />
       <span>${t("graphics.points", { count: pointsOneIn.value })}</span></div>`;
   return html`<${LightNotice} />`;
 }
@@ -98,7 +98,7 @@ export function GraphicsNotice() {
 function LightNotice() {
   if (graphicsSaid.value || graphicsChoice.value !== "automatic" || !graphics.value?.light)
     return null;
-  return html`<div class="graphics-notice" role="status"><${Icon} name="system" size=${15} />
+  return html`<div class="scene-hint" role="status"><${Icon} name="system" size=${15} />
     <span>${t("graphics.notice")}</span>
     <button type="button" class="text-button" onClick=${showDetails}>${t("graphics.details")}</button>
     <button type="button" class="text-button" onClick=${() => chooseGraphics("full")}>${t("graphics.draw_fully")}</button>

@@ -18,7 +18,7 @@ import { addMeasuring } from "./measuring.js";
 import { menuCommands } from "./menu-commands.js";
 import { followDisk } from "./merge-dialog.js";
 import { followMissing } from "./missing-arguments.js";
-import { dockPanels } from "./panels.js";
+import { dockPanels, panelTitle } from "./panels.js";
 import { followLink } from "./share.js";
 import { Shell } from "./shell.js";
 import { mayEdit, role } from "./state/connection.js";
@@ -35,6 +35,8 @@ function startDock(element) {
   /** @type {{keep: () => void} | null} */
   let arrangement = null;
   const dock = createDock(element, dockPanels(), {
+    moreLabel: () => t("tabs.more"),
+    title: panelTitle,
     maximizeLabel: () => t("maximize"),
     restoreLabel: () => t("restore"),
     helpLabel: (id) => t("help.of", { page: helpTitle(id) }),

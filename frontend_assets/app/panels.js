@@ -10,114 +10,162 @@ import { heldBack } from "./state/alarm.js";
 import { changedCount, problems, robot } from "./state/document.js";
 import { wired } from "./wired.js";
 
+/** What a panel is for, in the order in which menus list them. */
+export const PANEL_GROUPS = /** @type {const} */ (["robot", "files", "watch", "act", "learn"]);
+
+/** @typedef {typeof PANEL_GROUPS[number]} PanelGroup */
+
 /**
- * @typedef {{icon: string, keepsFrame?: boolean, heavy?: boolean, badge?: () => {text: string, tone: string, label: string} | null,
+ * @typedef {{icon: string, group: PanelGroup, keepsFrame?: boolean, heavy?: boolean, badge?: () => {text: string, tone: string, label: string} | null,
  *   load: () => Promise<() => import("vendor/preact.js").VNode>}} PanelEntry
  */
 
 /** @type {Record<string, PanelEntry>} */
 export const PANELS = {
   scene: {
+    group: "robot",
     icon: "scene",
     keepsFrame: true,
     load: async () => (await import("../panels/scene.js")).ScenePanel,
   },
   displays: {
+    group: "robot",
     icon: "list",
     load: async () => (await import("../panels/displays.js")).DisplaysPanel,
   },
   properties: {
+    group: "robot",
     icon: "properties",
     badge: changedBadge,
     load: async () => (await import("../panels/properties.js")).PropertiesPanel,
   },
-  joints: { icon: "joints", load: async () => (await import("../panels/joints.js")).JointsPanel },
+  joints: {
+    group: "robot",
+    icon: "joints",
+    load: async () => (await import("../panels/joints.js")).JointsPanel,
+  },
   variants: {
+    group: "robot",
     icon: "variants",
     load: async () => (await import("../panels/variants.js")).VariantsPanel,
   },
   source: {
+    group: "files",
     icon: "source",
     heavy: true,
     load: async () => (await import("../panels/source.js")).SourcePanel,
   },
   outline: {
+    group: "files",
     icon: "includes",
     load: async () => (await import("../panels/outline.js")).OutlinePanel,
   },
   problems: {
+    group: "files",
     icon: "problems",
     badge: problemsBadge,
     load: async () => (await import("../panels/problems.js")).ProblemsPanel,
   },
   origin: {
+    group: "robot",
     icon: "origin",
     load: async () => (await import("../panels/origin.js")).OriginPanel,
   },
   masses: {
+    group: "robot",
     icon: "masses",
     load: async () => (await import("../panels/masses.js")).MassesPanel,
   },
-  plot: { icon: "plot", load: wired(async () => (await import("../panels/plot.js")).PlotPanel) },
+  plot: {
+    group: "watch",
+    icon: "plot",
+    load: wired(async () => (await import("../panels/plot.js")).PlotPanel),
+  },
   image: {
+    group: "watch",
     icon: "camera",
     load: wired(async () => (await import("../panels/image.js")).ImagePanel),
   },
   topics: {
+    group: "watch",
     icon: "topics",
     load: wired(async () => (await import("../panels/topics.js")).TopicsPanel),
   },
-  frames: { icon: "frames", load: async () => (await import("../panels/frames.js")).FramesPanel },
+  frames: {
+    group: "robot",
+    icon: "frames",
+    load: async () => (await import("../panels/frames.js")).FramesPanel,
+  },
   graph: {
+    group: "watch",
     icon: "graph",
     load: wired(async () => (await import("../panels/graph.js")).GraphPanel),
   },
   interfaces: {
+    group: "watch",
     icon: "interfaces",
     load: wired(async () => (await import("../panels/interfaces.js")).InterfacesPanel),
   },
   lessons: {
+    group: "learn",
     icon: "lessons",
     load: wired(async () => (await import("../panels/lessons.js")).LessonsPanel),
   },
   lifecycle: {
+    group: "act",
     icon: "lifecycle",
     load: wired(async () => (await import("../panels/lifecycle.js")).LifecyclePanel),
   },
   diagnostics: {
+    group: "watch",
     icon: "diagnostics",
     load: wired(async () => (await import("../panels/diagnostics.js")).DiagnosticsPanel),
   },
-  log: { icon: "log", load: wired(async () => (await import("../panels/log.js")).LogPanel) },
+  log: {
+    group: "watch",
+    icon: "log",
+    load: wired(async () => (await import("../panels/log.js")).LogPanel),
+  },
   services: {
+    group: "act",
     icon: "services",
     load: wired(async () => (await import("../panels/services.js")).ServicesPanel),
   },
   actions: {
+    group: "act",
     icon: "goal",
     load: wired(async () => (await import("../panels/actions.js")).ActionsPanel),
   },
   parameters: {
+    group: "act",
     icon: "parameters",
     load: wired(async () => (await import("../panels/parameters.js")).ParametersPanel),
   },
   publish: {
+    group: "act",
     icon: "send",
     load: wired(async () => (await import("../panels/publish.js")).PublishPanel),
   },
   teleop: {
+    group: "act",
     icon: "compass",
     load: wired(async () => (await import("../panels/teleop.js")).TeleopPanel),
   },
   turtlesim: {
+    group: "learn",
     icon: "route",
     load: wired(async () => (await import("../panels/turtlesim.js")).TurtlesimPanel),
   },
   jerry: {
+    group: "learn",
     icon: "grid",
     load: wired(async () => (await import("../panels/jerry.js")).JerryPanel),
   },
-  urdf: { icon: "urdf", load: async () => (await import("../panels/urdf.js")).UrdfPanel },
+  urdf: {
+    group: "files",
+    icon: "urdf",
+    load: async () => (await import("../panels/urdf.js")).UrdfPanel,
+  },
 };
 
 /** @param {string} id */

@@ -6,7 +6,7 @@ import { Icon, MenuButton } from "../lib/ui.js";
 import { commandById } from "./commands.js";
 import { graphicsItems } from "./graphics.js";
 import { layoutItems } from "./layout-commands.js";
-import { PANELS, panelTitle } from "./panels.js";
+import { PANEL_GROUPS, PANELS, panelTitle } from "./panels.js";
 import { languageChoice, size, themeChoice } from "./state/view.js";
 
 /** @import { MenuItem } from "../lib/ui.js" */
@@ -29,16 +29,20 @@ const commandItem = (id, icon, label = t(`command.${id}`)) => ({
 
 /** @returns {MenuItem[]} */
 function panelItems() {
-  const panels = Object.entries(PANELS).map(([id, { icon }]) =>
-    commandItem(`panel.${id}`, icon, panelTitle(id)),
-  );
+  const groups = PANEL_GROUPS.map((group) => ({
+    label: t(`panels.group.${group}`),
+    heading: true,
+    items: Object.entries(PANELS).filter(([, one]) => one.group === group),
+  }));
   return [
-    { label: t("panels"), heading: true },
-    ...panels,
     { label: t("command.layouts"), heading: true },
     ...layoutItems(),
     commandItem("reset_layout", "reset"),
     commandItem("layouts", "disk", `${t("layouts.manage")}…`),
+    ...groups.flatMap(({ items, ...heading }) => [
+      heading,
+      ...items.map(([id, { icon }]) => commandItem(`panel.${id}`, icon, panelTitle(id))),
+    ]),
   ];
 }
 

@@ -8,9 +8,13 @@ import { closeDocument, goTo, redo, reload, save, undo } from "./actions.js";
 import { commandById, onMac } from "./commands.js";
 import { ExportMenu, exportItems } from "./export.js";
 import { HistoryMenu } from "./history-menu.js";
+import { layoutName } from "./layout-commands.js";
+import { layoutDesk } from "./layouts.js";
+import { LIVE } from "./live-layout.js";
 import { PanelsMenu, SettingsMenu } from "./settings-menu.js";
 import { mayEdit, role } from "./state/connection.js";
 import { documentId, documents, history, title, unsaved } from "./state/document.js";
+import { layoutInUse } from "./state/own-layouts.js";
 import { dialog, size, theme, themeChoice } from "./state/view.js";
 
 /** @import { MenuItem } from "../lib/ui.js" */
@@ -33,6 +37,7 @@ export function TopBar() {
     <div class="bar-right">
     ${role.value === "presenter" && html`<${EditButtons} />`}
     ${size.value !== "phone" && html`<${ExportMenu} />`}
+    ${size.value !== "phone" && html`<${LayoutSwitch} />`}
     <${PanelsMenu} />
     <${SettingsMenu} />
     <${ThemeButton} />
@@ -157,6 +162,16 @@ function EditButtons() {
 /** @param {string} id @param {string | undefined} step @returns {string} */
 function hinted(id, step) {
   return `${t(`command.${id}`)}${step ? `: ${step}` : ""} (${keyOf(id)})`;
+}
+
+/** From the studio's own layout for a model to that for a robot that runs, and back. */
+function LayoutSwitch() {
+  return html`<div class="layout-switch" role="group" aria-label=${t("layouts.title")}>
+    ${["", LIVE].map(
+      (name) => html`<button key=${name} type="button" aria-pressed=${layoutInUse.value === name}
+      title=${t("layouts.use", { name: layoutName(name) })} onClick=${() => layoutDesk.value?.use(name)}>${layoutName(name)}</button>`,
+    )}
+  </div>`;
 }
 
 function ThemeButton() {

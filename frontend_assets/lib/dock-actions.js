@@ -1,9 +1,13 @@
-/** The buttons at the right end of a row of tabs: help on the panel in front, and enlarging it. */
+/** The buttons at the right end of a row of tabs: those that do not fit, help on the panel in front, and enlarging it. */
 
 /** @import { DockviewApi, DockviewGroupPanel } from "vendor/dockview.js" */
 
+import { openMenu } from "./ui.js";
+
 /**
  * @typedef {object} ActionOptions
+ * @property {() => string} moreLabel
+ * @property {(id: string) => string} title of a panel
  * @property {() => string} maximizeLabel
  * @property {() => string} restoreLabel
  * @property {(id: string) => string} helpLabel
@@ -23,7 +27,7 @@ export function headerActions(group, options) {
     init({ containerApi }) {
       const [help, relabelHelp] = helpButton(group, options);
       const [maximize, relabelMaximize] = maximizeButton(group, options);
-      element.append(help, maximize);
+      element.append(moreButton(group, options), help, maximize);
       listening = [
         group.api.onDidActivePanelChange(relabelHelp),
         containerApi.onDidMaximizedGroupChange(relabelMaximize),
@@ -47,6 +51,27 @@ function iconButton(names) {
 function name(button, label) {
   button.title = label;
   button.setAttribute("aria-label", label);
+}
+
+/** Opens a menu of the tabs that do not fit; seen where there are some. @param {DockviewGroupPanel} group @param {ActionOptions} options @returns {HTMLElement} */
+function moreButton(group, { moreLabel, title, icon }) {
+  const button = iconButton("more-tabs");
+  const relabel = () => name(button, moreLabel());
+  button.append(icon("chevronDown"));
+  button.setAttribute("aria-haspopup", "menu");
+  button.addEventListener("click", () => {
+    const tabs = group.element.querySelectorAll('[role="tab"]');
+    const hidden = group.panels.filter((_, at) => tabs[at]?.classList.contains("cut-tab"));
+    const items = hidden.map((panel) => ({
+      label: title(panel.id),
+      run: () => panel.api.setActive(),
+    }));
+    openMenu(button, moreLabel(), items);
+  });
+  button.addEventListener("pointerenter", relabel);
+  button.addEventListener("focus", relabel);
+  relabel();
+  return button;
 }
 
 /** @param {DockviewGroupPanel} group @param {ActionOptions} options @returns {[HTMLElement, () => void]} the button, and what names it anew */

@@ -57,6 +57,7 @@ export function createDock(element, panels, options) {
   const api = createDockview(element, {
     theme: THEME,
     disableFloatingGroups: true,
+    disableTabsOverflowList: true,
     noPanelsOverlay: "watermark",
     createComponent: ({ name }) => contentOf(panels[name], restores),
     createTabComponent: ({ name }) => tabOf(panels[name]),

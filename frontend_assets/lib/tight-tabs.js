@@ -1,15 +1,9 @@
-/** Tabs that never end in the middle of a word: where one does not fit, icons take the place of words. */
+/** Tabs that never end in the middle of a word: what does not fit is reached by a menu at their end. */
 
 const HEADERS = ".dv-tabs-and-actions-container";
 const TABS = ".dv-tabs-container";
-/** From the most words to the least: all, all closer together, all without icons, that of the tab in front, none. */
-const STEPS = [
-  [],
-  ["close-tabs"],
-  ["close-tabs", "bare-tabs"],
-  ["close-tabs", "tight-tabs"],
-  ["close-tabs", "tight-tabs", "icon-tabs"],
-];
+/** A word says more than its icon: tabs come closer together first, then lose their icons. */
+const STEPS = [[], ["close-tabs"], ["close-tabs", "bare-tabs"]];
 
 /**
  * @param {HTMLElement} dock
@@ -25,6 +19,11 @@ export function keepTabsWhole(dock) {
     });
   };
   const observer = new ResizeObserver(later);
+  // It is scrolled to a tab that is brought to the front; scrolling does not bubble.
+  const scrolled = (/** @type {Event} */ { target }) => {
+    if (target instanceof Element && target.matches(TABS)) hideCut(target);
+  };
+  dock.addEventListener("scroll", scrolled, { capture: true, passive: true });
   return () => {
     observer.disconnect();
     for (const one of dock.querySelectorAll(`${HEADERS}, ${HEADERS} .tab`)) observer.observe(one);
@@ -37,8 +36,19 @@ function fit(header) {
   const tabs = header.querySelector(TABS);
   if (!tabs) return;
   for (const names of STEPS) {
-    header.classList.remove(...STEPS.flat());
+    header.classList.remove(...STEPS.flat(), "has-more-tabs");
     header.classList.add(...names);
-    if (tabs.scrollWidth <= tabs.clientWidth) return;
+    if (tabs.scrollWidth <= tabs.clientWidth) break;
+  }
+  header.classList.toggle("has-more-tabs", tabs.scrollWidth > tabs.clientWidth);
+  hideCut(tabs);
+}
+
+/** A tab of which only a part is in view is not shown: the menu has it. @param {Element} tabs */
+function hideCut(tabs) {
+  const room = tabs.getBoundingClientRect();
+  for (const tab of tabs.children) {
+    const { left, right } = tab.getBoundingClientRect();
+    tab.classList.toggle("cut-tab", left < room.left - 1 || right > room.right + 1);
   }
 }

@@ -5,6 +5,7 @@ import { framesNow, setFixedFrame } from "../app/live.js";
 import { mayEdit } from "../app/state/connection.js";
 import { robot } from "../app/state/document.js";
 import { fixedFrame, frameTrouble } from "../app/state/live.js";
+import { inFrameOrder } from "../lib/frame-order.js";
 import { t } from "../lib/i18n.js";
 import { PickBox } from "../lib/pick-box.js";
 import { Icon, IconButton } from "../lib/ui.js";
@@ -14,10 +15,11 @@ export function FixedFrame() {
   const trouble = frameTrouble.value;
   const choices = async () => [
     { label: t("live.fixed_frame.robot"), value: "" },
-    ...(await framesNow()).map(({ name }) => name),
+    ...inFrameOrder((await framesNow()).map(({ name }) => name)),
   ];
   return html`<span class="divider"></span>
     ${trouble && html`<${Trouble} trouble=${trouble} />`}
+    <span class="fixed-frame-label" aria-hidden="true">${t("live.fixed_frame.label")}</span>
     <${PickBox} class="fixed-frame" label=${t("live.fixed_frame")} text=${fixedFrame.value} placeholder=${t("live.fixed_frame.placeholder")}
       disabled=${!mayEdit.value} choices=${choices} onWrite=${(/** @type {string} */ frame) => void setFixedFrame(frame)} />`;
 }

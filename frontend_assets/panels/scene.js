@@ -22,6 +22,7 @@ import { attachViewport, VIEWS, viewport } from "../app/viewport.js";
 import { t } from "../lib/i18n.js";
 import { Icon, IconButton, MenuButton, ProgressBar } from "../lib/ui.js";
 import { FixedFrame } from "./fixed-frame.js";
+import { FollowOffer } from "./follow-offer.js";
 import { MeasureCard } from "./measure-card.js";
 import { TargetFrame } from "./target-frame.js";
 
@@ -36,8 +37,7 @@ export function ScenePanel() {
     <${MeasureCard} />
     <${Cover} />
     <${MeshProgress} />
-    <${LastGoodNotice} />
-    <${GraphicsNotice} />
+    <div class="scene-notices"><${LastGoodNotice} /><${FollowOffer} /><${GraphicsNotice} /></div>
   </section>`;
 }
 

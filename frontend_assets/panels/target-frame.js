@@ -4,6 +4,7 @@ import { html, useEffect, useRef } from "vendor/preact.js";
 import { keepTargetFrame, targetFrame, targetTrouble } from "../app/following.js";
 import { framesNow } from "../app/live.js";
 import { robot } from "../app/state/document.js";
+import { inFrameOrder } from "../lib/frame-order.js";
 import { t } from "../lib/i18n.js";
 import { Icon, openMenu } from "../lib/ui.js";
 
@@ -18,7 +19,7 @@ export function TargetFrame() {
   const open = async ({ currentTarget }) => {
     const button = /** @type {HTMLElement} */ (currentTarget);
     if (button.getAttribute("aria-expanded") === "true") return menu.current?.close();
-    const items = itemsOf((await framesNow()).map(({ name }) => name));
+    const items = itemsOf(inFrameOrder((await framesNow()).map(({ name }) => name)));
     if (button.isConnected) menu.current = openMenu(button, label, items);
     return undefined;
   };

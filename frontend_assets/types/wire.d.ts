@@ -2628,6 +2628,7 @@ export interface WireState {
   distro: string;
   nodes: string[];
   node_count: number;
+  nearby_count: number;
   trouble: string;
 }
 

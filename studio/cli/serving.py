@@ -108,12 +108,16 @@ def serve(
     settings: Settings,
     path: Path,
     arguments: dict[str, str],
-    then: Callable[[], None] | None = None,
+    nodes: Callable[[], None] | None = None,
 ) -> None:
-    """Open a path, do `then` what comes after, and serve its page until the command is stopped."""
+    """Open a path and serve its page until the command is stopped.
+
+    `nodes` starts nodes once the page is served, and the studio joins them.
+    """
     gc.disable()  # all that is imported lives on: looking through it meanwhile costs a third
     from studio.web.launch import Opening, launch
 
     gc.freeze()
     gc.enable()
-    launch(settings, Opening(path, arguments, then), viewer_link=options.viewer_link)
+    opening = Opening(path, arguments, nodes, joins_ros=nodes is not None)
+    launch(settings, opening, viewer_link=options.viewer_link)

@@ -20,6 +20,7 @@ from studio.engine.library import Library
 from studio.engine.listeners import Audience, tell
 from studio.engine.services import Services
 from studio.engine.upload_desk import UploadDesk
+from studio.engine.wire.rejoining import Rejoining
 from studio.engine.wire.robots import EngineWireCommand, WireRobotDesk
 from studio.errors import CommandError, OutsideRootsError, UnknownDocumentError
 from studio.packages.listing import list_folder
@@ -49,6 +50,7 @@ class Engine:
         self.library = Library(settings, self)
         self.uploads = UploadDesk(settings.data_folder, self)
         wire = self._services.wire
+        self._rejoining = Rejoining(wire, settings.data_folder)
         self._bridge = BridgeDesk(wire)
         self.hearing = self._bridge.hearing
         self._wire_robots = WireRobotDesk(wire, settings.data_folder, self, self._bridge)
@@ -60,8 +62,13 @@ class Engine:
         """Warm the workers in the background; pages are served meanwhile."""
         await self._services.start()
 
+    def rejoin(self, *, always: bool = False) -> None:
+        """Join the ROS 2 system that it was connected with when it ended; `always`: in any case."""
+        self._rejoining.begin(always=always)
+
     async def close(self) -> None:
         """Close all documents and end all workers."""
+        await self._rejoining.close()
         await asyncio.gather(self._left_work.close(), self._bridge.close())
         documents, self.documents = tuple(self.documents.values()), {}
         await asyncio.gather(*(document.close() for document in documents), self._services.close())

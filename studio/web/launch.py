@@ -39,6 +39,8 @@ class Opening:
     path: Path
     arguments: dict[str, str]
     then: Callable[[], None] | None = None
+    joins_ros: bool = False
+    """Connect with ROS 2 afterwards, even where the studio was not connected before."""
 
 
 def launch(settings: Settings, opening: Opening, *, viewer_link: bool = False) -> None:
@@ -155,6 +157,7 @@ class _Visit:
             self._open_browser()
         if opening.then is not None:
             opening.then()
+        self._engine.rejoin(always=opening.joins_ros)
 
     def _open_browser(self) -> None:
         if self._credentials.token is None:

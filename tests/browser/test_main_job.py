@@ -96,10 +96,10 @@ def test_the_page_comes_back_by_itself_with_everything_as_it_was(browser: Browse
     first_one = running_studio(["demo"], tmp_path / "data", port=port)
     with first_one as first, studio_page(browser, first) as tab:
         first.stop()
-        wait_until("the page to say so", lambda: "Not connected" in tab.page.inner_text("body"))
+        wait_until("the page to say so", lambda: "Studio: offline" in tab.page.inner_text("body"))
         with running_studio(["demo"], tmp_path / "data", port=port) as second:
             wait_until(
-                "the page to be back", lambda: "Not connected" not in tab.page.inner_text("body")
+                "the page to be back", lambda: "Studio: offline" not in tab.page.inner_text("body")
             )
             second.hear_sites("rover")
             wait_until("the robot to be drawn", tab.has_drawn_robot)

@@ -16,9 +16,23 @@ pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(240)
 
 _TABS_ENOUGH = 80
 """More controls than stand before the editor."""
-_CUT_TABS = """() => [...document.querySelectorAll(".dv-tabs-container")]
-  .filter((tabs) => tabs.scrollWidth > tabs.clientWidth)
-  .map((tabs) => tabs.textContent)"""
+_CUT_TABS = """() => [...document.querySelectorAll(".dv-tabs-container")].flatMap((tabs) => {
+  const room = tabs.getBoundingClientRect();
+  return [...tabs.children].filter((tab) => {
+    const { left, right } = tab.getBoundingClientRect();
+    const label = tab.querySelector(".tab-label").getBoundingClientRect();
+    const isCut = left < room.left - 1 || right > room.right + 1;
+    return getComputedStyle(tab).opacity === "1" && (isCut || label.width < 10);
+  }).map((tab) => tab.textContent);
+})"""
+"""Tabs that are seen, and of which a part or the name is not."""
+_SAY_SLOW = """async () => {
+  const app = new URL("./", document.querySelector('script[src*="app/main.js"]').src);
+  const state = await import(new URL("state/graphics.js", app));
+  state.graphicsSaid.value = false;
+  state.graphicsChoice.value = "automatic";
+  state.graphics.value = { ...state.graphics.value, light: true };
+}"""
 
 
 @pytest.fixture
@@ -102,6 +116,46 @@ def test_no_tab_is_cut_in_a_window_of_any_size(tab: StudioPage):
     for width in (1600, 1280, 1024, 760):
         tab.page.set_viewport_size({"width": width, "height": 720})
         wait_until(f"whole tabs at {width} px", lambda: tab.page.evaluate(_CUT_TABS) == [])
+
+
+def test_tabs_that_do_not_fit_are_in_a_menu_at_their_end(tab: StudioPage):
+    tab.page.get_by_role("button", name="Live", exact=True).click()
+    more = tab.page.get_by_role("button", name="More tabs").locator("visible=true").first
+    more.click()
+    tab.page.get_by_role("menuitem", name="Lessons").click()
+    wait_until("it to be in front", lambda: in_front(tab, "Lessons"))
+    tab.page.get_by_role("button", name="Model", exact=True).click()
+    wait_until("the layout for a model", panel_tab(tab, "Properties").is_visible)
+
+
+def in_front(tab: StudioPage, name: str) -> bool:
+    return panel_tab(tab, name).get_attribute("aria-selected") == "true"
+
+
+def test_the_menu_of_panels_begins_with_the_layouts_and_groups_the_panels(tab: StudioPage):
+    tab.page.get_by_role("button", name="Panels and layouts").click()
+    lines = tab.page.get_by_role("menu").inner_text().split("\n")
+    assert lines[:3] == ["Layouts", "Model", "Live"]
+    headings = ["Robot", "Files and problems", "ROS 2: look", "ROS 2: act", "Learn"]
+    assert [one for one in lines if one in headings] == headings
+
+
+def test_no_notice_covers_an_error_of_the_3d_view(tab: StudioPage):
+    tab.page.evaluate(_SAY_SLOW)
+    slow = tab.page.get_by_text("This computer draws slowly")
+    slow.wait_for()
+    tab.seek("wheel_radius")
+    tab.box("wheel_radius").fill("nonsense + 1")
+    tab.box("wheel_radius").press("Enter")
+    error = tab.page.locator(".last-good")
+    error.wait_for()
+    assert slow.is_visible()
+    above, below = error.bounding_box(), slow.bounding_box()
+    assert above is not None
+    assert below is not None
+    assert above["y"] + above["height"] <= below["y"]
+    error.get_by_role("button", name="Undo edit").click()
+    error.wait_for(state="detached")
 
 
 def test_every_panel_has_a_way_on_a_phone(tab: StudioPage):

@@ -147,9 +147,11 @@ def test_after_a_restart_of_the_studio_the_open_text_is_typed_into_as_before(
     with first_one as first, studio_page(browser, first) as tab:
         go_to(tab, "wheel_radius")
         first.stop()
-        wait_until("the page to say so", lambda: "Not connected" in tab.page.inner_text("body"))
+        wait_until("the page to say so", lambda: "Studio: offline" in tab.page.inner_text("body"))
         with running_studio(["demo"], tmp_path / "data", port=port) as second:
-            wait_until("it to be back", lambda: "Not connected" not in tab.page.inner_text("body"))
+            wait_until(
+                "it to be back", lambda: "Studio: offline" not in tab.page.inner_text("body")
+            )
             second.hear_sites("rover")
             tab.page.locator(".cm-content").focus()
             put_cursor_behind(tab, '"0.10')

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import signal
 from typing import TYPE_CHECKING
 
@@ -41,3 +42,14 @@ def test_where_no_router_may_be_started_the_page_is_served_and_the_reason_is_sai
         with studio.client() as client:
             assert client.get("/").status_code == 200
         assert "Traceback" not in studio.stderr
+
+
+def test_the_studio_joins_its_rover_by_itself(tmp_path: Path):
+    words = ["demo", "--connect", free_endpoint()]
+    with (
+        running_studio(words, tmp_path / "data", moving=True) as studio,
+        studio.websocket("/control") as lane,
+    ):
+        events = (json.loads(one) for one in lane if isinstance(one, str))
+        told = (one for one in events if one["type"] == "wire_state")
+        assert next(one for one in told if "/rover" in one["nodes"])["state"] == "connected"

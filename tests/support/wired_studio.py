@@ -58,6 +58,7 @@ async def studio(endpoint: str, folder: Path) -> AsyncGenerator[Studio]:
     try:
         document, ear = await opened(made, file)
         made.attach(ear)
+        made.rejoin()
         yield Studio(made, document, ear)
     finally:
         await made.close()

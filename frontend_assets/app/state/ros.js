@@ -18,6 +18,7 @@ export const ros = signal({
   distro: "",
   nodes: [],
   node_count: 0,
+  nearby_count: 0,
   trouble: "",
 });
 /** @type {Signal<WireFeed>} */

@@ -26,8 +26,6 @@ class KeptDisplays(msgspec.Struct, frozen=True, omit_defaults=True):
     displays: tuple[DisplaySpec, ...] = ()
     groups_off: tuple[str, ...] = ()
     fixed_frame: str = ""
-    connected_to: str = ""
-    """Where it was connected with a ROS 2 system; empty: it was not."""
 
 
 _DECODER: Final = msgspec.json.Decoder(KeptDisplays)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import threading
 from typing import TYPE_CHECKING, Final, Protocol
 
@@ -32,6 +33,10 @@ _TF_TYPE: Final = "tf2_msgs/msg/TFMessage"
 _DYNAMIC: Final = QoSProfile(depth=100)
 _STATIC: Final = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 _FRAMES_SHOWN: Final = 2_000
+_LOOK_EVERY_S: Final = 0.05
+_FIRST_LOOKS: Final = 20
+_OTHERS_S: Final = 0.2
+"""After the first frames, for those of other nodes: they come some times a second."""
 _NOTICES_KEPT: Final = 20
 _PUBLISHERS_KEPT: Final = 1_000
 
@@ -93,6 +98,17 @@ class FramesDesk:
                 self._ends.append(hearing.hear(_TF_TYPE, topic, take, qos))
             clock = ClockWatch(self._clock_jumped).take
             self._ends.append(hearing.hear(CLOCK_TYPE, "/clock", clock, CLOCK_QOS))
+
+    async def hear_first(self, graph: KnowsPublishers) -> None:
+        """Wait for what is published of frames, so that the first list has them; not for long."""
+        if not any(graph.publishers(topic) for topic in ("/tf", "/tf_static")):
+            return
+        before = self.buffer.changes
+        for _ in range(_FIRST_LOOKS):
+            await asyncio.sleep(_LOOK_EVERY_S)
+            if self.buffer.changes != before:
+                await asyncio.sleep(_OTHERS_S)
+                return
 
     def look(self, graph: KnowsPublishers) -> None:
         """Take back the robot's own links from those who told of them and are gone; in a thread."""

@@ -12,7 +12,6 @@ from studio.engine.listeners import LastTold
 from studio.engine.live.display_file import DisplayFile, KeptDisplays
 from studio.engine.live.display_list import DisplayList, Listening
 from studio.engine.messages import live as m
-from studio.engine.wire.rejoining import Rejoining
 from studio.errors import CommandError, StudioError
 
 if TYPE_CHECKING:
@@ -55,9 +54,8 @@ class LiveDesk:
         self._made: DrawingRoom | None = None
         self._robots: RobotModels | None = None
         """Made with the room."""
-        self._rejoining = Rejoining(services.wire)
-        self._joining: asyncio.Task[None] | None = None
         self._link: WireLink | None = None
+        self._drawn_from: WireLink | None = None
         self._listening = asyncio.Lock()
         self._ticking: asyncio.Task[None] | None = None
         self._keeping: asyncio.Task[None] | None = None
@@ -91,8 +89,6 @@ class LiveDesk:
         for group in {one.group for one in self._list} & set(kept.groups_off) - {""}:
             self._list.switch_group(group, shown=False)
         self._show_and_hide()
-        if kept.fixed_frame or any(one.topic for one in self._list):
-            self._joining = asyncio.create_task(self._rejoining.rejoin(kept.connected_to))
         self._go_on()
 
     def _restore_one(self, spec: DisplaySpec) -> None:
@@ -209,9 +205,12 @@ class LiveDesk:
 
     async def tf(self, command: m.GetTf) -> m.TfFrames:
         """Which frames there are, and where one is in another; TF is heard from now on."""
+        is_first = not self._is_on
         self._asked_until_s = time.monotonic() + _ASKED_FOR_S
         self._go_on()
         frames = self._room.frames
+        if is_first and not command.pose_only and self._wire.current is not None:
+            await frames.hear_first(self._wire.current.graph)
         frames.step()
         if command.pose_only:
             return frames.answer(command, frames.fixed)
@@ -237,10 +236,9 @@ class LiveDesk:
     async def close(self) -> None:
         """Draw nothing more."""
         self._closed = True
-        running = [one for one in (self._ticking, self._joining) if one is not None]
-        for one in running:
-            one.cancel()
-        await asyncio.gather(*running, return_exceptions=True)
+        if self._ticking is not None:
+            self._ticking.cancel()
+            await asyncio.gather(self._ticking, return_exceptions=True)
         await self.let_go()
         if self._robots is not None:
             await self._robots.close()
@@ -276,9 +274,7 @@ class LiveDesk:
             self._document.scene.live.show(spec.id, visible=self._list.is_shown(spec))
 
     def _keep(self) -> None:
-        self._unkept = KeptDisplays(
-            tuple(self._list), self._list.groups_off, self._fixed_frame, self._rejoining.place
-        )
+        self._unkept = KeptDisplays(tuple(self._list), self._list.groups_off, self._fixed_frame)
         if self._keeping is None or self._keeping.done():
             self._keeping = asyncio.create_task(self._write())
 
@@ -347,9 +343,9 @@ class LiveDesk:
         link = self._wire.current
         if self._link is not None and link is not self._link:
             await self.let_go()
-        if self._rejoining.has_moved():
+        if link is not self._drawn_from:
+            self._drawn_from = link
             self._room.forget()
-            self._keep()
         async with self._listening:
             if link is None:
                 return

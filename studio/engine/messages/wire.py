@@ -108,6 +108,8 @@ class WireState(Message):
     nodes: tuple[str, ...]
     """Full names, without the studio's own; the first ones."""
     node_count: int
+    nearby_count: int
+    """While not connected: nodes that are met at the router of this machine."""
     trouble: str
     """Why it failed, in a sentence."""
 

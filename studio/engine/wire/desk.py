@@ -8,10 +8,13 @@ from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 from studio.engine.listeners import Audience, LastTold, tell
 from studio.engine.lookout import Lookout
 from studio.engine.messages.wire import WireState
+from studio.engine.wire.nearby import Nearby
 from studio.engine.wire.plan import planned_wire
 from studio.errors import CommandError, StudioError
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from studio.engine.listeners import Listener
     from studio.engine.wire.link import WireLink
     from studio.settings import WireChoice
@@ -42,7 +45,10 @@ class WireDesk:
         self._trouble = ""
         self._told = LastTold[WireState](self._audience)
         self._lookout = Lookout(self._look, pause_s=_PAUSE_S)
+        self._nearby = Nearby(lambda: self._choice, self._is_alone, self._tell)
         self._closed = False
+        self.on_link: Callable[[WireLink | None], None] = _nobody
+        """Told of each connection that is made, and with None that it was ended on demand."""
         self._turn = asyncio.Lock()
         """A connection is made once the one before is ended: their router has one place."""
 
@@ -50,6 +56,7 @@ class WireDesk:
         """Tell a page how it stands, now and whenever that changes."""
         self._audience.add(listener)
         tell(listener, self._state())
+        self._nearby.look()
 
     def detach(self, listener: Listener) -> None:
         """Forget a page; it need not be there."""
@@ -92,6 +99,7 @@ class WireDesk:
         async with self._turn:
             link, self._link = self._link, None
             self._phase, self._trouble = "off", ""
+            self.on_link(None)
             if link is not None:
                 await asyncio.to_thread(link.close)
             self._tell()
@@ -99,7 +107,7 @@ class WireDesk:
     async def close(self) -> None:
         """End the connection, and the router if it is ours."""
         self._closed = True
-        await self._lookout.close()
+        await asyncio.gather(self._lookout.close(), self._nearby.close())
         if self._opening is not None:
             await asyncio.wait({self._opening}, timeout=_OPENING_PATIENCE_S)
         link, self._link = self._link, None
@@ -124,6 +132,7 @@ class WireDesk:
             await asyncio.to_thread(link.close)
             raise CommandError(_CLOSING)
         self._link = link
+        self.on_link(link)
         self._tell()
         return link
 
@@ -135,6 +144,11 @@ class WireDesk:
                 loop.call_soon_threadsafe(self._doubt)
 
         return WireLink(self._choice, doubt)
+
+    def _is_alone(self) -> bool:
+        """Whether a page is there that is not connected, and might like to be."""
+        is_idle = self._link is None and self._phase != "connecting"
+        return is_idle and not self._closed and len(self._audience) > 0
 
     def _doubt(self) -> None:
         if not self._closed:
@@ -150,6 +164,7 @@ class WireDesk:
 
     def _tell(self, seen: WireState | None = None) -> None:
         self._told.tell(seen or self._state())
+        self._nearby.look()
 
     def _state(self) -> WireState:
         return self._state_without() if self._link is None else _state_with(self._link)
@@ -171,8 +186,13 @@ class WireDesk:
             distro=distro,
             nodes=(),
             node_count=0,
+            nearby_count=self._nearby.node_count,
             trouble=trouble,
         )
+
+
+def _nobody(_link: WireLink | None) -> None:
+    """For a desk whose connections nobody keeps."""
 
 
 def _state_with(link: WireLink) -> WireState:
@@ -187,5 +207,6 @@ def _state_with(link: WireLink) -> WireState:
         distro=link.distro,
         nodes=tuple(nodes[:_NODES_SHOWN]),
         node_count=len(nodes),
+        nearby_count=0,
         trouble="",
     )
