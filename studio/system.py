@@ -52,6 +52,19 @@ def kept_waiting_s(pid: int) -> float:
         return 0.0
 
 
+def is_running(pid: int) -> bool:
+    """Whether a process of that number runs; True where that cannot be asked."""
+    if sys.platform == "win32":
+        return True  # to signal a process there ends it
+    try:
+        os.kill(pid, 0)
+    except (ProcessLookupError, OverflowError):
+        return False
+    except PermissionError:  # it is another user's
+        return True
+    return True
+
+
 def hold_file(path: Path) -> IO[bytes] | None:
     """Open a file and hold it until it is closed or this process ends; None: another holds it.
 

@@ -161,6 +161,7 @@ class Document:
         self.live.restore()
         self._spawn("opening", self._open())
         self._spawn("types", self._take_types())
+        self._spawn("sweep", self.saving.sweep())
 
     async def _take_types(self) -> None:
         self.board.find("types", await asyncio.to_thread(take_types, self.location))
@@ -193,6 +194,7 @@ class Document:
     async def edit_site(self, site: str, text: str, gesture: str) -> None:
         """Write a new text at a site and show what it does."""
         edit = self.sources.edit_site(site, text, gesture)
+        self.drafts.note()
         await self._timed(self._runs.edit((edit,), in_gesture=bool(gesture)))
 
     async def edit_text(self, command: EditText) -> None:
@@ -235,7 +237,8 @@ class Document:
     async def save(self, files: Collection[str] | None = None) -> None:
         """Write these changed files, or all."""
         await self._changed_on_disk(set(self.sources.unsaved_files))
-        written = self.sources.save(files)
+        with self.drafts.saving(files):
+            written = self.sources.save(files)
         self.board.book.doubt_all()
         self._texts_changed()
         self.board.audience.tell(Saved(files=written))

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Final
 
 from studio.errors import ExportError, OutsideRootsError, UnreadableFileError
 from studio.packages.presence import is_file
+from studio.packages.temporary_files import is_temporary
 from studio.settings import MESH_SIZE_LIMIT_BYTES, ZIP_SIZE_LIMIT_BYTES
 
 if TYPE_CHECKING:
@@ -35,7 +36,8 @@ class PackedFile:
 def package_files(folder: Path, name: str, served: ServedRoots) -> list[PackedFile]:
     """Every file of a folder, as `name/...`; links to what is not served are left out.
 
-    Links to folders are not followed. Version control and caches are left out.
+    Links to folders are not followed. Version control, caches and what a killed studio left are
+    left out.
 
     Raises:
         ExportError: There are too many files.
@@ -44,7 +46,7 @@ def package_files(folder: Path, name: str, served: ServedRoots) -> list[PackedFi
     for path, folders, names in os.walk(folder):
         folders[:] = sorted(one for one in folders if one not in _LEFT_OUT)
         inside = Path(path).relative_to(folder)
-        for one in sorted(names):
+        for one in sorted(name for name in names if not is_temporary(name)):
             real = _served_file(Path(path) / one, served)
             if real is not None:
                 files.append(PackedFile((Path(name) / inside / one).as_posix(), real))

@@ -9,13 +9,13 @@ from __future__ import annotations
 import contextlib
 import os
 import stat
-import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, TYPE_CHECKING
 
 from studio.errors import NotSavedError, PackageError, SaveConflictError
 from studio.packages.presence import is_writable
+from studio.packages.temporary_files import temporary_beside
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -145,10 +145,7 @@ def _write_beside(one: _Checked) -> Path:
     """Write the new bytes to a temporary file in the same folder, down to the disk."""
     temporary: Path | None = None
     try:
-        handle, name = tempfile.mkstemp(
-            prefix=f".{one.target.name}.", suffix=".tmp", dir=one.target.parent
-        )
-        temporary = Path(name)
+        handle, temporary = temporary_beside(one.target)
         with os.fdopen(handle, "wb") as stream:
             stream.write(one.wanted.data)
             stream.flush()

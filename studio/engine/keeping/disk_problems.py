@@ -1,6 +1,14 @@
 """What the disk did to an open document, as Problems."""
 
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
 from studio.problems import Fix, Place, Problem, Severity
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
 
 
 def changed_on_disk(file: str) -> Problem:
@@ -27,3 +35,16 @@ def not_watched(reason: str) -> Problem:
         "raise fs.inotify.max_user_instances."
     )
     return Problem(Severity.WARNING, "not-watched", sentence)
+
+
+def save_cut(written: Sequence[str], missed: Sequence[str]) -> Problem:
+    """The studio was ended in the middle of a save: some files are new, others are not."""
+    sentence = (
+        f"The studio was ended while it saved: {_names(written)} was written, {_names(missed)} was "
+        "not, so the files may not fit each other. The edits are here: save them again."
+    )
+    return Problem(Severity.WARNING, "save-cut-off", sentence, Place(missed[0]))
+
+
+def _names(files: Sequence[str]) -> str:
+    return ", ".join(Path(one).name for one in files)

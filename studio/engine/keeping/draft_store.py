@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Final
 import msgspec
 
 from studio.description.editing.kept_sources import KeptSources  # noqa: TC001 - msgspec reads it
+from studio.engine.keeping.save_journal import SaveJournal
 from studio.errors import DraftError
 from studio.system import hold_file
 
@@ -57,6 +58,11 @@ class DraftFile:
 
     def __init__(self, path: Path, lock: IO[bytes]) -> None:
         self._path, self._lock = path, lock
+
+    @property
+    def journal(self) -> SaveJournal:
+        """Beside the draft: what a save of the document is about to write."""
+        return SaveJournal(self._path.with_suffix(".saving"))
 
     def read(self) -> Draft | None:
         """What an earlier run left, its steps only where they fit its texts; None: nothing.

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import asyncio
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Final
 
 from studio.description.editing.undo import Change
+from studio.engine.keeping.disk_problems import save_cut
 from studio.engine.keeping.draft_store import Draft, draft_file
 from studio.engine.messages.keeping import Restored
-from studio.errors import DraftError
+from studio.errors import DraftError, PackageError
 from studio.problems import Place, Problem, Severity
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Collection, Generator, Iterable
     from pathlib import Path
 
     from studio.description.editing.kept_sources import KeptSources
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
     from studio.engine.keeping.draft_store import DraftFile
 
 _WRITE_AFTER_S: Final = 0.3
-"""From an edit to its draft; of what is edited meanwhile no draft is written."""
+"""From a draft to the next one; the first edit of a pause is written at once."""
 _WRITE_LARGE_AFTER_S: Final = 3.0
 _LARGE_BYTES: Final = 1 << 20
 _LIMIT_BYTES: Final = 64 << 20
@@ -56,6 +57,7 @@ class DraftDesk:
         except DraftError as error:
             self._complain(error)
             return
+        self._tell_cut_save(self._file)
         if draft is not None and draft.entry == self._document.path:
             self._take(draft)
 
@@ -65,6 +67,23 @@ class DraftDesk:
         self._end_notice()
         if self._file is not None and (self._writing is None or self._writing.done()):
             self._writing = asyncio.create_task(self._write_while_noted())
+
+    @contextmanager
+    def saving(self, files: Collection[str] | None) -> Generator[None]:
+        """Write these changed files, or all, inside: a kill meanwhile is told at the next run."""
+        sources = self._document.sources
+        chosen = [one for one in sources.unsaved_files if files is None or one in files]
+        if self._file is None:
+            yield
+            return
+        journal = self._file.journal
+        if len(chosen) > 1:
+            journal.begin((one, sources.saved(one), sources.text(one)) for one in chosen)
+        try:
+            yield
+        finally:
+            journal.end()
+        self._document.board.find("saving", ())
 
     def forget(self) -> None:
         """The document is closed for good: nothing of it is to come back."""
@@ -79,6 +98,7 @@ class DraftDesk:
             return
         if self._is_forgotten:
             self._file.remove()
+            self._file.journal.end()
         self._file.close()
 
     async def discard(self) -> None:
@@ -118,12 +138,12 @@ class DraftDesk:
 
     async def _write_while_noted(self) -> None:
         while self._is_noted:
+            await self._write()
             known = self._written
             large = known is not None and known.size_bytes > _LARGE_BYTES
             with suppress(TimeoutError):
                 delay_s = _WRITE_LARGE_AFTER_S if large else _WRITE_AFTER_S
                 await asyncio.wait_for(self._ended.wait(), delay_s)
-            await self._write()
 
     async def _write(self) -> None:
         self._is_noted = False
@@ -139,6 +159,19 @@ class DraftDesk:
             return
         self._written = kept
         self._document.board.find("drafts", ())
+
+    def _tell_cut_save(self, file: DraftFile) -> None:
+        written, missed = file.journal.cut(self._on_disk)
+        if not missed:
+            file.journal.end()
+            return
+        self._document.board.find("saving", [save_cut(written, missed)])
+
+    def _on_disk(self, file: str) -> bytes:
+        try:
+            return self._document.location.served.read(file)
+        except PackageError:
+            return b""
 
     def _complain(self, error: DraftError) -> None:
         place = Place(self._document.path)

@@ -12,6 +12,7 @@ from studio.description.editing.undo import Change
 from studio.engine.messages.diff_lines import hunk_views
 from studio.engine.messages.keeping import Changes, FileChanges
 from studio.errors import CommandError, NotSavedError
+from studio.packages.temporary_files import sweep
 
 if TYPE_CHECKING:
     from studio.engine.document import Document
@@ -50,6 +51,15 @@ class SaveDesk:
         folder = next((one for one in served.writable if one.is_dir()), None)
         copies = str(folder) if folder else ""
         return Changes(request=command.request, files=files, copies=copies)
+
+    async def sweep(self) -> None:
+        """Remove what a killed studio left beside the files, once it is known which these are."""
+        document = self._document
+        await document.opened()
+        served = document.location.served
+        files = (document.path, *document.sources.files)
+        folders = {Path(one).parent for one in files if served.may_write(one)}
+        await asyncio.to_thread(sweep, folders)
 
     async def resolve(self, command: ResolveCollisions) -> None:
         """Choose whose text stands where edits collide with a change on disk.

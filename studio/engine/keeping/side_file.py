@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import contextlib
 import os
-import tempfile
-from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from studio.errors import NotSavedError
 from studio.packages.presence import is_there
+from studio.packages.temporary_files import temporary_beside
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from studio.packages.roots import ServedRoots
 
 _ENDINGS: Final = (".urdf.xacro", ".xacro", ".urdf", ".xml")
@@ -51,8 +52,7 @@ class SideFile:
         target = self._served.resolve(self.path)
         temporary: Path | None = None
         try:
-            handle, name = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)
-            temporary = Path(name)
+            handle, temporary = temporary_beside(target)
             with os.fdopen(handle, "wb") as stream:
                 stream.write(data)
                 stream.flush()
