@@ -93,7 +93,7 @@ class Document:
         self.language = LanguageDesk(self)
         self.rewriting = RewritingDesk(self)
         self.expanded = ExpandedDesk(self, services.description_worker)
-        self.mending, self.checks = MendingDesk(self), CheckDesk(self, services.validator)
+        self.mending, self.checks = MendingDesk(self), CheckDesk(self, services)
         self.disk = DiskDesk(self)
         self.history, self.saving = HistoryDesk(self), SaveDesk(self)
         self.drafts, self.exports = DraftDesk(self, services.settings.data_folder), ExportDesk(self)
@@ -102,7 +102,7 @@ class Document:
         self._services = services
         self._runs = EditLoop(services.description_worker(), self.sources, self.target, self._take)
         self._meshes = MeshDesk(self, services.meshes, self._watch_files)
-        self.robot_checks = RobotChecks(self, services.meshes, self._meshes)
+        self.robot_checks = RobotChecks(self, services, self._meshes)
         self.variants = VariantDesk(self, services, self._meshes.want)
         self.live = LiveDesk(self, services, self._meshes)
         self._files: tuple[str, ...] = (self.path,)
@@ -160,6 +160,9 @@ class Document:
         self.drafts.restore()
         self.live.restore()
         self._spawn("opening", self._open())
+
+    def learn_types(self) -> None:
+        """Take up the types of the opened packages beside."""
         self._spawn("types", self._take_types())
         self._spawn("sweep", self.saving.sweep())
 

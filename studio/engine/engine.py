@@ -224,6 +224,7 @@ class Engine:
         self.documents[document.id] = document
         self.default_document = self.default_document or document.id
         document.start()
+        document.learn_types()
         self.library.note(document)
         self._tell_list()
         return document.id

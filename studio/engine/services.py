@@ -22,6 +22,8 @@ class Services:
 
     def __init__(self, settings: Settings) -> None:
         self.settings = settings
+        self.quiet_s = 0.4
+        """Without a run or a mesh, before a document is checked: no edit ever waits for it."""
         self._pool = mesh_pool()
         self.meshes = MeshLibrary(settings.data_folder / "meshes", self._pool)
         self.validator = UrdfValidator()

@@ -46,6 +46,8 @@ class EntryPoint:
     """Why it cannot be opened as a robot, in words; empty when it can."""
     is_broken: bool = False
     """Its XML has a fault: others are opened first."""
+    included_by: tuple[Path, ...] = ()
+    """Those of the same survey that include it, themselves perhaps no robots."""
 
 
 def entry_points(
@@ -125,6 +127,7 @@ class _Survey:
             openable=not reason,
             reason=reason,
             is_broken=outline.is_broken,
+            included_by=tuple(includes.includers(path)),
         )
 
     def _rank(self, point: EntryPoint, includes: Includes) -> tuple[bool | int | str, ...]:

@@ -110,3 +110,85 @@ def test_what_cannot_be_read_is_told(tmp_path: Path):
     for path in (tmp_path / "gone.urdf", tmp_path / "data"):
         with pytest.raises(PackageError):
             check(path, tmp_path / "data")
+
+
+NAMESPACE = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
+FRAGMENT = f"""<robot name="camera" {NAMESPACE}>
+  <joint name="mount" type="fixed"><parent link="chassis"/><child link="camera"/></joint>
+  <link name="camera"/>
+</robot>"""
+
+
+def including(*names: str, inner: str = '<link name="chassis"/>') -> str:
+    includes = "".join(f'<xacro:include filename="{name}"/>' for name in names)
+    return f'<robot name="whole" {NAMESPACE}>{inner}{includes}</robot>'
+
+
+def package(folder: Path, **texts: str) -> Path:
+    files = {f"urdf/{name}.xacro": text for name, text in texts.items()}
+    return write_package(folder / "ws" / "r_description", files=files)
+
+
+def names(files: list[CheckedFile]) -> list[str]:
+    return sorted(file.path.stem for file in files)
+
+
+def test_a_fragment_that_another_file_includes_is_checked_with_that_file_only(tmp_path: Path):
+    texts = {"robot": including("camera.xacro"), "camera": FRAGMENT}
+    files = check(package(tmp_path, **texts), tmp_path / "data")
+    assert names(files) == ["robot"]
+    assert not files[0].has_errors
+    (alone,) = check(tmp_path / "ws/r_description/urdf/camera.xacro", tmp_path / "data")
+    assert "dangling-parent" in codes(alone)
+
+
+def test_files_that_include_each_other_are_checked_as_one_robot(tmp_path: Path):
+    texts = {"one": including("two.xacro"), "two": including("one.xacro")}
+    files = check(package(tmp_path, **texts), tmp_path / "data")
+    assert [codes(file)[0] for file in files] == ["include-recursion"]
+
+
+def test_what_a_robot_might_include_and_does_not_is_checked_when_it_is_whole(tmp_path: Path):
+    choice = (
+        '<xacro:arg name="kind" default="none"/><xacro:if value="${\'$(arg kind)\' == \'%s\'}">'
+    )
+    inner = "".join(
+        f'{choice % one}<xacro:include filename="{one}.xacro"/></xacro:if>'
+        for one in ("whole", "camera")
+    )
+    texts = {
+        "robot": including(inner=f'<link name="chassis"/>{inner}'),
+        "whole": f'<robot name="w" {NAMESPACE}><link name="a" lenght="1"/></robot>',
+        "camera": FRAGMENT,
+    }
+    files = check(package(tmp_path, **texts), tmp_path / "data")
+    assert names(files) == ["robot", "whole"]
+
+
+def test_types_that_cannot_be_used_are_told_once_and_of_packages_below_the_path_only(
+    tmp_path: Path,
+):
+    robots = {f"urdf/r{n}.urdf": GOOD for n in range(3)}
+    mine = write_package(
+        tmp_path / "ws" / "mine", files={**robots, "msg/Bad.msg": "uint8 a\nuint8 a\n"}
+    )
+    write_package(tmp_path / "ws" / "other", files={"msg/Bad.msg": "uint8 b\nuint8 b\n"})
+    files = check(mine, tmp_path / "data")
+    told = [one for file in files for one in file.problems if one.code == "unusable-interfaces"]
+    assert [one.place and one.place.file.endswith("mine/msg/Bad.msg") for one in told] == [True]
+    (single,) = check(mine / "urdf" / "r0.urdf", tmp_path / "data")
+    assert "unusable-interfaces" not in codes(single)
+    everything = check(tmp_path / "ws", tmp_path / "data")
+    assert [code for file in everything for code in codes(file)].count("unusable-interfaces") == 2
+
+
+def test_a_robot_after_another_in_the_same_process_is_as_if_it_were_alone(tmp_path: Path):
+    robots = {
+        f"r{n}": f'<robot name="r{n}" {NAMESPACE}><link name="a{n}" nme="1"/></robot>'
+        for n in range(12)
+    }
+    files = check(package(tmp_path, **robots), tmp_path / "data")
+    assert len(files) == 12
+    for file in files:
+        (alone,) = check(file.path, tmp_path / "data")
+        assert alone.problems == file.problems

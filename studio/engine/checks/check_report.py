@@ -65,14 +65,31 @@ _WORDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "
 
 
 def _findings(files: Sequence[CheckedFile]) -> Iterator[tuple[str, Problem]]:
-    """Each finding once, though several robots may share the file that it is in."""
+    """Each finding once, though several robots may share the file that it is in.
+
+    What robots share may have another prefix in the names of its links and joints in each.
+    """
     told: set[object] = set()
+    told_by_others: set[object] = set()
     for file in files:
+        shared: set[object] = set()
         for problem in file.problems:
             where = problem.place or file.path
-            if (mark := (problem.code, problem.sentence, where)) not in told:
-                told.add(mark)
-                yield str(file.path), problem
+            mark, nameless = ((problem.code, one, where) for one in _sentences(problem))
+            if mark in told or nameless in told_by_others:
+                continue
+            told.add(mark)
+            shared.add(nameless)
+            yield str(file.path), problem
+        told_by_others |= shared
+
+
+def _sentences(problem: Problem) -> tuple[str, str]:
+    """What a problem says, and the same without the names of its links and joints."""
+    nameless = problem.sentence
+    for part in problem.parts:
+        nameless = nameless.replace(f'"{part.partition(":")[2]}"', '""')
+    return problem.sentence, nameless
 
 
 def _place(path: str, problem: Problem, folder: Path) -> str:

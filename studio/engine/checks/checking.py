@@ -18,10 +18,8 @@ if TYPE_CHECKING:
 
     from studio.description.values import Expansion, Failure, Part
     from studio.engine.document import Document
-    from studio.robot.validation import UrdfValidator
+    from studio.engine.services import Services
 
-QUIET_S: Final = 0.4
-"""Without a run, before the texts are looked at: no edit ever waits for it."""
 _VALIDATE_AFTER_S: Final = 0.3
 """Quiet time after a structural change before yourdfpy is asked for its opinion."""
 _XML: Final = "xml-"
@@ -38,8 +36,9 @@ class CheckDesk:
 
     role = Role.VIEWER
 
-    def __init__(self, document: Document, validator: UrdfValidator) -> None:
-        self._document, self._validator = document, validator
+    def __init__(self, document: Document, services: Services) -> None:
+        self._document, self._validator = document, services.validator
+        self._quiet_s = services.quiet_s
         self._of_robot: tuple[Problem, ...] = ()
         self._of_texts: tuple[Problem, ...] = ()
         self._second_opinion: tuple[Problem, ...] = ()
@@ -95,7 +94,7 @@ class CheckDesk:
         return asyncio.create_task(work)
 
     async def _look_later(self) -> None:
-        await asyncio.sleep(QUIET_S)
+        await asyncio.sleep(self._quiet_s)
         try:
             await self._take(await self._document.ask(CheckQuery(), Checked, self))
         except CommandError:
@@ -118,7 +117,7 @@ class CheckDesk:
         board.find("validation", more if codes.isdisjoint(_EXPLAIN) else ())
 
     async def _validate(self) -> None:
-        await asyncio.sleep(_VALIDATE_AFTER_S)
+        await asyncio.sleep(min(_VALIDATE_AFTER_S, self._quiet_s))
         found = await self._validator.validate(self._document.urdf())
         part = self._document.model.assembly.part
         self._second_opinion = tuple(placed(one, part) for one in found)

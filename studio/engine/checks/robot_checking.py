@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import logging
 from dataclasses import replace
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
 from studio.engine.meshes.hidden_meshes import HiddenMeshes
 from studio.engine.meshes.near_meshes import NearMeshes
@@ -16,12 +16,9 @@ from studio.robot.values import Mesh
 if TYPE_CHECKING:
     from studio.engine.document import Document
     from studio.engine.meshes.mesh_desk import MeshDesk
+    from studio.engine.services import Services
     from studio.problems import Problem
     from studio.robot.measures import Bounds
-    from studio.robot.meshes import MeshLibrary
-
-QUIET_S: Final = 0.4
-"""Without a run or a mesh, before the robot is looked at: no edit ever waits for it."""
 
 _log = logging.getLogger(__name__)
 
@@ -29,9 +26,10 @@ _log = logging.getLogger(__name__)
 class RobotChecks:
     """Tells the document's board what is wrong with its robot; the looking is done in a thread."""
 
-    def __init__(self, document: Document, library: MeshLibrary, meshes: MeshDesk) -> None:
+    def __init__(self, document: Document, services: Services, meshes: MeshDesk) -> None:
         self._document, self._meshes = document, meshes
-        self._hidden = HiddenMeshes(document, library)
+        self._hidden = HiddenMeshes(document, services.meshes)
+        self._quiet_s = services.quiet_s
         self._looking: asyncio.Task[None] | None = None
 
     def doubt(self) -> None:
@@ -52,7 +50,7 @@ class RobotChecks:
             await asyncio.gather(self._looking, return_exceptions=True)
 
     async def _look_later(self) -> None:
-        await asyncio.sleep(QUIET_S)
+        await asyncio.sleep(self._quiet_s)
         try:
             await self._look()
             if await self._hidden.look(self._hidden_uris()):

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Final
 
 from studio.errors import PackageError, StudioError
 from studio.packages.index import Standing
+from studio.packages.manifest import FILE_NAME
 from studio.problems import Place, Problem, Severity
 
 if TYPE_CHECKING:
@@ -39,7 +40,7 @@ def take_types(location: Location, library: TypeLibrary | None = None) -> tuple[
             # Only what is new: whoever holds a class of a type that is taken again loses it.
             faults = (library or shared_types()).add_sound_texts(texts_of_package(folder, name))
         except StudioError as error:
-            found.append(_problem(name, error))
+            found.append(_problem(name, folder, error))
         else:
             found += [_text_problem(fault) for fault in faults.values()]
     return tuple(found)
@@ -55,9 +56,9 @@ def _packages(location: Location) -> Iterator[tuple[str, Path]]:
                 continue
 
 
-def _problem(package: str, error: StudioError) -> Problem:
+def _problem(package: str, folder: Path, error: StudioError) -> Problem:
     sentence = f"The types of the package {package} are not known on the wire: {error}"
-    return Problem(Severity.WARNING, CODE, sentence)
+    return Problem(Severity.WARNING, CODE, sentence, Place(str(folder / FILE_NAME)))
 
 
 def _text_problem(fault: InterfaceTextError) -> Problem:

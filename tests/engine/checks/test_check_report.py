@@ -70,3 +70,26 @@ def test_json_has_one_object_for_each_finding():
 )
 def test_the_exit_code_says_how_bad_it_is(files: list[CheckedFile], code: int):
     assert exit_code(files) == code
+
+
+def test_what_robots_share_under_other_prefixes_is_told_of_the_first_of_them():
+    def wheels(robot: str, *prefixes: str) -> CheckedFile:
+        found = [
+            Problem(
+                Severity.ERROR,
+                "bad-mass",
+                f'Link "{one}wheel" weighs nothing.',
+                Place("/here/wheel.xacro", 2, 1),
+                parts=(f"link:{one}wheel",),
+            )
+            for one in prefixes
+        ]
+        return CheckedFile(HERE / robot, tuple(found))
+
+    files = [wheels("a.xacro", "left_", "right_"), wheels("b.xacro", "front_")]
+    lines = list(report_lines(files, HERE))
+    assert [line.partition('"')[2].partition('"')[0] for line in lines[:-1]] == [
+        "left_wheel",
+        "right_wheel",
+    ]
+    assert lines[-1] == "2 files checked: 2 errors."
