@@ -12,6 +12,7 @@ import pytest
 from studio.ros.messages import service
 from tests.support.demos import call, heard, node_at, running_demo
 from tests.support.panel_pictures import SHOW_PANEL
+from tests.support.ros2_peer import real_node, real_nodes
 from tests.support.server import running_studio
 from tests.support.studio_page import studio_page, wait_until
 from tests.support.wire import running_router
@@ -40,6 +41,14 @@ PUB = (
     '"{linear: {x: 2.0, y: 0.0, z: 0.0}, angular: {x: 0.0, y: 0.0, z: 1.8}}"'
 )
 ADD_POINTS = "pkg_with_interfaces/srv/AddPoints"
+REAL_ROBOT = """<robot name="real"><link name="base_link"><visual>
+  <geometry><box size="3 3 0.1"/></geometry>
+  <material name="red"><color rgba="1 0 0 1"/></material>
+</visual></link></robot>"""
+_ADD_DISPLAY = """async ([kind, topic]) => {
+  const script = document.querySelector('script[type="module"]').src;
+  await (await import(new URL("live.js", script))).addDisplay(kind, topic);
+}"""
 STEPS = ("--ros-args", "-p", "step_seconds:=2.0")
 """So slow that a busy page sees a song between its beginning and its end."""
 
@@ -200,3 +209,52 @@ def test_sv1_sv2_sv3_a1_a2_p1_p2_t2_what_is_done_from_the_page_and_what_is_in_th
             send_a_goal(tab)
         Hand(tab, "actions", "Actions").see("ended before the goal did")
         assert tab.errors == []
+
+
+def test_panels_and_displays_show_what_real_nodes_do(
+    browser: Browser, studio: RunningStudio, router: str
+):
+    with (
+        real_node(router, "server", "--step", "0.1") as server,
+        real_nodes(router) as real,
+        studio_page(browser, studio) as tab,
+    ):
+        server.wait_said("ready")
+        tab.page.context.grant_permissions(["clipboard-read", "clipboard-write"])
+        tab.page.evaluate(SHOW_PANEL, "services")
+        tab.page.get_by_role("button", name="Connect", exact=True).click()
+        call_a_service(tab, CALL, "sum\n42")
+        have_a_goal_of_a_real_server_cancelled(tab)
+        refuse_a_parameter_of_a_real_node(tab)
+        tab.page.evaluate(SHOW_PANEL, "log")
+        tab.page.locator("section.log").get_by_text("add 41 + 1").first.wait_for()
+        plain = tab.plain_picture()
+        real.ask("publish", topic="/real_robot", qos="reliable transient_local", data=[REAL_ROBOT])
+        tab.page.evaluate(_ADD_DISPLAY, ["RobotModel", "/real_robot"])
+        tab.show_other_than(plain)
+        assert tab.errors == []
+        server.kill()
+
+
+def have_a_goal_of_a_real_server_cancelled(tab: StudioPage) -> None:
+    hand = Hand(tab, "actions", "Actions")
+    hand.click(hand.panel.get_by_role("button", name="/fibonacci"))
+    order = hand.panel.get_by_role("textbox", name="order")
+    order.fill("4")
+    hand.press("Send goal")
+    hand.see("Succeeded")
+    order.fill("45")
+    hand.press("Send goal")
+    hand.see(re.compile("0, 1, 1"))
+    hand.press("Cancel")
+    hand.see("Cancelled after")
+
+
+def refuse_a_parameter_of_a_real_node(tab: StudioPage) -> None:
+    hand = Hand(tab, "parameters", "Parameters")
+    hand.press("/peer_server")
+    box = hand.panel.get_by_role("textbox", name="ranged")
+    box.fill("50")
+    box.press("Enter")
+    hand.see("Parameter ranged out of range. Min: 1, Max: 10, value: 50")
+    wait_until("the box shows what is", lambda: box.input_value() == "5")
