@@ -158,7 +158,7 @@ def test_what_a_robot_might_include_and_does_not_is_checked_when_it_is_whole(tmp
     )
     texts = {
         "robot": including(inner=f'<link name="chassis"/>{inner}'),
-        "whole": f'<robot name="w" {NAMESPACE}><link name="a" lenght="1"/></robot>',
+        "whole": f'<robot name="w" {NAMESPACE}><link name="a"/></robot>',
         "camera": FRAGMENT,
     }
     files = check(package(tmp_path, **texts), tmp_path / "data")
