@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import signal
 from typing import TYPE_CHECKING, Any
 
@@ -220,12 +221,13 @@ def test_a_real_managed_node_is_led_through_its_states(real: RealNodes, node: No
     assert names == ["configure", "activate", "cleanup"]
 
 
-def test_the_command_lines_of_both_say_the_same(endpoint: str, node: Node):
-    """Of topics, services and actions with their types; a node of ros2 itself is left out."""
-    del node
-    at = ("--connect", endpoint)
-    lines = {
-        line for line in ros2(endpoint, "action", "list", "-t").splitlines() if line.startswith("/")
-    }
-    assert lines == set(studio("action", "list", "-t", *at).out.splitlines())
-    assert f"/fibonacci [{FIBONACCI}]" in lines
+def test_the_command_lines_of_both_say_the_same_of_a_goal(endpoint: str, node: Node):
+    fibonacci_at(node, "/for_both")
+    words = ("action", "send_goal", "/for_both", FIBONACCI, "{order: 3}")
+    theirs = without_id(ros2(endpoint, *words))
+    assert "Goal finished with status: SUCCEEDED" in theirs
+    assert without_id(studio(*words, "--connect", endpoint).out) == theirs
+
+
+def without_id(said: str) -> str:
+    return re.sub(r"ID: [0-9a-f]{32}", "ID", said)

@@ -188,7 +188,10 @@ def ros2_process(
 
 
 def ros2(endpoint: str, *words: str, timeout_s: float = PATIENCE_S) -> str:
-    """What `ros2 ...` says, errors too; it must end in time."""
+    """What `ros2 ...` says, errors too; it must end in time.
+
+    Lines that ask about the graph take `--no-daemon`: else a daemon outlives the test.
+    """
     with ros2_process(endpoint, *words) as process:
         said, _ = process.communicate(timeout=timeout_s)
     return said
