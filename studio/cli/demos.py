@@ -63,6 +63,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _start(demos: Sequence[Demo], options: argparse.Namespace) -> int:
     """Hold the router, if it is ours, for as long as one of them runs."""
+    from studio.nodes.demos.chapters import LESSONS
     from studio.nodes.demos.starting import DemoProcesses, environment_for
 
     arguments = ["--ros-args", *options.ros_args] if options.ros_args else []
@@ -72,7 +73,7 @@ def _start(demos: Sequence[Demo], options: argparse.Namespace) -> int:
         DemoProcesses(environment_for(wire.settings, own_types)) as processes,
     ):
         for demo in demos:
-            processes.start(demo.module, arguments)
+            processes.start(demo.module, [*LESSONS[demo.name].words, *arguments])
         return processes.wait()
 
 

@@ -43,13 +43,15 @@ def _run(options: argparse.Namespace) -> int:
 
     with opened_wire(options) as wire, Graph(wire) as graph:
         settle(graph, options)
-        faults = [*_unseen(wire), *faults_of(graph, wire.types, wire.profile)]
+        unseen = _unseen(wire)
+        faults = [*unseen, *faults_of(graph, wire.types, wire.profile)]
+        why_nobody = "" if graph.nodes() or unseen else why_empty(wire)
         if options.report:
-            _print_sections([*_sections(wire, graph), *_fault_sections(faults)])
+            _print_sections([*_sections(wire, graph), *_fault_sections(faults, why_nobody)])
         elif options.report_failed:
-            _print_sections(_fault_sections(faults))
+            _print_sections(_fault_sections(faults, why_nobody))
         else:
-            _print_verdict(wire, graph, faults)
+            _print_verdict(graph, faults, why_nobody)
     return 1 if faults else 0
 
 
@@ -61,12 +63,11 @@ def _unseen(wire: WireSession) -> list[Fault]:
     return [Fault("unseen nodes", why_unseen(found))] if found else []
 
 
-def _print_verdict(wire: WireSession, graph: Graph, faults: list[Fault]) -> None:
+def _print_verdict(graph: Graph, faults: list[Fault], why_nobody: str) -> None:
     for fault in faults:
         print(f"{fault.kind}: {harmless(fault.sentence)}")
-    if not graph.nodes():
-        if not faults:
-            print(why_empty(wire))
+    if why_nobody:
+        print(why_nobody)
     elif not faults:
         topics = [name for name, _ in graph.topics() if not is_hidden(name)]
         print(f"All is well: {len(graph.nodes())} nodes, {len(topics)} topics.")
@@ -112,10 +113,11 @@ def _ends(graph: Graph, name: str, types: list[str]) -> str:
     return f"{', '.join(types)}, publishers {publishers}, subscribers {subscribers}"
 
 
-def _fault_sections(faults: list[Fault]) -> list[Section]:
-    if not faults:
-        return [("FINDINGS", [("none", "all is well")])]
-    return [("FINDINGS", [(fault.kind, harmless(fault.sentence)) for fault in faults])]
+def _fault_sections(faults: list[Fault], why_nobody: str) -> list[Section]:
+    rows: list[tuple[str, object]] = [(one.kind, harmless(one.sentence)) for one in faults]
+    if why_nobody:
+        rows.append(("no nodes", why_nobody))
+    return [("FINDINGS", rows or [("none", "all is well")])]
 
 
 def _print_sections(sections: list[Section]) -> None:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import importlib.util
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import studio
 from studio.packages.environment import is_workspace_install
 from studio.packages.executables import executables_of
 from studio.packages.index import Standing
@@ -51,3 +53,28 @@ def demo_executables() -> dict[str, dict[str, str]]:
     for (package, name), module in executables().items():
         found.setdefault(package, {})[name] = module
     return found
+
+
+def demo_folder(package: str) -> Path:
+    """Give the folder that holds the code of a package of demos, which is one of the studio's."""
+    module = next(iter(demo_executables()[package].values()))
+    found = importlib.util.find_spec(module.rpartition(".")[0])
+    return Path(next(iter((found and found.submodule_search_locations) or [""])))
+
+
+def demo_manifest(package: str) -> str:
+    """Write the package.xml that a package of demos would have; empty for any other."""
+    names = ", ".join(sorted(demo_executables().get(package, {})))
+    if not names:
+        return ""
+    return (
+        '<?xml version="1.0"?>\n'
+        "<!-- Written by the studio: these nodes come with it, in no package of their own. -->\n"
+        '<package format="3">\n'
+        f"  <name>{package}</name>\n"
+        f"  <version>{studio.__version__}</version>\n"
+        f"  <description>Demo nodes of the studio: {names}.</description>\n"
+        '  <maintainer email="none@invalid">the studio</maintainer>\n'
+        "  <license>Apache-2.0</license>\n"
+        "</package>\n"
+    )

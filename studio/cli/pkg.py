@@ -51,12 +51,21 @@ def _list(options: argparse.Namespace) -> None:
 
 
 def _xml(options: argparse.Namespace) -> int:
-    folder = _folder(opened_packages(options), options.package_name)
-    text = ServedRoots([folder]).read(folder / FILE_NAME, SIZE_LIMIT_BYTES).decode(errors="replace")
+    text = _manifest(opened_packages(options), options.package_name)
     if options.tag is None:
         print(text, end="" if text.endswith("\n") else "\n")
         return 0
     return _print_tag(text, options.tag)
+
+
+def _manifest(index: PackageIndex, name: str) -> str:
+    """Give the text of a package.xml; for a package of our demos one that says what they are."""
+    from studio.cli.executables import demo_manifest
+
+    if name not in index and (written := demo_manifest(name)):
+        return written
+    folder = _folder(index, name)
+    return ServedRoots([folder]).read(folder / FILE_NAME, SIZE_LIMIT_BYTES).decode(errors="replace")
 
 
 def _print_tag(text: str, tag: str) -> int:
@@ -83,7 +92,13 @@ def _executables(options: argparse.Namespace) -> int:
 
 
 def _prefix(options: argparse.Namespace) -> None:
-    print(_folder(opened_packages(options), options.package_name))
+    from studio.cli.executables import demo_folder, demo_packages
+
+    index = opened_packages(options)
+    if options.package_name not in index and options.package_name in demo_packages():
+        print(demo_folder(options.package_name))
+    else:
+        print(_folder(index, options.package_name))
 
 
 def _folder(index: PackageIndex, name: str) -> Path:

@@ -165,13 +165,20 @@ def full_type_name(name: str, kind: str = "msg") -> str:
     """Complete what users write: `std_msgs/String` or `std_msgs.msg.String`.
 
     Raises:
-        RosNameError: It names no type.
+        RosNameError: It names no type; what was written is quoted.
     """
     parts = re.split(r"[./]", name)
+    if len(parts) > 1 and parts[-1] in KINDS and parts[-2][:1].isupper():
+        *folders, base, ending = parts
+        full = "/".join(folders if len(folders) > 1 else [*(folders or ["package"]), ending])
+        raise RosNameError(name, f"a type has no .{ending} at its end, write {full}/{base}")
     if len(parts) == 2:
         parts.insert(1, kind)
     full = "/".join(parts)
-    split_type_name(full)
+    try:
+        split_type_name(full)
+    except RosNameError as error:
+        raise RosNameError(name, error.reason) from None
     return full
 
 

@@ -118,9 +118,10 @@ def test_n4_talker_and_listener_are_two_nodes_and_one_edge(tab: StudioPage, rout
 def test_t4_who_comes_late_is_told_the_last_and_each_end_shows_its_quality(
     tab: StudioPage, router: str
 ):
-    with running_demo(router, "qos_topic_node"):
+    kept = "qos_overrides./reliable_topic.publisher.durability:=transient_local"
+    with running_demo(router, "qos_topic_node", "--ros-args", "-p", kept):
         row = see_fields(tab, "/reliable_topic", 1)
-        assert "kept for you: 0" in row.inner_text()
+        assert "reliably: 0" in row.inner_text()
         tab.page.get_by_role("button", name="Who publishes and subscribes, and how").click()
         ends = tab.page.locator(".topics-ends")
         wait_until("its publisher", lambda: "/qos_topic_node" in (ends.text_content() or ""))

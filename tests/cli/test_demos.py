@@ -38,3 +38,9 @@ def test_an_unknown_name_is_one_sentence_and_starts_none_of_the_others():
     ran = studio("demos", "talker", "no_such")
     assert (ran.code, ran.out) == (2, "")
     assert ran.err == "studio: No demo is called no_such: `studio demos` lists them.\n"
+
+
+def test_a_demo_that_needs_words_is_started_with_those_of_its_lesson():
+    with started(free_endpoint(), "demos", "adder_server", "adder_client") as demos:
+        demos.wait_for("Result of add_two_ints: for 41 + 1 = 42")
+        assert "Two integers are needed" not in demos.printed

@@ -8,7 +8,7 @@ from studio.cli.faults import faults_of
 from studio.ros.messages import message, service
 from studio.ros.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from studio.ros.types.library import TypeLibrary
-from tests.support.command_line import studio
+from tests.support.command_line import comes_to, studio
 from tests.support.demos import node_at
 from tests.support.wire import wait_until
 
@@ -131,3 +131,11 @@ def test_a_faulty_text_of_the_workspace_is_found(
     assert ran.code == 1
     assert ran.out.startswith(f"interface text: {package / 'msg' / 'Bad.msg'}:1: ")
     assert ran.out.endswith("single underscores: write speed.\n")
+
+
+def test_reports_say_that_the_nodes_are_in_another_domain(node: Node, endpoint: str):
+    at = ("--connect", endpoint, "--domain", "77")
+    said = "No node is in domain 77, but 1 node is in domain "
+    for option in (), ("--report",), ("-rf",):
+        comes_to(lambda ran: said in ran.out, "doctor", *option, *at)
+        assert "all is well" not in studio("doctor", *option, *at).out

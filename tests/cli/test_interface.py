@@ -31,6 +31,7 @@ def package_at(folder: Path, name: str, **texts: str) -> Path:
 
 def test_t5_pose_is_shown_with_nested_fields_indented():
     assert studio("interface", "show", "geometry_msgs/msg/Pose").out == (
+        "# A representation of pose in free space, composed of position and orientation.\n\n"
         "Point position\n\tfloat64 x\n\tfloat64 y\n\tfloat64 z\n"
         "Quaternion orientation\n\tfloat64 x 0\n\tfloat64 y 0\n\tfloat64 z 0\n\tfloat64 w 1\n"
     )

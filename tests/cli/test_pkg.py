@@ -1,13 +1,10 @@
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 
 from tests.support.command_line import studio
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 SETUP = """\
 from setuptools import setup
@@ -87,3 +84,13 @@ def test_a_broken_setup_file_names_nothing(workspace: Path, setup: str):
     (workspace / "setup.py").write_text(setup)
     ran = studio("pkg", "executables", "own_pkg")
     assert (ran.code, ran.out) == (0, "")
+
+
+def test_every_package_that_is_listed_has_a_prefix_and_a_manifest():
+    for name in ("turtlesim", "demo_nodes_py", "robot_state_publisher", "rover_demo"):
+        assert name in studio("pkg", "list").out.split()
+        prefix = studio("pkg", "prefix", name)
+        assert (prefix.code, Path(prefix.out.strip()).is_dir()) == (0, True)
+        assert studio("pkg", "xml", name, "-t", "name").out == f"{name}\n"
+    assert "turtle_teleop_key" in studio("pkg", "xml", "turtlesim", "-t", "description").out
+    assert studio("pkg", "prefix", "no_such").code == 2

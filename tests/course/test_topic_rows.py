@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from studio.ros.client import DurabilityPolicy, QoSProfile
+from studio.ros.client import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from tests.support.demos import heard, node_at, running_demo
 from tests.support.wire import wait_until
 
@@ -22,7 +22,7 @@ def test_t7_quotes_have_three_fields_and_are_logged_by_the_subscriber(endpoint: 
         first, second = quotes[:2]
         assert second.id == first.id + 1
         assert (first.quote, first.philosopher_name) == ("Use the force, Pikachu!", "Uncle Ben")
-        subscriber.wait_for("by Uncle Ben")
+        subscriber.wait_for("It was thought by the genius -- Uncle Ben. This latest quote had the")
 
 
 def test_t8_what_the_talker_says_is_heard_by_the_listener(endpoint: str):
@@ -95,12 +95,23 @@ def test_t12_the_temperature_pair_speaks_of_degrees(endpoint: str):
         assert "C, mean 2" in subscriber.printed
 
 
-def test_t4_one_who_comes_late_gets_the_kept_message(endpoint: str):
+def test_t4_the_topic_of_the_course_is_reliable_and_volatile(endpoint: str):
+    with running_demo(endpoint, "qos_topic_node"), node_at(endpoint) as node:
+        wait_until("its publisher", lambda: bool(node.graph.publishers("/reliable_topic")))
+        (publisher,) = node.graph.publishers("/reliable_topic")
+        assert publisher.qos.reliability is ReliabilityPolicy.RELIABLE
+        assert publisher.qos.durability is DurabilityPolicy.VOLATILE
+        assert publisher.qos.depth == 10
+
+
+def test_t4_one_who_comes_late_gets_the_kept_message_where_the_user_has_it_kept(endpoint: str):
     latched = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-    with running_demo(endpoint, "qos_topic_node"), node_at(endpoint) as early:
+    kept_by_user = "qos_overrides./reliable_topic.publisher.durability:=transient_local"
+    words = ("qos_topic_node", "--ros-args", "-p", kept_by_user)
+    with running_demo(endpoint, *words), node_at(endpoint) as early:
         heard_early = heard(early, "std_msgs/msg/String", "/reliable_topic", latched)
         wait_until("the first one", lambda: bool(heard_early))
         with node_at(endpoint, "late") as late:
             kept = heard(late, "std_msgs/msg/String", "/reliable_topic", latched)
             wait_until("what was kept", lambda: bool(kept))
-            assert kept[0].data == "kept for you: 0"
+            assert kept[0].data == "reliably: 0"

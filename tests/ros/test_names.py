@@ -108,6 +108,24 @@ def test_users_may_leave_out_the_kind_or_write_dots():
     assert full_type_name("std_srvs/Empty", "srv") == "std_srvs/srv/Empty"
 
 
+@pytest.mark.parametrize(
+    ("typed", "said"),
+    [
+        ("radio/srv/GetSong.srv", "a type has no .srv at its end, write radio/srv/GetSong"),
+        ("std_msgs/String.msg", "a type has no .msg at its end, write std_msgs/msg/String"),
+        ("GetSong.srv", "a type has no .srv at its end, write package/srv/GetSong"),
+        ("std_msgs/string", "the first a capital"),
+        ("Std/String", "lower case"),
+        ("String", "a type is named package/msg/Type"),
+    ],
+)
+def test_what_names_no_type_is_quoted_as_it_was_typed(typed: str, said: str):
+    with pytest.raises(RosNameError) as caught:
+        full_type_name(typed)
+    assert str(caught.value).startswith(f'"{typed}" cannot be used in ROS 2: ')
+    assert said in str(caught.value)
+
+
 def test_packages_are_lower_case():
     assert check_package_name("std_msgs") == "std_msgs"
     with pytest.raises(RosNameError):

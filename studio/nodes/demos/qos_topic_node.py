@@ -1,7 +1,9 @@
-"""Quality of service: keeps its last messages on /reliable_topic for those who come late.
+"""Quality of service: a reliable and volatile topic, /reliable_topic; who comes late has missed it.
 
-Try: start it, wait, then `studio topic echo /reliable_topic`: up to ten messages that it kept are
-there at once. With `--qos-durability volatile` one waits for the next.
+Try: start it, wait, then `studio topic echo /reliable_topic`: one waits for the next message, up to
+ten seconds. Started with `--ros-args -p
+qos_overrides./reliable_topic.publisher.durability:=transient_local` it keeps up to ten messages,
+which are there at once.
 """
 
 from __future__ import annotations
@@ -10,26 +12,32 @@ import studio.ros.client as rclpy
 from studio.nodes.demos.running import until_stopped
 from studio.ros.client import DurabilityPolicy, Node, QoSProfile, ReliabilityPolicy
 from studio.ros.messages.std_msgs.msg import String
+from studio.ros.qos_overriding_options import QoSOverridingOptions, QoSPolicyKind
 
 
 class QoSTopicNode(Node):
-    """Publishes rarely; a late subscriber that asks for it gets the last message nevertheless."""
+    """Publishes rarely; whether its messages are kept for late subscribers, a parameter says."""
 
     def __init__(self) -> None:
         super().__init__("qos_topic_node")
         qos_profile = QoSProfile(
             depth=10,
             reliability=ReliabilityPolicy.RELIABLE,
-            durability=DurabilityPolicy.TRANSIENT_LOCAL,
+            durability=DurabilityPolicy.VOLATILE,
         )
-        self.publisher = self.create_publisher(String, "reliable_topic", qos_profile)
+        self.publisher = self.create_publisher(
+            String,
+            "reliable_topic",
+            qos_profile,
+            qos_overriding_options=QoSOverridingOptions([QoSPolicyKind.DURABILITY]),
+        )
         self.i = 0
         self.timer = self.create_timer(10.0, self.publish_next)
         self.publish_next()
 
     def publish_next(self) -> None:
-        """Send a message that is kept."""
-        self.publisher.publish(String(data=f"kept for you: {self.i}"))
+        """Send a message."""
+        self.publisher.publish(String(data=f"reliably: {self.i}"))
         self.i += 1
 
 

@@ -26,7 +26,10 @@ class AmazingQuoteSubscriberNode(Node):
 
     def amazing_quote_subscriber_callback(self, msg: AmazingQuote) -> None:
         """Log a quote."""
-        self.get_logger().info(f"Quote {msg.id}: '{msg.quote}' by {msg.philosopher_name}.")
+        self.get_logger().info(
+            f"I have received the most amazing of quotes. It says '{msg.quote}'. It was thought by "
+            f"the genius -- {msg.philosopher_name}. This latest quote had the id = {msg.id}."
+        )
 
 
 def main(args: list[str] | None = None) -> None:
