@@ -140,6 +140,27 @@ def test_a_rotation_ends_when_it_is_cancelled_or_a_twist_comes(node: Node):
     assert aborted.result().status == GoalStatus.ABORTED
 
 
+def test_why_a_rotation_is_aborted_is_said_in_the_log(node: Node):
+    log = heard(node, "rcl_interfaces/msg/Log", "/rosout")
+    client = rotation(node)
+    goal = action("turtlesim/action/RotateAbsolute").Goal(theta=3.0)
+    first = client.send_goal_async(goal)
+    wait_until("the goal is taken", first.done)
+    second = client.send_goal_async(goal)
+    wait_until("the other goal is taken", second.done)
+    ended = first.result().get_result_async()
+    wait_until("the first has ended", ended.done)
+    assert ended.result().status == GoalStatus.ABORTED
+    publish(node, "geometry_msgs/msg/Twist", "/turtle1/cmd_vel", "{linear: {x: 1.0}}")
+    aborted = second.result().get_result_async()
+    wait_until("the second has ended", aborted.done)
+    for said in (
+        "Rotation goal received before a previous goal finished. Aborting previous goal",
+        "Velocity command received during rotation goal. Aborting goal",
+    ):
+        wait_until(said, lambda said=said: said in [one.msg for one in log])
+
+
 def rotation(node: Node) -> ActionClient:
     client = ActionClient(
         node, action("turtlesim/action/RotateAbsolute"), "turtle1/rotate_absolute"

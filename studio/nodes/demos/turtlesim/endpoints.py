@@ -43,6 +43,7 @@ class TurtleEndpoints:
             cancel_callback=lambda _goal: CancelResponse.ACCEPT,
             callback_group=ReentrantCallbackGroup(),
         )
+        self._rotating: ServerGoalHandle | None = None
 
     def publish(self, background: tuple[int, int, int]) -> None:
         """Tell where the turtle is, and the colour below it."""
@@ -65,6 +66,10 @@ class TurtleEndpoints:
         self._node.destroy_publisher(self._pose)
 
     def _on_twist(self, msg: Twist) -> None:
+        if self._turtle.goal_theta is not None:
+            self._node.get_logger().warn(
+                "Velocity command received during rotation goal. Aborting goal"
+            )
         self._turtle.command(msg.linear.x, msg.linear.y, msg.angular.z)
 
     def _on_set_pen(self, request: SetPen.Request, response: SetPen.Response) -> SetPen.Response:
@@ -92,18 +97,31 @@ class TurtleEndpoints:
         self._flock.paper.draw(start, (self._turtle.x, self._turtle.y), self._turtle.pen)
 
     def _on_rotate(self, goal_handle: ServerGoalHandle) -> RotateAbsolute.Result:
-        """Turn until the heading is reached; a command or a cancel ends it before."""
-        turtle, start = self._turtle, self._turtle.theta
+        """Turn until the heading is reached; a command, a cancel or another goal ends it before."""
+        turtle, start, log = self._turtle, self._turtle.theta, self._node.get_logger()
+        if turtle.goal_theta is not None:
+            log.warning(
+                "Rotation goal received before a previous goal finished. Aborting previous goal"
+            )
+        self._rotating = goal_handle
         wanted = turtle.goal_theta = within_a_turn(goal_handle.request.theta)
-        while turtle.goal_theta == wanted and not goal_handle.is_cancel_requested and rclpy.ok():
+        while self._is_turning(goal_handle, wanted) and rclpy.ok():
             goal_handle.publish_feedback(RotateAbsolute.Feedback(remaining=turtle.remaining_rad))
             time.sleep(_FEEDBACK_S)
         result = RotateAbsolute.Result(delta=start - turtle.theta)
         if goal_handle.is_cancel_requested:
-            turtle.goal_theta, turtle.turn_rad_s = None, 0.0
+            if self._rotating is goal_handle:
+                turtle.goal_theta, turtle.turn_rad_s = None, 0.0
+            log.info("Rotation goal canceled")
             goal_handle.canceled()
         elif turtle.theta == wanted:
+            log.info("Rotation goal completed successfully")
             goal_handle.succeed()
         else:
             goal_handle.abort()
         return result
+
+    def _is_turning(self, goal_handle: ServerGoalHandle, wanted: float) -> bool:
+        """Whether the turtle turns for this goal still, and nobody asked to cancel it."""
+        is_current = self._rotating is goal_handle and self._turtle.goal_theta == wanted
+        return is_current and not goal_handle.is_cancel_requested
