@@ -12,7 +12,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check --no-input install --qui
 TOOLS := frontend_assets/tools
 PYTEST := $(BIN)/python -m pytest -n auto --maxprocesses 8 --dist loadfile --no-loadscope-reorder
 
-.PHONY: help demo test lint style types imports spelling page bench constraints clean
+.PHONY: help demo test sweep lint style types imports spelling page bench constraints clean
 .DELETE_ON_ERROR:
 
 help:
@@ -47,6 +47,9 @@ page: $(TOOLS)/node_modules/.installed
 
 bench: $(VENV)/.tests ## measure beside the peers
 	@exec $(BIN)/python -m tests.benchmarks $(ARGS)
+
+sweep: $(VENV)/.tests ## send 20,000 random commands to an engine
+	@exec $(BIN)/python -m tests.support.command_sweep $(ARGS)
 
 constraints: ## pin what a fresh environment resolves to now
 	@sh -c 'set -e; fresh=$$(mktemp -d); trap "rm -rf $$fresh" EXIT; \

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from studio.errors import MeshError
+from studio.robot.mesh_files import TRIANGLE_LIMIT
 from studio.robot.number_lists import parse_floats
 from studio.robot.obj_materials import read_materials
 from studio.robot.surfaces import Surface
@@ -39,6 +40,7 @@ def read_obj(files: MeshFiles) -> list[Surface]:
         MeshError: A number of it is none, or a face points beyond its vertices.
     """
     try:
+        _refuse_floods(files)
         lines = _sort_lines(files.data.decode("utf-8", "replace"))
         looks = _looks(lines, files)
         tables = _Tables(lines, files)
@@ -47,6 +49,17 @@ def read_obj(files: MeshFiles) -> list[Surface]:
         ]
     except ValueError as error:
         raise files.fault(f"it is no OBJ that can be read ({error}).") from error
+
+
+def _refuse_floods(files: MeshFiles) -> None:
+    """Count faces before their lines are looked at: millions of them take seconds.
+
+    Raises:
+        MeshError: There are more than anyone can draw.
+    """
+    faces = files.data.count(b"\nf ") + files.data.count(b"\nf\t")
+    if faces > TRIANGLE_LIMIT:
+        files.count_triangles(faces)
 
 
 def _sort_lines(text: str) -> _Lines:

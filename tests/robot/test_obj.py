@@ -91,3 +91,9 @@ def test_a_library_outside_the_roots_is_not_read(tmp_path: Path):
 def test_what_is_no_mesh_is_said(tmp_path: Path, text: str):
     with pytest.raises(MeshError):
         read(tmp_path / "a.obj", text)
+
+
+def test_faces_that_nobody_can_draw_are_counted_before_they_are_read(tmp_path: Path):
+    flood = b"v 0 0 0\nv 1 0 0\nv 0 1 0\n" + b"f x\n" * 4_000_001
+    with pytest.raises(MeshError, match="more than 4,000,000 triangles"):
+        read(tmp_path / "flood.obj", flood)
