@@ -14,7 +14,7 @@ import { addDisplay, needKinds, topicsNow } from "./live.js";
 import { useTold } from "./looking.js";
 import { connectRos } from "./ros.js";
 import { mayEdit } from "./state/connection.js";
-import { kinds, liveDisplays } from "./state/live.js";
+import { kinds } from "./state/live.js";
 import { ros } from "./state/ros.js";
 import { useTopicRates } from "./topic-rates.js";
 
@@ -50,9 +50,7 @@ export function AddDisplayDialog({ onClose }) {
     busy.value = true;
     const done = await addDisplay(offer.kind, offer.topic);
     busy.value = false;
-    if (!done) return;
-    onClose();
-    showNewest();
+    if (done) onClose();
   };
   /** @param {KeyboardEvent} event */
   const onKeyDown = (event) => {
@@ -91,14 +89,6 @@ export function AddDisplayDialog({ onClose }) {
       <button type="button" class="button primary" disabled=${!mayEdit.value || busy.value || !offers[chosen] || offers[chosen]?.off !== ""}
         onClick=${() => add(offers[chosen])}>${t("live.add")}</button></footer>
   <//>`;
-}
-
-/** Scroll its row into view. */
-function showNewest() {
-  const id = liveDisplays.value.at(-1)?.id ?? "";
-  requestAnimationFrame(() =>
-    document.getElementById(`row-display:${id}`)?.scrollIntoView({ block: "nearest" }),
-  );
 }
 
 /** @returns {import("vendor/preact.js").Signal<readonly TopicView[] | null>} kept up to date; null: not known yet */

@@ -6,7 +6,7 @@
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { crumbsOf } from "../lib/crumbs.js";
 import { t } from "../lib/i18n.js";
-import { baseName } from "../lib/paths.js";
+import { baseName, isFilePath, pastedPath } from "../lib/paths.js";
 import { recall, remember } from "../lib/remembered.js";
 import { EmptyState, Icon, IconButton, ProgressBar, SearchBox } from "../lib/ui.js";
 import { dialog } from "./state/view.js";
@@ -14,7 +14,7 @@ import { RefusedError, send } from "./wire.js";
 
 /**
  * @typedef {{folder: Signal<Folder | null>, roots: Signal<readonly string[]>, error: Signal<string>,
- *   words: Signal<string>, everything: Signal<boolean>, go: (path: string) => Promise<void>}} Browser
+ *   words: Signal<string>, everything: Signal<boolean>, go: (path: string) => Promise<void>, onFile?: (path: string) => Promise<unknown>}} Browser `onFile`: opens a path that was written
  */
 /** @typedef {((entry: FolderEntry, tab: boolean) => void) | null} OnOpen null: only folders can be entered */
 
@@ -128,7 +128,16 @@ export function FolderList({ browser, opening, onOpen }) {
     if (onBrowserKey(event, whole.current, browser, () => shown[0] && take(shown[0])))
       event.preventDefault();
   };
-  return html`<div class="folder-view" ref=${whole} onKeyDown=${onKeyDown}>
+  /** @param {ClipboardEvent} event a path may be pasted anywhere into the list */
+  const onPaste = (event) => {
+    const path = pastedPath(event.clipboardData?.getData("text/plain") ?? "");
+    if (path === "" || event.target instanceof HTMLInputElement) return;
+    event.preventDefault();
+    event.stopPropagation();
+    browser.words.value = path;
+    whole.current?.querySelector("input")?.focus();
+  };
+  return html`<div class="folder-view" ref=${whole} onKeyDown=${onKeyDown} onPaste=${onPaste}>
     <${FolderBar} browser=${browser} />
     ${browser.error.value && html`<p class="note bad" role="alert">${browser.error.value}</p>`}
     <ul class="entries">
@@ -142,12 +151,33 @@ export function FolderList({ browser, opening, onOpen }) {
 function Nothing({ browser }) {
   const words = browser.words.value;
   const hidden = (browser.folder.value?.entries.length ?? 0) > 0;
+  const path = pastedPath(words);
+  if (path !== "") {
+    const label = t(isFilePath(path) && browser.onFile ? "open.path" : "open.path.folder", {
+      path,
+    });
+    return html`<${EmptyState} icon="folder" title=${t("open.path.hint")}>
+      <button type="button" class="button primary" onClick=${() => takePath(browser, path)}>${label}</button><//>`;
+  }
   if (words) return html`<${EmptyState} icon="search" title=${t("filter.nothing", { words })} />`;
   if (!hidden) return html`<${EmptyState} icon="folder" title=${t("open.empty")} />`;
   return html`<${EmptyState} icon="robot" title=${t("open.no_robot")}>
     <button type="button" class="button" onClick=${() => {
       browser.everything.value = true;
     }}>${t("open.show_everything")}</button><//>`;
+}
+
+/** A path goes to its folder, or opens its file; other words have filtered the list. @param {Browser} browser @param {() => void} takeFirst */
+function takeTyped(browser, takeFirst) {
+  const path = pastedPath(browser.words.value);
+  if (path === "") takeFirst();
+  else takePath(browser, path);
+}
+
+/** @param {Browser} browser @param {string} path */
+async function takePath(browser, path) {
+  if (isFilePath(path) && browser.onFile) await browser.onFile(path);
+  else await browser.go(path);
 }
 
 /** @param {FolderEntry} entry @returns {boolean} */
@@ -168,7 +198,7 @@ function onBrowserKey(event, whole, browser, takeFirst) {
     End: Number.POSITIVE_INFINITY,
   }[key];
   if (step && !(typing && Math.abs(step) > 1)) return moveFocus(whole, step);
-  if (typing && key === "Enter") takeFirst();
+  if (typing && key === "Enter") takeTyped(browser, takeFirst);
   else if (!typing && key === "Backspace") browser.go(browser.folder.value?.parent ?? "");
   else if (!typing && isLetter(event)) whole?.querySelector("input")?.focus();
   else return false;
@@ -224,7 +254,7 @@ function EntryButtons({ entry, busy, onOpen }) {
       aria-label=${t("open.entry", { name })} onClick=${() => onOpen?.(entry, false)}>${t("open.here")}</button>
     <button type="button" class="button small wide-only" disabled=${busy} aria-label=${t("open.entry_tab", { name })}
       onClick=${() => onOpen?.(entry, true)}>${t("open.tab")}</button>
-    <${IconButton} icon="properties" label=${t("open.entry_arguments", { name })} disabled=${busy} onClick=${() => {
+    <${IconButton} icon="arguments" label=${t("open.entry_arguments", { name })} disabled=${busy} onClick=${() => {
       dialog.value = { kind: "launch", path: entry.path };
     }} />`;
 }

@@ -198,7 +198,7 @@ function Rows({ form, error, draft: { values, restored } }) {
   if (!form)
     return error ? null : html`<${ProgressBar} label=${t("loading")} done=${0} total=${0} />`;
   if (form.arguments.length === 0)
-    return html`<${EmptyState} icon="properties" title=${t("launch.none")} />`;
+    return html`<${EmptyState} icon="arguments" title=${t("launch.none")} />`;
   return form.arguments.map((one) => {
     /** @param {string | null} value */
     const write = (value) => {

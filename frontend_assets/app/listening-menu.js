@@ -29,5 +29,5 @@ export function ListeningMenu({ label, listening, hint = label, disabled = false
       },
     })),
   ];
-  return html`<${MenuButton} label=${label} hint=${hint} disabled=${disabled} items=${items}><${Icon} name="sliders" /><${Icon} name="chevronDown" size=${12} /><//>`;
+  return html`<${MenuButton} label=${label} hint=${hint} disabled=${disabled} items=${items}><${Icon} name="listening" /><${Icon} name="chevronDown" size=${12} /><//>`;
 }

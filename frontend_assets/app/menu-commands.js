@@ -32,7 +32,7 @@ export function menuCommands() {
 function documentCommands() {
   return [
     ...openingCommands(),
-    { id: "arguments", icon: "properties", enabled: onDocument, run: showArguments },
+    { id: "arguments", icon: "arguments", enabled: onDocument, run: showArguments },
     { id: "copy_link", icon: "link", enabled: onDocument, run: () => void copyLink() },
     {
       id: "show_changes",

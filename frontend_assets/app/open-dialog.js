@@ -114,8 +114,11 @@ export function FileButtons() {
 
 /** @param {{onClose: () => void}} props */
 function BrowsePage({ onClose }) {
-  const browser = useBrowser();
   const values = useSignal("");
+  const browser = {
+    ...useBrowser(),
+    onFile: (/** @type {string} */ path) => openPath(path, parseArguments(values.value)),
+  };
   const opening = useSignal("");
   /** @param {FolderEntry} entry @param {boolean} tab */
   const open = async (entry, tab) => {

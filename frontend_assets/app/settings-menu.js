@@ -17,7 +17,7 @@ export function PanelsMenu() {
 }
 
 export function SettingsMenu() {
-  return html`<${MenuButton} label=${t("settings")} items=${settingsItems}><${Icon} name="sliders" /><//>`;
+  return html`<${MenuButton} label=${t("settings")} items=${settingsItems}><${Icon} name="settings" /><//>`;
 }
 
 /** @param {string} id of a command @param {string} icon @param {string} [label] @returns {MenuItem} */

@@ -37,7 +37,7 @@ export function Shell({ onDock }) {
     <${RestoredBar} />
     <${LeftWorkBar} />
     <${DiskBars} />
-    <main ref=${dock} class="dock" aria-label=${t("dock")}></main>
+    <main ref=${dock} id="dock" class="dock" aria-label=${t("dock")}></main>
     ${size.value === "phone" ? html`<${PhoneTabs} />` : html`<${StatusBar} />`}
     ${documentId.value === "" && html`<${StartCard} />`}
     <${Notices} />
@@ -53,7 +53,7 @@ function SkipLink() {
     event.preventDefault();
     commandById("next_panel")?.run();
   };
-  return html`<a class="skip" href="#" onClick=${skip}>${t("skip")}</a>`;
+  return html`<a class="skip" href="#dock" onClick=${skip}>${t("skip")}</a>`;
 }
 
 /** Says that the studio went away; a blink of the connection is not worth a word. */

@@ -88,7 +88,7 @@ function documentItems() {
     },
     {
       label: `${t("command.arguments")}…`,
-      icon: "properties",
+      icon: "arguments",
       disabled: none,
       run: () => commandById("arguments")?.run(),
     },

@@ -63,6 +63,8 @@ export function createDock(element, panels, options) {
     createTabComponent: ({ name }) => tabOf(panels[name]),
     createRightHeaderActionComponent: (group) => headerActions(group, options),
   });
+  // The panel in it is a landmark of the same name.
+  api.onDidAddGroup((group) => group.element.setAttribute("role", "group"));
   element.addEventListener("keydown", (event) => onTabKey(api, event));
   keepTabOrder(element, () => layered(api, panels));
   const tabsChanged = keepTabsWhole(element);

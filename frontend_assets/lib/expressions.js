@@ -18,6 +18,21 @@ export function shownText(text) {
     : text;
 }
 
+const NAMES_MAX = 20;
+
+/**
+ * @param {string} text that is being typed @param {readonly string[]} names @returns {string[]} the text with its last word completed, by name
+ */
+export function completions(text, names) {
+  const word = /[A-Za-z_]\w*$/.exec(text)?.[0] ?? "";
+  if (word === "") return [];
+  const start = text.slice(0, text.length - word.length);
+  return names
+    .filter((name) => name !== word && name.toLowerCase().startsWith(word.toLowerCase()))
+    .slice(0, NAMES_MAX)
+    .map((name) => start + name);
+}
+
 /**
  * @param {string} text
  * @param {number} open index of a `{` or `(`

@@ -11,14 +11,24 @@ const files = /** @type {Map<string, Promise<Record<string, string>>>} */ (new M
 const parts = new Set([""]);
 export const language = signal("en");
 
+/** Whether the page is used with fingers: nothing can be pointed at, and keys are far away. */
+const coarse = globalThis.matchMedia?.("(pointer: coarse)");
+const fingers = signal(coarse?.matches ?? false);
+coarse?.addEventListener("change", () => {
+  fingers.value = coarse.matches;
+});
+
 /**
  * @param {string} key
  * @param {Record<string, string | number>} [values] fill `{name}`; `count` also chooses `key.one`
- * @returns {string}
+ * @returns {string} on a touch screen `key.touch`, where there is one
  */
 export function t(key, values = {}) {
   const text =
-    (values.count === 1 ? words.value[`${key}.one`] : undefined) ?? words.value[key] ?? key;
+    (values.count === 1 ? words.value[`${key}.one`] : undefined) ??
+    (fingers.value ? words.value[`${key}.touch`] : undefined) ??
+    words.value[key] ??
+    key;
   return text.replace(/\{(\w+)\}/g, (_, name) => String(values[name] ?? ""));
 }
 

@@ -39,6 +39,16 @@ const ICONS = {
   Wrench: "arrow",
 };
 
+/**
+ * @param {ReadonlySet<string> | null} before ids; null: nothing was told yet
+ * @param {readonly DisplayView[]} now
+ * @returns {DisplayView | undefined} the one that a person added; several at once came with their robot
+ */
+export function addedDisplay(before, now) {
+  const added = before === null ? [] : now.filter(({ id }) => !before.has(id));
+  return added.length === 1 ? added[0] : undefined;
+}
+
 /** @param {string} kind @returns {string} */
 export const iconOf = (kind) => (Object.hasOwn(ICONS, kind) ? (ICONS[kind] ?? "") : "box");
 

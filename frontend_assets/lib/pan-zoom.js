@@ -18,6 +18,18 @@ export function zoomed(view, factor, at, closest = SCALE_MAX, farthest = SCALE_M
   return { x: at.x - (at.x - view.x) * ratio, y: at.y - (at.y - view.y) * ratio, scale };
 }
 
+/** @param {View} view @param {Size} before @param {Size} now of the frame @returns {View} what was seen is seen still, its middle in the middle */
+export function resized(view, before, now) {
+  const share = Math.min(now.width / before.width, now.height / before.height);
+  const scale = clamp(view.scale * share, SCALE_MIN, SCALE_MAX);
+  const ratio = scale / view.scale;
+  return {
+    x: now.width / 2 - (before.width / 2 - view.x) * ratio,
+    y: now.height / 2 - (before.height / 2 - view.y) * ratio,
+    scale,
+  };
+}
+
 /** @param {Size} drawing @param {Size} frame @param {{x: number, y: number}} [heart] of the drawing: where all of it has no room, what is around this @returns {View} in the middle, as large as can be read */
 export function fitted(drawing, frame, heart = { x: 0, y: 0 }) {
   const wide = (frame.width - 2 * MARGIN) / Math.max(drawing.width, 1);

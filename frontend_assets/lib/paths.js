@@ -32,3 +32,15 @@ export function documentOf(pathname) {
   const found = /^\/d\/([^/]+)/.exec(pathname);
   return found?.[1] ? decodeURIComponent(found[1]) : "";
 }
+
+/** @param {string} text @returns {string} the one path that it is, without quotes and `file://`; empty: it is none */
+export function pastedPath(text) {
+  const path = text
+    .trim()
+    .replace(/^(["'])(.*)\1$/, "$2")
+    .replace(/^file:\/\/(?=\/)/, "");
+  return /^(~?\/|[A-Za-z]:[\\/])/.test(path) && !/[\n\r<>]/.test(path) ? path : "";
+}
+
+/** @param {string} path @returns {boolean} by its ending it is a file that can be opened, no folder */
+export const isFilePath = (path) => /\.(xacro|urdf|xml|zip)$/i.test(path);

@@ -1,6 +1,6 @@
 /** A slider and a number box that share their manners: arrows step, Shift x10, Alt x0.1. */
 
-import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
+import { html, useEffect, useId, useRef, useSignal } from "vendor/preact.js";
 import { clamp, formatNumber, snap, steppedBy } from "./numbers.js";
 
 /**
@@ -93,16 +93,20 @@ function afterKey(event, value, step, lower, upper) {
   return target === undefined ? null : clamp(Number(target.toPrecision(12)), lower, upper);
 }
 
+/** Characters that a box of a number shows; one in which more are typed has a line of its own. */
+const FITS = 9;
+
 /**
  * A box for one text. Enter and leaving it write; Escape gives back what stood there; arrows step a
  * number. What is typed is the person's until then; else the box shows the studio's answer.
  *
  * @param {{label: string, text: string, class?: string, disabled?: boolean, step?: number | undefined,
- *   invalid?: boolean, number?: number | null, takesEmpty?: boolean, onWrite: (typed: string, options: {stepped: boolean}) => void}} props
+ *   invalid?: boolean, number?: number | null, takesEmpty?: boolean, complete?: (typed: string) => readonly string[], onWrite: (typed: string, options: {stepped: boolean}) => void}} props
  */
 export function TextBox(props) {
   const { label, text, class: names, disabled, step, invalid, number, onWrite } = props;
   const typed = useSignal(/** @type {string | null} */ (null));
+  const id = useId();
   useEffect(() => {
     if (typed.peek() === text) typed.value = null;
   }, [text]);
@@ -130,11 +134,14 @@ export function TextBox(props) {
       onWrite(formatNumber(number + by), { stepped: true });
     }
   };
-  return html`<input type="text" class=${`box ${names ?? ""}`} aria-label=${label} value=${typed.value ?? text}
+  const offered = typed.value === null ? [] : (props.complete?.(typed.value) ?? []);
+  const isLong = typed.value !== null && typed.value.length > FITS;
+  return html`<input type="text" class=${`box ${names ?? ""} ${isLong ? "long" : ""}`} list=${offered.length > 0 ? id : null} aria-label=${label} value=${typed.value ?? text}
     disabled=${disabled} aria-invalid=${invalid ? "true" : null} spellcheck=${false} autocomplete="off" autocapitalize="off"
     inputmode=${names?.includes("number") ? "decimal" : null} title=${text.length > 12 ? text : null}
     onInput=${(/** @type {any} */ event) => {
       typed.value = event.currentTarget.value;
     }} onKeyDown=${onKeyDown} onBlur=${write}
-    onFocus=${(/** @type {any} */ event) => event.currentTarget.select()} />`;
+    onFocus=${(/** @type {any} */ event) => event.currentTarget.select()} />
+    ${offered.length > 0 && html`<datalist id=${id}>${offered.map((one) => html`<option key=${one} value=${one}></option>`)}</datalist>`}`;
 }

@@ -1,11 +1,31 @@
 /** The robot as a tree of links: what hangs on what, and which rows a list of it shows. */
 
-/** @import { JointView, LinkView, RobotState } from "../types/wire.d.ts" */
+/** @import { JointView, LinkView, Problem, RobotState } from "../types/wire.d.ts" */
 
 /**
  * @typedef {{link: LinkView, joint: JointView | null, children: LinkNode[]}} LinkNode
  * @typedef {{node: LinkNode, level: number, expandable: boolean, expanded: boolean}} LinkRow
  */
+
+/** @type {WeakMap<readonly Problem[], ReadonlySet<string>>} */
+const found = new WeakMap();
+
+/**
+ * The links that lack an inertia in the eyes of the list of problems: a link that is fixed to one with
+ * a mass, or that stands still, may well have none.
+ * @param {readonly Problem[]} problems @returns {ReadonlySet<string>}
+ */
+export function withoutInertia(problems) {
+  const known = found.get(problems);
+  if (known) return known;
+  const links = problems
+    .filter(({ code }) => code === "missing-inertial")
+    .flatMap(({ parts }) => parts.slice(0, 1))
+    .map((part) => part.replace(/^link:/, ""));
+  const names = new Set(links);
+  found.set(problems, names);
+  return names;
+}
 
 /**
  * @param {RobotState} robot

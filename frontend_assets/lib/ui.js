@@ -298,11 +298,11 @@ export function Dialog({ title, closeLabel, class: names, onClose, children }) {
   };
   return html`<dialog ref=${element} class=${`dialog ${names ?? ""}`} aria-labelledby=${heading}
     onCancel=${onClose} onClick=${closeBeside}>
-    <div class="dialog-body">
+    <section class="dialog-body">
       <header><h2 id=${heading}>${title}</h2>
         ${aside && html`<${aside} />`}<${IconButton} icon="close" label=${closeLabel} class="dialog-close" onClick=${onClose} /></header>
       ${children}
-    </div>
+    </section>
   </dialog>`;
 }
 

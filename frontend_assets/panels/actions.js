@@ -3,6 +3,7 @@
 /** @import { GoalView } from "../types/wire.d.ts" */
 
 import { html, useEffect } from "vendor/preact.js";
+import { commandById } from "../app/commands.js";
 import { cancelGoal, sendGoal } from "../app/deeds.js";
 import { mayEdit } from "../app/state/connection.js";
 import { followDeeds } from "../app/state/deed-following.js";
@@ -25,12 +26,15 @@ export function ActionsPanel() {
     ${(
       /** @type {(text: string) => boolean} */ paste,
     ) => html`<div class=${`deeds-parts ${goalForm.chosen.value ? "chosen" : ""}`}>
-      <${Offers} id="actions" icon="goal" offers=${actions.value} refused=${offersRefused.value} again=${askActions} form=${goalForm} paste=${paste}>
+      <${Offers} id="actions" icon="goal" offers=${actions.value} refused=${offersRefused.value} again=${askActions} form=${goalForm} paste=${paste}
+        next=${html`<p>${t("actions.none.hint")}</p><button type="button" class="button" onClick=${showLessons}><${Icon} name="lessons" />${t("actions.none.do")}</button>`}>
         <${UnderWay} /><//>
       ${goalForm.chosen.value && html`<${Chosen} name=${goalForm.chosen.value.name} />`}
     </div>`}
   <//>`;
 }
+
+const showLessons = () => commandById("panel.lessons")?.run();
 
 /** Goals of all actions that are under way, whoever sent them from a page. */
 function UnderWay() {

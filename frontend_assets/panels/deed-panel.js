@@ -76,11 +76,23 @@ export function DeedPanel({ id, icon, kind, follow, onLine, children }) {
  * @property {MessageForm} form
  * @property {(text: string) => boolean} paste takes a command line
  * @property {boolean} [noisy] there are some that every node has
+ * @property {ComponentChildren} [next] what to do where there is nothing at all
  * @property {ComponentChildren} [children] what stands below the list
  */
 
 /** @param {OffersProps} props */
-export function Offers({ id, icon, offers, refused, again, form, paste, noisy = false, children }) {
+export function Offers({
+  id,
+  icon,
+  offers,
+  refused,
+  again,
+  form,
+  paste,
+  noisy = false,
+  next,
+  children,
+}) {
   const filter = useSignal("");
   const all = useSignal(false);
   const onInput = (/** @type {string} */ text) => {
@@ -98,6 +110,7 @@ export function Offers({ id, icon, offers, refused, again, form, paste, noisy = 
       offers &&
       shown.length === 0 &&
       html`<${NothingThere} icon=${icon} title=${whyNothing(id, offers.length, filter.value)}>
+      ${offers.length === 0 && next}
       ${offers.length > 0 && filter.value === "" && html`<button type="button" class="button" onClick=${toggle}>${t(`${id}.all`)}</button>`}<//>`
     }
     ${shown.length > 0 && html`<ul class="scroll offers" aria-label=${t(`panel.${id}`)}>${shown.map((one) => html`<${OfferRow} key=${one.name} offer=${one} form=${form} />`)}</ul>`}

@@ -5,13 +5,15 @@
 
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { setDisplay } from "../app/actions.js";
-import { displays, links, robot } from "../app/state/document.js";
+import { displays, links, problems, robot } from "../app/state/document.js";
+import { liveDisplays } from "../app/state/live.js";
 import { selection } from "../app/state/selection.js";
 import { hiddenLinks, selected, showLink } from "../app/state/view.js";
 import { t } from "../lib/i18n.js";
+import { addedDisplay } from "../lib/live-displays.js";
 import { formatNumber } from "../lib/numbers.js";
 import { whenPlaced } from "../lib/seen.js";
-import { ancestorsOf, linkRows } from "../lib/tree.js";
+import { ancestorsOf, linkRows, withoutInertia } from "../lib/tree.js";
 import { EmptyState, SearchBox } from "../lib/ui.js";
 import { rowId, Tree } from "./display-tree.js";
 import { LinkDetails } from "./link-details.js";
@@ -28,6 +30,7 @@ export function DisplaysPanel() {
   const rows = treeRows(filter.value, closed.value);
   const panel = useRef(/** @type {HTMLElement | null} */ (null));
   useRevealSelection(closed, panel);
+  useRevealAdded(filter, closed, active, panel);
   /** @param {string} id @param {boolean} open */
   const setOpen = (id, open) => {
     if (setLiveOpen(id, open)) return;
@@ -69,6 +72,30 @@ function useRevealSelection(closed, panel) {
     closed.value = new Set([...closed.value].filter((id) => !way.includes(id)));
     return whenPlaced(panel.current, reveal);
   }, [link]);
+}
+
+/**
+ * A display that is added, here or from another panel, is in sight: its group is unfolded, a filter that hides it is emptied.
+ * @param {{value: string}} filter @param {{value: ReadonlySet<string>}} closed @param {{value: string}} active @param {{current: HTMLElement | null}} panel
+ */
+function useRevealAdded(filter, closed, active, panel) {
+  const list = liveDisplays.value;
+  const known = useRef(/** @type {ReadonlySet<string> | null} */ (null));
+  useEffect(() => {
+    const before = known.current;
+    known.current = new Set(list.map(({ id }) => id));
+    const added = addedDisplay(before, list);
+    if (!added) return undefined;
+    const row = `display:${added.id}`;
+    closed.value = new Set([...closed.value].filter((id) => id !== `group:${added.group}`));
+    if (!liveRows(filter.value, closed.value).some(({ id }) => id === row)) filter.value = "";
+    active.value = row; // so that it is drawn, however far away it is
+    return whenPlaced(panel.current, () =>
+      requestAnimationFrame(() =>
+        document.getElementById(rowId(row))?.scrollIntoView({ block: "nearest" }),
+      ),
+    );
+  }, [list]);
 }
 
 /** @param {string} filter @param {ReadonlySet<string>} closed @returns {Row[]} */
@@ -186,9 +213,9 @@ function treeOfLinks(filter, closed) {
 
 /** @param {LinkRow} row @returns {Row} */
 function linkRow({ node, level, expandable, expanded }) {
-  const { name, mass_kg, visuals, collisions } = node.link;
+  const { name } = node.link;
   const visible = !hiddenLinks.value.has(name);
-  const massless = mass_kg === null && visuals + collisions > 0;
+  const massless = withoutInertia(problems.value).has(name);
   return {
     id: `link:${name}`,
     level,

@@ -2,25 +2,19 @@
 
 /** @import { Effects } from "../types/wire.d.ts" */
 
-import { html, signal } from "vendor/preact.js";
+import { html } from "vendor/preact.js";
 import { site } from "../app/state/document.js";
 import { effects, pointedWords } from "../app/state/origin.js";
 import { t } from "../lib/i18n.js";
 import { countedAspects } from "../lib/origin.js";
 import { shortName } from "../lib/sites.js";
 
-const coarse = matchMedia("(pointer: coarse)");
-const fingers = signal(coarse.matches);
-coarse.addEventListener("change", () => {
-  fingers.value = coarse.matches;
-});
-
 export function EffectLine() {
   const known = effects.value;
   const one = known && site(known.site)?.value;
   const words = known ? effectWords(known) : "";
   return html`<p class="effect-line" role="status" title=${words}>
-    <span>${one ? html`<strong>${shortName(one)}</strong> ${words}` : pointedWords.value || t(fingers.value ? "effects.hint.touch" : "effects.hint")}</span></p>`;
+    <span>${one ? html`<strong>${shortName(one)}</strong> ${words}` : pointedWords.value || t("effects.hint")}</span></p>`;
 }
 
 /** @param {Effects} known @returns {string} */

@@ -11,7 +11,7 @@ import { BOX_HEIGHT_PX, boxLabel, boxWidth, boxWords } from "../lib/box-sizes.js
 import { layOut } from "../lib/graph-layout.js";
 import { t } from "../lib/i18n.js";
 import { clamp } from "../lib/numbers.js";
-import { fitted, zoomed } from "../lib/pan-zoom.js";
+import { fitted, resized, zoomed } from "../lib/pan-zoom.js";
 import { IconButton } from "../lib/ui.js";
 
 const STEP = 1.25;
@@ -62,8 +62,8 @@ function layOutDrawn({ boxes, arrows }, ratio) {
 /** @typedef {(change: (view: View) => View) => void} Move by a hand */
 
 /**
- * Keep all in sight while the drawing or its frame changes, until a hand moves it; what is asked
- * for anew is seen whole again.
+ * Keep all in sight while the drawing or its frame changes, until a hand moves it: then what the hand
+ * chose is kept in sight. What is asked for anew is seen whole again.
  *
  * @param {{current: Element | null}} frame @param {Signal<View>} view @param {Signal<number>} ratio of the frame, in steps
  * @param {Layout} layout @param {string} asked
@@ -71,6 +71,7 @@ function layOutDrawn({ boxes, arrows }, ratio) {
  */
 function useFit(frame, view, ratio, layout, asked) {
   const isHeld = useRef(false);
+  const size = useRef({ width: 0, height: 0 });
   const fit = () => {
     isHeld.current = false;
     const place = frame.current?.getBoundingClientRect();
@@ -78,8 +79,12 @@ function useFit(frame, view, ratio, layout, asked) {
   };
   const follow = () => {
     const { width = 0, height = 0 } = frame.current?.getBoundingClientRect() ?? {};
-    if (width > 0) ratio.value = clamp(Math.round((width / height) * 2) / 2, 0.5, 4);
+    if (width <= 0 || height <= 0) return;
+    const before = size.current;
+    size.current = { width, height };
+    ratio.value = clamp(Math.round((width / height) * 2) / 2, 0.5, 4);
     if (!isHeld.current) fit();
+    else if (before.width > 0) view.value = resized(view.value, before, size.current);
   };
   useEffect(fit, [asked]);
   useEffect(() => {

@@ -26,22 +26,22 @@ export function MacroList({ macros, filter }) {
   const toggle = (key) => {
     open.value = open.value === key ? "" : key;
   };
-  return html`<ul class="outline-macros"><${LongList} items=${rows} keyOf=${(/** @type {Keyed} */ { key }) => key} row="var(--row)"
+  return html`<div role="list" class="outline-macros"><${LongList} items=${rows} keyOf=${(/** @type {Keyed} */ { key }) => key} row="var(--row)"
     isKept=${(/** @type {Keyed} */ { key }) => key === open.value}
     draw=${(/** @type {Keyed} */ { key, macro }) =>
-      html`<${MacroRow} key=${key} macro=${macro} open=${open.value === key} toggle=${() => toggle(key)} />`} /></ul>`;
+      html`<${MacroRow} key=${key} macro=${macro} open=${open.value === key} toggle=${() => toggle(key)} />`} /></div>`;
 }
 
 /** @param {{macro: OutlineMacro, open: boolean, toggle: () => void}} props */
 function MacroRow({ macro, open, toggle }) {
   const { name, calls } = macro;
-  return html`<li class=${`outline-macro ${open ? "open" : ""}`}>
+  return html`<div role="listitem" class=${`outline-macro ${open ? "open" : ""}`}>
     <button type="button" class="outline-name" aria-expanded=${open} onClick=${toggle}>
       <${Icon} name="macro" size=${14} /><span>${name}</span>
       <span class="muted numbers" title=${t("language.calls", { count: calls })}>${calls}×</span>
     </button>
     ${open && html`<${MacroDetails} macro=${macro} />`}
-  </li>`;
+  </div>`;
 }
 
 /** @param {{macro: OutlineMacro}} props */

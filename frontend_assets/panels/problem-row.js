@@ -23,7 +23,7 @@ export function ProblemRow({ problem, id: key, at, of }) {
   const { severity, sentence, fix } = problem;
   const open = useSignal(false);
   const id = useId();
-  return html`<li class=${`problem ${severity}`} data-key=${key} aria-posinset=${at} aria-setsize=${of}>
+  return html`<div role="listitem" class=${`problem ${severity}`} data-key=${key} aria-posinset=${at} aria-setsize=${of}>
     <span class="problem-icon"><${Icon} name=${SEVERITY_ICONS[severity]} /></span>
     <div class="problem-text">
       <button type="button" class="problem-main" onClick=${() => goTo(problem)}>
@@ -35,7 +35,7 @@ export function ProblemRow({ problem, id: key, at, of }) {
       ${open.value && html`<div class="problem-more" id=${id}><${Why} code=${problem.code} /><${Trail} problem=${problem} /></div>`}
     </div>
     ${fix && mayEdit.value && html`<button type="button" class="button small problem-fix" onClick=${() => mend(problem)}>${fix.label}</button>`}
-  </li>`;
+  </div>`;
 }
 
 /** The part first: what shows the line may take the focus. @param {Problem} problem */

@@ -108,10 +108,10 @@ function List({ files }) {
       <h3 title=${file}><${Icon} name=${file ? "fileCode" : "robot"} size=${13} />
         <span>${file ? shortPath(file, root) : t("problems.nowhere")}</span>
         <span class="muted numbers">${rows.length}</span></h3>
-      <ul><${LongList} items=${rows} keyOf=${(/** @type {Keyed} */ { key }) => key} row="52px"
+      <div role="list"><${LongList} items=${rows} keyOf=${(/** @type {Keyed} */ { key }) => key} row="52px"
         isKept=${(/** @type {Keyed} */ { key }) => key === active.value}
         draw=${(/** @type {Keyed} */ { key, problem }, /** @type {number} */ at) =>
-          html`<${ProblemRow} key=${key} id=${key} problem=${problem} at=${at + 1} of=${rows.length} />`} /></ul></section>`,
+          html`<${ProblemRow} key=${key} id=${key} problem=${problem} at=${at + 1} of=${rows.length} />`} /></div></section>`,
     )}
   </div>`;
 }

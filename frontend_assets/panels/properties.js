@@ -133,7 +133,7 @@ function LaunchButton({ counts }) {
   const command = commandById("arguments");
   if (!counts.get("arg") || !command?.enabled?.()) return null;
   const label = `${commandLabel(command)}…`;
-  return html`<${IconButton} icon="sliders" label=${label} onClick=${command.run} />`;
+  return html`<${IconButton} icon="arguments" label=${label} onClick=${command.run} />`;
 }
 
 function SelectionChip() {

@@ -6,8 +6,15 @@
 import { html, useEffect, useSignal } from "vendor/preact.js";
 import { argumentChoices } from "../app/state/arguments.js";
 import { mayEdit } from "../app/state/connection.js";
+import { namesBeside } from "../app/state/document.js";
 import { degrees } from "../app/state/view.js";
-import { isExpression, shownText, splitVector, writtenText } from "../lib/expressions.js";
+import {
+  completions,
+  isExpression,
+  shownText,
+  splitVector,
+  writtenText,
+} from "../lib/expressions.js";
 import { t } from "../lib/i18n.js";
 import { formatNumber, niceStep, parseNumber, toDegrees, toRadians } from "../lib/numbers.js";
 import { Slider, TextBox } from "../lib/slider.js";
@@ -103,9 +110,13 @@ function NumberHead({ site, text, writer, invalid }) {
     write(writer, fileText, stepped);
   };
   return html`<${TextBox} class="number" label=${site.name} text=${boxText(site, text, value)} number=${scale.value}
-      step=${scale.step} disabled=${!mayEdit.value} invalid=${invalid} onWrite=${onWrite} />
+      step=${scale.step} disabled=${!mayEdit.value} invalid=${invalid} onWrite=${onWrite} complete=${completer(site)} />
     <${Unit} site=${site} />`;
 }
+
+/** @param {SiteView} site @returns {((typed: string) => string[]) | undefined} of names that its file may compute with */
+const completer = ({ id, kind }) =>
+  kind === "yaml" ? undefined : (typed) => completions(typed, namesBeside(id));
 
 /** @param {EditorProps} props */
 function NumberSlider({ site, text, writer }) {
@@ -135,7 +146,7 @@ function ExpressionBox({ site, text, writer, invalid }) {
   /** @param {string} typed */
   const onWrite = (typed) => write(writer, writtenText(typed, whole || wraps(site)));
   return html`<${TextBox} class="expression" label=${site.name} text=${shownText(text)} disabled=${!mayEdit.value}
-    invalid=${invalid} onWrite=${onWrite} /><${Unit} site=${site} />`;
+    invalid=${invalid} onWrite=${onWrite} complete=${completer(site)} /><${Unit} site=${site} />`;
 }
 
 /** @param {EditorProps} props */

@@ -52,6 +52,8 @@ import { tabPassesThrough } from "./source-tab-key.js";
 
 /** Marks what did not come from the keyboard here. */
 export const fromElsewhere = Annotation.define();
+/** What scrolls can be reached by Tab, however a browser takes editable text. */
+const REACHED_BY_KEYS = EditorView.contentAttributes.of({ tabindex: "0" });
 const locked = new Compartment();
 const darkness = new Compartment();
 const spoken = new Compartment();
@@ -75,6 +77,7 @@ export function commonExtensions(events) {
     highlightSelectionMatches(),
     drawSelection(),
     EditorState.allowMultipleSelections.of(true),
+    REACHED_BY_KEYS,
     rectangularSelection(),
     crosshairCursor(),
     bracketMatching(),

@@ -18,8 +18,9 @@ export function SourceTabs({ find, children, ...more }) {
   const names = tabNames(openFiles.value);
   const ready = shownFile.value !== "";
   return html`<div class="source-bar">
-    <div class="source-tabs" role="tablist" aria-label=${t("source.files")} onKeyDown=${onTabKey}>
-      ${openFiles.value.map((file) => html`<${FileTab} key=${file} file=${file} ...${names.get(file)} />`)}
+    <div class="source-tabs" onKeyDown=${onTabKey}>
+      <div role="tablist" aria-label=${t("source.files")} aria-owns=${openFiles.value.map((_, at) => tabId(at)).join(" ")}></div>
+      ${openFiles.value.map((file, at) => html`<${FileTab} key=${file} id=${tabId(at)} file=${file} ...${names.get(file)} />`)}
     </div>
     ${children}
     <${MenuButton} label=${t("source.all_files")} items=${fileItems}><${Icon} name="chevronDown" /><//>
@@ -29,8 +30,11 @@ export function SourceTabs({ find, children, ...more }) {
   </div>`;
 }
 
-/** @param {{file: string, name: string, folder: string}} props */
-function FileTab({ file, name, folder }) {
+/** Of a tab: the list owns the tabs by it, for the buttons that close them are none of its own. @param {number} at */
+const tabId = (at) => `source-tab-${at}`;
+
+/** @param {{id: string, file: string, name: string, folder: string}} props */
+function FileTab({ id, file, name, folder }) {
   const shown = shownFile.value === file;
   const unsaved = history.value.unsaved_files.includes(file);
   const locked = documentState.value?.read_only.includes(file);
@@ -46,8 +50,8 @@ function FileTab({ file, name, folder }) {
   };
   const lit = useComputed(() => litPlaces.value.some((place) => place.file === file)).value;
   const states = [shown && "shown", bad && "bad", lit && "lit"].filter(Boolean).join(" ");
-  return html`<div class=${`source-tab ${states}`} role="presentation" onAuxClick=${onAux}>
-    <button type="button" role="tab" aria-selected=${shown} tabindex=${shown ? 0 : -1}
+  return html`<div class=${`source-tab ${states}`} role="none" onAuxClick=${onAux}>
+    <button type="button" role="tab" id=${id} aria-selected=${shown} tabindex=${shown ? 0 : -1}
       title=${shortPath(file, root)} data-file=${file} onClick=${() => openFile(file)}>
       ${bad && html`<${Icon} name="error" size=${12} /><span class="hidden-words">${t("severity.error")}</span>`}
       ${locked && html`<${Icon} name="lock" size=${12} />`}

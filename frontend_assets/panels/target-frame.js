@@ -25,7 +25,7 @@ export function TargetFrame() {
   };
   return html`<button type="button" class=${`icon-button target-frame ${frame ? "on" : ""}`} aria-label=${label} title=${trouble || label}
     aria-haspopup="menu" aria-expanded="false" onClick=${open}>
-    <${Icon} name=${trouble ? "alert" : "camera"} />${frame && html`<span>${frame}</span>`}<${Icon} name="chevronDown" size=${12} />
+    <${Icon} name=${trouble ? "alert" : "target"} />${frame && html`<span>${frame}</span>`}<${Icon} name="chevronDown" size=${12} />
   </button>`;
 }
 

@@ -108,7 +108,7 @@ export class UrdfText {
       EditorState.readOnly.of(true),
       EditorState.phrases.of(editorWords()),
       EditorView.editorAttributes.of({ class: "urdf-text" }),
-      EditorView.contentAttributes.of({ "aria-label": t("panel.urdf") }),
+      EditorView.contentAttributes.of({ "aria-label": t("panel.urdf"), tabindex: "0" }),
       EditorView.domEventHandlers({ mouseup: (event, view) => this.#clicked(event, view) }),
       SOURCE_LOOK,
       LIGHTS,

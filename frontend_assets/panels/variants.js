@@ -23,6 +23,9 @@ import { VariantsComparison } from "./variants-comparison.js";
 import { VariantForm } from "./variants-form.js";
 
 const CHIPS = 4;
+const openRobot = () => {
+  dialog.value = { kind: "open" };
+};
 
 export function VariantsPanel() {
   const adding = useSignal(false);
@@ -33,7 +36,8 @@ export function VariantsPanel() {
     editing.value = "";
   };
   if (!documentState.value || !robot.value)
-    return html`<section class="panel-body" aria-label=${t("panel.variants")}><${EmptyState} icon="variants" title=${t("urdf.none")} /></section>`;
+    return html`<section class="panel-body" aria-label=${t("panel.variants")}><${EmptyState} icon="variants" title=${t("urdf.none")}>
+      <button type="button" class="button primary" disabled=${!mayEdit.value} onClick=${openRobot}><${Icon} name="open" />${t("command.open")}…</button><//></section>`;
   return html`<section class="panel-body variants" aria-label=${t("panel.variants")}>
     <div class="scroll">
       <div class="variants-side">
@@ -51,7 +55,7 @@ export function VariantsPanel() {
       ${
         !adding.value &&
         html`<div class="variants-actions">
-        <button type="button" class="button small" disabled=${!mayEdit.value} onClick=${begin}>
+        <button type="button" class=${`button ${list.length === 0 ? "primary" : "small"}`} disabled=${!mayEdit.value} onClick=${begin}>
           <${Icon} name="plus" size=${14} />${t("variants.save")}</button></div>`
       }
       </div>
@@ -66,6 +70,7 @@ function Purpose() {
     <${Icon} name="variants" size=${28} />
     <p>${t("variants.none")}</p>
     <p class="muted">${t("variants.purpose")}</p>
+    <p class="muted">${t("variants.begin")}</p>
   </div>`;
 }
 

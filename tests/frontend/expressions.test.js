@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import {
+  completions,
   isExpression,
   parseArguments,
   shownText,
@@ -42,4 +43,12 @@ test("arguments are read as on the command line", () => {
   assert.deepEqual(parseArguments("ur_type:=ur10e name:=ur"), { ur_type: "ur10e", name: "ur" });
   assert.deepEqual(parseArguments(`a:="two words" b:=x:=y c`), { a: "two words", b: "x:=y" });
   assert.deepEqual(parseArguments("  "), {});
+});
+
+test("the word that is being typed is completed, the rest of the expression stays", () => {
+  const names = ["wheel_radius", "wheel_width", "base_length", "wheel"];
+  assert.deepEqual(completions("2 * wheel", names), ["2 * wheel_radius", "2 * wheel_width"]);
+  assert.deepEqual(completions("BASE", names), ["base_length"]);
+  assert.deepEqual(completions("0.5", names), []);
+  assert.deepEqual(completions("wheel * ", names), []);
 });

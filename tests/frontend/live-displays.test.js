@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import {
+  addedDisplay,
   counts,
   firstTrouble,
   foundTopics,
@@ -152,4 +153,13 @@ test("a free name is none of those that are taken, and every icon is there", () 
   assert.equal(freeName(["Group 1", "Group 3"], "Group"), "Group 2");
   for (const kind of ["LaserScan", "TF", "PoseArray", "Map", "constructor", "Unheard"])
     assert.ok(ICONS[iconOf(kind)], kind);
+});
+
+test("one display that came was added by a person, several came with their robot", () => {
+  const [a, b, c] = ["a", "b", "c"].map((id) => display(id));
+  assert.equal(addedDisplay(null, [a]), undefined);
+  assert.equal(addedDisplay(new Set(["a"]), [a, b]), b);
+  assert.equal(addedDisplay(new Set(["a"]), [b, a]), b);
+  assert.equal(addedDisplay(new Set(["a"]), [a, b, c]), undefined);
+  assert.equal(addedDisplay(new Set(["a", "b"]), [a]), undefined);
 });

@@ -3,7 +3,7 @@ import { test } from "node:test";
 import { byNamespace, namespacesOf } from "../../frontend_assets/lib/graph-groups.js";
 import { layOut } from "../../frontend_assets/lib/graph-layout.js";
 import { drawnGraph, USUAL } from "../../frontend_assets/lib/node-graph.js";
-import { fitted } from "../../frontend_assets/lib/pan-zoom.js";
+import { fitted, resized, zoomed } from "../../frontend_assets/lib/pan-zoom.js";
 
 /** @param {string} name @param {boolean} [own] */
 const node = (name, own = false) => ({ name, count: 1, own });
@@ -200,4 +200,20 @@ test("four hundred boxes are laid out in a moment", () => {
   const began = performance.now();
   checkBoxes(layOut(boxes, [...new Map(arrows.map((one) => [one.id, one])).values()]));
   assert.ok(performance.now() - began < 20_000);
+});
+
+test("what a hand moved into sight stays in sight when the frame changes its size", () => {
+  const before = { width: 800, height: 600 };
+  const view = zoomed({ x: -120, y: 40, scale: 1 }, 1.5, { x: 300, y: 200 });
+  const inDrawing = (
+    /** @type {typeof view} */ { x, y, scale },
+    /** @type {number[]} */ [a, b],
+  ) => [((a ?? 0) - x) / scale, ((b ?? 0) - y) / scale];
+  const now = { width: 400, height: 500 };
+  const small = resized(view, before, now);
+  assert.deepEqual(inDrawing(small, [200, 250]), inDrawing(view, [400, 300]));
+  const [left = 0, top = 0] = inDrawing(small, [0, 0]);
+  const [oldLeft = 0, oldTop = 0] = inDrawing(view, [0, 0]);
+  assert.ok(left <= oldLeft && top <= oldTop, "nothing that was seen is lost");
+  assert.deepEqual(resized(view, before, before), view);
 });

@@ -4,6 +4,7 @@ import { crumbsOf } from "../../frontend_assets/lib/crumbs.js";
 import { timeAgo } from "../../frontend_assets/lib/dates.js";
 import { chosenFiles, droppedFiles } from "../../frontend_assets/lib/dropped.js";
 import { nameFault, robotOf } from "../../frontend_assets/lib/package-names.js";
+import { isFilePath, pastedPath } from "../../frontend_assets/lib/paths.js";
 
 test("the way to a folder begins at the served folder that holds it", () => {
   const roots = ["/ws", "/ws/src/inner", "/wsx"];
@@ -102,4 +103,14 @@ test("a dropped folder is gone through to its last batch", async () => {
     "robot/meshes/b.stl",
     "beside.stl",
   ]);
+});
+
+test("a path is known as one, as people copy them, and a word or a text is none", () => {
+  assert.equal(pastedPath("  /ws/my robot/a.xacro\n"), "/ws/my robot/a.xacro");
+  assert.equal(pastedPath('"C:\\ws\\arm.urdf"'), "C:\\ws\\arm.urdf");
+  assert.equal(pastedPath("file:///ws/arm.urdf"), "/ws/arm.urdf");
+  assert.equal(pastedPath("~/ws"), "~/ws");
+  for (const other of ["arm", "arm/urdf", "", "/a\n/b", "<robot/>", "http://a/b.urdf"])
+    assert.equal(pastedPath(other), "");
+  assert.deepEqual(["/a/b.urdf.xacro", "/a/b.ZIP", "/a/b"].map(isFilePath), [true, true, false]);
 });

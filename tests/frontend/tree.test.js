@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { ancestorsOf, linkRows, linkTree } from "../../frontend_assets/lib/tree.js";
+import { ancestorsOf, linkRows, linkTree, withoutInertia } from "../../frontend_assets/lib/tree.js";
 
 /** @import { JointView, LinkView, RobotState } from "../../frontend_assets/types/wire.d.ts" */
 
@@ -102,4 +102,16 @@ test("a chain of ten thousand links is shown to its end, also what a filter find
   assert.equal(linkRows(roots, new Set(), "").at(-1)?.level, 10_000);
   assert.equal(linkRows(roots, new Set(), "l9999").length, 10_000);
   assert.deepEqual(linkRows(roots, new Set(), "nothing"), []);
+});
+
+test("a link lacks an inertia in the tree where it does in the list of problems, and nowhere else", () => {
+  const problem = (/** @type {string} */ code, /** @type {string[]} */ parts) =>
+    /** @type {any} */ ({ code, parts });
+  const problems = [
+    problem("missing-inertial", ["link:arm", "joint:shoulder"]),
+    problem("root-inertial", ["link:base"]),
+    problem("missing-inertial", ["link:left wheel", "joint:axle"]),
+  ];
+  assert.deepEqual([...withoutInertia(problems)], ["arm", "left wheel"]);
+  assert.equal(withoutInertia(problems), withoutInertia(problems));
 });

@@ -84,6 +84,14 @@ export function allSites() {
   return new Map([...sites].map(([id, one]) => [id, one.peek()]));
 }
 
+/** @param {string} id of a site @returns {string[]} of the properties that its expression may name */
+export function namesBeside(id) {
+  const names = [...allSites().values()]
+    .filter((one) => one.kind === "property" && one.id !== id && /^[A-Za-z_]\w*$/.test(one.name))
+    .map(({ name }) => name);
+  return [...new Set(names)];
+}
+
 /** @param {string} joint @returns {Signal<number>} its position, rad or m */
 export function position(joint) {
   let found = positions.get(joint);
