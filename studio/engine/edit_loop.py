@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import logging
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Final, TypeAlias
 
 from studio.description.values import (
@@ -67,6 +67,8 @@ class EditLoop:
         self._edits: list[Edit] = []
         self._reload: set[str] = set()
         self._open = True
+        self._has_robot = False
+        """A run has given one."""
         self._arguments_changed = False
         self._waiters: list[asyncio.Future[None]] = []
         self._turns: asyncio.Task[None] | None = None
@@ -217,8 +219,24 @@ class EditLoop:
             version = self._sources.spans.version
             self._forget_changes()
             outcome = await self._worker.open(self._whole())
+        if isinstance(outcome, Failure) and not self._has_robot:
+            await self._run_saved()
+        self._has_robot = self._has_robot or isinstance(outcome, Expansion)
         self._take(outcome, version)
         return outcome
+
+    async def _run_saved(self) -> None:
+        """Have the files taken as they are saved: unsaved work of an earlier run gives no robot."""
+        since = self._sources.since_saved()
+        if not since:
+            return
+        version = self._sources.spans.version
+        self._sources.spans.note(since)  # first: what is edited meanwhile comes after it
+        outcome = await self._worker.open(replace(self._whole(), overlay={}))
+        self._open = True  # the worker does not hold the unsaved texts
+        if isinstance(outcome, Expansion):
+            self._has_robot = True
+            self._take(outcome, version)
 
     async def _run_changes(self) -> Outcome:
         """Send what changed; more than one kind of change opens anew."""

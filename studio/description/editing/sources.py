@@ -89,6 +89,11 @@ class Sources:
         """Files that changed on disk where they have unsaved edits."""
         return frozenset(self._conflicts)
 
+    def since_saved(self) -> tuple[Edit, ...]:
+        """The edits that lead from the files as they are saved to the texts as they are now."""
+        texts = [self._texts[file] for file in self.unsaved_files]
+        return tuple(edit for one in texts for edit in edits_between(one.file, one.disk, one.now))
+
     def overlay(self) -> dict[str, bytes]:
         """The edited texts by file, for a run that starts from the disk."""
         return {file: self._texts[file].now for file in self.unsaved_files}

@@ -75,6 +75,42 @@ def test_edits_arguments_and_both_sides_of_the_undo_list_come_back(mast: Path, t
     asyncio.run(run())
 
 
+def test_where_unsaved_work_gives_no_robot_the_saved_one_is_drawn_and_the_error_told(
+    mast: Path, tmp_path: Path
+):
+    async def run() -> None:
+        async with engine(tmp_path / "data") as made:
+            document, ear = await opened(made, mast)
+            read = m.GetText(document=document.id, file=str(mast))
+            for old, new in (
+                ("<link", "<!-- longer than before --><link"),
+                ("${reach}", "${nonsense}"),
+            ):
+                await made.execute(read, ear)
+                text = ear.last("text")
+                at = text["text"].index(old)
+                change = m.TextChange(start=at, end=at + len(old), text=new)
+                edit = m.EditText(
+                    document=document.id, file=str(mast), version=text["version"], changes=(change,)
+                )
+                await made.execute(edit, ear)
+            broken = document.sources.text(str(mast))
+        async with engine(tmp_path / "data") as made:
+            document, ear = await opened(made, mast)
+            assert tip_of(document) == [0.1, 0, 0.4]
+            assert (document.phase, document.failed) == ("ready", True)
+            assert "nonsense" in str(ear.last("problems"))
+            assert document.sources.text(str(mast)) == broken
+            await document.edit_site(ear.site("width")["id"], "0.2", "")
+            assert b'"width" value="0.2"' in document.sources.text(str(mast))
+            await document.undo()
+            await document.undo()
+            assert tip_of(document) == [0.1, 0, 0.4]
+            assert not document.failed
+
+    asyncio.run(run())
+
+
 def test_what_the_disk_changed_meanwhile_is_merged(mast: Path, tmp_path: Path):
     async def run() -> None:
         await work(mast, tmp_path / "data")
