@@ -107,7 +107,7 @@ _LIVE: Final = (
     _row(v.GetDisplayKinds, lambda d, c, _: d.live.kinds(c)),
     _row(v.GetTopics, lambda d, c, _: d.live.topics(c)),
     _row(v.GetTf, lambda d, c, _: d.live.tf(c)),
-    _row(v.FollowFrame, lambda d, c, _: d.live.follow(c)),
+    _row(v.FollowFrame, lambda d, c, who: d.live.follow(c, who)),
 )
 WORK: Final = dict((*_EDITS, *_FILES, *_VIEW, *_QUESTIONS, *_VARIANTS, *_POSES, *_WIRE, *_LIVE))
 """What each command of a document does; those that are not here are the engine's own."""

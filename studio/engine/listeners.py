@@ -15,6 +15,8 @@ class Listener(Protocol):
     """The sending end of one control lane."""
 
     role: Role
+    person: str
+    """The same for all that comes from one browser, or with one token."""
 
     def post(self, data: bytes, *, binary: bool = False, key: str | None = None) -> None:
         """Queue one message without waiting; of one `key` only the newest need arrive."""

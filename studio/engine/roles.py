@@ -1,5 +1,6 @@
 """Who somebody is in the studio; what a role may do is decided at the door (`web.access`)."""
 
+from dataclasses import dataclass
 from enum import StrEnum
 
 
@@ -8,3 +9,11 @@ class Role(StrEnum):
 
     PRESENTER = "presenter"
     VIEWER = "viewer"
+
+
+@dataclass(frozen=True, slots=True)
+class Visitor:
+    """Who asks: `person` is the same for all that comes with one cookie, or with one token."""
+
+    role: Role
+    person: str = ""

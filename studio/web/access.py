@@ -28,6 +28,7 @@ ROUTE_DEEDS: Final = {
     "/api/documents/{document}/export/package": "export_package",
     "/api/documents/{document}/export/page": "export_page",
     "/api/commands": "command",
+    "/api/log-out": "log_everybody_out",
     "/api/uploads": "upload",
 }
 """Deed of every route that needs a role. `command` opens the door; each command is asked again."""
@@ -107,6 +108,7 @@ _CONTROL: Final = frozenset(
         "get_link",
         "open_link",
         "upload",
+        "log_everybody_out",
         "list_recent",
         "open_recent",
         "forget_recent",

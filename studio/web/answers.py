@@ -8,15 +8,15 @@ from studio.engine.messages import EVENTS, Event
 from studio.web.commands import answer
 
 if TYPE_CHECKING:
-    from studio.engine.roles import Role
+    from studio.engine.roles import Visitor
     from studio.web.surface import OpenDocuments
 
 
 class Answers:
     """The events that one command brought about, in their order; binary frames are left out."""
 
-    def __init__(self, role: Role) -> None:
-        self.role = role
+    def __init__(self, visitor: Visitor) -> None:
+        self.role, self.person = visitor.role, visitor.person
         self.events: list[Event] = []
 
     def post(self, data: bytes, *, binary: bool = False, key: str | None = None) -> None:

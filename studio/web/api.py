@@ -9,7 +9,7 @@ from pydantic import BaseModel
 
 import studio
 from studio.engine.messages import Documents, Event, GetUrdf, Refused, Urdf
-from studio.engine.roles import Role
+from studio.engine.roles import Role, Visitor
 from studio.errors import CommandError
 from studio.web.answers import Answers
 from studio.web.commands import COMMAND_LIMIT_BYTES
@@ -77,7 +77,7 @@ class Api:
 
     async def documents(self) -> Documents:
         """All open documents."""
-        listener = Answers(Role.PRESENTER)
+        listener = Answers(Visitor(Role.PRESENTER))
         self._engine.attach(listener)
         self._engine.detach(listener)
         return next(event for event in listener.events if isinstance(event, Documents))
@@ -85,7 +85,7 @@ class Api:
     async def urdf(self, document: str, request: Request) -> Response:
         """The expanded URDF of the last good run, as a file."""
         wish = GetUrdf(document=document).model_dump_json().encode()
-        events = await Answers(_role(request)).collect(self._engine, wish)
+        events = await Answers(_visitor(request)).collect(self._engine, wish)
         for event in events:
             if isinstance(event, Urdf):
                 return _UrdfFile(event.text, headers=_TO_SAVE)
@@ -94,7 +94,7 @@ class Api:
     async def command(self, request: Request) -> Response:
         """Carry out one command, as the websocket would."""
         text = await _body(request)
-        events = await Answers(_role(request)).collect(self._engine, text)
+        events = await Answers(_visitor(request)).collect(self._engine, text)
         answer = JSONResponse({"events": [event.model_dump(mode="json") for event in events]})
         return _refusal(events) or answer
 
@@ -105,8 +105,8 @@ class _UrdfFile(Response):
     media_type = "application/xml"
 
 
-def _role(request: Request) -> Role:
-    return request.scope["state"]["role"]
+def _visitor(request: Request) -> Visitor:
+    return request.scope["state"]["visitor"]
 
 
 def _refusal(events: list[Event]) -> Response | None:

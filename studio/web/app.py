@@ -18,6 +18,7 @@ from studio.web.assets import Assets
 from studio.web.credentials import Credentials
 from studio.web.exports import Exports
 from studio.web.guard import Guard
+from studio.web.log_out import LogOut
 from studio.web.origin import KnownHosts
 from studio.web.pages import not_found_page, trouble_page
 from studio.web.schema import openapi
@@ -59,6 +60,7 @@ def make_app(
     app.include_router(Api(engine, session).router())
     app.include_router(Exports(engine).router())
     app.include_router(Uploads(engine).router())
+    app.include_router(LogOut(credentials).router())
     document = openapi(app.routes)
 
     async def openapi_document() -> dict[str, Any]:

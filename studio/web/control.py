@@ -11,7 +11,7 @@ from studio.web.lane import FrameTransport, binary_frame, text_frame
 
 if TYPE_CHECKING:
     from studio.engine.messages import Hello
-    from studio.engine.roles import Role
+    from studio.engine.roles import Visitor
     from studio.web.lane import Lane
     from studio.web.surface import OpenDocuments
 
@@ -24,8 +24,8 @@ _TOO_SLOW: Final = 1013
 class ControlLane:
     """One browser's control lane: the Listener that the engine posts to."""
 
-    def __init__(self, lane: Lane, role: Role) -> None:
-        self.role = role
+    def __init__(self, lane: Lane, visitor: Visitor) -> None:
+        self.role, self.person = visitor.role, visitor.person
         self._lane = lane
         self._outlet = Outlet(FrameTransport(lane), on_hopeless=lambda: lane.close(_TOO_SLOW))
         lane.on_drain(self._outlet.resume)

@@ -7,10 +7,9 @@ import os
 import secrets
 import stat
 from contextlib import suppress
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from studio.engine.roles import Role
+from studio.engine.roles import Role, Visitor
 from studio.errors import DataFolderError, UnsafeKeyError
 
 if TYPE_CHECKING:
@@ -25,14 +24,6 @@ _OTHERS = stat.S_IRWXG | stat.S_IRWXO
 def new_token() -> str:
     """A presenter's token, fresh for every start."""
     return secrets.token_urlsafe(24)
-
-
-@dataclass(frozen=True, slots=True)
-class Visitor:
-    """Who asks: `person` is the same for all that comes with one cookie, or with one token."""
-
-    role: Role
-    person: str = ""
 
 
 class Credentials:

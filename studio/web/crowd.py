@@ -16,7 +16,7 @@ from uvicorn.server import ServerState
 from studio.engine.roles import Role
 
 if TYPE_CHECKING:
-    from studio.web.credentials import Visitor
+    from studio.engine.roles import Visitor
 
 STRANGER_S: Final = 10.0
 """From the connection to a request that is whole and carries a cookie or a token."""

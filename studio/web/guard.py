@@ -13,8 +13,7 @@ from starlette.requests import ClientDisconnect
 from starlette.responses import PlainTextResponse, RedirectResponse, Response
 from starlette.websockets import WebSocketDisconnect
 
-from studio.engine.roles import Role
-from studio.web.credentials import Visitor
+from studio.engine.roles import Role, Visitor
 from studio.web.http_protocol import connection_of
 from studio.web.origin import Authority, KnownHosts, is_same_origin, parse_authority
 from studio.web.pages import no_access_page, return_page
@@ -73,7 +72,7 @@ class Guard:
             answer = self._exchange(scope, headers, host, role)
             if answer is not None:
                 return answer, visitor
-        scope.setdefault("state", {})["role"] = role
+        scope.setdefault("state", {}).update(role=role, visitor=visitor)
         return None if role else _stranger(scope, headers), visitor
 
     def _host(self, headers: Headers) -> Authority | None:

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from uvicorn.config import Config
     from uvicorn.server import ServerState
 
-    from studio.web.credentials import Visitor
+    from studio.engine.roles import Visitor
     from studio.web.crowd import CrowdedState
 
 _EXTENSION: Final = "studio.connection"
@@ -82,6 +82,10 @@ class StudioConnection(HttpToolsProtocol):
             return False
         self._allow_time()
         return True
+
+    def end_all(self) -> None:
+        """End the connections of all who came with a cookie or a token, this one too."""
+        self._crowd.end_all()
 
     def data_received(self, data: bytes) -> None:
         """Parse what came; what the parser keeps to itself meanwhile is bounded, too."""

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from websockets.frames import Frame
     from websockets.http11 import Request
 
-    from studio.web.credentials import Visitor
+    from studio.engine.roles import Visitor
     from studio.web.crowd import CrowdedState
 
 VIEWER_MESSAGE_LIMIT_BYTES: Final = 64 << 10

@@ -22,7 +22,7 @@ from studio.web.surface import OpenDocuments
 from studio.web.viser_lane import serve_scene
 
 if TYPE_CHECKING:
-    from studio.engine.roles import Role
+    from studio.engine.roles import Visitor
 
 _FOREVER: Final = "public, max-age=31536000, immutable"
 _ICON: Final = "styles/logo.svg"
@@ -108,9 +108,9 @@ class Site:
     async def control(self, websocket: WebSocket) -> None:
         """The control lane."""
         await websocket.accept()
-        role: Role = websocket.scope["state"]["role"]
-        hello = Hello(role=role.value, version=studio.__version__, session=self._session)
-        await ControlLane(Lane(websocket), role).serve(self._engine, hello)
+        visitor: Visitor = websocket.scope["state"]["visitor"]
+        hello = Hello(role=visitor.role.value, version=studio.__version__, session=self._session)
+        await ControlLane(Lane(websocket), visitor).serve(self._engine, hello)
 
     async def data(self, websocket: WebSocket) -> None:
         """The data lane."""

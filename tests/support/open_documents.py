@@ -24,7 +24,7 @@ class Ear:
     """A control lane that keeps what it hears."""
 
     def __init__(self, role: Role = Role.PRESENTER) -> None:
-        self.role = role
+        self.role, self.person = role, ""
         self.events: list[dict[str, Any]] = []
         self.frames: list[bytes] = []
 

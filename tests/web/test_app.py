@@ -13,7 +13,9 @@ from studio.scene import SUBPROTOCOL
 from studio.web.access import PUBLIC_ROUTES, ROUTE_DEEDS, may
 from studio.web.api import Api
 from studio.web.assets import Assets
+from studio.web.credentials import Credentials
 from studio.web.exports import Exports
+from studio.web.log_out import LogOut
 from studio.web.site import Site
 from studio.web.uploads import Uploads
 from tests.support.small_engine import URDF, SmallEngine
@@ -26,7 +28,7 @@ if TYPE_CHECKING:
     from tests.support.web_server import RunningWeb
 
 SOCKETS = {"/data", "/control", "/d/{document}/viser"}
-POSTS = {"/api/commands", "/api/uploads"}
+POSTS = {"/api/commands", "/api/uploads", "/api/log-out"}
 STREAMS = {"/bulk"}
 """They belong to a websocket, and are walked where they are tested."""
 
@@ -38,6 +40,7 @@ def test_every_route_is_in_the_table_and_the_table_names_no_other(assets_folder:
     app.include_router(Api(engine, "session").router())
     app.include_router(Exports(engine).router())
     app.include_router(Uploads(engine).router())
+    app.include_router(LogOut(Credentials(None, b"")).router())
     found = {path for route in app.routes for path in _paths(route)}
     assert found | {"/api/openapi.json"} == ROUTE_DEEDS.keys() | PUBLIC_ROUTES
 

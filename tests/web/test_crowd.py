@@ -2,8 +2,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from studio.engine.roles import Role
-from studio.web.credentials import Visitor
+from studio.engine.roles import Role, Visitor
 from studio.web.crowd import VIEWER_CONNECTIONS_MAX, Allowance, Crowd
 
 if TYPE_CHECKING:

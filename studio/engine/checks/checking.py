@@ -35,6 +35,7 @@ class CheckDesk:
     """
 
     role = Role.VIEWER
+    person = ""
 
     def __init__(self, document: Document, services: Services) -> None:
         self._document, self._validator = document, services.validator

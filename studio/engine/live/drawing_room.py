@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from studio.engine.live.ear import Wish
     from studio.engine.live.placing import Pose
     from studio.engine.model import Model
+    from studio.engine.roles import Visitor
 
 _MORE_MAX: Final = 500
 """Properties of one display that came with messages: more are not told."""
@@ -152,9 +153,9 @@ class DrawingRoom:
         for running in self._running.values():
             running.forget()
 
-    def follow(self, frame: str, now_ns: int) -> str:
+    def follow(self, frame: str, now_ns: int, visitor: Visitor) -> str:
         """Have a frame stand in the scene for a while; answers why it does not, or nothing."""
-        return self._followed.ask(frame, now_ns) or self.frames.trouble_of(frame)
+        return self._followed.ask(frame, now_ns, visitor) or self.frames.trouble_of(frame)
 
     def step(self, displays: DisplayList, now_ns: int) -> None:
         """Draw what came since the last step."""

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from itertools import chain
 from typing import TYPE_CHECKING, Final, Protocol
 
 from studio.displays.drawing import Placed
+from studio.engine.roles import Role
 from studio.errors import FrameError
 
 if TYPE_CHECKING:
@@ -12,13 +14,17 @@ if TYPE_CHECKING:
 
     from studio.displays.drawing import Drawing
     from studio.engine.live.placing import Lookup, Pose
+    from studio.engine.roles import Visitor
 
 FOLLOWED: Final = "followed"
 """Their root in the scene, beside those of displays; the page knows its name."""
 FOLLOWED_MAX: Final = 64
-"""By all who look; one page marks sixteen at once, and its camera goes with one."""
+"""By all presenters, and again by all viewers: these take no room from those."""
+FOLLOWED_BY_VIEWER_MAX: Final = 17
+"""One page marks sixteen at once, and its camera goes with one."""
 FOLLOWED_FOR_NS: Final = 5_000_000_000
 """After the last question of somebody, who asks every two seconds."""
+_TOO_MANY: Final = "{} other frames are followed already: choose one of those."
 
 
 class DrawsLive(Protocol):
@@ -37,26 +43,65 @@ class DrawsLive(Protocol):
         ...
 
 
+class _Asked:
+    """The frames that visitors of one role asked for, each until when."""
+
+    def __init__(self, each_max: int) -> None:
+        self._each_max = each_max
+        self._until_ns: dict[Visitor, dict[str, int]] = {}
+
+    def frames(self) -> dict[str, None]:
+        """All of them, without order of rank."""
+        return dict.fromkeys(chain.from_iterable(self._until_ns.values()))
+
+    def ask(self, frame: str, until_ns: int, visitor: Visitor) -> str:
+        """Follow one more; where there is no room, who has most gives way to who has fewer."""
+        own = self._until_ns.get(visitor, {})
+        if frame not in own:
+            if len(own) >= self._each_max:
+                return _TOO_MANY.format(self._each_max)
+            if not self._make_room(frame, len(own)):
+                return _TOO_MANY.format(FOLLOWED_MAX)
+        self._until_ns.setdefault(visitor, own)[frame] = until_ns
+        return ""
+
+    def forget(self, now_ns: int) -> None:
+        """Follow no more what nobody has asked for of late."""
+        for visitor, own in tuple(self._until_ns.items()):
+            left = {frame: until_ns for frame, until_ns in own.items() if until_ns > now_ns}
+            self._until_ns[visitor] = left
+            if not left:
+                del self._until_ns[visitor]
+
+    def _make_room(self, frame: str, own_count: int) -> bool:
+        while frame not in (all_of_them := self.frames()) and len(all_of_them) >= FOLLOWED_MAX:
+            greediest = max(self._until_ns.values(), key=len)
+            if len(greediest) <= own_count + 1:
+                return False
+            del greediest[next(iter(greediest))]
+        return True
+
+
 class FollowedFrames:
     """Each is an empty group that stands where the frame is: a pose is all that it costs."""
 
     def __init__(self, scene: DrawsLive) -> None:
         self._scene = scene
-        self._until_ns: dict[str, int] = {}
+        self._asked = {
+            Role.PRESENTER: _Asked(FOLLOWED_MAX),
+            Role.VIEWER: _Asked(FOLLOWED_BY_VIEWER_MAX),
+        }
         self._drawn: tuple[str, ...] = ()
 
-    def ask(self, frame: str, now_ns: int) -> str:
+    def ask(self, frame: str, now_ns: int, visitor: Visitor) -> str:
         """Have a frame followed for a while; answers why it cannot be, else nothing."""
-        if frame not in self._until_ns and len(self._until_ns) >= FOLLOWED_MAX:
-            return f"{FOLLOWED_MAX} other frames are followed already: choose one of those."
-        self._until_ns[frame] = now_ns + FOLLOWED_FOR_NS
-        return ""
+        return self._asked[visitor.role].ask(frame, now_ns + FOLLOWED_FOR_NS, visitor)
 
     def step(self, lookup: Lookup, now_ns: int) -> None:
         """Put each where its frame is now; one that is nowhere stays where it was."""
-        for frame in [one for one, until_ns in self._until_ns.items() if until_ns <= now_ns]:
-            del self._until_ns[frame]
-        wanted = tuple(self._until_ns)
+        for asked in self._asked.values():
+            asked.forget(now_ns)
+        wanted = tuple(dict.fromkeys(chain(*(one.frames() for one in self._asked.values()))))
         poses = {frame: pose for frame in wanted if (pose := _pose(lookup, frame)) is not None}
         if wanted == self._drawn:
             self._scene.place(FOLLOWED, poses)

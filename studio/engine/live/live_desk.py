@@ -12,6 +12,7 @@ from studio.engine.listeners import LastTold
 from studio.engine.live.display_file import DisplayFile, KeptDisplays
 from studio.engine.live.display_list import DisplayList, Listening
 from studio.engine.messages import live as m
+from studio.engine.roles import Visitor
 from studio.errors import CommandError, StudioError
 
 if TYPE_CHECKING:
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
 
     from studio.displays.properties import Value
     from studio.engine.document import Document
+    from studio.engine.listeners import Listener
     from studio.engine.live.display_list import DisplaySpec
     from studio.engine.live.drawing_room import DrawingRoom, Meshes
     from studio.engine.live.placing import Shown
@@ -217,11 +219,12 @@ class LiveDesk:
         # Thousands of frames in words take a while, and the loop has other work.
         return await asyncio.to_thread(frames.answer, command, frames.fixed)
 
-    def follow(self, command: m.FollowFrame) -> m.FrameFollowed:
+    def follow(self, command: m.FollowFrame, who: Listener) -> m.FrameFollowed:
         """Have a frame stand in the scene, for a camera to go with it; TF is heard from now on."""
         self._asked_until_s = time.monotonic() + _ASKED_FOR_S
         self._go_on()
-        trouble = self._room.follow(command.frame.strip().removeprefix("/"), time.time_ns())
+        frame = command.frame.strip().removeprefix("/")
+        trouble = self._room.follow(frame, time.time_ns(), Visitor(who.role, who.person))
         return m.FrameFollowed(request=command.request, trouble=trouble)
 
     async def let_go(self) -> None:

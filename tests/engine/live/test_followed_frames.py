@@ -3,7 +3,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from studio.displays.drawing import NO_TURN
-from studio.engine.live.followed_frames import FOLLOWED_FOR_NS, FOLLOWED_MAX, FollowedFrames
+from studio.engine.live.followed_frames import (
+    FOLLOWED_BY_VIEWER_MAX,
+    FOLLOWED_FOR_NS,
+    FOLLOWED_MAX,
+    FollowedFrames,
+)
+from studio.engine.roles import Role, Visitor
 from studio.errors import UnknownFrameError
 
 if TYPE_CHECKING:
@@ -13,6 +19,7 @@ if TYPE_CHECKING:
     from studio.engine.live.placing import Pose
 
 NOW = 1_000_000_000
+PRESENTER = Visitor(Role.PRESENTER, "p")
 
 
 class Scene:
@@ -48,13 +55,13 @@ def test_a_frame_that_is_asked_for_stands_in_the_scene_until_nobody_asks_any_mor
     followed = FollowedFrames(scene)
     followed.step(lookup, NOW)
     assert scene.asked == []
-    assert followed.ask("odom", NOW) == ""
-    assert followed.ask("nowhere", NOW) == ""
+    assert followed.ask("odom", NOW, PRESENTER) == ""
+    assert followed.ask("nowhere", NOW, PRESENTER) == ""
     followed.step(lookup, NOW)
     followed.step(lookup, NOW + 1)
     there = {"odom": (NO_TURN, (4.0, 0.0, 0.0))}
     assert scene.asked == [("draw odom nowhere", there), ("place", there)]
-    followed.ask("odom", NOW + 2)
+    followed.ask("odom", NOW + 2, PRESENTER)
     followed.step(lookup, NOW + FOLLOWED_FOR_NS)
     assert scene.asked[2:] == [("draw odom", there)]
     followed.step(lookup, NOW + 2 + FOLLOWED_FOR_NS)
@@ -65,8 +72,32 @@ def test_a_frame_that_is_asked_for_stands_in_the_scene_until_nobody_asks_any_mor
 def test_frames_without_end_are_not_followed():
     followed = FollowedFrames(Scene())
     for number in range(FOLLOWED_MAX):
-        assert followed.ask(f"f{number}", NOW) == ""
-    assert followed.ask("one more", NOW) == (
+        assert followed.ask(f"f{number}", NOW, PRESENTER) == ""
+    assert followed.ask("one more", NOW, PRESENTER) == (
         f"{FOLLOWED_MAX} other frames are followed already: choose one of those."
     )
-    assert followed.ask("f3", NOW) == ""
+    assert followed.ask("f3", NOW, PRESENTER) == ""
+
+
+def test_viewers_take_no_frame_from_the_presenter():
+    followed = FollowedFrames(Scene())
+    for viewer in range(10):
+        for number in range(100):
+            followed.ask(f"v{viewer}_{number}", NOW, Visitor(Role.VIEWER, str(viewer)))
+    for number in range(FOLLOWED_MAX):
+        assert followed.ask(f"f{number}", NOW, PRESENTER) == ""
+
+
+def test_one_viewer_follows_as_many_as_a_page_needs_and_leaves_room_for_another():
+    scene = Scene()
+    followed = FollowedFrames(scene)
+    greedy = [Visitor(Role.VIEWER, name) for name in "abcdefgh"]
+    for viewer in greedy:
+        told = [followed.ask(f"{viewer.person}{n}", NOW, viewer) for n in range(100)]
+        assert told.count("") <= FOLLOWED_BY_VIEWER_MAX
+    late = Visitor(Role.VIEWER, "late")
+    assert [followed.ask(f"late{n}", NOW, late) for n in range(3)] == ["", "", ""]
+    followed.step(lookup, NOW)
+    ((drawn, poses),) = scene.asked
+    assert len(poses) == FOLLOWED_MAX
+    assert {"late0", "late1", "late2"} <= set(drawn.split())
