@@ -213,7 +213,7 @@ def test_p2_a_set_that_is_refused_tells_the_nodes_reason(router: str):
     async def run() -> None:
         async with bridged(router) as page:
             await offered(page, GetParameterNodes(), "/turtlesim")
-            for text, words in (("900", "0 to 255"), ("red", "integer")):
+            for text, words in (("900", "Max: 255"), ("red", "integer")):
                 ask = SetParameter(node="/turtlesim", name="background_r", text=text)
                 with pytest.raises(CommandError, match=f"did not set background_r: .*{words}"):
                     await page.do(ask)
