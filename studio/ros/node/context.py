@@ -166,23 +166,28 @@ class Context:
         self.end()
         with self._lock:
             closing, self._closing = self._closing, []
-            drain, wire = self._drain, self._wire
-            graph, self._graph = self._graph, None
-            self._drain = self._wire = None
+            drain, self._drain = self._drain, None
         for callback in closing:
             callback()
-        if graph is not None:
-            graph.close()
         if drain is not None:
+            # What takes in data may ask who is there: it stops before the session is given up.
             drain.stop()
-        if wire is not None and self._owns_wire:
-            wire.close()
+            self._leave()
         self._told_to_end = False
         self._closed.set()
 
     def wait_closed(self, timeout_s: float) -> bool:
         """Wait until it is shut down, or that long; whether it is."""
         return self._closed.wait(timeout_s)
+
+    def _leave(self) -> None:
+        with self._lock:
+            wire, self._wire = self._wire, None
+            graph, self._graph = self._graph, None
+        if graph is not None:
+            graph.close()
+        if wire is not None and self._owns_wire:
+            wire.close()
 
     def _join(self, wire: WireSession, *, owns_wire: bool) -> None:
         self._wire, self._owns_wire = wire, owns_wire

@@ -14,7 +14,7 @@ from studio.ros.node.executor import SingleThreadedExecutor
 from studio.ros.node.node import Node
 from studio.ros.wire.settings import WireSettings
 from tests.support.node_pair import context_at
-from tests.support.wire import free_endpoint, open_test_session, running_router
+from tests.support.wire import free_endpoint, open_test_session, running_router, wait_until
 
 String = message("std_msgs/msg/String")
 
@@ -100,4 +100,26 @@ def test_a_context_that_is_told_to_end_while_it_joins_is_not_ok():
         context.end()
         context.init(WireSettings(connect=(endpoint,)))
         assert not context.ok()
+        context.shutdown()
+
+
+def test_what_takes_in_data_may_ask_who_is_there_until_the_nodes_are_destroyed():
+    class Curious:
+        def __init__(self, context: Context) -> None:
+            self.context, self.answers = context, 0
+
+        def drain(self) -> int:
+            self.context.graph.nodes()
+            self.answers += 1
+            return 0
+
+    with running_router() as endpoint, context_at(endpoint) as context:
+        source = Curious(context)
+
+        def until_it_asked_again() -> None:
+            before = source.answers
+            wait_until("another look", lambda: source.answers > before + 1)
+
+        context.drain.add(source)
+        context.on_close(until_it_asked_again)
         context.shutdown()
