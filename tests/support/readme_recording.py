@@ -12,26 +12,25 @@ import tempfile
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 from PIL import Image
 
 from tests.support.browser import open_browser
 from tests.support.demos import running_demo
-from tests.support.readme_pictures import FOLDER, show, tab_of
+from tests.support.readme_pictures import FOLDER, show
 from tests.support.server import running_studio
-from tests.support.studio_page import wait_until
+from tests.support.studio_page import StudioPage, wait_until
 from tests.support.wire import running_router
-from tests.support.wired_tab import add_displays, connect
+from tests.support.wired_tab import add_displays
 
 if TYPE_CHECKING:
     from collections.abc import Generator
 
-    from playwright.sync_api import Browser, Page
-
-    from tests.support.studio_page import StudioPage
+    from playwright.sync_api import Browser, Page, ViewportSize
 
 FILE = FOLDER / "half-a-minute.webp"
+VIEWPORT: Final[ViewportSize] = {"width": 1280, "height": 760}
 SIZE_PX = (960, 570)
 _FRAME_S = 0.1
 """Frames that come sooner than this after the last one are left out."""
@@ -120,8 +119,8 @@ def ask_where_from(tab: StudioPage) -> None:
 
 
 def prepare_the_live_system(tab: StudioPage) -> None:
-    """Join the system of the demo, in the layout for what is live; its displays come on camera."""
-    connect(tab)
+    """Choose the layout for what is live, and the frame that stands still; the demo has joined."""
+    tab.page.get_by_text("ROS: connected").first.wait_for()
     tab.page.keyboard.press("Control+2")
     frame = tab.page.get_by_role("textbox", name="Fixed frame")
     frame.fill("odom")
@@ -133,7 +132,7 @@ def see_a_scan(tab: StudioPage) -> None:
     """The rover's scan, map and plan come into the 3D view, and it drives."""
     add_displays(tab)
     tab.page.wait_for_timeout(1500)
-    tab.page.get_by_role("button", name="Fit", exact=False).first.click()
+    tab.page.keyboard.press("f")
     tab.page.wait_for_timeout(5000)
 
 
@@ -159,8 +158,10 @@ def record(browser: Browser) -> float:
         running_studio(
             ["demo", "--connect", endpoint, "--router", "off"], Path(folder), moving=True
         ) as studio,
-        tab_of(browser, studio, "dark") as tab,
     ):
+        context = browser.new_context(viewport=VIEWPORT, color_scheme="dark")
+        tab = StudioPage(context.new_page())
+        tab.open(studio.url)
         recording = Recording(tab.page)
         wait_until("the sliders are there", lambda: tab.page.get_by_role("slider").count() > 0)
         with recording.rolling():
@@ -171,6 +172,8 @@ def record(browser: Browser) -> float:
         with recording.rolling():
             see_a_scan(tab)
             send_a_goal(tab)
+        context.close()
+        assert tab.errors == []
         return recording.save(FILE)
 
 
