@@ -44,6 +44,7 @@ class LaserScanDisplay(CloudDisplay):
         # As laser_geometry: the least range counts, the greatest does not.
         with np.errstate(invalid="ignore"):
             returned = (scan.ranges >= scan.range_min) & (scan.ranges < scan.range_max)
+        returned &= np.isfinite(scan.ranges)  # the least range may be infinite, too
         chosen = spread_among(returned, limits.points)
         rays = _rays(float(scan.angle_min), float(scan.angle_increment), len(scan.ranges))
         positions = rays.take(chosen, axis=0) * scan.ranges[chosen, None]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Final, Literal, NamedTuple, TypeAlias
 
 import numpy as np
@@ -78,7 +79,7 @@ def fault_of_numbers(xyz_m: Floats, wxyz: Floats, stamp_ns: int) -> tuple[Kind, 
         return "no_stamp", "its stamp is before the beginning of time"
     if np.abs(xyz_m).max() > _FAR_M:
         return "too_far", f"its child is farther away than {_FAR_M:.0e} m"
-    length = float(np.hypot.reduce(wxyz))
+    length = math.hypot(*wxyz.tolist())  # infinite without a warning, where it is so long
     reason = f"its quaternion has the length {length:.3g}, not 1, and tf2 leaves such out, too"
     return "no_unit_quaternion", reason
 

@@ -109,6 +109,14 @@ def test_limits_of_a_scan_that_are_no_numbers_show_nothing():
     assert display.statuses()[0].reason == "out_of_range"
 
 
+def test_ranges_that_are_infinite_are_left_out_whatever_the_limits_of_the_scan():
+    display = LaserScanDisplay(TYPES)
+    display.take(scan([-INF, 2.0, INF], range_min=-INF, range_max=INF))
+    assert_array_equal(drawn(display).positions[:, :2].round(3).shape, (1, 2))
+    display.take(scan([-INF, -INF], range_min=-INF, range_max=INF))
+    assert display.statuses()[0].reason == "out_of_range"
+
+
 def test_too_many_returns_are_thinned():
     display = LaserScanDisplay(TYPES)
     display.limit(Limits(points=100))

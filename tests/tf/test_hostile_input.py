@@ -18,6 +18,7 @@ NUMBERS = st.one_of(
 )
 TURNS = st.one_of(
     st.sampled_from([(1.0, 0.0, 0.0, 0.0), (0.6, 0.0, -0.8, 0.0), (-0.5, 0.5, 0.5, -0.5)]),
+    st.just((1e308, 1e308, -1e308, 1e308)),
     st.tuples(*[NUMBERS] * 4),
 )
 STAMPS = st.one_of(
