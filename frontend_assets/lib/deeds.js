@@ -63,6 +63,16 @@ const GOAL_OVER = new Set(["succeeded", "canceled", "aborted", "rejected", "fail
 /** @param {{state: string}} goal */
 export const isGoalOver = ({ state }) => GOAL_OVER.has(state);
 
+/**
+ * @param {string} actionType @param {unknown} result
+ * @returns {number | null} rad that turtlesim's turtle turned, to the left: its server tells them from the end back to the start
+ */
+export function turnedRad(actionType, result) {
+  if (actionType !== "turtlesim/action/RotateAbsolute") return null;
+  const delta = /** @type {{delta?: unknown} | undefined} */ (result)?.delta;
+  return typeof delta === "number" ? -delta : null;
+}
+
 /** @param {unknown} value @returns {string} plain values on one line */
 export function shortOf(value) {
   if (typeof value !== "object" || value === null) return String(value);

@@ -25,6 +25,9 @@ export const levelOf = (number) => DESCENDING.find(([, from]) => number >= from)
 /** @param {string} logger @returns {string} its node: what stands before the first dot */
 export const nodeOf = (logger) => logger.split(".", 1)[0] ?? logger;
 
+/** @param {string} path of a node @returns {string} its logger */
+export const loggerOf = (path) => path.replace(/^\//, "").replaceAll("/", ".");
+
 /** @param {readonly LogLine[]} lines @param {Filter} filter @returns {readonly LogLine[]} */
 export function matchingLines(lines, { level, node, words }) {
   const least = LEVELS[level];

@@ -9,11 +9,13 @@ import { mayEdit } from "../app/state/connection.js";
 import { followDeeds } from "../app/state/deed-following.js";
 import { goals } from "../app/state/deeds.js";
 import { followStatuses, goalStatuses } from "../app/state/goal-statuses.js";
+import { filterLogTo } from "../app/state/log.js";
 import { goalForm } from "../app/state/message-forms.js";
 import { actions, askActions, followActions, offersRefused } from "../app/state/offers.js";
-import { isGoalOver, plainOf, shortOf, tookText } from "../lib/deeds.js";
+import { isGoalOver, plainOf, shortOf, tookText, turnedRad } from "../lib/deeds.js";
 import { progressOf } from "../lib/goal-progress.js";
 import { t } from "../lib/i18n.js";
+import { levelOf } from "../lib/log-lines.js";
 import { Icon, ProgressBar } from "../lib/ui.js";
 import { DeedForm, DeedPanel, DeedState, Offers, openLine } from "./deed-panel.js";
 import { ValueTree } from "./value-tree.js";
@@ -65,12 +67,38 @@ function Goal({ goal }) {
     <header class="goal-head"><${Stand} goal=${goal} />${!over && html`<${Cancel} goal=${goal} />`}</header>
     <p class="goal-asked" title=${goal.text}>${goal.text.trim().replace(/\s+/g, " ") || "{}"}</p>
     <${Progress} goal=${goal} />
-    ${goal.state === "rejected" && html`<p class="note bad" role="alert">${t("actions.rejected.do")}</p>`}
+    <${Why} goal=${goal} />
     ${goal.trouble && html`<p class="note bad" role="alert">${goal.trouble}</p>`}
     ${!over && last !== undefined && html`<${ValueTree} value=${last} label=${t("actions.feedback")} />`}
     ${result !== undefined && html`<${ValueTree} value=${result} label=${t("actions.result")} />`}
+    <${Turned} rad=${turnedRad(goal.action_type, result)} />
     ${goal.feedback_count > 0 && html`<${Log} goal=${goal} />`}
   </section>`;
+}
+
+/** @param {{goal: GoalView}} props why it ended, as far as its end and the log of its server tell */
+function Why({ goal }) {
+  const { state, servers, server_said: said } = goal;
+  if (state === "canceled") return html`<p class="note">${t("actions.canceled.why")}</p>`;
+  if (state !== "aborted" && state !== "rejected") return null;
+  const server = servers[0];
+  const show = (/** @type {string} */ node) => {
+    filterLogTo(node);
+    commandById("panel.log")?.run();
+  };
+  return html`<p class="note bad" role="alert">${t(state === "aborted" ? "actions.aborted.why" : "actions.rejected.do")}</p>
+    ${said && html`<p class="note">${t("actions.server_said", { node: said.node, level: t(`log.level.${levelOf(said.level)}`) })} <q>${said.text}</q></p>`}
+    ${server && html`<button type="button" class="button small" onClick=${() => show(server)}><${Icon} name="log" size=${13} />${t("actions.log.show", { node: server })}</button>`}`;
+}
+
+/** @param {{rad: number | null}} props what turtlesim's result means */
+function Turned({ rad }) {
+  if (rad === null) return null;
+  const angle = {
+    rad: Math.abs(rad).toFixed(2),
+    degrees: Math.abs((rad * 180) / Math.PI).toFixed(0),
+  };
+  return html`<p class="note">${t(rad < 0 ? "actions.turned.right" : "actions.turned.left", angle)}</p>`;
 }
 
 /** @param {{goal: GoalView}} props how it stands, in words */

@@ -62,7 +62,9 @@ function Content({ looking }) {
     else focus.value = id;
   };
   const topics = drawn.arrows.flatMap(({ names }) => names);
-  return html`<${Bar} words=${words} focus=${focus} opened=${opened} />
+  const ours = new Set(whole.nodes.filter(({ own }) => own).map(({ name }) => name));
+  const own = drawn.boxes.filter(({ kind, name }) => kind === "node" && ours.has(name)).length;
+  return html`<${Bar} words=${words} focus=${focus} opened=${opened} own=${own} />
     ${graphRefused.value && html`<p class="note bad padded" role="alert">${graphRefused.value}</p>`}
     <${Warnings} />
     ${looking && html`<${Rates} topics=${[...new Set(topics)].slice(0, RATES_MAX)} rates=${rates} />`}
@@ -74,14 +76,13 @@ function Content({ looking }) {
     }`;
 }
 
-/** @param {{words: Signal<string>, focus: Signal<string>, opened: Signal<ReadonlySet<string>>}} props */
-function Bar({ words, focus, opened }) {
+/** @param {{words: Signal<string>, focus: Signal<string>, opened: Signal<ReadonlySet<string>>, own: number}} props `own`: how many of the studio's are drawn */
+function Bar({ words, focus, opened, own }) {
   const now = options.value;
   const change = (/** @type {Partial<GraphOptions>} */ news) => {
     kept.value = { ...kept.value, ...news };
   };
-  const { nodes, more } = graph.value;
-  const others = nodes.filter(({ own }) => !own).reduce((sum, { count }) => sum + count, 0);
+  const { other_count: others, more } = graph.value;
   return html`<div class="panel-bar graph-bar">
     <${SearchBox} label=${t("graph.search")} value=${words.value} onInput=${(
       /** @type {string} */ text,
@@ -98,7 +99,7 @@ function Bar({ words, focus, opened }) {
     )}
     ${now.spaces && [...opened.value].map((name) => html`<${Chip} key=${name} words=${name} label=${t("graph.space.close", { name })} onClose=${() => close(opened, name)} />`)}
     ${focus.value && html`<${Chip} words=${t("graph.focus", { name: focus.value.replace(/^\w+:/, "") })} onClose=${() => unfocus(focus)} />`}</div>
-    <span class="push"></span><span class="muted graph-count" role="status">${t("graph.count", { count: others })}${more > 0 && html` · ${t("graph.more", { count: more })}`}</span>
+    <span class="push"></span><span class="muted graph-count" role="status">${t("graph.count", { count: others })}${own > 0 && html` · ${t("graph.own", { count: own })}`}${more > 0 && html` · ${t("graph.more", { count: more })}`}</span>
   </div>`;
 }
 

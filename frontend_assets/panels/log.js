@@ -7,7 +7,7 @@
 import { html, useEffect, useLayoutEffect, useRef, useSignal } from "vendor/preact.js";
 import { ConnectFirst, isUnconnected, NothingThere, RouterAway } from "../app/connect-first.js";
 import { useLooking } from "../app/looking.js";
-import { clearLog, followLog, logLines, logRefused, missed } from "../app/state/log.js";
+import { clearLog, followLog, logFilter, logLines, logRefused, missed } from "../app/state/log.js";
 import { notify } from "../app/state/view.js";
 import { copyText } from "../lib/clipboard.js";
 import { t } from "../lib/i18n.js";
@@ -29,13 +29,12 @@ const END_PX = 4;
 
 export function LogPanel() {
   const { panel } = useLooking(followLog);
-  const filter = useSignal(/** @type {Filter} */ ({ level: "info", node: "", words: "" }));
   /** What is shown while the log stands still; null: it goes on. */
   const frozen = useSignal(/** @type {readonly LogLine[] | null} */ (null));
   const lines = frozen.value ?? logLines.value;
   return html`<section ref=${panel} class="panel-body log" aria-label=${t("panel.log")}>
     <${RouterAway} />
-    ${lines.length === 0 && isUnconnected() ? html`<${ConnectFirst} icon="log" />` : html`<${Content} lines=${lines} filter=${filter} frozen=${frozen} />`}
+    ${lines.length === 0 && isUnconnected() ? html`<${ConnectFirst} icon="log" />` : html`<${Content} lines=${lines} filter=${logFilter} frozen=${frozen} />`}
   </section>`;
 }
 
@@ -55,6 +54,9 @@ function nothingWords(all, shown) {
   if (shown > 0) return "";
   return all === 0 ? t("log.none") : t("log.filtered", { count: all });
 }
+
+/** @param {readonly LogLine[]} lines @param {string} chosen which may have said nothing yet @returns {string[]} */
+const named = (lines, chosen) => [...new Set([...nodesOf(lines), ...(chosen ? [chosen] : [])])];
 
 /** @param {{lines: readonly LogLine[], shown: readonly LogLine[], filter: Signal<Filter>, frozen: Signal<readonly LogLine[] | null>}} props */
 function Bar({ lines, shown, filter, frozen }) {
@@ -79,7 +81,7 @@ function Bar({ lines, shown, filter, frozen }) {
       ${Object.keys(LEVELS).map((one) => html`<option key=${one} value=${one}>${t(`log.level.${one}`)}</option>`)}</select>
     <select class="box" aria-label=${t("log.node")} value=${filter.value.node} onChange=${(/** @type {any} */ event) => change({ node: event.currentTarget.value })}>
       <option value="">${t("log.all_nodes")}</option>
-      ${nodesOf(lines).map((one) => html`<option key=${one} value=${one}>${one}</option>`)}</select>
+      ${named(lines, filter.value.node).map((one) => html`<option key=${one} value=${one}>${one}</option>`)}</select>
     <${IconButton} icon=${isPaused ? "animate" : "pause"} label=${t(isPaused ? "log.go_on" : "log.pause")} pressed=${isPaused} onClick=${pause} />
     <${IconButton} icon="copy" label=${t("log.copy")} disabled=${shown.length === 0} onClick=${copy} />
     <${IconButton} icon="trash" label=${t("log.clear")} disabled=${lines.length === 0} onClick=${clear} />

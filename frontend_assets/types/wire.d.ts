@@ -1072,6 +1072,8 @@ export interface GoalView {
   feedback: FeedbackView[];
   result: string;
   trouble: string;
+  servers: string[];
+  server_said: LogLine | null;
 }
 
 /** Goals, the oldest first; all that are kept, or those that changed. */
@@ -1094,6 +1096,7 @@ export interface GraphAnswer {
   version: number;
   nodes: GraphNodeView[];
   links: GraphLinkView[];
+  other_count: number;
   more: number;
 }
 

@@ -113,6 +113,11 @@ def node_path(namespace: str, node: str) -> str:
     return f"{namespace.rstrip('/')}/{node}"
 
 
+def logger_name(path: str) -> str:
+    """Name the logger of a node by its path: `/ns/talker` to `ns.talker`."""
+    return path.strip("/").replace("/", ".")
+
+
 def split_node_path(path: str) -> tuple[str, str]:
     """Part `/ns/talker` into namespace and name.
 

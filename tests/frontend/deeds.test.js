@@ -1,6 +1,12 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { matchingOffers, shortOf, tookText, withDeeds } from "../../frontend_assets/lib/deeds.js";
+import {
+  matchingOffers,
+  shortOf,
+  tookText,
+  turnedRad,
+  withDeeds,
+} from "../../frontend_assets/lib/deeds.js";
 
 test("what changed takes the place of what was known, and new ones come last", () => {
   const known = [
@@ -54,4 +60,10 @@ test("what every node serves is left out until it is asked for", () => {
 test("plain values are told on a line, times in the unit that fits", () => {
   assert.equal(shortOf({ a: 1, b: { c: [1, "x"] } }), "a: 1, b: {c: [1, x]}");
   assert.deepEqual([0.0104, 1.25, 250].map(tookText), ["10 ms", "1.3 s", "250 s"]);
+});
+
+test("turtlesim's delta is told as a turn to the left, and no other action's is", () => {
+  assert.equal(turnedRad("turtlesim/action/RotateAbsolute", { delta: -1.5 }), 1.5);
+  assert.equal(turnedRad("turtlesim/action/RotateAbsolute", undefined), null);
+  assert.equal(turnedRad("arm/action/Turn", { delta: -1.5 }), null);
 });

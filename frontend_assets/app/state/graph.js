@@ -10,10 +10,10 @@ import { askOrKeepWhy } from "./refusals.js";
 
 const EVERY_MS = 700;
 
-/** @typedef {Pick<GraphAnswer, "version" | "nodes" | "links" | "more">} Graph */
+/** @typedef {Pick<GraphAnswer, "version" | "nodes" | "links" | "other_count" | "more">} Graph */
 
 /** @type {Graph} */
-const NOBODY = { version: -1, nodes: [], links: [], more: 0 };
+const NOBODY = { version: -1, nodes: [], links: [], other_count: 0, more: 0 };
 
 /** @type {Signal<Graph>} */
 export const graph = signal(NOBODY);

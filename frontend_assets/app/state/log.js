@@ -1,10 +1,11 @@
 /** The log of ROS 2 as it came to this page: asked for while somebody looks, else never. */
 
 /** @import { LogLine } from "../../types/wire.d.ts" */
+/** @import { Filter } from "../../lib/log-lines.js" */
 /** @import { Signal } from "vendor/preact.js" */
 
 import { effect, signal, untracked } from "vendor/preact.js";
-import { withNews } from "../../lib/log-lines.js";
+import { loggerOf, nodeOf, withNews } from "../../lib/log-lines.js";
 import { session } from "./connection.js";
 import { polled } from "./polling.js";
 import { askOrKeepWhy } from "./refusals.js";
@@ -16,6 +17,8 @@ export const logLines = signal([]);
 /** How many were gone before this page could see them. */
 export const missed = signal(0);
 export const logRefused = signal("");
+/** What of the log is shown. @type {Signal<Filter>} */
+export const logFilter = signal({ level: "info", node: "", words: "" });
 /** Number of the last line that came; 0: none did. */
 let last = 0;
 
@@ -30,6 +33,11 @@ async function askLog() {
   last = told.lines.at(-1)?.number ?? last;
   logLines.value = withNews(logLines.value, told.lines);
   return last < told.last;
+}
+
+/** @param {string} node by its path: show what it says, and nothing else */
+export function filterLogTo(node) {
+  logFilter.value = { level: "info", node: nodeOf(loggerOf(node)), words: "" };
 }
 
 /** Show none of those that came so far, on this page. */

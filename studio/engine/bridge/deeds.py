@@ -14,6 +14,7 @@ from studio.engine.bridge.publishing import PublishDesk
 
 if TYPE_CHECKING:
     from studio.engine.bridge.interfaces import InterfaceDesk
+    from studio.engine.bridge.logs import LogDesk
     from studio.engine.listeners import Listener
     from studio.engine.messages.calls import FollowDeeds
     from studio.engine.wire.desk import WireDesk
@@ -22,10 +23,10 @@ if TYPE_CHECKING:
 class DeedDesk:
     """Holds one desk for each kind of deed."""
 
-    def __init__(self, wire: WireDesk, interfaces: InterfaceDesk) -> None:
+    def __init__(self, wire: WireDesk, interfaces: InterfaceDesk, logs: LogDesk) -> None:
         self.offers = OfferDesk(wire, interfaces)
         self.calls = CallDesk(wire)
-        self.goals = GoalDesk(wire)
+        self.goals = GoalDesk(wire, logs)
         self.statuses = GoalStatusDesk(wire, self.goals.own_ids)
         self.publishing = PublishDesk(wire)
         self.parameters = ParameterDesk(wire)

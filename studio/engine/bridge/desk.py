@@ -64,7 +64,7 @@ class BridgeDesk:
         self.graph = GraphDesk(wire)
         self.lifecycle = LifecycleDesk(wire)
         self.diagnostics = DiagnosticsDesk(wire)
-        self.deeds = DeedDesk(wire, self.interfaces)
+        self.deeds = DeedDesk(wire, self.interfaces, self.logs)
         self.driving = DriveDesk(wire)
         self.lessons = LessonDesk(wire)
 

@@ -98,6 +98,11 @@ class GoalRequest:
         return GoalStatus.UNKNOWN if self._handle is None else self._handle.status
 
     @property
+    def servers(self) -> tuple[str, ...]:
+        """Paths of the nodes that serve the action."""
+        return tuple(one.path for one in self._link.graph.action_servers(self.name))
+
+    @property
     def goal_id(self) -> str:
         """In hex; empty before it is accepted."""
         return "" if self._handle is None else bytes(self._handle.goal_id.uuid).hex()

@@ -22,6 +22,8 @@ from studio.engine.messages.goals import (
 
 if TYPE_CHECKING:
     from studio.engine.bridge.goal_work import ActionClients, GoalRequest
+    from studio.engine.bridge.logs import LogDesk
+    from studio.engine.messages.logs import LogLine
     from studio.engine.wire.desk import WireDesk
     from studio.engine.wire.link import WireLink
 
@@ -31,6 +33,9 @@ _FEEDBACK_KEPT: Final = 50
 _FEEDBACK_CHARACTERS: Final = 4_000
 _LOOK_S: Final = 0.2
 """Between two looks at what a server tells of a goal that has no feedback."""
+_LOG_PATIENCE_S: Final = 1.0
+"""What a server logs may come later than its answer."""
+_CLOCKS_APART_S: Final = 1.0
 _OVER: Final = frozenset({"succeeded", "canceled", "aborted", "rejected", "failed"})
 
 
@@ -48,6 +53,10 @@ class Goal:
     goal_id: str = ""
     result: str = ""
     trouble: str = ""
+    servers: tuple[str, ...] = ()
+    server_said: LogLine | None = None
+    log_from: int = 0
+    """Number of the last line of the log before it was sent."""
     feedback_count: int = 0
     kept: deque[tuple[int, float, Any]] = field(
         default_factory=lambda: deque(maxlen=_FEEDBACK_KEPT)
@@ -89,8 +98,8 @@ def _told(is_whole: bool, goals: tuple[Goal, ...]) -> Goals:  # noqa: FBT001 - a
 class GoalDesk:
     """Sends goals and has them cancelled; how they fare is in its ledger."""
 
-    def __init__(self, wire: WireDesk) -> None:
-        self._wire = wire
+    def __init__(self, wire: WireDesk, logs: LogDesk) -> None:
+        self._wire, self._logs = wire, logs
         self.ledger: Ledger[Goal] = Ledger(_told, kept=_KEPT, running=_RUNNING_MAX)
         self._running = Running()
         self._requests: dict[int, GoalRequest] = {}
@@ -109,6 +118,7 @@ class GoalDesk:
         clients = self._clients_of(link)
         request = await asyncio.to_thread(GoalRequest, link, clients, command)
         goal = Goal(number, request.name, request.type_name, command.text)
+        goal.log_from = await self._logs.listen()
         self._requests[number] = request
         self.ledger.add(goal)
         self._running.start(
@@ -207,8 +217,23 @@ class GoalDesk:
         else:
             goal.state = "canceled" if outcome.kind == "cancelled" else "failed"
         self._requests.pop(goal.deed, None)
+        goal.servers = request.servers
         self.ledger.changed(goal)
         await asyncio.to_thread(request.close)
+        if goal.state in {"aborted", "rejected"}:
+            await self._find_why(goal)
+
+    async def _find_why(self, goal: Goal) -> None:
+        """Look for what its server logged: its answer holds no reason."""
+        since_s = goal.began_s - _CLOCKS_APART_S
+        end_s = time.monotonic() + _LOG_PATIENCE_S
+        while goal.server_said is None and time.monotonic() < end_s:
+            goal.server_said = self._logs.newest_warning(
+                goal.servers, after=goal.log_from, since_s=since_s
+            )
+            await asyncio.sleep(_LOOK_S)
+        if goal.server_said is not None:
+            self.ledger.changed(goal)
 
 
 def _ended(name: str) -> GoalState:

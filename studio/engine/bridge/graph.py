@@ -37,7 +37,9 @@ class GraphDesk:
         link = self._wire.current
         if link is None or link.graph.version == command.known:
             known = -1 if link is None else command.known
-            return GraphAnswer(request=command.request, version=known, nodes=(), links=(), more=0)
+            return GraphAnswer(
+                request=command.request, version=known, nodes=(), links=(), other_count=0, more=0
+            )
         return await asyncio.to_thread(_answer, link, command.request)
 
     async def node(self, command: GetNode) -> NodeAnswer:
@@ -61,6 +63,7 @@ def _answer(link: WireLink, request: int) -> GraphAnswer:
         version=version,
         nodes=tuple(shown),
         links=tuple(links[:LINKS_MAX]),
+        other_count=len(link.node_names()),
         more=more,
     )
 

@@ -11,6 +11,8 @@ from studio.engine.messages.logs import LINES_MAX, LogLine
 from studio.ros.duration import NANOSECONDS
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from studio.ros.types.classes import MessageValue
 
 KEPT_MAX: Final = 10_000
@@ -18,6 +20,7 @@ CHARACTERS_MAX: Final = 8_000_000
 """Of all lines together; the oldest go."""
 TEXT_MAX: Final = 20_000
 _NAME_MAX: Final = 500
+_WARNING: Final = 30
 
 
 class LogRing:
@@ -47,6 +50,30 @@ class LogRing:
             begin = max(0, number + 1 - first)
             lines = tuple(itertools.islice(self._lines, begin, begin + LINES_MAX))
             return lines, first, last
+
+    @property
+    def last(self) -> int:
+        """Number of the newest line, 0 without one."""
+        with self._lock:
+            return self._lines[-1].number if self._lines else 0
+
+    def newest_warning(
+        self, loggers: Iterable[str], *, after: int, since_s: float
+    ) -> LogLine | None:
+        """Give the newest warning or error of some loggers, or of those below them.
+
+        It came after the line of that number, and was not said before `since_s`: who joins late
+        is told what was said earlier, too.
+        """
+        wanted = tuple(loggers)
+        with self._lock:
+            for line in reversed(self._lines):
+                if line.number <= after:
+                    return None
+                is_grave = line.level >= _WARNING and line.stamp_s >= since_s
+                if is_grave and any(f"{line.node}.".startswith(f"{one}.") for one in wanted):
+                    return line
+        return None
 
 
 def _line(number: int, said: MessageValue) -> LogLine:

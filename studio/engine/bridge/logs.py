@@ -7,10 +7,12 @@ from typing import TYPE_CHECKING
 from studio.engine.bridge.heard_topic import HeardTopic
 from studio.engine.bridge.log_ring import LogRing
 from studio.engine.messages.logs import GetLog, LogAnswer
+from studio.ros.names import logger_name
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable
 
+    from studio.engine.messages.logs import LogLine
     from studio.engine.wire.desk import WireDesk
     from studio.engine.wire.link import WireLink
 
@@ -34,6 +36,16 @@ class LogDesk:
             first=first,
             last=last,
         )
+
+    async def listen(self) -> int:
+        """Hear it from now on; gives the number of the newest line, 0 without one."""
+        await self._topic.listen()
+        return self._ring.last
+
+    def newest_warning(self, nodes: Iterable[str], *, after: int, since_s: float) -> LogLine | None:
+        """Give the newest warning or error of some nodes, by their paths, as `LogRing` does."""
+        loggers = [logger_name(path) for path in nodes]
+        return self._ring.newest_warning(loggers, after=after, since_s=since_s)
 
     def _hear(self, link: WireLink) -> Callable[[], None]:
         """Hear it as it is sent: nodes keep what they said for those who come late."""

@@ -7,6 +7,7 @@ from typing import Literal, TypeAlias
 from pydantic import Field
 
 from studio.engine.messages.calls import Name, PlainJson, Yaml
+from studio.engine.messages.logs import LogLine
 from studio.engine.messages.message import CommandMessage, Message
 
 GoalState: TypeAlias = Literal[
@@ -76,6 +77,10 @@ class GoalView(Message):
     """What is new since the last time; of all that are told, the last that are kept."""
     result: PlainJson
     trouble: str
+    servers: tuple[str, ...]
+    """Paths of the nodes that serve the action, told when the goal is over."""
+    server_said: LogLine | None
+    """What a server that aborted or rejected it logged last as a warning or an error meanwhile."""
 
 
 class Goals(Message):

@@ -53,6 +53,8 @@ class GraphAnswer(Message):
     """Another one than known: all is told anew; else nothing is."""
     nodes: tuple[GraphNodeView, ...]
     links: tuple[GraphLinkView, ...]
+    other_count: int
+    """Nodes that are not the studio's, as `wire_state` counts them."""
     more: int
     """Nodes and links for which there was no room."""
 

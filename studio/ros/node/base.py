@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from studio.errors import DestroyedError
-from studio.ros.names import as_namespace, check_node_name, expand
+from studio.ros.names import as_namespace, check_node_name, expand, logger_name
 from studio.ros.node.clock import Clock
 from studio.ros.node.drain import Source
 from studio.ros.node.endpoint import Endpoint
@@ -111,7 +111,7 @@ class NodeBase:
 
     def get_logger(self) -> Logger:
         """Give its logger, named `ns.name`."""
-        return get_logger(self._token.path.strip("/").replace("/", "."))
+        return get_logger(logger_name(self._token.path))
 
     def get_clock(self) -> Clock:
         """Give its clock, which /clock tells when `use_sim_time` is set."""

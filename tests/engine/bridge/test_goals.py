@@ -75,6 +75,33 @@ def test_a_goal_is_refused_and_another_is_aborted(endpoint: str, held: Held):
     asyncio.run(run())
 
 
+def test_beside_an_aborted_goal_stands_what_its_server_logged_last_as_a_warning(
+    endpoint: str, tester: Node, held: Held
+):
+    async def run() -> None:
+        async with bridged(endpoint) as page:
+            log = tester.get_logger()
+            log.warning("said of an earlier goal")
+            first = await begun(page)
+            await page.deed_in("goals", first, "executing")
+            log.warning("the way is blocked")
+            log.get_child("arm").error("the arm is stuck")
+            log.info("giving up")
+            await asyncio.to_thread(held.end, "abort")
+            await until(lambda: page.deed("goals", first).get("server_said") is not None)
+            told = page.deed("goals", first)
+            assert told["servers"] == [tester.get_fully_qualified_name()]
+            assert told["server_said"]["text"] == "the arm is stuck"
+            second = await begun(page)
+            await page.deed_in("goals", second, "executing")
+            await asyncio.to_thread(held.end, "abort", 1)
+            await page.deed_in("goals", second, "aborted")
+            await page.desk.deeds.let_go()  # waits until all that ends has ended
+            assert page.deed("goals", second)["server_said"] is None
+
+    asyncio.run(run())
+
+
 def test_goals_of_others_are_told_apart_from_ours(endpoint: str, tester: Node, held: Held):
     async def run() -> None:
         async with bridged(endpoint) as page:

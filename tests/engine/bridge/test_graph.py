@@ -90,6 +90,20 @@ def test_n4_talker_and_listener_are_two_nodes_and_one_edge(endpoint: str):
     asyncio.run(run())
 
 
+def test_nodes_of_others_are_counted_as_the_connection_counts_them(endpoint: str):
+    async def run() -> None:
+        # One has the name of the studio's own node, which makes them one box.
+        with node_at(endpoint, "studio") as same, node_at(endpoint, "talker") as talker:
+            same.create_subscription(STRING, "/chatter", ignore, 10)
+            talker.create_publisher(STRING, "/chatter", 10)
+            async with desk_at(endpoint) as desk:
+                answer = await told(desk, lambda one: has_both_ends(one, "/chatter"))
+                assert sum(one.count for one in answer.nodes if not one.own) == 3
+                assert answer.other_count == 2
+
+    asyncio.run(run())
+
+
 def test_services_and_actions_join_who_calls_and_who_serves(endpoint: str):
     async def run() -> None:
         with node_at(endpoint, "server") as server, node_at(endpoint, "caller") as caller:
