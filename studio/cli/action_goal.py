@@ -26,6 +26,9 @@ if TYPE_CHECKING:
     from studio.ros.types.classes import MessageValue
 
 _CANCEL_TIMEOUT_S = 5.0
+_LOG_PATIENCE_S = 0.5
+"""What a server logs may come later than its answer."""
+_WARNING = 30
 _LOOK_S = 0.1
 """How often the wait for an answer looks whether Ctrl-C was pressed."""
 
@@ -65,22 +68,28 @@ def _run(options: argparse.Namespace) -> int:
             return 1
         print(f"Sending goal:\n     {_text(goal)}", flush=True)
         feedback = _Feedback()
+        log = _ServerLog(actor, name)
         with _noted_interrupt() as interrupt:
             sent = client.send_goal_async(goal, feedback.take if options.feedback else None)
             interrupt.wait(actor, sent)
             if interrupt.came:
                 _cancel_sent(actor, sent)
                 raise KeyboardInterrupt
-            return _follow(actor, sent.result(), feedback, interrupt)
+            return _follow(actor, sent.result(), feedback, interrupt, log)
 
 
 def _follow(
-    actor: Actor, goal: ClientGoalHandle, feedback: _Feedback, interrupt: _Interrupt
+    actor: Actor,
+    goal: ClientGoalHandle,
+    feedback: _Feedback,
+    interrupt: _Interrupt,
+    log: _ServerLog,
 ) -> int:
     from studio.ros.action.states import GoalStatus
 
     if not goal.accepted:
         print("Goal was rejected.")
+        log.say()
         return 0
     print(f"Goal accepted with ID: {bytes(goal.goal_id.uuid).hex()}\n", flush=True)
     feedback.begin()
@@ -92,6 +101,8 @@ def _follow(
     answer = ended.result()
     print(f"Result:\n    {_text(answer.result)}")
     print(f"Goal finished with status: {GoalStatus(answer.status).name.removeprefix('STATUS_')}")
+    if answer.status == GoalStatus.ABORTED:
+        log.say()
     return 0
 
 
@@ -165,6 +176,37 @@ class _Feedback:
         early, self._early = self._early or [], None
         for message in early:
             self.take(message)
+
+
+class _ServerLog:
+    """What the server of an action logs from now on: its answer holds no reason."""
+
+    def __init__(self, actor: Actor, action: str) -> None:
+        from studio.ros.names import logger_name
+        from studio.ros.node.rosout import ROSOUT
+
+        self._actor, self._since_ns = actor, time.time_ns()
+        self._servers = [one.path for one in actor.graph.action_servers(action)]
+        self._loggers = tuple(f"{logger_name(path)}." for path in self._servers)
+        self._warning: Any = None
+        log = actor.types.message("rcl_interfaces/msg/Log")
+        actor.node.create_subscription(log, ROSOUT, self._take, 100)
+
+    def say(self) -> None:
+        """Print its last warning or error, or where to look."""
+        self._actor.work_until(lambda: self._warning is not None, _LOG_PATIENCE_S)
+        server = ", ".join(self._servers)
+        if self._warning is None:
+            said = f"The answer holds no reason; what {server} prints may tell it."
+        else:
+            said = f"The answer holds no reason; meanwhile {server} logged: {self._warning.msg}"
+        print(said, file=sys.stderr)
+
+    def _take(self, line: Any) -> None:  # noqa: ANN401  # of the message's own class
+        stamp_ns = line.stamp.sec * 10**9 + line.stamp.nanosec
+        is_new = line.level >= _WARNING and stamp_ns >= self._since_ns
+        if is_new and f"{line.name}.".startswith(self._loggers):
+            self._warning = line
 
 
 def _text(message: MessageValue) -> str:

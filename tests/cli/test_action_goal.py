@@ -61,6 +61,15 @@ def test_a2_ctrl_c_cancels_the_goal(endpoint: str):
     assert float(theta.split()[0]) > -2.9
 
 
+def test_beside_an_aborted_goal_stands_what_its_server_logged(endpoint: str):
+    at = ("--connect", endpoint)
+    with started(endpoint, "action", "send_goal", NAME, KIND, "{theta: -3.0}", "-f", *at) as send:
+        send.wait_for("Feedback:")
+        studio("action", "send_goal", NAME, KIND, "{theta: 0.0}", *at)
+        send.wait_for("Goal finished with status: ABORTED")
+        send.wait_for("meanwhile /turtlesim logged: Rotation goal received before a previous goal")
+
+
 def test_another_type_than_the_action_has_is_said(endpoint: str):
     words = ("action", "send_goal", NAME, "radio_station_interfaces/action/ChooseSong", "--timeout",
              "0.2", "--connect", endpoint)  # fmt: skip
