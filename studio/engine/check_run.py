@@ -22,6 +22,7 @@ from studio.problems import Problem, Severity
 if TYPE_CHECKING:
     from collections.abc import AsyncGenerator, Iterable, Mapping, Sequence
 
+    from studio.engine.services import Opened
     from studio.packages.entry_points import EntryPoint
     from studio.packages.workspace import Location, Progress
     from studio.settings import Settings
@@ -235,8 +236,9 @@ class _CheckServices(Services):
         self._idle: list[_LentWorker] = []
         self._lent: list[_LentWorker] = []
 
-    def description_worker(self) -> DescriptionWorker:
-        """A worker that has nothing to do, or a new one."""
+    def description_worker(self, opened: Opened | None = None) -> DescriptionWorker:
+        """A worker that has nothing to do, or a new one; there is no spare."""
+        del opened
         if self._idle:
             return self._idle.pop()
         self._lent.append(_LentWorker(self._idle))

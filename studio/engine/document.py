@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, TypeVar
@@ -87,8 +88,7 @@ class Document:
         )
         self.board = Board(self)
         self.board.find("packages", location.problems)
-        self.texts = TextDesk(self)
-        self.origins = OriginDesk(self)
+        self.texts, self.origins = TextDesk(self), OriginDesk(self)
         self.inspection = InspectionDesk(self, services.meshes)
         self.language = LanguageDesk(self)
         self.rewriting = RewritingDesk(self)
@@ -100,7 +100,8 @@ class Document:
         self.motion = Motion(self.model, self.board)
         self.poses, self.feed = PoseDesk(self, services), FeedDesk(self, services.wire)
         self._services = services
-        self._runs = EditLoop(services.description_worker(), self.sources, self.target, self._take)
+        worker = services.description_worker(self.opened)
+        self._runs = EditLoop(worker, self.sources, self.target, self._take)
         self._meshes = MeshDesk(self, services.meshes, self._watch_files)
         self.robot_checks = RobotChecks(self, services, self._meshes)
         self.variants = VariantDesk(self, services, self._meshes.want)
@@ -151,8 +152,7 @@ class Document:
 
     def packages_used(self) -> dict[str, str]:
         """Each package that a file of the last run or a mesh lies in, and which copy it is."""
-        files = (*self._files, *self._meshes.files)
-        return self._packages.of(files, self.location)
+        return self._packages.of((*self._files, *self._meshes.files), self.location)
 
     def start(self) -> None:
         """Begin the first run; the audience hears how it goes."""
@@ -162,9 +162,10 @@ class Document:
         self._spawn("opening", self._open())
 
     def learn_types(self) -> None:
-        """Take up the types of the opened packages beside."""
+        """Take up the types of the opened packages beside, and get ready for displays."""
         self._spawn("types", self._take_types())
         self._spawn("sweep", self.saving.sweep())
+        self._spawn("displays", self.live.prepare())
 
     async def _take_types(self) -> None:
         self.board.find("types", await asyncio.to_thread(take_types, self.location))
@@ -174,11 +175,13 @@ class Document:
         await self._timed(self._runs.reopen())
         self.board.progress("expand", 1, 1)
 
-    async def opened(self) -> None:
-        """Wait for the first run and the meshes that it named."""
-        if opening := self._background.get("opening"):
-            await opening
-        await self._meshes.settled()
+    async def opened(self, at_most_s: float | None = None) -> None:
+        """Wait for the first run and the meshes that it named, for so long at most."""
+        with contextlib.suppress(TimeoutError):
+            async with asyncio.timeout(at_most_s):
+                if opening := self._background.get("opening"):
+                    await asyncio.shield(opening)
+                await self._meshes.settled()
 
     async def close(self) -> None:
         """End everything that runs for this document."""
@@ -318,8 +321,7 @@ class Document:
         change = self.model.take(expansion)  # first: this is the picture, what follows is talk
         self.sources.adopt(expansion, version)
         self.board.book.take(expansion)
-        structural = is_first or change.structural
-        self.checks.expanded(expansion, change.problems, structural=structural)
+        self.checks.expanded(expansion, change.problems, structural=is_first or change.structural)
         self._look_at_packages()
         if is_first or change.new_meshes:
             self._meshes.want()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from studio.description.client import DescriptionWorker
 from studio.engine.wire.desk import WireDesk
@@ -12,9 +12,11 @@ from studio.robot.pool import mesh_pool
 from studio.robot.validation import UrdfValidator
 
 if TYPE_CHECKING:
-    from collections.abc import Coroutine
+    from collections.abc import Awaitable, Callable, Coroutine
 
     from studio.settings import Settings
+
+    Opened: TypeAlias = Callable[[float], Awaitable[None]]
 
 
 class Services:
@@ -24,6 +26,8 @@ class Services:
         self.settings = settings
         self.quiet_s = 0.4
         """Without a run or a mesh, before a document is checked: no edit ever waits for it."""
+        self.patience_s = 5.0
+        """What nobody waits for begins after the last mesh of an opening, or after so long."""
         self._pool = mesh_pool()
         self.meshes = MeshLibrary(settings.data_folder / "meshes", self._pool)
         self.validator = UrdfValidator()
@@ -36,11 +40,21 @@ class Services:
         self._warm(self._spare.warm())
         self._warm(self._pool.warm())
 
-    def description_worker(self) -> DescriptionWorker:
-        """A worker of one document's own, warm where one was spare; the next spare is started."""
+    def description_worker(self, opened: Opened | None = None) -> DescriptionWorker:
+        """A worker of one document's own, warm where one was spare; the next spare is started.
+
+        Args:
+            opened: Waits for an opening, for so many seconds at most; the next spare starts then.
+        """
         taken, self._spare = self._spare, DescriptionWorker()
-        self._warm(self._spare.warm())
+        self._warm(self._warm_spare(self._spare, opened))
         return taken
+
+    async def _warm_spare(self, spare: DescriptionWorker, opened: Opened | None) -> None:
+        if opened is not None:
+            await opened(self.patience_s)
+        if spare is self._spare:  # else it was taken, and perhaps ended, meanwhile
+            await spare.warm()
 
     def _warm(self, work: Coroutine[None, None, None]) -> None:
         task = asyncio.create_task(work)

@@ -47,6 +47,8 @@ class MeshLibrary:
         self._turns = asyncio.Semaphore(parallel or mesh_worker_count())
         self._memory = _Memory(_MEMORY_LIMIT_BYTES)
         self._under_way: dict[Hashable, asyncio.Task[LoadedMesh]] = {}
+        self._has_grown = False
+        """The cache, since it was trimmed."""
 
     async def load(self, path: Path, roots: Iterable[Path] = (), shape: str = "") -> LoadedMesh:
         """Load a mesh file, or an image on a primitive.
@@ -80,10 +82,9 @@ class MeshLibrary:
         if known is not None and await _holds(known[1], folders):
             self._memory.put(name, known)
             return known[0]
-        async with self._turns:
-            name, loaded = await self._ask(path, folders, shape)
+        name, loaded = await self._ask(path, folders, shape)
         self._memory.put(name, loaded)
-        await asyncio.to_thread(self._cache.trim)
+        self._has_grown = True
         return loaded[0]
 
     async def _ask(
@@ -92,7 +93,8 @@ class MeshLibrary:
         """The mesh as the worker found it, and the name of that content: it may be newer."""
         roots = tuple(map(str, folders))
         request = MeshRequest(str(path), roots, str(self._cache.folder), shape)
-        answer = await self._pool.ask(request, object, MESH_TIMEOUT_S)
+        async with self._turns:  # no longer: the worker reads the next one while this is taken
+            answer = await self._pool.ask(request, object, MESH_TIMEOUT_S)
         match answer:
             case MeshFault():
                 raise _error(answer)
@@ -121,6 +123,9 @@ class MeshLibrary:
         del self._under_way[key]
         if not task.cancelled():
             task.exception()  # seen, even when every asker gave up
+        if not self._under_way and self._has_grown:
+            self._has_grown = False
+            asyncio.get_running_loop().run_in_executor(None, self._cache.trim)
 
 
 class _Memory:

@@ -15,6 +15,7 @@ from studio.robot.meshes import MeshLibrary
 from studio.robot.pool import mesh_pool
 from studio.robot.requests import MeshAnswer, MeshFault, MeshRequest
 from tests.support.meshes import TETRAHEDRON, dae, diffuse, png, stl, texture_effect
+from tests.support.open_documents import until
 
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable
@@ -246,3 +247,26 @@ def test_the_cache_drops_what_was_unused_for_longest(tmp_path: Path):
     assert cache.read("old") is None
     assert cache.read("new") is not None
     assert cache.read("middle") is not None
+
+
+def test_the_cache_is_trimmed_once_after_the_last_of_several_meshes(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    trimmed: list[int] = []
+    count = MeshCache.trim
+
+    def trim(cache: MeshCache) -> None:
+        trimmed.append(len(list(cache.folder.iterdir())))
+        count(cache)
+
+    monkeypatch.setattr(MeshCache, "trim", trim)
+    paths = [tmp_path / f"{number}.stl" for number in range(4)]
+    for number, path in enumerate(paths):
+        path.write_bytes(stl() + bytes(number))  # another content each
+
+    async def use(library: MeshLibrary, _: CountingPool) -> None:
+        await asyncio.gather(*map(library.load, paths))
+        await until(lambda: bool(trimmed))
+
+    with_library(tmp_path / "cache", use)
+    assert trimmed == [4]

@@ -39,7 +39,7 @@ class CheckDesk:
 
     def __init__(self, document: Document, services: Services) -> None:
         self._document, self._validator = document, services.validator
-        self._quiet_s = services.quiet_s
+        self._quiet_s, self._patience_s = services.quiet_s, services.patience_s
         self._of_robot: tuple[Problem, ...] = ()
         self._of_texts: tuple[Problem, ...] = ()
         self._second_opinion: tuple[Problem, ...] = ()
@@ -95,6 +95,7 @@ class CheckDesk:
         return asyncio.create_task(work)
 
     async def _look_later(self) -> None:
+        await self._document.opened(self._patience_s)
         await asyncio.sleep(self._quiet_s)
         try:
             await self._take(await self._document.ask(CheckQuery(), Checked, self))
@@ -118,6 +119,7 @@ class CheckDesk:
         board.find("validation", more if codes.isdisjoint(_EXPLAIN) else ())
 
     async def _validate(self) -> None:
+        await self._document.opened(self._patience_s)
         await asyncio.sleep(min(_VALIDATE_AFTER_S, self._quiet_s))
         found = await self._validator.validate(self._document.urdf())
         part = self._document.model.assembly.part

@@ -29,7 +29,7 @@ class RobotChecks:
     def __init__(self, document: Document, services: Services, meshes: MeshDesk) -> None:
         self._document, self._meshes = document, meshes
         self._hidden = HiddenMeshes(document, services.meshes)
-        self._quiet_s = services.quiet_s
+        self._quiet_s, self._patience_s = services.quiet_s, services.patience_s
         self._looking: asyncio.Task[None] | None = None
 
     def doubt(self) -> None:
@@ -50,6 +50,7 @@ class RobotChecks:
             await asyncio.gather(self._looking, return_exceptions=True)
 
     async def _look_later(self) -> None:
+        await self._document.opened(self._patience_s)
         await asyncio.sleep(self._quiet_s)
         try:
             await self._look()

@@ -6,6 +6,7 @@ import asyncio
 import logging
 import time
 from dataclasses import replace
+from importlib import import_module
 from typing import TYPE_CHECKING, Final
 
 from studio.engine.listeners import LastTold
@@ -108,6 +109,11 @@ class LiveDesk:
         yield self._displays()
         if self._states.event is not None:
             yield self._states.event
+
+    async def prepare(self) -> None:
+        """Import what displays need once the robot is there: on the loop it would stall it."""
+        await self._document.opened(self._services.patience_s)
+        await asyncio.to_thread(import_module, "studio.engine.live.drawing_room")
 
     async def add(self, command: m.AddDisplay) -> None:
         """Add a display; with a topic, the connection is made if there is none."""
@@ -365,7 +371,7 @@ class LiveDesk:
 
     def _displays(self) -> m.LiveDisplays:
         return m.LiveDisplays(
-            displays=tuple(map(self._room.view, self._list)),
+            displays=tuple(self._room.view(spec) for spec in self._list),
             groups_off=self._list.groups_off,
             fixed_frame=self._fixed_frame,
         )
