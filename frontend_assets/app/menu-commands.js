@@ -7,6 +7,7 @@ import { closeDocument, reload } from "./actions.js";
 import { commandById } from "./commands.js";
 import { exportCommands } from "./export.js";
 import { graphicsCommands } from "./graphics.js";
+import { askToLogOut } from "./log-out.js";
 import { copyLink } from "./share.js";
 import { mayEdit } from "./state/connection.js";
 import { documentId, unsaved } from "./state/document.js";
@@ -24,6 +25,7 @@ export function menuCommands() {
     ...themeCommands(),
     ...graphicsCommands(),
     { id: "ros", icon: "link", enabled: isFree, run: showRos },
+    { id: "log_out", icon: "lock", enabled: () => mayEdit.value && isFree(), run: askToLogOut },
     ...languageCommands(),
   ];
 }

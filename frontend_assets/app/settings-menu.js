@@ -7,6 +7,7 @@ import { commandById } from "./commands.js";
 import { graphicsItems } from "./graphics.js";
 import { layoutItems } from "./layout-commands.js";
 import { PANEL_GROUPS, PANELS, panelTitle } from "./panels.js";
+import { mayEdit, role } from "./state/connection.js";
 import { languageChoice, size, themeChoice } from "./state/view.js";
 
 /** @import { MenuItem } from "../lib/ui.js" */
@@ -60,6 +61,15 @@ function settingsItems() {
     ...graphicsItems(),
     { label: t("language"), heading: true },
     ...languageItems(),
+    ...(role.value === "presenter" ? logOutItems() : []),
+  ];
+}
+
+/** @returns {MenuItem[]} */
+function logOutItems() {
+  return [
+    { label: t("access"), heading: true },
+    { ...commandItem("log_out", "lock", `${t("command.log_out")}…`), disabled: !mayEdit.value },
   ];
 }
 

@@ -4,10 +4,12 @@ from http import HTTPStatus
 
 from fastapi import APIRouter, Request
 from starlette.background import BackgroundTask
-from starlette.responses import Response
+from starlette.responses import PlainTextResponse, Response
 
 from studio.web.credentials import Credentials
 from studio.web.http_protocol import connection_of
+
+_NO_TOKEN = "This studio asks nobody for a token (--no-token): there is nobody to log out."
 
 
 class LogOut:
@@ -30,6 +32,8 @@ class LogOut:
 
     async def everybody(self, request: Request) -> Response:
         """Make every cookie invalid that was ever given, and end what is open with one."""
+        if self._credentials.token is None:
+            return PlainTextResponse(_NO_TOKEN, HTTPStatus.CONFLICT)
         self._credentials.revoke()
         ending = BackgroundTask(_end_all, request)
         return Response(status_code=HTTPStatus.NO_CONTENT, background=ending)

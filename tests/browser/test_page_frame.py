@@ -181,3 +181,11 @@ def bottom_of(one: Locator) -> float:
 
 def top_of(one: Locator) -> float:
     return float(one.evaluate("one => one.getBoundingClientRect().top"))
+
+
+def test_who_logs_everybody_out_is_told_how_to_come_back(tab: StudioPage):
+    tab.page.keyboard.press("Control+k")
+    tab.page.keyboard.type("log everybody out")
+    tab.page.get_by_role("option", name="Log everybody out").click()
+    tab.page.get_by_role("button", name="Log out", exact=True).click()
+    tab.page.get_by_text("Open the address that the studio prints").wait_for()
