@@ -14,6 +14,7 @@ import gc
 import os
 import struct
 import sys
+from collections import Counter
 from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
 
 import msgspec
@@ -22,7 +23,7 @@ from studio.errors import WorkerDiedError, WorkerTimeoutError
 from studio.system import ignore_interrupt, kept_waiting_s, limit_memory
 
 if TYPE_CHECKING:
-    from collections.abc import AsyncGenerator, Callable
+    from collections.abc import AsyncGenerator, Callable, Hashable
 
 _LENGTH = struct.Struct("<I")
 _OBJECTS_WITHIN_REQUEST = 500_000
@@ -202,28 +203,142 @@ async def _time_to_run(pid: int, timeout_s: float) -> AsyncGenerator[None]:
 
 
 class WorkerPool:
-    """Several workers of one kind for independent requests; the least busy one is asked."""
+    """Several workers of one kind for independent requests, each asked for one answer at a time.
 
-    def __init__(self, size: int, make: Callable[[int], Worker]) -> None:
-        self._workers = [make(number) for number in range(size)]
-        self._waiting = [0] * size
+    Requests that wait are taken in turn by their owners. While some are slow the pool has a
+    worker more for each of them; it is ended when nobody waits.
+
+    Args:
+        size: Workers that stay.
+        make: Makes the worker of that number.
+        most: Workers with those for slow requests; the last of them is only for owners of whom
+            no request is under way. No more than `size` when it is not given.
+        slow_s: A request that is under way for longer is slow.
+    """
+
+    def __init__(
+        self,
+        size: int,
+        make: Callable[[int], Worker],
+        most: int | None = None,
+        slow_s: float = 0.5,
+    ) -> None:
+        self._make, self._made = make, size
+        self._size, self._most, self._slow_s = size, max(size, most or size), slow_s
+        self._free = [make(number) for number in range(size)]
+        self._busy: dict[Worker, tuple[Hashable, float]] = {}
+        """Whose request each works on, and since when, by the loop's clock."""
+        self._waiting: list[tuple[Hashable, asyncio.Future[Worker]]] = []
+        self._turns: dict[Hashable, int] = {}
+        """When each owner's last turn was, counted in turns of all."""
+        self._timer: asyncio.TimerHandle | None = None
+
+    @property
+    def workers(self) -> tuple[Worker, ...]:
+        """Those that are there now."""
+        return (*self._busy, *self._free)
 
     async def warm(self) -> None:
         """Start all processes."""
-        await asyncio.gather(*(worker.warm() for worker in self._workers))
+        await asyncio.gather(*(worker.warm() for worker in self._free))
 
-    async def ask(self, request: object, answer: type[Answer], timeout_s: float) -> Answer:
-        """Ask the worker with the fewest requests under way; errors as `Worker.ask`."""
-        index = min(range(len(self._workers)), key=self._waiting.__getitem__)
-        self._waiting[index] += 1
+    async def ask(
+        self, request: object, answer: type[Answer], timeout_s: float, owner: Hashable = None
+    ) -> Answer:
+        """Ask a worker that is free, as soon as there is one.
+
+        Args:
+            request: As for `Worker.ask`, as the two after it.
+            answer: What the answer must be.
+            timeout_s: Time for the answer, which begins when it is this request's turn.
+            owner: Whose request it is: owners take turns.
+
+        Raises:
+            WorkerError: As `Worker.ask`, or the pool was closed meanwhile.
+        """
+        worker = await self._turn(owner)
         try:
-            return await self._workers[index].ask(request, answer, timeout_s)
+            return await worker.ask(request, answer, timeout_s)
         finally:
-            self._waiting[index] -= 1
+            await self._give_back(worker)
 
     async def close(self) -> None:
-        """End all processes."""
-        await asyncio.gather(*(worker.close() for worker in self._workers))
+        """End all processes. Requests that wait fail, as those under way."""
+        for _, turn in self._waiting:
+            if not turn.done():
+                turn.set_exception(WorkerDiedError("pool", None))
+        self._waiting.clear()
+        await asyncio.gather(*(worker.close() for worker in self.workers))
+
+    async def _turn(self, owner: Hashable) -> Worker:
+        turn: asyncio.Future[Worker] = asyncio.get_running_loop().create_future()
+        self._waiting.append((owner, turn))
+        self._hand_out()
+        try:
+            return await turn
+        except asyncio.CancelledError:
+            if turn.done() and not turn.cancelled() and turn.exception() is None:
+                await self._give_back(turn.result())
+            self._waiting = [one for one in self._waiting if one[1] is not turn]
+            raise
+
+    def _hand_out(self) -> None:
+        """Give workers to those who wait, as far as there are any."""
+        if self._timer is not None:
+            self._timer.cancel()
+            self._timer = None
+        while self._waiting:
+            at = self._next()
+            owner = self._waiting[at][0]
+            if self._is_full_for(owner) or not (self._free or self._may_grow()):
+                return
+            turn = self._waiting.pop(at)[1]
+            if turn.done():
+                continue
+            worker = self._free.pop() if self._free else self._further()
+            self._busy[worker] = (owner, asyncio.get_running_loop().time())
+            self._turns[owner] = max(self._turns.values(), default=0) + 1
+            turn.set_result(worker)
+
+    def _next(self) -> int:
+        """The first of an owner with few requests at work, who has had no turn for long."""
+        at_work = Counter(owner for owner, _ in self._busy.values())
+
+        def rank(at: int) -> tuple[int, int]:
+            owner = self._waiting[at][0]
+            return at_work[owner], self._turns.get(owner, 0)
+
+        return min(range(len(self._waiting)), key=rank)
+
+    def _is_full_for(self, owner: Hashable) -> bool:
+        """Whether the only worker left, if any, is kept for owners who have none at work."""
+        left = self._most - len(self._busy)
+        owners = {one for one, _ in self._busy.values()}
+        return left < 1 or (left == 1 and self._most > self._size and owner in owners)
+
+    def _may_grow(self) -> bool:
+        """Whether slow requests call for one more worker; if they may later, look again then."""
+        loop = asyncio.get_running_loop()
+        since = sorted(began_s for _, began_s in self._busy.values())
+        slow_from_s = since[len(self._busy) - self._size] + self._slow_s
+        if loop.time() >= slow_from_s:
+            return True
+        self._timer = loop.call_at(slow_from_s, self._hand_out)
+        return False
+
+    def _further(self) -> Worker:
+        self._made += 1
+        return self._make(self._made - 1)
+
+    async def _give_back(self, worker: Worker) -> None:
+        del self._busy[worker]
+        self._free.append(worker)
+        self._hand_out()
+        if not self._busy:
+            self._turns.clear()
+        if worker in self._free and len(self._free) > self._size:
+            self._free.remove(worker)
+            await worker.close()
 
 
 def serve(codec: Codec, handle: Callable[[Any], object], memory_limit_bytes: int) -> None:

@@ -15,8 +15,9 @@ from studio.description.codec import CODEC
 from studio.description.values import Edit, EditRequest, Failure
 from studio.errors import WorkerDiedError, WorkerTimeoutError
 from studio.system import kept_waiting_s
-from studio.workers import Worker
+from studio.workers import Worker, WorkerPool
 from tests.support import spending_worker
+from tests.support.open_documents import until
 from tests.support.spending_worker import Spend, Spent
 
 if TYPE_CHECKING:
@@ -143,5 +144,55 @@ def test_who_sleeps_or_works_beyond_its_time_is_ended():
             with pytest.raises(WorkerTimeoutError):
                 await worker.ask(late, Spent, 0.3)
         await worker.close()
+
+    asyncio.run(run())
+
+
+def test_slow_requests_get_workers_of_their_own_that_end_when_nobody_waits():
+    async def run() -> None:
+        pool = WorkerPool(1, lambda _: spender(), most=3, slow_s=0.1)
+        slow = [
+            asyncio.create_task(pool.ask(Spend(sleeping_s=600.0), Spent, 600, "slow"))
+            for _ in range(3)
+        ]
+        await until(lambda: len(pool.workers) == 2)
+        for _ in range(3):
+            await pool.ask(Spend(), Spent, 30, "other")  # the last worker is not for "slow"
+        assert not any(one.done() for one in slow)
+        for one in slow:
+            one.cancel()
+        await asyncio.gather(*slow, return_exceptions=True)
+        await pool.ask(Spend(), Spent, 30, "other")
+        assert len(pool.workers) == 1
+        await pool.close()
+
+    asyncio.run(run())
+
+
+def test_an_owner_of_many_requests_keeps_another_waiting_for_one_of_them():
+    async def run() -> None:
+        pool = WorkerPool(1, lambda _: spender())
+        ends: list[str] = []
+
+        async def ask(owner: str) -> None:
+            await pool.ask(Spend(), Spent, 30, owner)
+            ends.append(owner)
+
+        await asyncio.gather(*(ask("many") for _ in range(20)), ask("one"))
+        assert ends.index("one") == 1
+        await pool.close()
+
+    asyncio.run(run())
+
+
+def test_requests_that_wait_fail_when_their_pool_is_closed():
+    async def run() -> None:
+        pool = WorkerPool(1, lambda _: spender())
+        asked = [asyncio.create_task(pool.ask(Spend(sleeping_s=600.0), Spent, 600)) for _ in "ab"]
+        await until(lambda: pool.workers[0].pid is not None)
+        await pool.close()
+        fallen = await asyncio.gather(*asked, return_exceptions=True)
+        assert [type(one) for one in fallen] == [WorkerDiedError] * 2
+        assert pool.workers[0].pid is None
 
     asyncio.run(run())

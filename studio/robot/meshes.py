@@ -19,7 +19,7 @@ from studio.robot.mesh_blob import unpack_mesh
 from studio.robot.mesh_cache import MeshCache
 from studio.robot.mesh_files import content_digest
 from studio.robot.requests import MeshAnswer, MeshFault, MeshRequest
-from studio.settings import MESH_SIZE_LIMIT_BYTES, MESH_TIMEOUT_S, mesh_worker_count
+from studio.settings import MESH_SIZE_LIMIT_BYTES, MESH_TIMEOUT_S
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine, Hashable, Iterable
@@ -38,13 +38,10 @@ class MeshLibrary:
     Args:
         cache_folder: For loaded meshes, of this library alone or shared with others'.
         pool: Robot workers, see `pool.mesh_pool`.
-        parallel: How many workers the pool has: more requests than that wait here, so that the
-            next one goes to the worker that is free first.
     """
 
-    def __init__(self, cache_folder: Path, pool: WorkerPool, parallel: int | None = None) -> None:
+    def __init__(self, cache_folder: Path, pool: WorkerPool) -> None:
         self._cache, self._pool = MeshCache(cache_folder), pool
-        self._turns = asyncio.Semaphore(parallel or mesh_worker_count())
         self._memory = _Memory(_MEMORY_LIMIT_BYTES)
         self._under_way: dict[Hashable, asyncio.Task[LoadedMesh]] = {}
         self._has_grown = False
@@ -93,8 +90,8 @@ class MeshLibrary:
         """The mesh as the worker found it, and the name of that content: it may be newer."""
         roots = tuple(map(str, folders))
         request = MeshRequest(str(path), roots, str(self._cache.folder), shape)
-        async with self._turns:  # no longer: the worker reads the next one while this is taken
-            answer = await self._pool.ask(request, object, MESH_TIMEOUT_S)
+        # the worker reads the next one while this is taken
+        answer = await self._pool.ask(request, object, MESH_TIMEOUT_S, folders)
         match answer:
             case MeshFault():
                 raise _error(answer)

@@ -15,5 +15,9 @@ def robot_worker(name: str) -> Worker:
 
 
 def mesh_pool(size: int | None = None) -> WorkerPool:
-    """The processes that read meshes, one less than the cores if no size is given."""
-    return WorkerPool(size or mesh_worker_count(), lambda number: robot_worker(f"mesh {number}"))
+    """The processes that read meshes, one less than the cores if no size is given.
+
+    Up to two more while slow meshes keep others waiting.
+    """
+    size = size or mesh_worker_count()
+    return WorkerPool(size, lambda number: robot_worker(f"mesh {number}"), most=size + 2)

@@ -20,7 +20,7 @@ from tests.support.meshes import stl
 from tests.support.open_documents import until
 
 if TYPE_CHECKING:
-    from collections.abc import AsyncGenerator, Awaitable, Callable
+    from collections.abc import AsyncGenerator, Awaitable, Callable, Hashable
 
     from studio.workers import WorkerPool
 
@@ -40,9 +40,11 @@ class HeldPool:
     def __init__(self, pool: WorkerPool, let: Callable[[], Awaitable[None]]) -> None:
         self._pool, self._let = pool, let
 
-    async def ask(self, request: object, answer: type[Answer], timeout_s: float) -> Answer:
+    async def ask(
+        self, request: object, answer: type[Answer], timeout_s: float, owner: Hashable = None
+    ) -> Answer:
         await self._let()
-        return await self._pool.ask(request, answer, timeout_s)
+        return await self._pool.ask(request, answer, timeout_s, owner)
 
 
 @asynccontextmanager
@@ -56,7 +58,7 @@ async def opening(
     settings = Settings(data_folder=folder / "data")
     services, pool = Services(settings), mesh_pool(1)
     services.quiet_s, services.patience_s = 0.0, patience_s
-    services.meshes = MeshLibrary(folder / "meshes", HeldPool(pool, let), 1)  # type: ignore[arg-type]
+    services.meshes = MeshLibrary(folder / "meshes", HeldPool(pool, let))  # type: ignore[arg-type]
     await services.start()
     document = Document("arm", open_location(file, (), settings.data_folder, {}), {}, services)
     try:

@@ -18,7 +18,7 @@ from tests.support.meshes import TETRAHEDRON, dae, diffuse, png, stl, texture_ef
 from tests.support.open_documents import until
 
 if TYPE_CHECKING:
-    from collections.abc import Awaitable, Callable
+    from collections.abc import Awaitable, Callable, Hashable
     from pathlib import Path
 
     from studio.workers import WorkerPool
@@ -34,10 +34,12 @@ class CountingPool:
         self._pool = pool
         self.asked: list[MeshRequest] = []
 
-    async def ask(self, request: object, answer: type[Answer], timeout_s: float) -> Answer:
+    async def ask(
+        self, request: object, answer: type[Answer], timeout_s: float, owner: Hashable = None
+    ) -> Answer:
         assert isinstance(request, MeshRequest)
         self.asked.append(request)
-        return await self._pool.ask(request, answer, timeout_s)
+        return await self._pool.ask(request, answer, timeout_s, owner)
 
 
 def with_library(folder: Path, use: Callable[[MeshLibrary, CountingPool], Awaitable[None]]) -> None:
@@ -47,7 +49,7 @@ def with_library(folder: Path, use: Callable[[MeshLibrary, CountingPool], Awaita
         pool = mesh_pool(1)
         counting = CountingPool(pool)
         try:
-            await use(MeshLibrary(folder, counting, 1), counting)  # type: ignore[arg-type]
+            await use(MeshLibrary(folder, counting), counting)  # type: ignore[arg-type]
         finally:
             await pool.close()
 
@@ -89,7 +91,7 @@ def test_a_second_library_finds_the_mesh_on_disk(tmp_path: Path):
 
     async def use(library: MeshLibrary, pool: CountingPool) -> None:
         first = await library.load(path)
-        second = await MeshLibrary(tmp_path / "cache", pool, 1).load(path)  # type: ignore[arg-type]
+        second = await MeshLibrary(tmp_path / "cache", pool).load(path)  # type: ignore[arg-type]
         assert second.digest == first.digest
         assert len(pool.asked) == 1
 
@@ -198,7 +200,7 @@ def test_a_broken_cache_file_is_replaced(tmp_path: Path):
         await library.load(path)
         (stored,) = cache.iterdir()
         stored.write_bytes(stored.read_bytes()[:-5])
-        again = await MeshLibrary(cache, pool, 1).load(path)  # type: ignore[arg-type]
+        again = await MeshLibrary(cache, pool).load(path)  # type: ignore[arg-type]
         assert len(again.faces) == 4
         assert len(pool.asked) == 2
 
@@ -223,6 +225,25 @@ def test_a_worker_that_answers_too_late_is_replaced(tmp_path: Path):
             await pool.close()
 
     asyncio.run(run())
+
+
+def test_a_mesh_that_takes_long_keeps_no_other_robots_mesh_waiting_nor_its_own(tmp_path: Path):
+    robots = [tmp_path / name for name in ("slow", "other")]
+    for robot in robots:
+        robot.mkdir()
+        (robot / "quick.stl").write_bytes(stl(TETRAHEDRON * (2 + robots.index(robot))))
+    corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+    (robots[0] / "slow.obj").write_text(corners + "f 1 2 3\nf 1 2 3 4\n" * 1_000_000)
+
+    async def use(library: MeshLibrary, pool: CountingPool) -> None:
+        slow = asyncio.create_task(library.load(robots[0] / "slow.obj"))
+        await until(lambda: bool(pool.asked))
+        for robot in robots:
+            assert len((await library.load(robot / "quick.stl")).faces) == 4
+        assert not slow.done()
+        slow.cancel()
+
+    with_library(tmp_path / "cache", use)
 
 
 @pytest.mark.parametrize("cut", [0, 5, 20, 100, -1])

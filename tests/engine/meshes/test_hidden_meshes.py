@@ -25,7 +25,7 @@ def test_a_mesh_is_measured_once_and_again_when_it_is_another(tmp_path: Path):
         async with engine(tmp_path / "data") as made:
             document, _ = await opened(made, path)
             pool = mesh_pool(1)
-            hidden = HiddenMeshes(document, MeshLibrary(tmp_path / "cache", pool, 1))
+            hidden = HiddenMeshes(document, MeshLibrary(tmp_path / "cache", pool))
             assert await hidden.look(["m.stl"])
             assert "m.stl" in hidden.problems["m.stl"].sentence
             assert not await hidden.look(["m.stl"])
@@ -55,7 +55,7 @@ def test_a_mesh_outside_the_served_folders_is_not_read(tmp_path: Path):
         async with engine(tmp_path / "data") as made:
             document, _ = await opened(made, path)
             pool = mesh_pool(1)
-            hidden = HiddenMeshes(document, MeshLibrary(tmp_path / "cache", pool, 1))
+            hidden = HiddenMeshes(document, MeshLibrary(tmp_path / "cache", pool))
             uris = ["../secret.stl", str(tmp_path / "secret.stl"), "http://127.0.0.1/m.stl"]
             await hidden.look(uris)
             assert not hidden.bounds
