@@ -2,12 +2,11 @@
 
 /** @import { DifferenceView } from "../types/wire.d.ts" */
 
-import { formatNumber } from "./numbers.js";
+import { formatNumber, shownNumber } from "./numbers.js";
 
 /** @typedef {"part" | "share" | "size"} Order by part, by per cent, or by the bare difference */
 
 const DEGREES = 180 / Math.PI;
-const DIGITS = 5;
 
 /** @param {string} part `link:name`, `joint:name` or `robot` @returns {{kind: string, name: string}} */
 export function partOf(part) {
@@ -36,7 +35,7 @@ export function shownUnit(unit, degrees) {
 /** @param {number | string | null} value @param {number} factor @returns {string} empty: it has none */
 export function valueText(value, factor) {
   if (value === null) return "";
-  return typeof value === "number" ? formatNumber(value * factor, DIGITS) : value;
+  return typeof value === "number" ? shownNumber(value * factor) : value;
 }
 
 /**

@@ -1,5 +1,7 @@
 /** A message as rows of a tree: which are open, what each says, and which are numbers to be drawn. */
 
+import { shownNumber } from "./numbers.js";
+
 /** @typedef {{"@list": number, items: any[]}} LongListCut */
 /** @typedef {{"@text": number, begin: string}} LongTextCut */
 
@@ -9,6 +11,7 @@
  * @property {string} name
  * @property {number} level from 1
  * @property {string} text its value, or in short what is below it
+ * @property {string} whole the same with all digits
  * @property {boolean} expandable
  * @property {boolean} expanded
  * @property {boolean} numeric it can be drawn over time
@@ -18,7 +21,6 @@
 
 /** Lists of so many numbers are said in one row. */
 const INLINE_MOST = 6;
-const DIGITS = 7;
 
 /** @param {any} value @returns {value is LongListCut} */
 const isCutList = (value) => typeof value === "object" && value !== null && "@list" in value;
@@ -60,6 +62,7 @@ function rowOf(value, path, name, level, toggled) {
     name,
     level,
     text: echoText(value),
+    whole: echoText(value, String),
     expandable,
     expanded: expandable && toggled.has(path) !== openAtFirst,
     numeric: isNumeric(value) || isTime(value),
@@ -81,36 +84,36 @@ const isNumeric = (value) => ["number", "bigint", "boolean"].includes(typeof val
 const isTime = (value) =>
   typeof value === "object" && value !== null && "sec" in value && "nanosec" in value;
 
-/** @param {any} value @returns {string} in one line */
-export function echoText(value) {
-  if (typeof value === "number") return numberText(value);
+/** @param {any} value @param {(value: number) => string} [write] @returns {string} in one line */
+export function echoText(value, write = numberText) {
+  if (typeof value === "number") return write(value);
   if (typeof value === "string") return value;
   if (typeof value !== "object" || value === null) return String(value);
   if (isCutText(value)) return `${value.begin}…`;
   if (isTime(value)) return `${value.sec}.${String(value.nanosec).padStart(9, "0")}`;
-  if (isCutList(value)) return listText(value.items, value["@list"]);
-  return Array.isArray(value) ? listText(value, value.length) : objectText(value);
+  if (isCutList(value)) return listText(value.items, value["@list"], write);
+  return Array.isArray(value) ? listText(value, value.length, write) : objectText(value, write);
 }
 
-/** @param {number} value @returns {string} a float32 has no more digits than are true */
-function numberText(value) {
-  if (Number.isInteger(value) || !Number.isFinite(value)) return String(value);
-  return String(Number(value.toPrecision(DIGITS)));
-}
+/** @param {number} value @returns {string} whole numbers have all their digits */
+const numberText = (value) => (Number.isInteger(value) ? String(value) : shownNumber(value));
 
-/** @param {readonly any[]} items @param {number} count @returns {string} */
-function listText(items, count) {
+/** @param {readonly any[]} items @param {number} count @param {(value: number) => string} write @returns {string} */
+function listText(items, count, write) {
   if (count === 0) return "[]";
   const plain = items.slice(0, INLINE_MOST).every((one) => typeof one !== "object");
   if (!plain) return `[${count}]`;
-  const shown = items.slice(0, INLINE_MOST).map(echoText).join(", ");
+  const shown = items
+    .slice(0, INLINE_MOST)
+    .map((one) => echoText(one, write))
+    .join(", ");
   return count > INLINE_MOST ? `[${count}] ${shown}, …` : `[${shown}]`;
 }
 
-/** @param {object} value @returns {string} vectors and poses are said whole */
-function objectText(value) {
+/** @param {object} value @param {(value: number) => string} write @returns {string} vectors and poses are said whole */
+function objectText(value, write) {
   const parts = Object.entries(value);
   if (parts.length === 0) return "{}";
   if (parts.length > 4 || !parts.every(([, one]) => isNumeric(one))) return "";
-  return parts.map(([name, one]) => `${name} ${echoText(one)}`).join("  ");
+  return parts.map(([name, one]) => `${name} ${echoText(one, write)}`).join("  ");
 }

@@ -26,6 +26,17 @@ export function formatNumber(value, digits = 10) {
   return size < 1e-6 || size >= 1e15 ? String(rounded) : plain(rounded);
 }
 
+/** Significant digits of a number in a panel; its title has all of them. */
+const SHOWN_DIGITS = 6;
+/** A number with a long fraction that is no part of a name, a path or a version. */
+const LONG_NUMBER = /(?<![\w./-])[+-]?\d+\.\d{5,}(e[+-]?\d+)?(?![\w./])/gi;
+
+/** @param {number} value @returns {string} with as many digits as are read in a panel */
+export const shownNumber = (value) => formatNumber(value, SHOWN_DIGITS);
+
+/** @param {string} text @returns {string} its numbers as they are shown, all else as it is */
+export const shownNumbers = (text) => text.replace(LONG_NUMBER, (one) => shownNumber(Number(one)));
+
 /** @param {number} value @returns {string} without an exponent */
 function plain(value) {
   const text = String(value);

@@ -2,7 +2,7 @@
 
 /** @import { Aspect, OriginAttribute } from "../types/wire.d.ts" */
 
-import { formatNumber, parseNumber, toDegrees } from "./numbers.js";
+import { parseNumber, shownNumber, toDegrees } from "./numbers.js";
 
 /** @typedef {{element: string, attributes: OriginAttribute[]}} ElementGroup */
 
@@ -29,7 +29,7 @@ export function valueText(value, unit, degrees) {
   const numbers = words.map(parseNumber);
   if (value.trim() === "" || numbers.some((one) => one === null)) return value;
   const turns = unit === "rad" && degrees;
-  const shown = numbers.map((one) => formatNumber(turns ? toDegrees(Number(one)) : Number(one), 5));
+  const shown = numbers.map((one) => shownNumber(turns ? toDegrees(Number(one)) : Number(one)));
   return `${shown.join("  ")} ${turns ? "°" : unit}`.trim();
 }
 

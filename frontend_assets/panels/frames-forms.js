@@ -16,10 +16,11 @@ import {
   matrixText,
   quaternionOf,
   turnOf,
+  written,
 } from "../lib/frame-pose.js";
 import { t } from "../lib/i18n.js";
 import { translationOf } from "../lib/kinematics.js";
-import { toDegrees } from "../lib/numbers.js";
+import { shownNumber, toDegrees } from "../lib/numbers.js";
 import { Icon, MenuButton } from "../lib/ui.js";
 
 /** @param {{pose: Pose}} props */
@@ -31,15 +32,15 @@ export function PoseForms({ pose }) {
   const degrees = rpy.map(toDegrees);
   const quaternion = quaternionOf(pose);
   return html`<div class="frames-forms">
-    <${Form} title=${t("frames.position")} unit=${html`<${LengthUnit} />`} names="xyz" values=${lengths} digits=${millimetres.value ? 2 : 5}
+    <${Form} title=${t("frames.position")} unit=${html`<${LengthUnit} />`} names="xyz" values=${lengths}
       copies=${copiesOf(pose, lengths)} />
     <div class="frames-turn">
-      <${Form} title=${t("frames.rpy")} unit="°" names=${RPY} values=${degrees} digits=${3} copies=${copiesOf(pose, degrees)} />
-      <${Form} title="" unit="rad" names=${RPY} values=${rpy} digits=${5} copies=${copiesOf(pose, rpy)}
+      <${Form} title=${t("frames.rpy")} unit="°" names=${RPY} values=${degrees} copies=${copiesOf(pose, degrees)} />
+      <${Form} title="" unit="rad" names=${RPY} values=${rpy} copies=${copiesOf(pose, rpy)}
         note=${t("frames.rpy.note")} />
       ${locked && html`<p class="note frames-note"><${Icon} name="info" size=${13} />${t("frames.locked")}</p>`}
     </div>
-    <${Form} title=${t("frames.quaternion")} unit="" names="xyzw" values=${quaternion} digits=${6} copies=${copiesOf(pose, quaternion)} />
+    <${Form} title=${t("frames.quaternion")} unit="" names="xyzw" values=${quaternion} copies=${copiesOf(pose, quaternion)} />
     <${Matrix} pose=${pose} />
   </div>`;
 }
@@ -64,16 +65,16 @@ function LengthUnit() {
 }
 
 /**
- * @param {{title: string, unit: unknown, names: string | readonly string[], values: readonly number[], digits: number,
+ * @param {{title: string, unit: unknown, names: string | readonly string[], values: readonly number[],
  *   copies: Copies, note?: string}} props
  */
-function Form({ title, unit, names, values, digits, copies, note }) {
+function Form({ title, unit, names, values, copies, note }) {
   return html`<div class="frames-form">
     ${title && html`<h3>${title}</h3>`}
     <div class="frames-line">
-      <div class=${`frames-values of-${values.length}`}>${values.map(
+      <div class="frames-values">${values.map(
         (value, at) =>
-          html`<span key=${at} class="frames-value"><small>${names[at]}</small><output class="numbers">${shown(value, digits)}</output></span>`,
+          html`<span key=${at} class="frames-value"><small>${names[at]}</small><output class="numbers" title=${written(value)}>${shown(value)}</output></span>`,
       )}</div>
       <span class="unit">${unit}</span>
       <${CopyMenu} label=${t("frames.copy", { what: title || t("frames.rpy") })} copies=${copies} />
@@ -92,7 +93,7 @@ function Matrix({ pose }) {
         pose,
       ).map(
         (row, at) =>
-          html`<tr key=${at}>${row.map((value, column) => html`<td key=${column}>${shown(value, at === 3 ? 0 : 5)}</td>`)}</tr>`,
+          html`<tr key=${at}>${row.map((value, column) => html`<td key=${column} title=${written(value)}>${shown(value)}</td>`)}</tr>`,
       )}</tbody></table>
       <span class="unit">m</span>
       <${CopyMenu} label=${t("frames.copy", { what: t("frames.matrix") })} copies=${copies} />
@@ -100,11 +101,11 @@ function Matrix({ pose }) {
   </div>`;
 }
 
-/** @param {number} value @param {number} digits behind the point @returns {string} never -0 */
-function shown(value, digits) {
-  const text = value.toFixed(digits);
-  return Number(text) === 0 ? text.replace("-", "") : text;
-}
+/** Below it, in m, rad, mm or degrees, there is only noise of the arithmetic. */
+const NOISE = 1e-9;
+
+/** @param {number} value @returns {string} */
+const shown = (value) => shownNumber(Math.abs(value) < NOISE ? 0 : value);
 
 /** @param {{label: string, copies: Copies}} props */
 function CopyMenu({ label, copies }) {

@@ -9,7 +9,7 @@ import { selectPart } from "../app/state/selection.js";
 import { fadeLink, linkOpacity, onlySelected, selected } from "../app/state/view.js";
 import { focusLink } from "../app/viewport.js";
 import { t } from "../lib/i18n.js";
-import { formatNumber } from "../lib/numbers.js";
+import { shownNumber } from "../lib/numbers.js";
 import { baseName, shortPath } from "../lib/paths.js";
 import { IconButton } from "../lib/ui.js";
 
@@ -31,7 +31,7 @@ export function LinkDetails() {
     <dl>
       ${joint && html`<dt>${t("link.joint")}</dt><dd><button type="button" class="text-button" title=${t("origin.show")} onClick=${() => explain(`joint:${joint.name}`)}>${joint.name}</button> <span class="muted">${t(`joint.${joint.type}`)}</span></dd>`}
       ${joint?.mimic && html`<dt>${t("joint.mimic")}</dt><dd>${joint.mimic}</dd>`}
-      <dt>${t("link.mass")}</dt><dd>${link.mass_kg === null ? t("link.no_inertia") : `${formatNumber(link.mass_kg, 5)} kg`}</dd>
+      <dt>${t("link.mass")}</dt><dd title=${link.mass_kg}>${link.mass_kg === null ? t("link.no_inertia") : `${shownNumber(link.mass_kg)} kg`}</dd>
       <dt>${t("link.shapes")}</dt><dd>${t("link.shapes.text", { visuals: link.visuals, collisions: link.collisions })}</dd>
       ${link.meshes.length > 0 && html`<dt>${t("link.meshes")}</dt><dd>${link.meshes.map((uri) => html`<span class="line" title=${uri}>${baseName(uri)}</span>`)}</dd>`}
       ${link.file && html`<dt>${t("link.place")}</dt><dd title=${shortPath(link.file, documentState.value?.root ?? "")}><${PlaceLink} place=${{ file: link.file, line: link.line ?? 0, column: 1 }} /></dd>`}

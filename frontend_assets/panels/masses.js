@@ -26,7 +26,7 @@ import {
   sumOf,
 } from "../lib/masses.js";
 import { fixed } from "../lib/measuring.js";
-import { formatNumber } from "../lib/numbers.js";
+import { formatNumber, shownNumber } from "../lib/numbers.js";
 import { baseName } from "../lib/paths.js";
 import { EmptyState, Icon, IconButton, MenuButton, ProgressBar, SearchBox } from "../lib/ui.js";
 
@@ -83,7 +83,7 @@ function Sum({ masses: found }) {
   const without = (robot.value?.links.length ?? 0) - found.length;
   const centre = linkPoses.value && centreOfMass(found, linkPoses.value);
   return html`<dl class="masses-sum">
-    <div><dt>${t("masses.sum")}</dt><dd><strong>${formatNumber(sumOf(found), 6)}</strong> kg</dd></div>
+    <div><dt>${t("masses.sum")}</dt><dd><strong title=${formatNumber(sumOf(found), 15)}>${shownNumber(sumOf(found))}</strong> kg</dd></div>
     <div><dt title=${t("masses.centre.hint")}>${t("masses.centre", { frame: robot.value?.root ?? "" })}</dt>
       <dd class="masses-centre">${centre ? html`${numbers(centre, (value) => fixed(value, 4))}m` : "–"}</dd></div>
     <div><dt>${t("masses.links")}</dt><dd>${t("masses.links.count", { count: found.length })}${
@@ -149,10 +149,10 @@ function Row({ row, number }) {
       hovered.value = mass.link;
     }}>
     <th scope="row"><button type="button" class="link-name" title=${mass.link} aria-pressed=${chosen}>${mass.link}</button></th>
-    <td class="number">${formatNumber(mass.mass_kg, 5)}</td>
+    <td class="number" title=${mass.mass_kg}>${shownNumber(mass.mass_kg)}</td>
     <td class="share"><span class="share-bar" style=${`--share:${(100 * share).toFixed(2)}%`}></span><span class="share-text">${(100 * share).toFixed(1)} %</span></td>
     <${DensityCell} row=${row} />
-    <td class="number three">${numbers(mass.centre_m, (value) => fixed(value, 4))}</td>
+    <td class="number three" title=${mass.centre_m.join(" ")}>${numbers(mass.centre_m, (value) => fixed(value, 4))}</td>
     <${Moments} mass=${mass} />
     <td class="where">${link && html`<${PlaceLink} place=${{ file: link.file, line: link.line, column: 1 }} words=${placeWords(link)} />`}
       <${IconButton} icon="origin" label=${t("masses.why", { name: mass.link })} size=${14} onClick=${() => explain(mass.link)} /></td>
@@ -173,7 +173,7 @@ function explain(link) {
 function Moments({ mass }) {
   const [ixx, ixy, ixz, iyy, iyz, izz] = mass.inertia_kg_m2;
   const written = Object.entries({ ixx, ixy, ixz, iyy, iyz, izz }).map(
-    ([name, value]) => `${name} ${formatNumber(value, 6)}`,
+    ([name, value]) => `${name} ${value}`,
   );
   const possible = isPossible(mass);
   const hint = [...written, ...(possible ? [] : [t("masses.impossible")])].join("\n");

@@ -9,6 +9,7 @@ import { hoverSite } from "../app/state/origin.js";
 import { degrees } from "../app/state/view.js";
 import { WrittenText } from "../app/written-text.js";
 import { t } from "../lib/i18n.js";
+import { shownNumbers } from "../lib/numbers.js";
 import { valueText } from "../lib/origin.js";
 import { baseName } from "../lib/paths.js";
 import { Icon } from "../lib/ui.js";
@@ -106,7 +107,7 @@ function Opened({ input, inputs, depth }) {
       input.site
         ? html`<${SiteRow} id=${input.site} />`
         : html`<p class="origin-line"><span class="muted">${t(`origin.kind.${input.kind}`)}</span>
-        <strong class="property-name">${input.name}</strong><span class="origin-value numbers" title=${input.value}>${input.value}</span></p>
+        <strong class="property-name">${input.name}</strong><span class="origin-value numbers" title=${input.value}>${shownNumbers(input.value)}</span></p>
         <${WrittenLine} place=${input.place} text=${input.text} label=${input.name} />`
     }
     ${input.place.file ? html`<p class="opened-place"><${PlaceLink} place=${input.place} /></p>` : html`<p class="note">${t("origin.given")}</p>`}

@@ -8,14 +8,13 @@ import { laneOpen } from "../app/data.js";
 import { heardTopics, nowOfSamples, samplesOf, unreadTopics } from "../app/plotting.js";
 import { keyOf, removeSeries, series } from "../app/state/plot.js";
 import { t } from "../lib/i18n.js";
-import { formatNumber } from "../lib/numbers.js";
+import { shownNumber } from "../lib/numbers.js";
 import { overdue_s } from "../lib/overdue.js";
 import { shortTime } from "../lib/short-time.js";
 import { IconButton } from "../lib/ui.js";
 import { colorOf } from "./plot-chart.js";
 
 const REFRESH_MS = 200;
-const DIGITS = 5;
 /** So many of the last tell how often they come. */
 const LOOKED_BACK = 10;
 
@@ -64,7 +63,7 @@ function nameOf({ topic, path }) {
 function valueText(one, at_s) {
   const samples = samplesOf(one);
   const value = at_s === null ? samples.newest() : samples.valueAt(at_s);
-  return value === null ? "–" : formatNumber(value, DIGITS);
+  return value === null ? "–" : shownNumber(value);
 }
 
 /** @param {Series} one @returns {string} why there is no line, or it goes on no more; empty: all is well */

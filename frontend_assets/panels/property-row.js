@@ -15,7 +15,7 @@ import { isExpression } from "../lib/expressions.js";
 import { createGesture } from "../lib/gesture.js";
 import { t } from "../lib/i18n.js";
 import { latestSender } from "../lib/latest.js";
-import { formatNumber, toDegrees } from "../lib/numbers.js";
+import { formatNumber, shownNumber, shownNumbers, toDegrees } from "../lib/numbers.js";
 import { placeText } from "../lib/paths.js";
 import { isChanged, names, shortName } from "../lib/sites.js";
 import { Icon, IconButton, MenuButton } from "../lib/ui.js";
@@ -140,21 +140,21 @@ function Result({ site, text }) {
   if (!isExpression(text) || site.value === "") return null;
   const several = site.values.length > 1;
   const value = several
-    ? site.values.slice(0, 4).join(", ") + (site.values.length > 4 ? ", …" : "")
+    ? shownNumbers(site.values.slice(0, 4).join(", ")) + (site.values.length > 4 ? ", …" : "")
     : resultText(site);
   // A path, say: its end tells most, and what comes before it is known from the others.
   if (value.length > ONE_LINE && !/\s/.test(value)) {
     return html`<p class="result path" title=${value}><span class="numbers">=</span><span class="result-path"><bdi>${value}</bdi></span></p>`;
   }
-  return html`<p class="result"><span class="numbers">= ${value}</span>
+  return html`<p class="result"><span class="numbers" title=${several ? site.values.join(", ") : site.value}>= ${value}</span>
     <span class="muted"> · ${several ? t("property.values", { count: site.values.length }) : t("property.expression")}</span></p>`;
 }
 
 /** @param {SiteView} site */
 function resultText({ number, value, widget }) {
-  if (number === null) return value;
-  if (widget.unit === "rad" && degrees.value) return `${formatNumber(toDegrees(number), 5)} °`;
-  return `${formatNumber(number, 5)} ${widget.unit}`.trim();
+  if (number === null) return shownNumbers(value);
+  if (widget.unit === "rad" && degrees.value) return `${shownNumber(toDegrees(number))} °`;
+  return `${shownNumber(number)} ${widget.unit}`.trim();
 }
 
 /** @param {{site: SiteView}} props an argument that was passed wins over what the file says */

@@ -5,6 +5,7 @@
 import { showFile, showSource } from "../app/state/source.js";
 import { t } from "../lib/i18n.js";
 import { kindIcon } from "../lib/kinds.js";
+import { shownNumbers } from "../lib/numbers.js";
 import { placeText } from "../lib/paths.js";
 import { iconElement } from "../lib/ui.js";
 
@@ -73,7 +74,9 @@ function valueLine(before, seen, unit) {
   const line = made("div", "meaning-values", made("code", "muted", before));
   seen.slice(0, VALUES_SHOWN).forEach((value, at) => {
     if (at > 0) line.append(made("span", "muted", "·"));
-    line.append(made("code", "meaning-value", value === "" ? "''" : value));
+    const shown = made("code", "meaning-value", value === "" ? "''" : shownNumbers(value));
+    shown.title = value;
+    line.append(shown);
   });
   if (unit !== "") line.append(made("span", "muted", unit));
   const more = seen.length - VALUES_SHOWN;

@@ -21,6 +21,7 @@ import {
   valueText,
 } from "../lib/differences.js";
 import { t } from "../lib/i18n.js";
+import { formatNumber, shownNumbers } from "../lib/numbers.js";
 import { Icon, SearchBox } from "../lib/ui.js";
 
 const SHOWN = 200;
@@ -52,15 +53,15 @@ function InputRow({ one }) {
   return html`<tr>
     <th scope="row">${place ? html`<${PlaceLink} place=${{ ...place, column: 1 }} words=${one.name} />` : one.name}
       <small class="muted">${t(`compare.kind.${one.kind}`)}</small></th>
-    <td><${Value} text=${one.one ?? ""} none=${one.one === null} /></td>
-    <td><${Value} text=${one.other ?? ""} none=${one.other === null} /></td>
+    <td><${Value} text=${shownNumbers(one.one ?? "")} whole=${one.one} none=${one.one === null} /></td>
+    <td><${Value} text=${shownNumbers(one.other ?? "")} whole=${one.other} none=${one.other === null} /></td>
   </tr>`;
 }
 
-/** @param {{text: string, none: boolean}} props */
-function Value({ text, none }) {
+/** @param {{text: string, whole: string | number | null, none: boolean}} props */
+function Value({ text, whole, none }) {
   if (none) return html`<span class="muted" title=${t("compare.none")}>–</span>`;
-  return html`<span class="value" title=${text}>${text === "" ? t("launch.empty") : text}</span>`;
+  return html`<span class="value" title=${whole}>${text === "" ? t("launch.empty") : text}</span>`;
 }
 
 /** @param {string} key @returns {string} the words of a step, or the step itself */
@@ -187,7 +188,8 @@ function Cell({ row, value, factor }) {
     typeof value === "string" && /^(link|joint|\w+\.shape|visual|collision)$/.test(row.what)
       ? word(value)
       : text;
-  return html`<${Value} text=${words} none=${value === null} />`;
+  const whole = typeof value === "number" ? formatNumber(value * factor, 15) : words;
+  return html`<${Value} text=${words} whole=${whole} none=${value === null} />`;
 }
 
 /** @param {string} rgba four numbers from 0 to 1 @returns {string} */

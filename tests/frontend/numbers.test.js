@@ -5,6 +5,8 @@ import {
   formatNumber,
   niceStep,
   parseNumber,
+  shownNumber,
+  shownNumbers,
   snap,
   steppedBy,
   toDegrees,
@@ -61,4 +63,17 @@ test("Shift makes a step ten times larger, Alt ten times smaller", () => {
   assert.equal(steppedBy(0.5, { shiftKey: true, altKey: false }), 5);
   assert.equal(steppedBy(0.5, { shiftKey: false, altKey: true }), 0.05);
   assert.equal(steppedBy(0.5, { shiftKey: false, altKey: false }), 0.5);
+});
+
+test("a panel shows six significant digits, and no float noise", () => {
+  assert.equal(shownNumber(0.24080000000000001), "0.2408");
+  assert.equal(shownNumber(-12.3456789), "-12.3457");
+  assert.equal(shownNumber(1 / 3), "0.333333");
+});
+
+test("numbers in a text are shortened, names, paths and versions are not", () => {
+  assert.equal(shownNumbers("0.24080000000000001"), "0.2408");
+  assert.equal(shownNumbers("[0.1, -0.30000000000000004]"), "[0.1, -0.3]");
+  for (const text of ["12345678", "a/0.1234567/b.stl", "v1.2345678", "0.1234567.stl", "1.0"])
+    assert.equal(shownNumbers(text), text);
 });

@@ -41,7 +41,7 @@ test("attributes of one element stand together, of two of the same name apart", 
 });
 
 test("numbers are shortened and have a unit, other texts stay as they are", () => {
-  assert.equal(valueText("0.1234567", "m", false), "0.12346 m");
+  assert.equal(valueText("0.1234567", "m", false), "0.123457 m");
   assert.equal(valueText("1.5707963267948966 0 0", "rad", true), "90  0  0 °");
   assert.equal(valueText("package://a/b c.stl", "", true), "package://a/b c.stl");
   assert.equal(valueText("", "m", false), "");

@@ -101,6 +101,16 @@ test("a message is a tree: short things are open, lists are not", () => {
   );
 });
 
+test("a number of a message has six digits in its row, and all of them in its title", () => {
+  const [scalar, vector, count] = echoRows(
+    { data: 0.24080000000000001, at: { x: 1 / 3, y: 2 }, count: 123456789 },
+    new Set(),
+  ).filter(({ level }) => level === 1);
+  assert.deepEqual([scalar?.text, scalar?.whole], ["0.2408", "0.24080000000000001"]);
+  assert.deepEqual([vector?.text, vector?.whole], ["x 0.333333  y 2", `x ${1 / 3}  y 2`]);
+  assert.equal(count?.text, "123456789");
+});
+
 test("the numbers of a type are offered, and what is worked out of vectors and quaternions", () => {
   const field = (/** @type {string} */ name, /** @type {string} */ base, shape = "single") =>
     /** @type {any} */ ({ name, base, shape });
