@@ -12,6 +12,15 @@ const recall = (key) => {
   }
 };
 
+// The colours of the page around, before anything is painted: a white picture would glare in the dark.
+{
+  const around = parent === window ? "" : parent.document.documentElement.dataset.theme;
+  const chosen = around || recall("theme");
+  const isLight = matchMedia("(prefers-color-scheme: light)").matches;
+  const named = chosen === "light" || chosen === "dark" ? chosen : null;
+  document.documentElement.dataset.theme = named ?? (isLight ? "light" : "dark");
+}
+
 // Who compares pictures wants the same pixels however busy the machine is: neither viser's fewer of
 // them while it is slow, nor our finer ones at rest (still.js).
 {

@@ -44,7 +44,7 @@ export class Theme {
       renderer.toneMapping = NEUTRAL_TONES;
       this.#calmGrid();
     });
-    this.set(matchMedia("(prefers-color-scheme: light)").matches ? "light" : "dark");
+    this.set(document.documentElement.dataset.theme === "light" ? "light" : "dark"); // by early.js
   }
 
   get accent() {

@@ -6,10 +6,12 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.support.studio_page import StudioPage, wait_until
+from tests.support.studio_page import VIEWPORT, StudioPage, wait_until
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Locator
+    from playwright.sync_api import Browser, Locator
+
+    from tests.support.server import RunningStudio
 
 
 pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(240)]
@@ -33,6 +35,14 @@ _SAY_SLOW = """async () => {
   state.graphicsChoice.value = "automatic";
   state.graphics.value = { ...state.graphics.value, light: true };
 }"""
+_DARK_BY_CHOICE = """try { localStorage.setItem("studio.theme", '"dark"'); } catch {}"""
+_GROUNDS = """() => {
+  const view = document.querySelector("iframe")?.contentDocument;
+  if (!view?.documentElement?.dataset.graphics || !view.querySelector("#root *")) return null;
+  const ground = (one) => view.defaultView.getComputedStyle(one).backgroundColor;
+  return [ground(view.documentElement), ground(view.body), view.documentElement.dataset.theme];
+}"""
+_DARK_GROUND = "rgb(13, 17, 23)"
 
 
 @pytest.fixture
@@ -156,6 +166,21 @@ def test_no_notice_covers_an_error_of_the_3d_view(tab: StudioPage):
     assert above["y"] + above["height"] <= below["y"]
     error.get_by_role("button", name="Undo edit").click()
     error.wait_for(state="detached")
+
+
+def test_the_3d_view_is_dark_before_our_script_came_where_the_dark_theme_was_chosen(
+    browser: Browser, studio: RunningStudio
+):
+    context = browser.new_context(viewport=VIEWPORT, color_scheme="light")
+    context.add_init_script(_DARK_BY_CHOICE)
+    page = context.new_page()
+    page.route("**/viser/studio3d.js", lambda route: route.abort())
+    try:
+        page.goto(studio.url)
+        wait_until("viser's page", lambda: page.evaluate(_GROUNDS) is not None)
+        assert page.evaluate(_GROUNDS) == [_DARK_GROUND, _DARK_GROUND, "dark"]
+    finally:
+        context.close()
 
 
 def test_every_panel_has_a_way_on_a_phone(tab: StudioPage):
