@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import time
 from random import Random
 from typing import TYPE_CHECKING
 
@@ -10,7 +11,7 @@ import pytest
 
 from studio.engine.messages import COMMANDS
 from tests.support.command_fuzzer import CommandFuzzer
-from tests.support.command_sweep import sweep
+from tests.support.command_sweep import long_callbacks, sweep
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -35,3 +36,24 @@ def test_the_fuzzer_makes_commands_of_every_kind_and_most_can_be_read():
             continue
         readable += 1
     assert readable > 3000
+
+
+def test_the_sweep_notices_work_on_the_loop_and_no_wait_for_the_processor():
+    def work() -> None:
+        end_s = time.thread_time() + 0.2
+        while time.thread_time() < end_s:
+            pass
+
+    async def run() -> list[float]:
+        noticed: list[float] = []
+        with long_callbacks(0.1, noticed.append):
+            asyncio.get_running_loop().call_soon(time.sleep, 0.3)
+            await asyncio.to_thread(work)
+            assert not noticed
+            asyncio.get_running_loop().call_soon(work)
+            await asyncio.sleep(0)
+            await asyncio.sleep(0)
+        return noticed
+
+    (took_s,) = asyncio.run(run())
+    assert took_s >= 0.2
