@@ -21,7 +21,7 @@ SMALL_FILES = {
     "constraints.txt",
     "pyproject.toml",
 }
-FOLDERS = {".ci", "frontend_assets", "models", "studio", "tests"}
+FOLDERS = {".ci", ".github", "frontend_assets", "models", "studio", "tests"}
 
 # Built from pieces, so that this file does not hold what it looks for.
 SHARED_FOLDER = "../" + "shared"

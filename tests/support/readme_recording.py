@@ -9,12 +9,13 @@ from __future__ import annotations
 import base64
 import io
 import tempfile
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from PIL import Image
+from playwright.sync_api import Error
 
 from tests.support.browser import open_browser
 from tests.support.demos import running_demo
@@ -34,7 +35,7 @@ VIEWPORT: Final[ViewportSize] = {"width": 1280, "height": 760}
 SIZE_PX = (960, 570)
 _FRAME_S = 0.1
 """Frames that come sooner than this after the last one are left out."""
-_LONGEST_S = 0.6
+_LONGEST_S = 0.4
 """A page that stands still for longer is shown so long."""
 _QUALITY = 62
 
@@ -53,13 +54,13 @@ class Recording:
 
         def keep(event: dict[str, Any]) -> None:
             self.frames.append((event["metadata"]["timestamp"], base64.b64decode(event["data"])))
-            session.send("Page.screencastFrameAck", {"sessionId": event["sessionId"]})
+            with suppress(Error):  # the last ones may come after the end
+                session.send("Page.screencastFrameAck", {"sessionId": event["sessionId"]})
 
         session.on("Page.screencastFrame", keep)
         session.send("Page.startScreencast", {"format": "jpeg", "quality": 92, "everyNthFrame": 1})
         yield
         session.send("Page.stopScreencast")
-        session.detach()
 
     def save(self, file: Path) -> float:
         """Write the frames as an animated WebP; return its length in seconds."""
@@ -101,7 +102,7 @@ def turn_a_knob(tab: StudioPage) -> None:
     mouse = tab.page.mouse
     mouse.move(box["x"] + box["width"] * begin, y)
     mouse.down()
-    for share in (0.95, 0.1, 0.6):
+    for share in (0.9, 0.2):
         mouse.move(box["x"] + box["width"] * share, y, steps=12)
         tab.page.wait_for_timeout(300)
     mouse.up()
@@ -113,7 +114,7 @@ def ask_where_from(tab: StudioPage) -> None:
     tab.page.get_by_role("treeitem", name="upper_arm", exact=True).click()
     tab.page.wait_for_timeout(700)
     show(tab, "Where from")
-    tab.page.wait_for_timeout(1500)
+    tab.page.wait_for_timeout(1200)
     tab.page.get_by_role("button", name="arm.xacro:").first.click()
     tab.page.wait_for_timeout(1800)
 
@@ -125,6 +126,7 @@ def prepare_the_live_system(tab: StudioPage) -> None:
     frame = tab.page.get_by_role("textbox", name="Fixed frame")
     frame.fill("odom")
     frame.press("Enter")
+    tab.page.get_by_role("button", name="Follow base_footprint").click()
     tab.page.wait_for_timeout(2000)
 
 
@@ -132,8 +134,7 @@ def see_a_scan(tab: StudioPage) -> None:
     """The rover's scan, map and plan come into the 3D view, and it drives."""
     add_displays(tab)
     tab.page.wait_for_timeout(1500)
-    tab.page.keyboard.press("f")
-    tab.page.wait_for_timeout(5000)
+    tab.page.wait_for_timeout(4000)
 
 
 def send_a_goal(tab: StudioPage) -> None:
@@ -160,6 +161,7 @@ def record(browser: Browser) -> float:
         ) as studio,
     ):
         context = browser.new_context(viewport=VIEWPORT, color_scheme="dark")
+        context.add_init_script("""localStorage.setItem("studio.graphics.said", "true")""")
         tab = StudioPage(context.new_page())
         tab.open(studio.url)
         recording = Recording(tab.page)
