@@ -121,7 +121,7 @@ function MorePanels() {
       icon: PANELS[id]?.icon ?? "box",
       run: () => commandById(`panel.${id}`)?.run(),
     }));
-  return html`<${MenuButton} class=${shown ? "current" : ""} label=${t("panels.more")} items=${items}>
+  return html`<${MenuButton} class=${shown ? "current" : ""} label=${t("panels.more")} value=${shown && panelTitle(shown)} items=${items}>
     ${
       shown
         ? html`<${PhoneTab} id=${shown} />`

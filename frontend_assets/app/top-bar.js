@@ -48,7 +48,7 @@ export function TopBar() {
 function DocumentMenu() {
   // Until the studio has said what is open there is nothing to read, and so nothing to move.
   const name = title.value || (documentId.value === "" ? t("document.none") : "");
-  return html`<${MenuButton} class="document-button" label=${t("documents.menu")} hint=${name} items=${documentItems}>
+  return html`<${MenuButton} class="document-button" label=${t("documents.menu")} value=${name} hint=${name} items=${documentItems}>
     <${Icon} name="fileCode" /><span class="document-title">${name}</span>${name && html`<${Icon} name="chevronDown" size=${13} />`}
   <//>`;
 }
@@ -142,8 +142,8 @@ function PaletteButton() {
   const show = () => {
     dialog.value = { kind: "palette" };
   };
-  return html`<button type="button" class="palette-button" onClick=${show} aria-label=${t("command.palette")}>
-    <${Icon} name="search" /><span>${t("palette.button")}</span><kbd>${keyOf("palette")}</kbd></button>`;
+  return html`<button type="button" class="palette-button" onClick=${show} aria-label=${`${t("palette.button")} ${keyOf("palette")}`}>
+    <${Icon} name="search" /><span>${t("palette.button")}</span>${" "}<kbd>${keyOf("palette")}</kbd></button>`;
 }
 
 function EditButtons() {

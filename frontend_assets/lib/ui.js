@@ -105,11 +105,12 @@ export function ProgressBar({ label, done, total }) {
 
 /**
  * A button that opens a list of choices: arrow keys, Escape, and a click elsewhere as usual.
+ * The text that it shows, if any, is `value`: its name holds it for people who speak to the page.
  *
- * @param {{label: string, class?: string, items: () => MenuItem[], disabled?: boolean, hint?: string,
+ * @param {{label: string, value?: string, class?: string, items: () => MenuItem[], disabled?: boolean, hint?: string,
  *   children: ComponentChildren}} props
  */
-export function MenuButton({ label, class: names, items, disabled, hint, children }) {
+export function MenuButton({ label, value, class: names, items, disabled, hint, children }) {
   const menu = useRef(/** @type {MenuHandle | null} */ (null));
   useEffect(() => () => menu.current?.close(), []);
   /** @param {MouseEvent} event */
@@ -118,7 +119,7 @@ export function MenuButton({ label, class: names, items, disabled, hint, childre
     if (button.getAttribute("aria-expanded") === "true") menu.current?.close();
     else menu.current = openMenu(button, label, items());
   };
-  return html`<button type="button" class=${names ?? "icon-button"} aria-label=${label} title=${hint ?? label}
+  return html`<button type="button" class=${names ?? "icon-button"} aria-label=${value ? `${label}: ${value}` : label} title=${hint ?? label}
     aria-haspopup="menu" aria-expanded="false" disabled=${disabled} onClick=${toggle}>${children}</button>`;
 }
 

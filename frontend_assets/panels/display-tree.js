@@ -169,7 +169,7 @@ function openRowMenu(event, row) {
 
 /** What stands between the name of a row and its eye. @param {{row: Row}} props */
 function RowTail({ row }) {
-  return html`${row.meta && html`<span class=${`tree-meta ${row.warn ? "warn" : ""} ${row.tone ?? ""}`} title=${row.meta}>${row.meta}</span>`}
+  return html`${row.meta && html`${" "}<span class=${`tree-meta ${row.warn ? "warn" : ""} ${row.tone ?? ""}`} title=${row.meta}>${row.meta}</span>`}
     ${row.controls && html`<span class="tree-control" onClick=${stop} onDblClick=${stop}>${row.controls()}</span>`}
     ${row.slider && html`<${ShareSlider} ...${row.slider} />`}
     ${row.number && html`<${NumberBox} ...${row.number} />`}`;

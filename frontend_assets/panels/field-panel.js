@@ -46,7 +46,7 @@ function Content({ id, icon, demo, worlds: { all, shown, chosen }, nameOf, world
     }));
   return html`<${RouterAway} />${
     all.value.length > 1 &&
-    html`<div class="panel-bar row"><${MenuButton} label=${t(`${id}.choose`)} class="button" items=${items}>
+    html`<div class="panel-bar row"><${MenuButton} label=${t(`${id}.choose`)} value=${nameOf(one)} class="button" items=${items}>
       <span class="field-name">${nameOf(one)}</span><${Icon} name="chevronDown" size=${12} /><//></div>`
   }
     ${!mayEdit.value && html`<p class="note padded">${t(`${id}.viewer`)}</p>`}

@@ -127,10 +127,9 @@ function Row({ row, place, focusable, setOpen, onFocus }) {
   const { frame, level, expandable, expanded } = row;
   const { name } = frame;
   const isLink = robot.value?.links.some((link) => link.name === name);
-  const said = wordsOf(row);
   return html`<div id=${rowId(name)} role="treeitem" class=${rowClass(row)} style=${`--level:${level}`} tabindex=${focusable ? 0 : -1}
     aria-level=${level} aria-posinset=${place?.at} aria-setsize=${place?.of} aria-expanded=${expandable ? expanded : null}
-    aria-selected=${target.value === name} aria-label=${[name, ...said].join(", ")} title=${[name, ...said].join("\n")} onFocus=${onFocus} onClick=${() => setTarget(name)}
+    aria-selected=${target.value === name} aria-label=${rowLabel(row)} title=${[name, ...wordsOf(row)].join("\n")} onFocus=${onFocus} onClick=${() => setTarget(name)}
     onDblClick=${() => isLink && viewport.value?.focus(name)}
     onPointerEnter=${() => {
       hovered.value = isLink ? name : null;
@@ -140,26 +139,45 @@ function Row({ row, place, focusable, setOpen, onFocus }) {
       if (expandable) setOpen(name, !expanded);
     }}>${expandable && html`<${Icon} name=${expanded ? "chevronDown" : "chevronRight"} size=${14} />`}</span>
     <${Icon} name=${isLink ? "box" : "frames"} size=${14} />
-    <span class="tree-label"><${LongName} text=${name} /></span>
-    <${State} row=${row} />
-    <${Reference} name=${name} isTarget=${target.value === name} />
-    <span class="tf-publisher">${publisherOf(frame)}</span>
-    <span class="tf-rate numbers">${rateOf(frame)}</span>
+    <span class="tree-label"><${LongName} text=${name} /></span>${" "}
+    <${State} row=${row} />${" "}
+    <${Reference} name=${name} isTarget=${target.value === name} />${" "}
+    <span class="tf-publisher">${publisherOf(frame)}</span>${" "}
+    <span class="tf-rate numbers">${rateOf(frame)}</span>${" "}
     <span class="tf-age numbers">${ageOf(frame)}</span>
   </div>`;
 }
 
 /** @param {FrameRow} row @returns {string} */
-function rowClass({ frame, behind }) {
-  const { name, state } = frame;
+function rowClass(row) {
+  const { name } = row.frame;
   const states = [
     target.value === name && "chosen",
     hovered.value === name && "hovered",
     target.value !== null && chain.value.has(name) && "on-chain",
-    state === "fresh" && behind ? "behind" : state,
+    shownState(row),
   ];
   return ["tree-row", "tf-row", ...states].filter(Boolean).join(" ");
 }
+
+/** @param {FrameRow} row @returns {string} what its row shows, in that order, and what else is known of the frame */
+function rowLabel(row) {
+  const { frame } = row;
+  const kind = shownState(row);
+  const shown = [
+    frame.name,
+    kind === "fresh" ? "" : t(`tf.${kind}`),
+    reference.value === frame.name ? t("frames.in") : "",
+    publisherOf(frame),
+    rateOf(frame),
+    agoOf(frame),
+  ];
+  return [...new Set([...shown, ...wordsOf(row)])].filter(Boolean).join(", ");
+}
+
+/** @param {FrameRow} row */
+const shownState = ({ frame, behind }) =>
+  frame.state === "fresh" && behind ? "behind" : frame.state;
 
 /** @param {FrameRow} row @returns {string[]} all that is known of a frame */
 function wordsOf({ frame, behind }) {
@@ -173,8 +191,7 @@ function wordsOf({ frame, behind }) {
 
 /** @param {{row: FrameRow}} props a word, for colour alone tells nobody */
 function State({ row }) {
-  const { state } = row.frame;
-  const kind = state === "fresh" && row.behind ? "behind" : state;
+  const kind = shownState(row);
   if (kind === "fresh") return null;
   return html`<span class=${`tf-state ${kind}`}>${kind !== "behind" && html`<${Icon} name="alert" size=${12} />`}<span>${t(`tf.${kind}`)}</span></span>`;
 }

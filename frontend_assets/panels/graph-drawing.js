@@ -184,7 +184,7 @@ function BoxShape({ box, at, rates, chosen, onFocus }) {
     <title>${box.name}</title>
     <rect width=${width} height=${BOX_HEIGHT_PX} rx=${box.id.startsWith("node:") ? 6 : BOX_HEIGHT_PX / 2} />
     <text x=${width / 2} y=${BOX_HEIGHT_PX / 2} dy="0.35em">${boxLabel(box)}</text>
-    ${rate && html`<text class="graph-rate" x=${width / 2 + 6} y=${BOX_HEIGHT_PX + 11}>${rate}</text>`}
+    ${rate && html`${" "}<text class="graph-rate" x=${width / 2 + 6} y=${BOX_HEIGHT_PX + 11}>${rate}</text>`}
   </g>`;
 }
 

@@ -94,7 +94,7 @@ function Bar({ topic, choices, chosen, isThere, ask }) {
       },
     }));
   return html`<div class="panel-bar image-bar">
-    <${MenuButton} label=${t("image.topic")} hint=${topic} class="button" items=${items}><span class="image-topic">${topic}</span><${Icon} name="chevronDown" size=${12} /><//>
+    <${MenuButton} label=${t("image.topic")} value=${topic} hint=${topic} class="button" items=${items}><span class="image-topic">${topic}</span><${Icon} name="chevronDown" size=${12} /><//>
     <span class="push"></span>
     <${IconButton} icon="download" label=${t("image.save")} disabled=${!isThere} onClick=${() => ask({ kind: "save" })} />
   </div>`;

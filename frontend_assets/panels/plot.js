@@ -72,6 +72,7 @@ function Content({ seen }) {
 /** @param {{picking: Signal<boolean>, held: Signal<Span | null>}} props */
 function Bar({ picking, held }) {
   const isEmpty = series.value.length === 0;
+  const seconds = t("plot.seconds", { count: span_s.value });
   const toggle = () => {
     held.value = held.value ? null : spanNow();
   };
@@ -88,7 +89,7 @@ function Bar({ picking, held }) {
     <button type="button" class="button" aria-label=${t("plot.add")} aria-expanded=${picking.value} disabled=${isEmpty} onClick=${() => {
       picking.value = !picking.value;
     }}><${Icon} name="plus" size=${14} /><span class="plot-add-words">${t("plot.add")}</span></button>
-    <${MenuButton} label=${t("plot.span")} class="button" items=${items}>${t("plot.seconds", { count: span_s.value })}<${Icon} name="chevronDown" size=${12} /><//>
+    <${MenuButton} label=${t("plot.span")} value=${seconds} class="button" items=${items}>${seconds}<${Icon} name="chevronDown" size=${12} /><//>
     <${IconButton} icon=${held.value ? "animate" : "pause"} label=${t(held.value ? "topics.go_on" : "topics.pause")} pressed=${held.value !== null} disabled=${isEmpty} onClick=${toggle} />
     <${ListeningMenu} label=${t("plot.listen")} listening=${plotListening} disabled=${isEmpty} />
     <span class="push"></span>

@@ -92,17 +92,18 @@ function moved({ key, ctrlKey, metaKey }, rows, at, toggle) {
  */
 function Row({ topic, type, row, place, focusable, onToggle, onMore, onCopy, onFocus }) {
   const { path, name, level, text, whole, expandable, expanded, numeric, shown, more } = row;
+  const moreWords = more > 0 && expanded ? t("topics.more", { count: more }) : "";
   const what = { topic, type, kind: "", path };
   const scalar = numeric && !expandable;
   return html`<div id=${rowId(path)} role="treeitem" class="tree-row echo-row" style=${`--level:${level}`} tabindex=${focusable ? 0 : -1}
-    aria-level=${level} aria-posinset=${place?.at} aria-setsize=${place?.of} aria-expanded=${expandable ? expanded : null} aria-label=${`${name} ${text}`}
+    aria-level=${level} aria-posinset=${place?.at} aria-setsize=${place?.of} aria-expanded=${expandable ? expanded : null} aria-label=${[name, moreWords, text].filter(Boolean).join(" ")}
     title=${path} draggable=${numeric} onFocus=${onFocus} onClick=${() => expandable && onToggle()}
     onDragStart=${(/** @type {DragEvent} */ event) => beginDrag(event, what)} onDragEnd=${endDrag}>
     <span class="twisty" aria-hidden="true">${expandable && html`<${Icon} name=${expanded ? "chevronDown" : "chevronRight"} size=${14} />`}</span>
-    <span class="echo-name">${name}</span>
+    <span class="echo-name">${name}</span>${" "}
     <span class=${`echo-value numbers ${scalar ? "scalar" : ""}`} title=${expanded ? null : whole}>${expanded ? "" : text}</span>
     <span class="echo-tools" onClick=${(/** @type {Event} */ event) => event.stopPropagation()}>
-      ${more > 0 && expanded && html`<button type="button" class="echo-more" onClick=${() => onMore(path, shown + MORE)}>${t("topics.more", { count: more })}</button>`}
+      ${moreWords && html`<button type="button" class="echo-more" onClick=${() => onMore(path, shown + MORE)}>${moreWords}</button>`}
       ${numeric && html`<${IconButton} icon="plot" label=${t("topics.plot", { path })} size=${14} onClick=${() => plot(topic, path)} />`}
       <${IconButton} icon="link" label=${t("topics.copy_path", { path })} size=${14} onClick=${() => copyPath(path)} />
       <${IconButton} icon="copy" label=${t("topics.copy_value", { path })} size=${14} onClick=${() => onCopy(path)} />

@@ -49,7 +49,7 @@ def answer_form(tab: StudioPage) -> None:
 
 def link_of(tab: StudioPage) -> str:
     """The link that the page offers to copy."""
-    tab.page.get_by_role("button", name="Documents", exact=True).click()
+    tab.page.get_by_role("button", name="Documents").click()
     tab.page.get_by_role("menuitem", name="Copy link").click()
     dialog = tab.page.get_by_role("dialog")
     link = dialog.get_by_label("Link", exact=True).input_value()

@@ -29,7 +29,7 @@ BASE = (
 
 def test_another_robot_is_opened_out_of_the_served_folders(browser: Browser, tmp_path: Path):
     with running_studio(["demo"], tmp_path / "data") as studio, studio_page(browser, studio) as tab:
-        tab.page.get_by_role("button", name="Documents", exact=True).click()
+        tab.page.get_by_role("button", name="Documents").click()
         tab.page.get_by_role("menuitem", name="Open a robot").click()
         dialog = tab.page.get_by_role("dialog", name="Open a robot")
         dialog.get_by_role("button", name="Open r2d2_description", exact=True).click()

@@ -126,7 +126,7 @@ def test_a_pasted_text_is_drawn_at_once_and_gets_a_place_by_saving_it(tab: Studi
     tab.page.keyboard.press("Control+v")
     tab.page.wait_for_url("**/d/untitled-1")
     wait_until("it to be drawn", tab.has_drawn_robot)
-    tab.page.get_by_role("button", name="Documents", exact=True).click()
+    tab.page.get_by_role("button", name="Documents").click()
     tab.page.get_by_role("menuitemradio", name="Untitled 1").wait_for()
     tab.page.get_by_role("menuitem", name="Save as").click()
     name = tab.page.get_by_role("textbox", name="Package")
@@ -214,7 +214,7 @@ def test_ones_own_workspace_is_two_clicks_and_a_key_away_and_the_last_one_next_t
 
 def test_the_page_is_never_empty(browser: Browser, tmp_path: Path):
     with running_studio(["demo"], tmp_path / "data") as studio, studio_page(browser, studio) as tab:
-        tab.page.get_by_role("button", name="Documents", exact=True).click()
+        tab.page.get_by_role("button", name="Documents").click()
         tab.page.get_by_role("menuitem", name="Close").click()
         tab.page.get_by_role("heading", name="Which robot?").wait_for()
         tab.page.get_by_role("button", name="r2d2").click()
