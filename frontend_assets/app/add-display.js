@@ -191,7 +191,7 @@ function Offers({ offers, chosen, label, onPoint, onAdd }) {
   useEffect(() => {
     list.current?.querySelector('[aria-selected="true"]')?.scrollIntoView({ block: "nearest" });
   }, [chosen]);
-  return html`<div class="add-display-list scroll" role="listbox" aria-label=${label} ref=${list}>
+  return html`<div class="add-display-list scroll" role="listbox" tabindex="0" aria-label=${label} ref=${list}>
     <${LongList} items=${offers} keyOf=${(/** @type {Offer} */ { key }) =>
       key} row="44px" isKept=${(/** @type {Offer} */ offer) => offer === offers[chosen]}
       draw=${(

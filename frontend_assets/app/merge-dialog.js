@@ -101,14 +101,14 @@ export function MergeDialog({ file, onClose }) {
 
 /** @param {{one: CollisionView, chosen: Side, onChoose: (side: Side) => void}} props the two sides beside each other, what both began with above */
 function Place({ one, chosen, onChoose }) {
-  return html`<section class="merge-place" role="radiogroup" aria-label=${t("disk.at", { line: one.line })}>
+  return html`<div class="merge-place" role="radiogroup" aria-label=${t("disk.at", { line: one.line })}>
     <h3>${t("disk.line", { line: one.line })}</h3>
     <pre class="merge-base" aria-label=${t("disk.before")}>${one.base}</pre>
     <div class="merge-sides">
       <${SideOf} side="mine" text=${one.mine} other=${one.theirs} chosen=${chosen === "mine"} onChoose=${onChoose} />
       <${SideOf} side="theirs" text=${one.theirs} other=${one.mine} chosen=${chosen === "theirs"} onChoose=${onChoose} />
     </div>
-  </section>`;
+  </div>`;
 }
 
 /** @param {{side: Side, text: string, other: string, chosen: boolean, onChoose: (side: Side) => void}} props what the other side has not is marked */

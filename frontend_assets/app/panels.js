@@ -2,7 +2,7 @@
 
 /** @import { Panel } from "../lib/dock.js" */
 
-import { html, render, useEffect, useState } from "vendor/preact.js";
+import { html, render, useEffect, useRef, useState } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
 import { until, untilIdle } from "../lib/idle.js";
 import { Icon, ProgressBar } from "../lib/ui.js";
@@ -195,7 +195,11 @@ function problemsBadge() {
 function Tab({ id }) {
   const entry = PANELS[id];
   const badge = entry?.badge?.();
-  return html`<span class="tab-face" title=${panelTitle(id)}><${Icon} name=${entry?.icon ?? "box"} /><span class="tab-label">${panelTitle(id)}</span>
+  const face = useRef(/** @type {HTMLElement | null} */ (null));
+  const name = [panelTitle(id), badge?.label].filter(Boolean).join(", ");
+  // The dock names its tab after the panel, without the count that stands in it.
+  useEffect(() => face.current?.closest('[role="tab"]')?.setAttribute("aria-label", name), [name]);
+  return html`<span class="tab-face" ref=${face} title=${panelTitle(id)}><${Icon} name=${entry?.icon ?? "box"} /><span class="tab-label">${panelTitle(id)}</span>${" "}
     ${badge && html`<span class=${`badge ${badge.tone}`} title=${badge.label} aria-label=${badge.label}>${badge.text}</span>`}</span>`;
 }
 
@@ -230,13 +234,18 @@ function Loaded({ id }) {
   return html`<${drawn.panel} />`;
 }
 
+/** @param {{id: string}} props its tab shows its name; whoever goes by headings hears it here */
+function Titled({ id }) {
+  return html`<h2 class="panel-title">${panelTitle(id)}</h2><${Loaded} id=${id} />`;
+}
+
 /** @param {string} id @returns {Panel} for the dock */
 function dockPanel(id) {
   const { keepsFrame = false } = PANELS[id] ?? {};
   return {
     title: () => panelTitle(id),
     keepsFrame,
-    mount: (element) => drawn(element, html`<${Loaded} id=${id} />`),
+    mount: (element) => drawn(element, html`<${Titled} id=${id} />`),
     mountTab: (element) => drawn(element, html`<${Tab} id=${id} />`),
   };
 }

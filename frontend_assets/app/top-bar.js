@@ -23,8 +23,8 @@ export function TopBar() {
   const { unsaved_count: count } = history.value;
   return html`<header class="top-bar">
     <div class="bar-left">
-    <a class="brand" href="/" aria-label=${t("brand.home")}><span class="logo"><${Icon} name="robot" size=${17} /></span>
-      <span class="brand-name">${t("brand")}</span></a>
+    <h1><a class="brand" href="/" aria-label=${t("brand.home")}><span class="logo"><${Icon} name="robot" size=${17} /></span>
+      <span class="brand-name">${t("brand")}</span></a></h1>
     <${DocumentMenu} />
     ${
       unsaved.value &&

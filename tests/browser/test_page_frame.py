@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 import pytest
@@ -52,7 +53,7 @@ def tab(tab: StudioPage) -> StudioPage:
 
 
 def panel_tab(tab: StudioPage, name: str) -> Locator:
-    return tab.page.get_by_role("tab", name=name, exact=True)
+    return tab.page.get_by_role("tab", name=re.compile(f"^{name}(,|$)"))
 
 
 def focus_is_in_editor(tab: StudioPage) -> bool:
