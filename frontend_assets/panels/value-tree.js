@@ -2,6 +2,7 @@
 
 import { html } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
+import { shownNumber } from "../lib/numbers.js";
 
 /** Lists and messages with more are folded at first. */
 const OPEN_MAX = 12;
@@ -17,12 +18,12 @@ export function ValueTree({ value, label }) {
 /** @param {{name: string, value: unknown}} props */
 function Entry({ name, value }) {
   if (typeof value !== "object" || value === null)
-    return html`<div class="value-row"><dt>${name}</dt><dd>${textOf(value)}</dd></div>`;
+    return html`<div class="value-row"><dt>${name}</dt><dd title=${wholeText(value)}>${textOf(value)}</dd></div>`;
   const entries = entriesOf(value);
   if (entries.length === 0)
     return html`<div class="value-row"><dt>${name}</dt><dd>${Array.isArray(value) ? "[]" : "{}"}</dd></div>`;
   if (Array.isArray(value) && value.length <= OPEN_MAX && value.every(isLeaf))
-    return html`<div class="value-row"><dt>${name}</dt><dd>[${value.map(textOf).join(", ")}]</dd></div>`;
+    return html`<div class="value-row"><dt>${name}</dt><dd title=${value.map(wholeText).join(", ")}>[${value.map(textOf).join(", ")}]</dd></div>`;
   return html`<details class="value-inner" open=${entries.length <= OPEN_MAX}><summary>${name}<small>${entries.length}</small></summary>
     <dl>${entries.slice(0, SHOWN_MAX).map(([key, inner]) => html`<${Entry} key=${key} name=${key} value=${inner} />`)}</dl></details>`;
 }
@@ -37,4 +38,8 @@ const entriesOf = (value) =>
 const isLeaf = (value) => typeof value !== "object" || value === null;
 
 /** @param {unknown} value */
-const textOf = (value) => (value === "" ? '""' : String(value));
+const wholeText = (value) => (value === "" ? '""' : String(value));
+
+/** @param {unknown} value @returns {string} a fraction with as many digits as are read */
+const textOf = (value) =>
+  typeof value === "number" && !Number.isInteger(value) ? shownNumber(value) : wholeText(value);

@@ -58,8 +58,11 @@ class SaveDesk:
         await document.opened()
         served = document.location.served
         files = (document.path, *document.sources.files)
-        folders = {Path(one).parent for one in files if served.may_write(one)}
-        await asyncio.to_thread(sweep, folders)
+
+        def sweep_folders() -> None:
+            sweep({Path(one).parent for one in files if served.may_write(one)})
+
+        await asyncio.to_thread(sweep_folders)
 
     async def resolve(self, command: ResolveCollisions) -> None:
         """Choose whose text stands where edits collide with a change on disk.
