@@ -4,6 +4,7 @@ Chromium tells of each frame that the real page draws; those become an animated 
 which they were drawn. What is only waited for is left out.
 """
 
+# pyright: reportUnknownMemberType=false
 from __future__ import annotations
 
 import base64
