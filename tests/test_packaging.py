@@ -131,7 +131,6 @@ def test_the_wheel_says_what_it_is(wheel: Path, names: list[str]):
 
 # Imported by a library of ours when they are there: what for.
 CALLED_BY_OTHERS = {
-    "httptools": "uvicorn parses HTTP with it",
     "uvloop": "uvicorn runs its loop on it",
 }
 

@@ -29,5 +29,5 @@ export function RosStatus() {
   };
   return html`<button type="button" class=${`status-button ros-status ${tone()}`} title=${t("ros.details")} onClick=${show}>
     <${Icon} name="link" size=${13} />${t("ros.bar", { state: inShort() })}</button>
-    ${isFound && html`<button type="button" class="status-button connect" onClick=${connectRos}>${t("ros.connect")}</button>`}`;
+    ${isFound && html`<button type="button" class="status-button connect" aria-label=${t("ros.connect.bar")} onClick=${connectRos}>${t("ros.connect")}</button>`}`;
 }
