@@ -47,14 +47,14 @@ def test_of_thousands_of_links_only_those_in_view_are_drawn_and_keys_reach_all(
         page = tab.page
         page.set_default_timeout(60_000)
         page.goto(studio.url)
-        first = page.get_by_role("treeitem", name="l0, ")
+        first = page.get_by_role("treeitem", name="l0", exact=True)
         first.wait_for()
         # The root has all others below it, whether they are drawn or not.
-        second = page.get_by_role("treeitem", name="l1, ")
+        second = page.get_by_role("treeitem", name="l1", exact=True)
         assert second.get_attribute("aria-setsize") == str(LINKS - 1)
         first.focus()
         page.keyboard.press("End")
-        last = page.get_by_role("treeitem", name=f"l{LINKS - 1}, ")
+        last = page.get_by_role("treeitem", name=f"l{LINKS - 1}", exact=True)
         wait_until(
             "the last link to have the focus",
             lambda: last.count() == 1 and last.evaluate("one => one === document.activeElement"),
@@ -67,7 +67,7 @@ def test_of_thousands_of_links_only_those_in_view_are_drawn_and_keys_reach_all(
             "its joint to be in view", lambda: joint.count() == 1 and joint.evaluate(_IN_VIEW)
         )
         page.get_by_role("searchbox", name="Filter displays and links").fill("l1234")
-        page.get_by_role("treeitem", name="l1234, ").wait_for()
+        page.get_by_role("treeitem", name="l1234", exact=True).wait_for()
         for panel in ("Problems", "Masses", "Properties"):
             show(page, panel)
             assert page.evaluate(_COUNT) < MOST_ELEMENTS, panel

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 pytestmark = pytest.mark.network
 WHOLE, ASK = "odd_msgs/msg/Whole", "odd_msgs/srv/Ask"
-POINT, STAMPED = "geometry_msgs/msg/Point", "geometry_msgs/msg/PointStamped"
+VECTOR, STAMPED = "geometry_msgs/msg/Vector3", "geometry_msgs/msg/Vector3Stamped"
 TEXTS = {
     "odd_msgs/msg/Part": "string name\n",
     WHOLE: "# All of it.\n\nPart[] parts\n",
@@ -71,7 +71,7 @@ def test_a_type_that_a_node_tells_is_known_with_its_parts_and_comments(endpoint:
 @pytest.mark.usefixtures("library")
 def test_comments_of_a_type_that_all_know_are_asked_of_a_node_that_has_its_text(endpoint: str):
     types = TypeLibrary("jazzy")
-    types.add_texts({POINT: "# Where it is.\n\nfloat64 x # ahead\nfloat64 y\nfloat64 z\n"})
+    types.add_texts({VECTOR: "# Where it is.\n\nfloat64 x # ahead\nfloat64 y\nfloat64 z\n"})
 
     async def run() -> None:
         with node_at(endpoint, "odd_one", types) as odd:
@@ -80,12 +80,12 @@ def test_comments_of_a_type_that_all_know_are_asked_of_a_node_that_has_its_text(
                 await until(lambda: bool(link.graph.publishers("/at")))
                 plain = await desk.interface(GetInterface(name=STAMPED))
                 told = await desk.interface(GetInterface(name=STAMPED, with_text=True))
-                point = await desk.interface(GetInterface(name=POINT))
+                vector = await desk.interface(GetInterface(name=VECTOR))
         assert (plain.text, told.hash) == ("", plain.hash)
         by_name = {one.name: one for one in told.messages}
-        assert by_name[POINT].comment == "Where it is."
-        assert point.messages[0].fields[0].comment == "ahead"
-        assert "float64 x # ahead" in point.text
+        assert by_name[VECTOR].comment == "Where it is."
+        assert vector.messages[0].fields[0].comment == "ahead"
+        assert "float64 x # ahead" in vector.text
 
     asyncio.run(run())
 
