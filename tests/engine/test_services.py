@@ -89,6 +89,7 @@ def test_checks_and_the_next_spare_worker_begin_after_the_last_mesh(tmp_path: Pa
             asked.set()
             await come.wait()
 
+        of_others = running("studio.description.worker"), running("studio.robot.worker")
         async with opening(tmp_path, let) as document:
             await asked.wait()
             for _ in range(20):  # there is time enough for all of it
@@ -96,12 +97,13 @@ def test_checks_and_the_next_spare_worker_begin_after_the_last_mesh(tmp_path: Pa
                 assert reply.problems is not None
                 await asyncio.sleep(0.02)
             assert "reversed-limits" not in told(document)
-            assert running("studio.description.worker") == 1  # its own: no spare yet
-            assert running("studio.robot.worker") <= mesh_worker_count()  # nobody validates
+            described, meshes = of_others[0] + 1, of_others[1] + mesh_worker_count()
+            assert running("studio.description.worker") <= described  # its own: no spare yet
+            assert running("studio.robot.worker") <= meshes  # nobody validates
             come.set()
             await until(lambda: "reversed-limits" in told(document))
-            await until(lambda: running("studio.description.worker") == 2)
-            await until(lambda: running("studio.robot.worker") > mesh_worker_count())
+            await until(lambda: running("studio.description.worker") > described)
+            await until(lambda: running("studio.robot.worker") > meshes)
 
     asyncio.run(run())
 
