@@ -51,7 +51,7 @@ def test_a_clicked_wheel_tells_its_radius_which_is_edited_there(tab: StudioPage)
     box = tab.row("wheel_radius").get_by_role("textbox").first
     box.fill("0.2")
     box.press("Enter")
-    wait_until("the number", lambda: "0.2  0.2  0.11429" in scale.inner_text())
+    wait_until("the number", lambda: "0.2  0.2  0.114286" in scale.inner_text())
     tab.show_other_than(before)
     panel(tab).get_by_role("button", name="wheel.xacro:", exact=False).first.click()
     line = tab.page.locator(".cm-activeLine")
