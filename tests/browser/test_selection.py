@@ -46,7 +46,7 @@ _AXES = """() => Object.entries(
   .filter(([name, node]) => name.endsWith("/studio_axis") && node)
   .map(([name]) => name.split("/")[2])"""
 _FRONT = """() => [...document.querySelectorAll('[role=tab][aria-selected=true]')]
-  .map((tab) => tab.textContent)"""
+  .map((tab) => tab.textContent.trim())"""
 _LINE_IN_VIEW = """(line) => {
   const { top, bottom } = line.getBoundingClientRect();
   const around = line.closest(".cm-scroller").getBoundingClientRect();
