@@ -189,10 +189,12 @@ def test_what_a_slow_callback_misses_of_a_real_publisher_is_counted(
             assert begun.wait(60)
             real.ask("publish", topic="/many", qos=QOS[0], data=["more"] * count)
             wait_until("another hears them all", lambda: len(all_of_them) == count + 1)
+            waiting = subscription._inbox.samples  # pyright: ignore[reportPrivateUsage]
+            wait_until("all came", lambda: missed(subscription) + len(waiting) == count)
         finally:
             waits.set()
         wait_until("the last is heard", lambda: numbers[-1] == count + 1)
-        # How many is up to the machine: the two sessions hear them at different moments.
+        # The queue keeps the whole last batch of its drain, so how many are missed varies.
         assert missed(subscription) > 0
         assert len(numbers) + missed(subscription) == count + 1
 
