@@ -64,6 +64,7 @@ class EditLoop:
     ) -> None:
         self.target = target
         self._worker, self._sources, self._take = worker, sources, take
+        self._opened_with = sources.arguments
         self._edits: list[Edit] = []
         self._reload: set[str] = set()
         self._open = True
@@ -226,17 +227,23 @@ class EditLoop:
         return outcome
 
     async def _run_saved(self) -> None:
-        """Have the files taken as they are saved: unsaved work of an earlier run gives no robot."""
-        since = self._sources.since_saved()
-        if not since:
-            return
+        """Have the files taken as they are saved: unsaved work of an earlier run gives no robot.
+
+        With its arguments where they give one, else with those that the document was opened with.
+        """
+        since, arguments = self._sources.since_saved(), self._sources.arguments
+        choices = [arguments] if since else []
+        if arguments != self._opened_with:
+            choices.append(self._opened_with)
         version = self._sources.spans.version
         self._sources.spans.note(since)  # first: what is edited meanwhile comes after it
-        outcome = await self._worker.open(replace(self._whole(), overlay={}))
-        self._open = True  # the worker does not hold the unsaved texts
-        if isinstance(outcome, Expansion):
-            self._has_robot = True
-            self._take(outcome, version)
+        for choice in choices:
+            outcome = await self._worker.open(replace(self._whole(), arguments=choice, overlay={}))
+            self._open = True  # the worker does not hold the unsaved work
+            if isinstance(outcome, Expansion):
+                self._has_robot = True
+                self._take(outcome, version)
+                return
 
     async def _run_changes(self) -> Outcome:
         """Send what changed; more than one kind of change opens anew."""

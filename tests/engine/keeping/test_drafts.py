@@ -111,6 +111,48 @@ def test_where_unsaved_work_gives_no_robot_the_saved_one_is_drawn_and_the_error_
     asyncio.run(run())
 
 
+ARM = """<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:arg name="tool" default="short"/>
+  <xacro:property name="reach" value="0.4"/>
+  <xacro:include filename="$(arg tool).xacro"/>
+</robot>
+"""
+TOOL = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro"><link name="{0}"/></robot>"""
+
+
+@pytest.mark.parametrize("broken", ["0.5", "${nonsense}"])
+def test_where_the_arguments_of_unsaved_work_give_no_robot_the_saved_one_is_drawn(
+    tmp_path: Path, broken: str
+):
+    tools = {f"urdf/{one}.xacro": TOOL.format(one) for one in ("short", "long")}
+    package = write_package(tmp_path / "arm_description", files={"urdf/arm.xacro": ARM, **tools})
+    arm, long = package / "urdf/arm.xacro", package / "urdf/long.xacro"
+
+    async def run() -> None:
+        async with engine(tmp_path / "data") as made:
+            document, ear = await opened(made, arm)
+            await document.history.pass_arguments({"tool": "long"})
+            await document.edit_site(ear.site("reach")["id"], broken, "")
+            edited = document.sources.text(str(arm))
+        long.unlink()
+        async with engine(tmp_path / "data") as made:
+            document, ear = await opened(made, arm)
+            assert list(document.model.robot.links) == ["short"]
+            assert (document.phase, document.failed) == ("ready", True)
+            assert "long.xacro" in str(ear.last("problems"))
+            assert ear.last("restored")["at"] != ""
+            assert document.sources.arguments == {"tool": "long"}
+            assert document.sources.text(str(arm)) == edited
+            long.write_text(TOOL.format("longer"))
+            await document.edit_site(ear.site("reach")["id"], "0.6", "")
+            assert list(document.model.robot.links) == ["longer"]
+            await made.execute(m.DiscardRestored(document=document.id), ear)
+            assert list(document.model.robot.links) == ["short"]
+            assert (document.sources.arguments, document.failed) == ({}, False)
+
+    asyncio.run(run())
+
+
 def test_what_the_disk_changed_meanwhile_is_merged(mast: Path, tmp_path: Path):
     async def run() -> None:
         await work(mast, tmp_path / "data")
