@@ -39,6 +39,7 @@ class Board:
         for event in self._snapshot():
             tell(listener, event)
         self.audience.add(listener)
+        self._document.poses.doubt()
 
     def state(self) -> None:
         """Tell what the document is: files, arguments, evaluator, phase."""

@@ -236,6 +236,10 @@ class _CheckServices(Services):
         self._idle: list[_LentWorker] = []
         self._lent: list[_LentWorker] = []
 
+    async def start(self) -> None:
+        """Warm the workers for meshes in the background."""
+        self._warm(self._pool.warm())
+
     def description_worker(self, opened: Opened | None = None) -> DescriptionWorker:
         """A worker that has nothing to do, or a new one; there is no spare."""
         del opened

@@ -14,7 +14,7 @@ from studio.robot.values import Robot
 from studio.robot.xml_tree import parse_tree
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Mapping
+    from collections.abc import Callable, Iterable, Iterator, Mapping, Set
 
     from studio.description.values import Expansion, Part
     from studio.problems import Problem
@@ -90,9 +90,9 @@ class Model:
         self.posed(links, poses)
         self.scene.flush()
 
-    def mesh_uris(self) -> frozenset[str]:
-        """Every mesh that the robot names."""
-        return frozenset(uri for _, uri in self._meshes_by_link())
+    def mesh_uris(self) -> Set[str]:
+        """Every mesh that the robot names, in the order of its links."""
+        return dict.fromkeys(uri for _, uri in self._meshes_by_link()).keys()
 
     def mesh_users(self) -> dict[str, Part]:
         """For each mesh, the first link that names it, as it was written."""

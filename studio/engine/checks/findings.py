@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from studio.problems import Problem, Severity
 
@@ -12,14 +12,16 @@ if TYPE_CHECKING:
 
 OF_A_CODE = 500
 """So many findings of one code are told: a large robot may have the same fault everywhere."""
+_ORIGINS: Final = ("packages", "expansion", "robot", "mesh", "checks", "validation")
+"""In the order in which they are told; any other origin comes after these."""
 _RANK = {Severity.ERROR: 0, Severity.WARNING: 1, Severity.INFO: 2}
 
 
 class Findings:
-    """Problems by origin (`expansion`, `robot`, `mesh:<uri>` ...): each origin heals its own."""
+    """Problems by origin (`expansion`, `robot`, `mesh` ...): each origin heals its own."""
 
     def __init__(self) -> None:
-        self._by_origin: dict[str, tuple[Problem, ...]] = {}
+        self._by_origin: dict[str, tuple[Problem, ...]] = dict.fromkeys(_ORIGINS, ())
 
     def replace(self, origin: str, problems: Iterable[Problem]) -> bool:
         """Set all that `origin` finds now; answers whether that changed anything."""
@@ -29,20 +31,8 @@ class Findings:
         self._by_origin[origin] = found
         return True
 
-    def keep_only(self, prefix: str, origins: Iterable[str]) -> bool:
-        """Drop the origins that start with `prefix` and are not in `origins`."""
-        kept = set(origins)
-        gone = [
-            origin
-            for origin, found in self._by_origin.items()
-            if origin.startswith(prefix) and origin not in kept and found
-        ]
-        for origin in gone:
-            del self._by_origin[origin]
-        return bool(gone)
-
     def all(self) -> tuple[Problem, ...]:
-        """Every problem once, errors first, else in the order in which they were found."""
+        """Every problem once: errors first, then by origin, each in its own order."""
         distinct = dict.fromkeys(problem for found in self._by_origin.values() for problem in found)
         kept = _bounded(distinct)
         return tuple(sorted(kept, key=lambda problem: _RANK[problem.severity]))

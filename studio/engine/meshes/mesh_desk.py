@@ -60,10 +60,13 @@ class MeshDesk:
     @property
     def problems(self) -> dict[str, Problem]:
         """What is wrong with meshes of the robot by URI, each at the first link that names it."""
-        named = self._document.model.mesh_uris() if self._loading.problems else frozenset[str]()
-        found = {uri: one for uri, one in self._loading.problems.items() if uri in named}
-        users = self._document.model.mesh_users() if found else {}
-        return {uri: _placed(found[uri], users.get(uri)) for uri in found}
+        model, found = self._document.model, self._loading.problems
+        if not found:
+            return {}
+        users = model.mesh_users()
+        return {
+            uri: _placed(found[uri], users.get(uri)) for uri in model.mesh_uris() if uri in found
+        }
 
     def trouble_of(self, uri: str) -> str:
         """Why a mesh cannot be shown, whoever names it, in a sentence."""

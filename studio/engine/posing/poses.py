@@ -54,8 +54,9 @@ class PoseDesk:
         yield self._list()
 
     def doubt(self) -> None:
-        """The robot may be another one: look soon, and not too often."""
-        self._lookout.doubt()
+        """The robot may be another one: look soon, and not too often, while anybody listens."""
+        if len(self._document.board.audience):
+            self._lookout.doubt()
 
     async def close(self) -> None:
         """End what runs for it."""

@@ -20,6 +20,14 @@ def test_an_origin_heals_its_own_findings_only():
     assert findings.all() == (NO_INERTIA,)
 
 
+def test_who_looked_first_does_not_matter_for_the_order():
+    other = Problem(Severity.WARNING, "urdf-rule", "A rule is broken.")
+    findings = Findings()
+    findings.replace("validation", [other])
+    findings.replace("robot", [NO_INERTIA])
+    assert findings.all() == (NO_INERTIA, other)
+
+
 def test_the_same_findings_again_are_no_news():
     findings = Findings()
     assert findings.replace("robot", [NO_INERTIA])

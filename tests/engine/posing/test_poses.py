@@ -12,7 +12,7 @@ import pytest
 from studio.engine import messages as m
 from studio.engine.messages.poses import ApplyPose, DeletePose, RenamePose, SavePose
 from studio.errors import CommandError, PosesFileError
-from tests.support.open_documents import engine, opened, until
+from tests.support.open_documents import Ear, engine, opened, until
 from tests.support.packages import write_package
 
 if TYPE_CHECKING:
@@ -20,7 +20,6 @@ if TYPE_CHECKING:
 
     from studio.engine.document import Document
     from studio.engine.engine import Engine
-    from tests.support.open_documents import Ear
 
 
 ARM = """<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
@@ -88,6 +87,18 @@ async def desk(entry: Path, data: Path, **arguments: str) -> AsyncGenerator[Desk
     async with engine(data) as made:
         document, ear = await opened(made, entry, **arguments)
         yield Desk(made, document, ear)
+
+
+def test_who_comes_to_a_robot_that_nobody_watched_hears_its_poses(tmp_path: Path):
+    async def run() -> None:
+        async with engine(tmp_path / "data") as made:
+            document = made.document(await made.open_path(write_arm(tmp_path / "src"), {}))
+            await document.opened()
+            ear = Ear()
+            document.board.attach(ear)
+            await until(lambda: [one["name"] for one in ear.last("poses")["poses"]] == ["folded"])
+
+    asyncio.run(run())
 
 
 def test_a_state_of_the_srdf_is_told_with_what_does_not_fit_and_is_taken(tmp_path: Path):
