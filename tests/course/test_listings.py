@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-import os
 import re
 import textwrap
 from pathlib import Path
@@ -11,10 +10,10 @@ from pathlib import Path
 import pytest
 
 from studio.nodes.demos.table import DEMOS
+from tests.support.corpus import corpus
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 LINES_AT_MOST = 80
-COURSE = Path(os.environ.get("STUDIO_CORPUS", "")).resolve().parent / "course"
 
 # The page, the class, and the demo that holds it; S3 and S2 keep their indentation.
 WHOLE = [
@@ -96,11 +95,17 @@ def plain_class(text: str) -> str:
     return ast.unparse(ast.fix_missing_locations(found))
 
 
+def text_of(page: str) -> str:
+    """A page of the course, which lies beside the corpus; skips the test where it is not."""
+    course = corpus().parent / "course"
+    if not course.is_dir():
+        pytest.skip(f"the course's pages are not in {course}, beside STUDIO_CORPUS")
+    return next(course.glob(f"{page}_*.txt")).read_text()
+
+
 def listing(page: str, start: str) -> str:
     """A class of a page, as far as its indentation goes."""
-    if not COURSE.is_dir():
-        pytest.skip("STUDIO_CORPUS is not set: the course's pages are not at hand")
-    text = next(COURSE.glob(f"{page}_*.txt")).read_text()
+    text = text_of(page)
     lines = text[text.index(start) :].splitlines()
     end = next(
         i for i, line in enumerate(lines[1:], 1) if line and not line.startswith((" ", "\t"))
@@ -123,9 +128,7 @@ def test_a_demo_is_the_courses_listing_apart_from_imports_and_main(
 @pytest.mark.corpus
 @pytest.mark.parametrize(("start", "demo"), FLAT, ids=[demo for _, demo in FLAT])
 def test_a_demo_has_the_lines_of_a_listing_that_lost_its_indentation(start: str, demo: str):
-    if not COURSE.is_dir():
-        pytest.skip("STUDIO_CORPUS is not set: the course's pages are not at hand")
-    text = next(COURSE.glob("004_*.txt")).read_text()
+    text = text_of("004")
     printed = text[text.index(start) :].partition("def main(")[0]
     assert flat(plain_class(source_of(demo))) == flat(printed)
 
