@@ -6,7 +6,7 @@
 import { effect } from "vendor/preact.js";
 import { centreOfMass, sumOf } from "../lib/masses.js";
 import { angleText, lengthText } from "../lib/measuring.js";
-import { formatNumber } from "../lib/numbers.js";
+import { shownNumber } from "../lib/numbers.js";
 import { addCommands } from "./commands.js";
 import { displays, robot } from "./state/document.js";
 import { millimetres } from "./state/frame-pair.js";
@@ -90,5 +90,5 @@ function followCentre() {
 function centreNow() {
   const [found, poses] = [masses.value, linkPoses.value];
   const at = showsCentre() && found && poses ? centreOfMass(found, poses) : null;
-  return found && at && { at, label: `${formatNumber(sumOf(found), 5)} kg` };
+  return found && at && { at, label: `${shownNumber(sumOf(found))} kg` };
 }

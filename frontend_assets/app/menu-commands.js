@@ -2,17 +2,16 @@
 
 /** @import { Command } from "./commands.js" */
 
-import { LANGUAGES, language } from "../lib/i18n.js";
-import { closeDocument, reload } from "./actions.js";
+import { LANGUAGES, language, t } from "../lib/i18n.js";
+import { closeDocument, goTo, reload } from "./actions.js";
 import { commandById } from "./commands.js";
 import { exportCommands } from "./export.js";
 import { graphicsCommands } from "./graphics.js";
-import { askToLogOut } from "./log-out.js";
 import { copyLink } from "./share.js";
 import { mayEdit } from "./state/connection.js";
 import { documentId, unsaved } from "./state/document.js";
 import { canCompare } from "./state/variants.js";
-import { dialog, isFree, languageChoice, themeChoice } from "./state/view.js";
+import { dialog, isFree, languageChoice, notify, themeChoice } from "./state/view.js";
 import { compareSides } from "./variants.js";
 
 const onDocument = () => mayEdit.value && isFree() && documentId.value !== "";
@@ -115,4 +114,23 @@ function languageCommands() {
       languageChoice.value = id;
     },
   }));
+}
+
+/** Everybody, and whoever asks for it as well. */
+function askToLogOut() {
+  dialog.value = {
+    kind: "confirm",
+    title: t("log_out"),
+    text: t("log_out.text"),
+    action: t("log_out.action"),
+    danger: true,
+    run: () => void logOut(),
+  };
+}
+
+async function logOut() {
+  const answer = await fetch("/api/log-out", { method: "POST" }).catch(() => null);
+  // Its front page turns this browser away, and says how to come back.
+  if (answer?.ok) goTo("");
+  else notify(answer?.status === 409 ? t("log_out.no_token") : t("log_out.failed"), { bad: true });
 }

@@ -1,13 +1,14 @@
 /** The bar below: is the studio there, how was the robot made, what is wrong, what is unsaved. */
 
-import { html } from "vendor/preact.js";
+import { html, useEffect } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
 import { Icon } from "../lib/ui.js";
 import { commandById } from "./commands.js";
-import { PublishingStatus } from "./publishing-status.js";
 import { RosStatus } from "./ros-status.js";
 import { heldBack } from "./state/alarm.js";
 import { connection, role, version } from "./state/connection.js";
+import { followDeeds } from "./state/deed-following.js";
+import { repeatedPublications } from "./state/deeds.js";
 import {
   built,
   documentState,
@@ -17,6 +18,7 @@ import {
   robot,
   showingLastGood,
 } from "./state/document.js";
+import { ros } from "./state/ros.js";
 import { viewport, viewportConnected } from "./viewport.js";
 
 export function StatusBar() {
@@ -89,4 +91,20 @@ function Unsaved() {
   const { unsaved_count: count, unsaved_files: files } = history.value;
   if (count === 0) return null;
   return html`<span class="amber" title=${files.join("\n")}><span class="dot"></span>${t("unsaved.count", { count })}</span>`;
+}
+
+/** What this studio publishes at a rate: seen from any panel, and one click from its end. */
+function PublishingStatus() {
+  const isJoined = ros.value.state === "connected";
+  useEffect(() => (isJoined ? followDeeds("publications") : undefined), [isJoined]);
+  const all = repeatedPublications.value;
+  const [first] = all;
+  if (!isJoined || !first) return null;
+  const shown =
+    all.length === 1
+      ? t("publishing.topic", { topic: first.name, rate: first.rate_hz })
+      : t("publishing.many", { count: all.length });
+  const hint = all.map(({ name, rate_hz: rate }) => t("publishing.topic", { topic: name, rate }));
+  return html`<button type="button" class="status-button amber" title=${[...hint, t("publishing.hint")].join("\n")}
+    onClick=${() => commandById("panel.publish")?.run()}><${Icon} name="send" size=${13} />${shown}</button>`;
 }

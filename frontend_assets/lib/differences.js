@@ -2,7 +2,7 @@
 
 /** @import { DifferenceView } from "../types/wire.d.ts" */
 
-import { formatNumber, shownNumber } from "./numbers.js";
+import { allDigits, shownNumber } from "./numbers.js";
 
 /** @typedef {"part" | "share" | "size"} Order by part, by per cent, or by the bare difference */
 
@@ -50,17 +50,23 @@ export function endOf(path, beside) {
   return parts.slice(at < 0 ? -1 : at).join("/");
 }
 
-/** @param {number} value @returns {string} with its sign */
-function signed(value) {
-  const text = formatNumber(value, 3);
+/** @param {number} value @param {(value: number) => string} write @returns {string} with its sign */
+function signed(value, write = shownNumber) {
+  const text = write(value);
   return value > 0 ? `+${text}` : text.replace("-", "−");
 }
 
-/** @param {DifferenceView} row @param {number} factor @returns {{delta: string, percent: string}} empty where there is none */
+/** @param {DifferenceView} row @param {number} factor @returns {{delta: string, percent: string, whole: string}} empty where there is none; `whole`: both with all digits */
 export function changeText({ delta, percent }, factor) {
   return {
     delta: delta === null ? "" : signed(delta * factor),
     percent: percent === null ? "" : `${signed(Number(percent.toPrecision(3)))}\u00a0%`,
+    whole: [
+      delta === null ? "" : signed(delta * factor, allDigits),
+      percent === null ? "" : `${signed(percent, allDigits)}\u00a0%`,
+    ]
+      .filter(Boolean)
+      .join(" "),
   };
 }
 

@@ -4,6 +4,7 @@
 /** @import { Pose, Triple } from "./kinematics.js" */
 
 import { AT_REST, moved, translationOf, turned, turnedBack } from "./kinematics.js";
+import { shownMeasure, toDegrees } from "./numbers.js";
 
 /**
  * Something that is measured, kept in the frame of its link so that it moves along: a point of a
@@ -134,17 +135,18 @@ export const sameAnchor = (one, other) => JSON.stringify(one) === JSON.stringify
  * @property {boolean} degrees
  */
 
-/** @param {number} value @param {number} digits behind the point @returns {string} never a zero with a sign */
-export const fixed = (value, digits) => value.toFixed(digits).replace(/^-(0\.0*)$/, "$1");
+/** @typedef {(value: number) => string} Write with how many digits */
 
-/** @param {number} value m @param {Units} units @returns {string} to a hundredth of a millimetre, without its unit */
-export const lengthNumber = (value, { millimetres }) =>
-  millimetres ? fixed(value * 1000, 2) : fixed(value, 5);
+/** @param {readonly number[]} values m @param {Units} units @param {Write} write @returns {string} with their unit */
+export const lengthsText = (values, { millimetres }, write = shownMeasure) => {
+  const texts = values.map((value) => write(millimetres ? value * 1000 : value));
+  return `${texts.join("  ")} ${millimetres ? "mm" : "m"}`;
+};
 
-/** @param {number} value m @param {Units} units @returns {string} with its unit */
-export const lengthText = (value, units) =>
-  `${lengthNumber(value, units)} ${units.millimetres ? "mm" : "m"}`;
+/** @param {number} value m @param {Units} units @param {Write} write @returns {string} with its unit */
+export const lengthText = (value, units, write = shownMeasure) =>
+  lengthsText([value], units, write);
 
-/** @param {number} value rad @param {Units} units @returns {string} with its unit */
-export const angleText = (value, { degrees }) =>
-  degrees ? `${fixed((value * 180) / Math.PI, 3)}°` : `${fixed(value, 5)} rad`;
+/** @param {number} value rad @param {Units} units @param {Write} write @returns {string} with its unit */
+export const angleText = (value, { degrees }, write = shownMeasure) =>
+  degrees ? `${write(toDegrees(value))}°` : `${write(value)} rad`;

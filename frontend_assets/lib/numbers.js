@@ -31,8 +31,17 @@ const SHOWN_DIGITS = 6;
 /** A number with a long fraction that is no part of a name, a path or a version. */
 const LONG_NUMBER = /(?<![\w./-])[+-]?\d+\.\d{5,}(e[+-]?\d+)?(?![\w./])/gi;
 
+/** Below it, in m, rad, mm or degrees, there is only noise of the arithmetic. */
+const NOISE = 1e-9;
+
 /** @param {number} value @returns {string} with as many digits as are read in a panel */
 export const shownNumber = (value) => formatNumber(value, SHOWN_DIGITS);
+
+/** @param {number} value a length or an angle that was computed @returns {string} as it is shown */
+export const shownMeasure = (value) => shownNumber(Math.abs(value) < NOISE ? 0 : value);
+
+/** @param {number} value @returns {string} with all digits that it has, for a title */
+export const allDigits = (value) => formatNumber(value, 15);
 
 /** @param {string} text @returns {string} its numbers as they are shown, all else as it is */
 export const shownNumbers = (text) => text.replace(LONG_NUMBER, (one) => shownNumber(Number(one)));

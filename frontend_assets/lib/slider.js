@@ -1,7 +1,7 @@
 /** A slider and a number box that share their manners: arrows step, Shift x10, Alt x0.1. */
 
 import { html, useEffect, useId, useRef, useSignal } from "vendor/preact.js";
-import { clamp, formatNumber, snap, steppedBy } from "./numbers.js";
+import { allDigits, clamp, formatNumber, parseNumber, snap, steppedBy } from "./numbers.js";
 
 /**
  * @typedef {object} SliderProps
@@ -138,10 +138,17 @@ export function TextBox(props) {
   const isLong = typed.value !== null && typed.value.length > FITS;
   return html`<input type="text" class=${`box ${names ?? ""} ${isLong ? "long" : ""}`} list=${offered.length > 0 ? id : null} aria-label=${label} value=${typed.value ?? text}
     disabled=${disabled} aria-invalid=${invalid ? "true" : null} spellcheck=${false} autocomplete="off" autocapitalize="off"
-    inputmode=${names?.includes("number") ? "decimal" : null} title=${text.length > 12 ? text : null}
+    inputmode=${names?.includes("number") ? "decimal" : null} title=${titleOf(text, number)}
     onInput=${(/** @type {any} */ event) => {
       typed.value = event.currentTarget.value;
     }} onKeyDown=${onKeyDown} onBlur=${write}
     onFocus=${(/** @type {any} */ event) => event.currentTarget.select()} />
     ${offered.length > 0 && html`<datalist id=${id}>${offered.map((one) => html`<option key=${one} value=${one}></option>`)}</datalist>`}`;
+}
+
+/** @param {string} text @param {number | null | undefined} number that it shows @returns {string | null} all digits, or a long text; null: the box shows as much */
+function titleOf(text, number) {
+  const shown = parseNumber(text);
+  if (typeof number === "number" && shown !== null && shown !== number) return allDigits(number);
+  return text.length > 12 ? text : null;
 }

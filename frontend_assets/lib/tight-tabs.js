@@ -41,7 +41,17 @@ function fit(header) {
     if (tabs.scrollWidth <= tabs.clientWidth) break;
   }
   header.classList.toggle("has-more-tabs", tabs.scrollWidth > tabs.clientWidth);
+  showActive(tabs);
   hideCut(tabs);
+}
+
+/** The tab of the panel that is seen stays in view when the row becomes narrower. @param {Element} tabs */
+function showActive(tabs) {
+  const active = tabs.querySelector(":scope > .dv-active-tab");
+  if (!active) return;
+  const [room, { left, right }] = [tabs.getBoundingClientRect(), active.getBoundingClientRect()];
+  if (right > room.right) tabs.scrollLeft += Math.ceil(right - room.right);
+  else if (left < room.left) tabs.scrollLeft -= Math.ceil(room.left - left);
 }
 
 /** A tab of which only a part is in view is not shown: the menu has it. @param {Element} tabs */

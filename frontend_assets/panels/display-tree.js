@@ -9,7 +9,7 @@ import { hovered, selected } from "../app/state/view.js";
 import { focusLink } from "../app/viewport.js";
 import { t } from "../lib/i18n.js";
 import { LongList } from "../lib/long-list.js";
-import { formatNumber, parseNumber } from "../lib/numbers.js";
+import { parseNumber, shownNumber } from "../lib/numbers.js";
 import { siblingPlaces } from "../lib/pieces.js";
 import { TextBox } from "../lib/slider.js";
 import { Icon, LongName } from "../lib/ui.js";
@@ -237,6 +237,6 @@ function NumberBox({ value, unit, label, set }) {
     const number = parseNumber(typed);
     if (number !== null) set(number);
   };
-  return html`<${TextBox} class="number narrow" label=${label} text=${value === 0 ? t("automatic") : formatNumber(value, 5)}
+  return html`<${TextBox} class="number narrow" label=${label} text=${value === 0 ? t("automatic") : shownNumber(value)} number=${value}
     disabled=${!mayEdit.value} onWrite=${onWrite} /><span class="unit">${unit}</span>`;
 }

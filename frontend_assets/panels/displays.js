@@ -11,7 +11,7 @@ import { selection } from "../app/state/selection.js";
 import { hiddenLinks, selected, showLink } from "../app/state/view.js";
 import { t } from "../lib/i18n.js";
 import { addedDisplay } from "../lib/live-displays.js";
-import { formatNumber } from "../lib/numbers.js";
+import { shownNumber } from "../lib/numbers.js";
 import { whenPlaced } from "../lib/seen.js";
 import { ancestorsOf, linkRows, withoutInertia } from "../lib/tree.js";
 import { EmptyState, SearchBox } from "../lib/ui.js";
@@ -160,7 +160,7 @@ function gridRows(filter, closed) {
     icon: "grid",
     expandable: below.length > 0,
     expanded: open,
-    meta: typeof cell === "number" ? `${formatNumber(cell, 4)} m` : "",
+    meta: typeof cell === "number" ? `${shownNumber(cell)} m` : "",
     ...eyeOf("grid", "visible"),
   };
   return [head, ...(open ? below : [])];

@@ -20,7 +20,7 @@ import {
 } from "../lib/frame-pose.js";
 import { t } from "../lib/i18n.js";
 import { translationOf } from "../lib/kinematics.js";
-import { shownNumber, toDegrees } from "../lib/numbers.js";
+import { shownMeasure, toDegrees } from "../lib/numbers.js";
 import { Icon, MenuButton } from "../lib/ui.js";
 
 /** @param {{pose: Pose}} props */
@@ -74,7 +74,7 @@ function Form({ title, unit, names, values, copies, note }) {
     <div class="frames-line">
       <div class="frames-values">${values.map(
         (value, at) =>
-          html`<span key=${at} class="frames-value"><small>${names[at]}</small><output class="numbers" title=${written(value)}>${shown(value)}</output></span>`,
+          html`<span key=${at} class="frames-value"><small>${names[at]}</small><output class="numbers" title=${written(value)}>${shownMeasure(value)}</output></span>`,
       )}</div>
       <span class="unit">${unit}</span>
       <${CopyMenu} label=${t("frames.copy", { what: title || t("frames.rpy") })} copies=${copies} />
@@ -93,19 +93,13 @@ function Matrix({ pose }) {
         pose,
       ).map(
         (row, at) =>
-          html`<tr key=${at}>${row.map((value, column) => html`<td key=${column} title=${written(value)}>${shown(value)}</td>`)}</tr>`,
+          html`<tr key=${at}>${row.map((value, column) => html`<td key=${column} title=${written(value)}>${shownMeasure(value)}</td>`)}</tr>`,
       )}</tbody></table>
       <span class="unit">m</span>
       <${CopyMenu} label=${t("frames.copy", { what: t("frames.matrix") })} copies=${copies} />
     </div>
   </div>`;
 }
-
-/** Below it, in m, rad, mm or degrees, there is only noise of the arithmetic. */
-const NOISE = 1e-9;
-
-/** @param {number} value @returns {string} */
-const shown = (value) => shownNumber(Math.abs(value) < NOISE ? 0 : value);
 
 /** @param {{label: string, copies: Copies}} props */
 function CopyMenu({ label, copies }) {

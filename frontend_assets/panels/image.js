@@ -14,7 +14,7 @@ import { topics } from "../app/state/topics.js";
 import { followTopics } from "../app/topics.js";
 import { saveAsFile } from "../lib/files.js";
 import { t } from "../lib/i18n.js";
-import { formatNumber } from "../lib/numbers.js";
+import { allDigits, shownNumber } from "../lib/numbers.js";
 import { useSilence } from "../lib/silence.js";
 import { Icon, IconButton, MenuButton, ProgressBar, Switch } from "../lib/ui.js";
 import { ImageCanvas } from "./image-canvas.js";
@@ -110,7 +110,7 @@ function RangeRow({ numbers, range, ask }) {
   const box = (
     /** @type {"low" | "high"} */ end,
   ) => html`<label class="image-end">${t(`image.${end}`)}
-    <input type="number" step="any" class="box" value=${formatNumber(shown[end], 5)} disabled=${range.value === null}
+    <input type="number" step="any" class="box" value=${shownNumber(shown[end])} title=${allDigits(shown[end])} disabled=${range.value === null}
       onChange=${(/** @type {any} */ event) => shade({ ...shown, [end]: event.currentTarget.valueAsNumber || 0 })} /></label>`;
   return html`<div class="panel-bar image-range" role="group" aria-label=${t("image.range")}>
     <${Switch} label=${t("image.auto")} checked=${range.value === null} onChange=${(/** @type {boolean} */ isAuto) => shade(isAuto ? null : numbers.range)} /><span aria-hidden="true">${t("image.auto_short")}</span>
@@ -136,7 +136,7 @@ function pointedWords({ pointed, numbers }) {
   if (!pointed) return "";
   const place = `${pointed.x}, ${pointed.y}`;
   if (pointed.values.some(Number.isNaN)) return t("image.pixel.none", { place });
-  const value = pointed.values.map((one) => formatNumber(one, 6)).join(" ");
+  const value = pointed.values.map((one) => shownNumber(one)).join(" ");
   return t("image.pixel", { place, value: numbers?.unit ? `${value} ${numbers.unit}` : value });
 }
 

@@ -17,7 +17,7 @@ import { degrees, hovered, selected } from "../app/state/view.js";
 import { t } from "../lib/i18n.js";
 import { rangeOf, unitsOf } from "../lib/joints.js";
 import { LongList } from "../lib/long-list.js";
-import { formatNumber, parseNumber } from "../lib/numbers.js";
+import { allDigits, parseNumber, shownMeasure, shownNumber } from "../lib/numbers.js";
 import { reveal } from "../lib/seen.js";
 import { Slider, TextBox } from "../lib/slider.js";
 import { EmptyState, Icon, SearchBox } from "../lib/ui.js";
@@ -98,7 +98,7 @@ function JointRow({ joint }) {
 
 /** @param {JointView} joint @returns {string} which joint it follows, and how far */
 function followText({ mimic, multiplier }) {
-  const name = multiplier === 1 ? mimic : `${mimic} × ${formatNumber(multiplier, 4)}`;
+  const name = multiplier === 1 ? mimic : `${mimic} × ${shownNumber(multiplier)}`;
   return t("joint.follows", { name });
 }
 
@@ -117,7 +117,7 @@ function JointBox({ joint }) {
     const number = parseNumber(typed);
     if (number !== null) moveJoint(joint.name, take(number));
   };
-  return html`<${TextBox} class="number" label=${joint.name} text=${value.toFixed(unit === "°" ? 1 : 3)} number=${value} step=${step}
+  return html`<${TextBox} class="number" label=${joint.name} text=${shownMeasure(value)} number=${value} step=${step}
       disabled=${off} onWrite=${onWrite} />
     <span class="unit">${unit}</span>`;
 }
@@ -127,9 +127,10 @@ function JointSlider({ joint }) {
   const { lower, upper, limited } = rangeOf(joint);
   const { unit, show, take, step } = unitsOf(joint, degrees.value);
   const value = show(position(joint.name).value);
-  const end = (/** @type {number} */ limit) => `${formatNumber(show(limit), unit === "°" ? 4 : 3)}`;
+  const end = (/** @type {number} */ limit) =>
+    html`<span title=${allDigits(show(limit))}>${shownMeasure(show(limit))}</span>`;
   return html`<${Slider} label=${t("joint.slider", { name: joint.name })} min=${show(lower)} max=${show(upper)} step=${step}
-      value=${value} text=${`${formatNumber(value, 4)} ${unit}`} disabled=${!mayMove.value || joint.mimic !== ""}
+      value=${value} text=${`${shownMeasure(value)} ${unit}`} disabled=${!mayMove.value || joint.mimic !== ""}
       onMove=${(/** @type {number} */ moved) => moveJoint(joint.name, take(moved))} onEnd=${jointsSettled} />
-    <div class="limits"><span>${end(lower)}</span><span>${limited ? "" : t("joint.unlimited")}</span><span>${end(upper)}</span></div>`;
+    <div class="limits">${end(lower)}<span>${limited ? "" : t("joint.unlimited")}</span>${end(upper)}</div>`;
 }

@@ -10,7 +10,7 @@ import { mayEdit } from "../app/state/connection.js";
 import { kinds, settingOf } from "../app/state/live.js";
 import { t } from "../lib/i18n.js";
 import { counts, settingRows } from "../lib/live-displays.js";
-import { formatNumber, niceStep, parseNumber } from "../lib/numbers.js";
+import { niceStep, parseNumber, shownNumber } from "../lib/numbers.js";
 import { PickBox } from "../lib/pick-box.js";
 import { TextBox } from "../lib/slider.js";
 import { Switch } from "../lib/ui.js";
@@ -168,7 +168,7 @@ function NumberEditor({ label, property, value, set }) {
   const { low, high, unit, kind } = property;
   if (low === 0 && high === 1 && kind === "number")
     return html`<input type="range" class="slider short" min="0" max="1" step="0.01" value=${value} aria-label=${label}
-      title=${formatNumber(value, 2)} disabled=${!mayEdit.value} style=${`--fill:${value * 100}%`}
+      title=${shownNumber(value)} disabled=${!mayEdit.value} style=${`--fill:${value * 100}%`}
       onInput=${(/** @type {any} */ event) => set(Number(event.currentTarget.value))} />`;
   const step = kind === "whole" ? 1 : niceStep(0, Math.max(Math.abs(value), 0.01) * 4);
   /** @param {string} typed */
@@ -178,6 +178,6 @@ function NumberEditor({ label, property, value, set }) {
     const within = Math.min(Math.max(number, low ?? number), high ?? number);
     set(kind === "whole" ? Math.round(within) : within);
   };
-  return html`<${TextBox} class="number narrow" label=${label} text=${formatNumber(value, 6)} number=${value} step=${step}
+  return html`<${TextBox} class="number narrow" label=${label} text=${shownNumber(value)} number=${value} step=${step}
     disabled=${!mayEdit.value} onWrite=${write} />${unit && html`<span class="unit">${unit}</span>`}`;
 }

@@ -25,8 +25,7 @@ import {
   sortedMasses,
   sumOf,
 } from "../lib/masses.js";
-import { fixed } from "../lib/measuring.js";
-import { formatNumber, shownNumber } from "../lib/numbers.js";
+import { allDigits, shownMeasure, shownNumber } from "../lib/numbers.js";
 import { baseName } from "../lib/paths.js";
 import { EmptyState, Icon, IconButton, MenuButton, ProgressBar, SearchBox } from "../lib/ui.js";
 
@@ -83,9 +82,9 @@ function Sum({ masses: found }) {
   const without = (robot.value?.links.length ?? 0) - found.length;
   const centre = linkPoses.value && centreOfMass(found, linkPoses.value);
   return html`<dl class="masses-sum">
-    <div><dt>${t("masses.sum")}</dt><dd><strong title=${formatNumber(sumOf(found), 15)}>${shownNumber(sumOf(found))}</strong> kg</dd></div>
+    <div><dt>${t("masses.sum")}</dt><dd><strong title=${allDigits(sumOf(found))}>${shownNumber(sumOf(found))}</strong> kg</dd></div>
     <div><dt title=${t("masses.centre.hint")}>${t("masses.centre", { frame: robot.value?.root ?? "" })}</dt>
-      <dd class="masses-centre">${centre ? html`${numbers(centre, (value) => fixed(value, 4))}m` : "–"}</dd></div>
+      <dd class="masses-centre" title=${centre?.map(allDigits).join(" ")}>${centre ? html`${centre.map((value) => [html`<span>${shownMeasure(value)}</span>`, " "])}m` : "–"}</dd></div>
     <div><dt>${t("masses.links")}</dt><dd>${t("masses.links.count", { count: found.length })}${
       without > 0 &&
       html` <span class="muted" title=${t("masses.without.hint")}>${t("masses.without", { count: without })}</span>`
@@ -108,8 +107,8 @@ function Table({ rows, order }) {
       <${SortHead} order=${order} by="mass" words=${t("masses.mass")} unit="kg" class="number" />
       <th scope="col">${t("masses.share")}</th>
       <${SortHead} order=${order} by="density" words=${t("masses.density")} unit="kg/m³" class="number" />
-      <th scope="col" class="number" title=${t("masses.com.hint")}>${t("masses.com")} <small>m</small></th>
-      <${SortHead} order=${order} by="moment" words=${t("masses.moments")} unit="kg m²" class="number" />
+      <th scope="col" colspan="3" class="number" title=${t("masses.com.hint")}>${t("masses.com")} <small>m</small></th>
+      <${SortHead} order=${order} by="moment" span=${3} words=${t("masses.moments")} unit="kg m²" class="number" />
       <th scope="col" class="where">${t("masses.place")}</th>
     </tr></thead>
     <${LongList} items=${rows} keyOf=${nameOf} row="var(--row)" inTable
@@ -128,11 +127,11 @@ function useShowSelected(element) {
   }, [chosen]);
 }
 
-/** @param {{order: Signal<MassOrder>, by: MassOrder, words: string, unit?: string, class?: string}} props */
-function SortHead({ order, by, words, unit, class: name }) {
+/** @param {{order: Signal<MassOrder>, by: MassOrder, words: string, unit?: string, span?: number, class?: string}} props */
+function SortHead({ order, by, words, unit, span = 1, class: name }) {
   const on = order.value === by;
   const how = by === "link" ? "ascending" : "descending";
-  return html`<th scope="col" class=${name ?? ""} aria-sort=${on ? how : "none"}>
+  return html`<th scope="col" colspan=${span} class=${name ?? ""} aria-sort=${on ? how : "none"}>
     <button type="button" class="sort" title=${t(`masses.sort.${by}`)} onClick=${() => {
       order.value = by;
     }}>${words}${unit && html` <small>${unit}</small>`}${on && html`<${Icon} name="chevronDown" size=${12} />`}</button></th>`;
@@ -152,7 +151,7 @@ function Row({ row, number }) {
     <td class="number" title=${mass.mass_kg}>${shownNumber(mass.mass_kg)}</td>
     <td class="share"><span class="share-bar" style=${`--share:${(100 * share).toFixed(2)}%`}></span><span class="share-text">${(100 * share).toFixed(1)} %</span></td>
     <${DensityCell} row=${row} />
-    <td class="number three" title=${mass.centre_m.join(" ")}>${numbers(mass.centre_m, (value) => fixed(value, 4))}</td>
+    ${mass.centre_m.map((value) => html`<td class="number three" title=${mass.centre_m.join(" ")}>${shownMeasure(value)}</td>`)}
     <${Moments} mass=${mass} />
     <td class="where">${link && html`<${PlaceLink} place=${{ file: link.file, line: link.line, column: 1 }} words=${placeWords(link)} />`}
       <${IconButton} icon="origin" label=${t("masses.why", { name: mass.link })} size=${14} onClick=${() => explain(mass.link)} /></td>
@@ -177,20 +176,11 @@ function Moments({ mass }) {
   );
   const possible = isPossible(mass);
   const hint = [...written, ...(possible ? [] : [t("masses.impossible")])].join("\n");
-  return html`<td class=${`number three ${possible ? "" : "odd"}`} title=${hint}>
-    ${mass.moments_kg_m2 ? numbers(mass.moments_kg_m2, shortNumber) : "–"}
-    ${!possible && html`<${Icon} name="alert" size=${13} /><span class="hidden-words">${t("masses.impossible")}</span>`}</td>`;
-}
-
-/** @param {readonly number[]} values @param {(value: number) => string} write each in a place of its own, with blanks between for those who copy */
-const numbers = (values, write) => values.map((value) => [html`<span>${write(value)}</span>`, " "]);
-
-/** @param {number} value @returns {string} three digits, and small ones as powers */
-function shortNumber(value) {
-  const size = Math.abs(value);
-  return size === 0 || (size >= 1e-4 && size < 1e6)
-    ? formatNumber(value, 3)
-    : value.toExponential(1);
+  const moments = mass.moments_kg_m2?.map(shownNumber) ?? ["", "", "–"];
+  return moments.map(
+    (text, at) => html`<td class=${`number three ${possible ? "" : "odd"}`} title=${hint}>${text}
+      ${at === 2 && !possible && html`<${Icon} name="alert" size=${13} /><span class="hidden-words">${t("masses.impossible")}</span>`}</td>`,
+  );
 }
 
 /** @param {{row: MassRow}} props held against the room that the shapes take */
@@ -200,7 +190,7 @@ function DensityCell({ row: { mass, density } }) {
     .join("\n");
   if (!density) return html`<td class="number muted" title=${hint}>–</td>`;
   const odd = isOddDensity(density);
-  const words = `${density.isExact ? "" : "≥ "}${formatNumber(density.kg_m3, 3)}`;
+  const words = `${density.isExact ? "" : "≥ "}${shownNumber(density.kg_m3)}`;
   return html`<td class=${`number ${odd ? "odd" : ""}`} title=${odd ? `${hint}\n${t("masses.odd")}` : hint}>${words}
     ${odd && html`<${Icon} name="alert" size=${13} /><span class="hidden-words">${t("masses.odd")}</span>`}</td>`;
 }
@@ -208,5 +198,5 @@ function DensityCell({ row: { mass, density } }) {
 /** @param {MassRow["mass"]["visual"]} volume @returns {string} in litres */
 function volumeText(volume) {
   if (!volume) return t("masses.volume.unknown");
-  return `${volume.is_exact ? "" : "≤ "}${formatNumber(1000 * volume.volume_m3, 4)} dm³`;
+  return `${volume.is_exact ? "" : "≤ "}${allDigits(1000 * volume.volume_m3)} dm³`;
 }

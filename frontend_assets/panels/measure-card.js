@@ -1,6 +1,6 @@
 /** The card of the measuring tool over the 3D view: what to click next, and what was measured. */
 
-/** @import { Anchor, Measured, Placed, Units } from "../lib/measuring.js" */
+/** @import { Anchor, Measured, Placed, Units, Write } from "../lib/measuring.js" */
 /** @import { Measure } from "../app/state/measuring.js" */
 
 import { html, useSignal } from "vendor/preact.js";
@@ -25,7 +25,8 @@ import { degrees, hovered, notify } from "../app/state/view.js";
 import { copyText } from "../lib/clipboard.js";
 import { t } from "../lib/i18n.js";
 import { LinkPicker } from "../lib/link-picker.js";
-import { anchorName, anchorOfPart, angleText, lengthNumber, lengthText } from "../lib/measuring.js";
+import { anchorName, anchorOfPart, angleText, lengthsText } from "../lib/measuring.js";
+import { allDigits } from "../lib/numbers.js";
 import { Icon, IconButton } from "../lib/ui.js";
 
 export function MeasureCard() {
@@ -123,7 +124,7 @@ function Row({ measure, found }) {
   const facts = found ? factsOf(found, units) : [];
   const [main, ...others] = facts;
   const copy = async () => {
-    const lines = facts.map(([words, text]) => `${words}: ${text}`);
+    const lines = facts.map(([words, text]) => `${words}: ${text()}`);
     const names = measure.ends.map(anchorName).join(" – ");
     const done = await copyText([names, ...lines].join("\n"));
     notify(t(done ? "copied" : "copy.failed"), { bad: !done });
@@ -133,34 +134,32 @@ function Row({ measure, found }) {
       <${IconButton} icon="copy" label=${t("measure.copy")} size=${14} onClick=${copy} />
       <${IconButton} icon="trash" label=${t("measure.delete")} size=${14} onClick=${() => deleteMeasure(measure.id)} /></div>
     ${!found && html`<p class="muted">${t("measure.gone")}</p>`}
-    ${main && html`<p class="measure-main" title=${main[0]}><output aria-label=${main[0]}>${main[1]}</output></p>`}
-    <dl>${others.map(([words, text]) => html`<div><dt>${words}</dt><dd>${text}</dd></div>`)}</dl>
+    ${main && html`<p class="measure-main" title=${`${main[0]}: ${main[1](allDigits)}`}><output aria-label=${main[0]}>${main[1]()}</output></p>`}
+    <dl>${others.map(([words, text]) => html`<div><dt>${words}</dt><dd title=${text(allDigits)}>${text()}</dd></div>`)}</dl>
   </li>`;
 }
 
-/** @param {Measured} found @param {Units} units @returns {[string, string][]} words and numbers, the chief one first */
+/** @param {Measured} found @param {Units} units @returns {[string, (write?: Write) => string][]} words and numbers, the chief one first */
 function factsOf({ ends, distance, inRoot, inFirst, toAxis, angle, corner }, units) {
   const [first, second] = /** @type {[Placed, Placed]} */ (/** @type {unknown} */ (ends));
-  const three = (/** @type {readonly number[]} */ values) =>
-    values.map((value) => lengthNumber(value, units)).join("  ");
-  const unit = units.millimetres ? "mm" : "m";
-  /** @type {[string, string][]} */
+  /** @param {readonly number[]} values @returns {(write?: Write) => string} */
+  const lengths = (values) => (write) => lengthsText(values, units, write);
+  /** @param {number} value @returns {(write?: Write) => string} */
+  const turn = (value) => (write) => angleText(value, units, write);
+  /** @type {[string, (write?: Write) => string][]} */
   const facts = [];
   if (ends.length > 2) {
     const middle = { name: anchorName(second.anchor) };
-    facts.push([t("measure.corner", middle), corner === null ? "–" : angleText(corner, units)]);
+    facts.push([t("measure.corner", middle), corner === null ? () => "–" : turn(corner)]);
   }
-  facts.push([t("measure.distance"), lengthText(distance, units)]);
-  if (toAxis !== null) facts.push([t("measure.to_axis"), lengthText(toAxis, units)]);
-  facts.push([t("measure.in", { frame: robot.value?.root ?? "" }), `${three(inRoot)} ${unit}`]);
+  facts.push([t("measure.distance"), lengths([distance])]);
+  if (toAxis !== null) facts.push([t("measure.to_axis"), lengths([toAxis])]);
+  facts.push([t("measure.in", { frame: robot.value?.root ?? "" }), lengths(inRoot)]);
   if (first.anchor.link !== robot.value?.root)
-    facts.push([t("measure.in", { frame: first.anchor.link }), `${three(inFirst)} ${unit}`]);
+    facts.push([t("measure.in", { frame: first.anchor.link }), lengths(inFirst)]);
   if (angle !== null) {
     const [one, other] = [first, second].map(({ anchor }) => t(`measure.direction.${anchor.kind}`));
-    facts.push([
-      t("measure.angle", { one: one ?? "", other: other ?? "" }),
-      angleText(angle, units),
-    ]);
+    facts.push([t("measure.angle", { one: one ?? "", other: other ?? "" }), turn(angle)]);
   }
   return facts;
 }

@@ -16,7 +16,14 @@ import {
   writtenText,
 } from "../lib/expressions.js";
 import { t } from "../lib/i18n.js";
-import { formatNumber, niceStep, parseNumber, toDegrees, toRadians } from "../lib/numbers.js";
+import {
+  formatNumber,
+  niceStep,
+  parseNumber,
+  shownNumber,
+  toDegrees,
+  toRadians,
+} from "../lib/numbers.js";
 import { Slider, TextBox } from "../lib/slider.js";
 import { Switch } from "../lib/ui.js";
 
@@ -91,7 +98,7 @@ function scaleOf(site, value) {
 
 /** @param {SiteView} site @param {string} text @param {number} value @returns {string} degrees, else as written */
 function boxText(site, text, value) {
-  return inDegrees(site) ? formatNumber(toDegrees(value), 6) : text.trim();
+  return inDegrees(site) ? shownNumber(toDegrees(value)) : text.trim();
 }
 
 /** @param {EditorProps} props */
@@ -124,7 +131,7 @@ function NumberSlider({ site, text, writer }) {
   const { lower, upper, step, value: shown, toFile } = scaleOf(site, value);
   const unit = inDegrees(site) ? "°" : site.widget.unit;
   return html`<${Slider} label=${t("property.slider", { name: site.name })} min=${lower} max=${upper} step=${step}
-    value=${shown} text=${`${formatNumber(shown, 6)} ${unit}`.trim()} disabled=${!mayEdit.value}
+    value=${shown} text=${`${shownNumber(shown)} ${unit}`.trim()} disabled=${!mayEdit.value}
     onMove=${(/** @type {number} */ moved) => writer.write(formatNumber(toFile(moved)), { held: true })} onEnd=${writer.end} />`;
 }
 

@@ -1,8 +1,9 @@
 /** The 3D view: viser's page in a frame that is never reloaded, with its tools and notices over it. */
 
-import { html, useEffect, useRef } from "vendor/preact.js";
+import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { mend, openPath, setDisplay, undo, worstProblem } from "../app/actions.js";
 import { commandById } from "../app/commands.js";
+import { targetFrame } from "../app/following.js";
 import { GraphicsNotice } from "../app/graphics.js";
 import { PlaceLink } from "../app/place-link.js";
 import { heldBack } from "../app/state/alarm.js";
@@ -16,13 +17,13 @@ import {
   robot,
   showingLastGood,
 } from "../app/state/document.js";
+import { fixedFrame, frameTrouble } from "../app/state/live.js";
 import { measuring } from "../app/state/measuring.js";
 import { dialog, mouseMode, theme } from "../app/state/view.js";
 import { attachViewport, VIEWS, viewport } from "../app/viewport.js";
 import { t } from "../lib/i18n.js";
 import { Icon, IconButton, MenuButton, ProgressBar } from "../lib/ui.js";
 import { FixedFrame } from "./fixed-frame.js";
-import { FollowOffer } from "./follow-offer.js";
 import { MeasureCard } from "./measure-card.js";
 import { TargetFrame } from "./target-frame.js";
 
@@ -171,4 +172,25 @@ function NoticeButtons({ problem }) {
   const fix = problem?.fix?.action === "undo" ? null : problem?.fix;
   return html`${problem && fix && html`<button type="button" class="button" onClick=${() => mend(problem)}>${fix.label}</button>`}
     ${history.value.undo.length > 0 && html`<button type="button" class="button" onClick=${() => undo()}>${t("undo_edit")}</button>`}`;
+}
+
+/** Offers to follow the robot once the view is fixed to a frame in which it drives away. */
+function FollowOffer() {
+  const declinedFor = useSignal("");
+  const fixed = fixedFrame.value;
+  const root = robot.value?.root ?? "";
+  const isOfRobot = robot.value?.links.some(({ name }) => name === fixed) ?? false;
+  const isFollowing = targetFrame.value !== "";
+  if (!fixed || !root || isOfRobot || isFollowing || frameTrouble.value) return null;
+  if (declinedFor.value === fixed) return null;
+  const follow = () => {
+    targetFrame.value = root;
+  };
+  const decline = () => {
+    declinedFor.value = fixed;
+  };
+  return html`<div class="scene-hint" role="status"><${Icon} name="info" size=${15} />
+    <span>${t("follow.offer", { frame: fixed })}</span>
+    <button type="button" class="text-button" onClick=${follow}>${t("follow.do", { frame: root })}</button>
+    <${IconButton} icon="close" size=${14} label=${t("dismiss")} onClick=${decline} /></div>`;
 }

@@ -16,7 +16,7 @@ import {
 } from "../app/state/driving.js";
 import { speedOf, together } from "../lib/driving.js";
 import { t } from "../lib/i18n.js";
-import { formatNumber } from "../lib/numbers.js";
+import { allDigits, shownNumber } from "../lib/numbers.js";
 import { Slider } from "../lib/slider.js";
 import { Switch } from "../lib/ui.js";
 import { Hands } from "./teleop-hands.js";
@@ -99,13 +99,13 @@ function Speed() {
 
 /** @param {string} word @param {number} speed @param {string} unit */
 const speedPart = (word, speed, unit) =>
-  html`<div><dt>${t(word)}</dt><dd>${speed.toFixed(2)} <span class="muted">${unit}</span></dd></div>`;
+  html`<div><dt>${t(word)}</dt><dd title=${allDigits(speed)}>${shownNumber(speed)} <span class="muted">${unit}</span></dd></div>`;
 
 /** @param {typeof BOUNDS[number]} bound a slider */
 function Limit({ name, unit, min, max, step }) {
   const value = driveLimits.value[name];
   const label = t(`teleop.${name}`);
-  const text = `${formatNumber(value, 3)} ${unit}`;
+  const text = `${shownNumber(value)} ${unit}`;
   return html`<span>${label}</span><output>${text}</output><${Slider} label=${label} min=${min} max=${max} step=${step} value=${value} text=${text} disabled=${!mayEdit.value}
     onMove=${(/** @type {number} */ moved) => {
       driveLimits.value = { ...driveLimits.peek(), [name]: moved };

@@ -9,6 +9,7 @@ import { mayEdit } from "../app/state/connection.js";
 import { setBackground } from "../app/turtle-background.js";
 import { clear, isServed, kill, reset, setPen } from "../app/turtle-deeds.js";
 import { t } from "../lib/i18n.js";
+import { allDigits } from "../lib/numbers.js";
 import { hexOf } from "../lib/turtles.js";
 import { Icon, Switch } from "../lib/ui.js";
 
@@ -62,8 +63,11 @@ function Row({ turtle: { name }, now, isChosen, choose }) {
         ...{ speed: now.forward.toFixed(1) },
       })
     : t("turtlesim.not_heard");
+  const whole = now?.isHere
+    ? [now.x, now.y, heading, now.forward].map(allDigits).join(" · ")
+    : null;
   return html`<button type="button" class="turtle-row" aria-pressed=${isChosen} onClick=${() => choose(name)}>
-    <span class="turtle-name">${name}</span><span class="turtle-pose">${place}</span></button>`;
+    <span class="turtle-name">${name}</span><span class="turtle-pose" title=${whole}>${place}</span></button>`;
 }
 
 /** @param {{icon: string, word: string, service: string, run: () => void, off?: boolean, pressed?: boolean}} props a button that calls a service */

@@ -21,7 +21,7 @@ import {
   valueText,
 } from "../lib/differences.js";
 import { t } from "../lib/i18n.js";
-import { formatNumber, shownNumbers } from "../lib/numbers.js";
+import { allDigits, shownNumbers } from "../lib/numbers.js";
 import { Icon, SearchBox } from "../lib/ui.js";
 
 const SHOWN = 200;
@@ -188,7 +188,7 @@ function Cell({ row, value, factor }) {
     typeof value === "string" && /^(link|joint|\w+\.shape|visual|collision)$/.test(row.what)
       ? word(value)
       : text;
-  const whole = typeof value === "number" ? formatNumber(value * factor, 15) : words;
+  const whole = typeof value === "number" ? allDigits(value * factor) : words;
   return html`<${Value} text=${words} whole=${whole} none=${value === null} />`;
 }
 
@@ -203,7 +203,7 @@ function colorOf(rgba) {
 function Change({ row, factor }) {
   if (row.one === null) return html`<span class="came">${t("compare.added")}</span>`;
   if (row.other === null) return html`<span class="went">${t("compare.removed")}</span>`;
-  const { delta, percent } = changeText(row, factor);
+  const { delta, percent, whole } = changeText(row, factor);
   if (!delta) return html`<span class="muted">${t("compare.changed")}</span>`;
-  return html`<span class="value">${delta}</span>${percent && html`<small class="muted">${percent}</small>`}`;
+  return html`<span class="value" title=${whole}>${delta}</span>${percent && html`<small class="muted">${percent}</small>`}`;
 }

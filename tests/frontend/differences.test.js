@@ -60,12 +60,23 @@ test("a change has a sign, and per cent where there is something to compare with
   assert.deepEqual(changeText(row({ delta: 0.015, percent: 14.2857 }), 1), {
     delta: "+0.015",
     percent: "+14.3\u00a0%",
+    whole: "+0.015 +14.2857\u00a0%",
   });
   assert.deepEqual(changeText(row({ delta: -2, percent: null }), 2), {
     delta: "−4",
     percent: "",
+    whole: "−4",
   });
-  assert.deepEqual(changeText(row({ delta: null, percent: null }), 1), { delta: "", percent: "" });
+  assert.deepEqual(changeText(row({ delta: -1 / 3, percent: null }), 1), {
+    delta: "−0.333333",
+    percent: "",
+    whole: "−0.333333333333333",
+  });
+  assert.deepEqual(changeText(row({ delta: null, percent: null }), 1), {
+    delta: "",
+    percent: "",
+    whole: "",
+  });
 });
 
 test("all words of the filter must be in the part or the label", () => {

@@ -6,9 +6,11 @@ import {
   anchorOfPart,
   angleBetween,
   angleText,
+  lengthsText,
   lengthText,
   measured,
 } from "../../frontend_assets/lib/measuring.js";
+import { allDigits } from "../../frontend_assets/lib/numbers.js";
 
 /** @import { Anchor } from "../../frontend_assets/lib/measuring.js" */
 /** @import { Pose } from "../../frontend_assets/lib/kinematics.js" */
@@ -115,8 +117,10 @@ test("numbers have their unit and a zero no sign", () => {
     { millimetres: false, degrees: false },
     { millimetres: true, degrees: true },
   ];
-  assert.equal(lengthText(-1e-9, si), "0.00000 m");
-  assert.equal(lengthText(0.1234567, usual), "123.46 mm");
-  assert.equal(angleText(Math.PI / 3, usual), "60.000°");
-  assert.equal(angleText(-0.5, si), "-0.50000 rad");
+  assert.equal(lengthText(-1e-10, si), "0 m");
+  assert.equal(lengthText(0.1234567, usual), "123.457 mm");
+  assert.equal(lengthsText([0.24080000000000001, -1 / 3], si), "0.2408  -0.333333 m");
+  assert.equal(lengthText(0.1234567, usual, allDigits), "123.4567 mm");
+  assert.equal(angleText(Math.PI / 3, usual), "60°");
+  assert.equal(angleText(-1 / 3, si), "-0.333333 rad");
 });

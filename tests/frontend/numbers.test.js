@@ -1,10 +1,12 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import {
+  allDigits,
   decimalsOf,
   formatNumber,
   niceStep,
   parseNumber,
+  shownMeasure,
   shownNumber,
   shownNumbers,
   snap,
@@ -69,6 +71,12 @@ test("a panel shows six significant digits, and no float noise", () => {
   assert.equal(shownNumber(0.24080000000000001), "0.2408");
   assert.equal(shownNumber(-12.3456789), "-12.3457");
   assert.equal(shownNumber(1 / 3), "0.333333");
+  assert.equal(shownNumber(0.0000141482666), "0.0000141483");
+  assert.equal(shownNumber(-6e-17), "-6e-17");
+  assert.equal(shownMeasure(-6e-17), "0");
+  assert.equal(shownMeasure(89.99999999999), "90");
+  assert.equal(allDigits(0.1 + 0.2), "0.3");
+  assert.equal(allDigits(1 / 3), "0.333333333333333");
 });
 
 test("numbers in a text are shortened, names, paths and versions are not", () => {
