@@ -8,12 +8,13 @@ import pytest
 
 from tests.support.server import running_studio
 from tests.support.studio_page import StudioPage, changed_bytes, studio_page, wait_until
-from tests.support.wire import free_port
+from tests.support.wire import free_port, running_router
+from tests.support.wired_tab import connect
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from playwright.sync_api import Browser
+    from playwright.sync_api import Browser, Locator
 
     from tests.support.server import RunningStudio
 
@@ -93,14 +94,32 @@ def test_two_documents_in_two_tabs_are_independent(
 
 def test_the_page_comes_back_by_itself_with_everything_as_it_was(browser: Browser, tmp_path: Path):
     port = free_port()  # one that nobody is lent while no studio holds it
-    first_one = running_studio(["demo"], tmp_path / "data", port=port)
-    with first_one as first, studio_page(browser, first) as tab:
+    with (
+        running_router() as endpoint,
+        running_studio(["demo", "--connect", endpoint], tmp_path / "data", port=port) as first,
+        studio_page(browser, first) as tab,
+    ):
+        connect(tab)
+        ros = tab.page.locator(".ros-status")
+        wait_until("ROS 2 to be joined", lambda: "connected" in status_of(ros))
         first.stop()
         wait_until("the page to say so", lambda: "Studio: offline" in tab.page.inner_text("body"))
-        with running_studio(["demo"], tmp_path / "data", port=port) as second:
+        assert status_of(ros) == "ROS: unknown"
+        with running_studio(
+            ["demo", "--connect", endpoint], tmp_path / "data", port=port
+        ) as second:
             wait_until(
                 "the page to be back", lambda: "Studio: offline" not in tab.page.inner_text("body")
             )
             second.hear_sites("rover")
             wait_until("the robot to be drawn", tab.has_drawn_robot)
             assert tab.drag_slider("wheel_radius", 0.9) != "0.105"
+            wait_until("ROS 2 to be joined again", lambda: "connected" in status_of(ros))
+
+
+def status_of(ros: Locator) -> str:
+    """What the status bar says of ROS 2, which is green where it is connected and nowhere else."""
+    words = ros.inner_text().strip()
+    is_green = "good" in (ros.get_attribute("class") or "").split()
+    assert is_green == ("ROS: connected" in words), words
+    return words

@@ -178,14 +178,10 @@ def test_the_masses_of_the_links_their_sum_and_centre_follow_the_joints(
     tab.page.get_by_role("tab", name="Masses").click()
     panel = tab.page.locator("section[aria-label='Masses']")
     centre = panel.locator(".masses-centre")
-    wait_until(
-        "the centre", lambda: centre.inner_text().split()[:3] == ["0.075", "0", "0.125"]
-    )
+    wait_until("the centre", lambda: centre.inner_text().split()[:3] == ["0.075", "0", "0.125"])
     assert "4 kg" in panel.locator(".masses-sum").inner_text()
     set_joints(studio, turn=math.pi / 2)
-    wait_until(
-        "it to move", lambda: centre.inner_text().split()[:3] == ["0.025", "0.05", "0.125"]
-    )
+    wait_until("it to move", lambda: centre.inner_text().split()[:3] == ["0.025", "0.05", "0.125"])
     names = panel.locator("tbody .link-name")
     assert names.all_inner_texts() == ["base", "arm"]
     panel.get_by_role("button", name="Density").click()

@@ -40,6 +40,7 @@ pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(600)
 R2D2 = Path(__file__).parents[2] / "models" / "r2d2_description" / "urdf" / "r2d2.urdf.xacro"
 TOPIC = "/r2d2/robot_description"
 _PATIENCE_S = 120.0
+_MAY_DRIVE_OUT = "the robot may drive out of it"
 _POSES = """(root) => {
   const { nodeRefFromName } = document.querySelector("iframe").contentWindow.__viserMutable;
   const found = {};
@@ -195,9 +196,22 @@ def test_r2d2_goes_its_round_and_the_scan_of_the_rover_lies_on_the_walls(
         told, scene = heard(node, TF, "/tf", 1000), Scene(tab, studio)
         robot = scene.add("RobotModel", TOPIC)
         goes_round_in_odom(scene, robot, told)
+        offers_to_follow(tab, "odom", "Dismiss")
         stands_still_in_axis(scene, robot)
         scan_lies_on_the_walls(scene, node)
+        offers_to_follow(tab, "map", "Follow base_footprint")
+        tab.page.get_by_role("button", name="The camera goes with base_footprint").wait_for()
+        scene.draw_in("odom")
+        wait_until("the robot in odom", lambda: "robot" in scene.poses(""), _PATIENCE_S)
+        assert not tab.page.get_by_text(_MAY_DRIVE_OUT).is_visible()
         assert tab.errors == []
+
+
+def offers_to_follow(tab: StudioPage, frame: str, answer: str) -> None:
+    """Once, where the fixed frame is none of the robot's."""
+    offer = tab.page.locator(".scene-hint", has_text=f"The view is fixed to {frame}")
+    offer.get_by_role("button", name=answer).click(timeout=1000 * _PATIENCE_S)
+    wait_until("the offer to go", lambda: offer.count() == 0)
 
 
 def goes_round_in_odom(scene: Scene, robot: str, told: Sequence[Any]) -> None:
