@@ -200,7 +200,7 @@ class Document:
     async def edit_site(self, site: str, text: str, gesture: str) -> None:
         """Write a new text at a site and show what it does."""
         edit = self.sources.edit_site(site, text, gesture)
-        self.drafts.note()
+        self.drafts.note(shown=False)
         await self._timed(self._runs.edit((edit,), in_gesture=bool(gesture)))
 
     async def edit_text(self, command: EditText) -> None:

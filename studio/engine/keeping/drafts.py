@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 _WRITE_AFTER_S: Final = 0.3
 """From a draft to the next one; the first edit of a pause is written at once."""
 _WRITE_LARGE_AFTER_S: Final = 3.0
+_SHOWN_WITHIN_S: Final = 0.05
+"""An edit is shown before it is written, but for a run that takes longer."""
 _LARGE_BYTES: Final = 1 << 20
 _LIMIT_BYTES: Final = 64 << 20
 _STEPS_KEPT: Final = 300
@@ -42,7 +44,7 @@ class DraftDesk:
         self._restored = Restored(at="", files=())
         self._writing: asyncio.Task[None] | None = None
         self._is_noted = self._is_forgotten = False
-        self._ended = asyncio.Event()
+        self._shown, self._ended = asyncio.Event(), asyncio.Event()
 
     def events(self) -> Iterable[Restored]:
         """What a newcomer is told."""
@@ -61,10 +63,17 @@ class DraftDesk:
         if draft is not None and draft.entry == self._document.path:
             self._take(draft)
 
-    def note(self) -> None:
-        """Something may have changed: write it down soon, and not too often."""
+    def note(self, *, shown: bool = True) -> None:
+        """Something may have changed: write it down soon, and not too often.
+
+        Of what is not `shown` yet, it is to be said once more when it is.
+        """
         self._is_noted = True
         self._end_notice()
+        if shown:
+            self._shown.set()
+        else:
+            self._shown.clear()
         if self._file is not None and (self._writing is None or self._writing.done()):
             self._writing = asyncio.create_task(self._write_while_noted())
 
@@ -91,6 +100,7 @@ class DraftDesk:
 
     async def close(self) -> None:
         """Write what is not written yet, and leave the draft to the next run."""
+        self._shown.set()
         self._ended.set()
         if self._writing:
             await self._writing
@@ -138,6 +148,9 @@ class DraftDesk:
 
     async def _write_while_noted(self) -> None:
         while self._is_noted:
+            if not self._shown.is_set():
+                with suppress(TimeoutError):
+                    await asyncio.wait_for(self._shown.wait(), _SHOWN_WITHIN_S)
             await self._write()
             known = self._written
             large = known is not None and known.size_bytes > _LARGE_BYTES

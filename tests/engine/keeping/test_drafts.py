@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import asyncio
+import os
+import signal
+import sys
 from typing import TYPE_CHECKING
 
 import pytest
@@ -16,6 +19,7 @@ from tests.support.packages import write_package
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from studio.description.editing.kept_sources import KeptSources
     from studio.engine.document import Document
 
 
@@ -220,6 +224,51 @@ def test_a_draft_is_written_soon_and_goes_when_nothing_is_left_of_it(mast: Path,
             await until(lambda: any((tmp_path / "data/drafts").glob("*.json")))
             await document.edit_site(ear.site("reach")["id"], "0.4", "drag")
             await until(lambda: not any((tmp_path / "data/drafts").glob("*.json")))
+
+    asyncio.run(run())
+
+
+def test_an_edit_is_shown_before_it_is_written_down(
+    mast: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    # On a busy machine a run may take longer than an edit otherwise waits to be written.
+    monkeypatch.setattr("studio.engine.keeping.drafts._SHOWN_WITHIN_S", 60.0)
+    monkeypatch.setattr("studio.engine.keeping.drafts._WRITE_AFTER_S", 0.0)
+    tips: list[list[float]] = []
+
+    async def run() -> None:
+        async with engine(tmp_path / "data") as made:
+            document, ear = await opened(made, mast)
+            kept = document.sources.kept
+
+            def note() -> KeptSources:
+                if b'value="0.5"' in document.sources.text(str(mast)):
+                    tips.append(tip_of(document))
+                return kept()
+
+            monkeypatch.setattr(document.sources, "kept", note)
+            await document.edit_site(ear.site("reach")["id"], "0.5", "")
+            await until(lambda: bool(tips))
+            assert tips[0] == [0.1, 0, 0.5]
+
+    asyncio.run(run())
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGSTOP")
+def test_an_edit_that_is_not_shown_for_long_is_written_down_meanwhile(mast: Path, tmp_path: Path):
+    async def run() -> None:
+        async with engine(tmp_path / "data") as made:
+            document, ear = await opened(made, mast)
+            assert document.worker_pid is not None
+            os.kill(document.worker_pid, signal.SIGSTOP)
+            edit = asyncio.create_task(document.edit_site(ear.site("reach")["id"], "0.5", ""))
+            try:
+                await until(lambda: any((tmp_path / "data/drafts").glob("*.json")))
+                assert tip_of(document) == [0.1, 0, 0.4]
+            finally:
+                os.kill(document.worker_pid, signal.SIGCONT)
+            await edit
+            assert tip_of(document) == [0.1, 0, 0.5]
 
     asyncio.run(run())
 
