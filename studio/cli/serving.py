@@ -17,6 +17,9 @@ if TYPE_CHECKING:
     from studio.settings import Settings
 
 _HIGHEST_PORT = 65535
+_NEW_OBJECTS_MAX = 5_000
+"""From one collection of garbage to the next: an edit makes up to a thousand, and is collected
+after, when nobody waits for it."""
 
 
 def add_server_options(parser: argparse.ArgumentParser) -> None:
@@ -118,6 +121,7 @@ def serve(
     from studio.web.launch import Opening, launch
 
     gc.freeze()
+    gc.set_threshold(_NEW_OBJECTS_MAX)
     gc.enable()
     opening = Opening(path, arguments, nodes, joins_ros=nodes is not None)
     launch(settings, opening, viewer_link=options.viewer_link)

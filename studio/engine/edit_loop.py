@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import gc
 import logging
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Final, TypeAlias
@@ -198,6 +199,8 @@ class EditLoop:
             await self._check_once()
         except Exception:  # noqa: BLE001 - those who wait for a turn must get it
             _log.exception("A look at what was patched failed.")
+        if not self._waiters:
+            gc.collect(1)  # what edits left: now nobody waits for it
         await self._take_turns()
 
     async def _check_once(self) -> None:

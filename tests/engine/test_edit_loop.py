@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import gc
 import os
 import signal
 import sys
@@ -101,6 +102,35 @@ def test_after_a_quiet_moment_patches_are_looked_at_once_and_nothing_is_told(
             await loop.close()
 
     asyncio.run(run())
+
+
+def test_what_edits_leave_is_collected_when_they_are_checked_and_nobody_waits(tmp_path: Path):
+    source = robot('<xacro:property name="m" value="1"/><link name="a"/><m v="${m * 2}"/>')
+    file = write(tmp_path, {"a.xacro": source})
+    start = source.index('"1"') + 1
+    collected: list[int] = []
+
+    def note(phase: str, info: dict[str, int]) -> None:
+        if phase == "stop":
+            collected.append(info["generation"])
+
+    async def run() -> None:
+        loop = loop_over(file, [])
+        try:
+            await loop.reopen()
+            gc.callbacks.append(note)
+            await loop.edit((Edit(str(file), start, start + 1, b"2"),))
+            await until(lambda: bool(collected))
+            assert collected == [1]
+        finally:
+            await loop.close()
+
+    gc.disable()
+    try:
+        asyncio.run(run())
+    finally:
+        gc.callbacks.remove(note)
+        gc.enable()
 
 
 WAYS: list[Callable[[LoopStory], Awaitable[None]]] = [
