@@ -109,8 +109,9 @@ class Worker:
                 raise WorkerDiedError(self.name, await self._end())
             process = await self._ensure_process()
             try:
+                self._send(process, request)  # first: it works while we get ready to wait
                 async with _time_to_run(process.pid, timeout_s):
-                    body = await self._exchange(process, request)
+                    body = await self._receive(process)
                 message = self._codec.unpack(body)
             except TimeoutError as error:
                 await self._end()
@@ -156,10 +157,13 @@ class Worker:
             start_new_session=True,
         )
 
-    async def _exchange(self, process: asyncio.subprocess.Process, request: object) -> bytes:
+    def _send(self, process: asyncio.subprocess.Process, request: object) -> None:
+        assert process.stdin is not None
+        process.stdin.write(self._codec.pack(request))
+
+    async def _receive(self, process: asyncio.subprocess.Process) -> bytes:
         assert process.stdin is not None
         assert process.stdout is not None
-        process.stdin.write(self._codec.pack(request))
         await process.stdin.drain()
         (length,) = _LENGTH.unpack(await process.stdout.readexactly(_LENGTH.size))
         return await process.stdout.readexactly(length)
