@@ -200,11 +200,11 @@ class Assembly:
         return self._dress(link, found)
 
     def _dress(self, link: Link, found: tuple[Material | None, ...]) -> Link:
-        visuals = tuple(
-            dataclasses.replace(visual, material=material)
+        visuals = tuple(  # not by `replace`: that takes most of the time of a drag
+            Visual(visual.origin, visual.geometry, material, visual.name)
             for visual, material in zip(link.visuals, found, strict=True)
         )
-        resolved = dataclasses.replace(link, visuals=visuals)
+        resolved = Link(link.name, visuals, link.collisions, link.inertial)
         self._resolved[link.name] = (link, found, resolved)
         return resolved
 

@@ -313,24 +313,29 @@ def _numbers(
     if written is None:
         raise RobotError(f"{where}: <{element.tag}> has no {key}: write one.")
     try:
-        numbers = _read_numbers(written)
+        numbers, largest = _read_numbers(written)
     except ValueError as error:
         raise _wrong(where, element, key, "numbers") from error
-    if not all(-limit < one < limit for one in numbers):
+    if not largest < limit:
         raise _wrong(where, element, key, "finite numbers")
     return numbers
 
 
 @lru_cache(maxsize=4096)
-def _read_numbers(written: str) -> tuple[float, ...]:
-    """Numbers between blanks; most texts of a part stay as they were.
+def _read_numbers(written: str) -> tuple[tuple[float, ...], float]:
+    """Numbers between blanks and the largest absolute one, NaN if any is; 0 for none.
+
+    Most texts of a part stay as they were.
 
     Raises:
         ValueError: A word is no number.
     """
     if "_" in written or not written.isascii():  # numbers to Python, to no other reader of URDF
         raise ValueError(written)
-    return tuple(map(float, written.split()))
+    numbers = tuple(map(float, written.split()))
+    if any(map(math.isnan, numbers)):
+        return numbers, math.nan
+    return numbers, max(map(abs, numbers), default=0.0)
 
 
 def _wrong(where: str, element: Element, key: str, wanted: str) -> RobotError:
