@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from studio.robot.textured import scale_of
@@ -52,8 +53,11 @@ def look_of(material: Material | None, robot: Robot) -> Look:
     rgba = material.rgba if material else None
     if material is not None and rgba is None and material.name in robot.materials:
         rgba = robot.materials[material.name].rgba
-    if rgba is None:
-        return Look(DEFAULT_RGB)
+    return Look(DEFAULT_RGB) if rgba is None else _look_of_rgba(rgba)
+
+
+@lru_cache(maxsize=1 << 10)
+def _look_of_rgba(rgba: tuple[float, float, float, float]) -> Look:
     red, green, blue, alpha = (min(max(channel, 0.0), 1.0) for channel in rgba)
     return Look((round(red * 255), round(green * 255), round(blue * 255)), alpha)
 

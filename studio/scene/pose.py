@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from studio.robot.rotations import rows_of_turn, wxyz_from_matrices
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     from studio.scene.node import Quaternion
 
 
+@lru_cache(maxsize=1 << 12)  # an edit turns few of the shapes that it draws
 def wxyz_from_rpy(rpy_rad: Vector3) -> Quaternion:
     """Unit quaternion of fixed-axis roll, pitch, yaw; angles that are no numbers count as 0."""
     roll, pitch, yaw = (angle / 2 if math.isfinite(angle) else 0.0 for angle in rpy_rad)
