@@ -3,10 +3,11 @@
 import { html } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
 import { later } from "../lib/later.js";
-import { Dialog, DialogAside } from "../lib/ui.js";
+import { Dialog, DialogParts } from "../lib/ui.js";
 import { GraphicsDialog } from "./graphics.js";
 import { DialogHelp } from "./help.js";
 import { MergeDialog } from "./merge-dialog.js";
+import { Notices } from "./notices.js";
 import { Palette } from "./palette.js";
 import { ShareDialog } from "./share.js";
 import { dialog } from "./state/view.js";
@@ -27,9 +28,11 @@ const close = () => {
   dialog.value = null;
 };
 
-/** The window that is open, with the way to its help in its head. */
+const PARTS = { help: DialogHelp, notices: Notices };
+
+/** The window that is open, with the way to its help in its head, and the notices over it. */
 export function Dialogs() {
-  return html`<${DialogAside.Provider} value=${DialogHelp}><${ShownDialog} /><//>`;
+  return html`<${DialogParts.Provider} value=${PARTS}><${ShownDialog} /><//>`;
 }
 
 function ShownDialog() {

@@ -3,19 +3,20 @@
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
 import { later } from "../lib/later.js";
-import { Icon, IconButton, MenuButton } from "../lib/ui.js";
+import { Icon, MenuButton } from "../lib/ui.js";
 import { goTo, openPath } from "./actions.js";
 import { commandById } from "./commands.js";
 import { Dialogs } from "./dialogs.js";
 import { DropLayer } from "./drop.js";
 import { LeftWorkBar } from "./left-work-bar.js";
 import { DiskBars } from "./merge-dialog.js";
+import { Notices } from "./notices.js";
 import { PANELS, panelTitle } from "./panels.js";
 import { RestoredBar } from "./restored-bar.js";
 import { connection, role, turnedAway } from "./state/connection.js";
 import { documentId, documentState, gone } from "./state/document.js";
 import { help } from "./state/help.js";
-import { activePanel, dismiss, notices, size } from "./state/view.js";
+import { activePanel, dialog, size } from "./state/view.js";
 import { StatusBar } from "./status-bar.js";
 import { TopBar } from "./top-bar.js";
 
@@ -40,7 +41,7 @@ export function Shell({ onDock }) {
     <main ref=${dock} id="dock" class="dock" aria-label=${t("dock")}></main>
     ${size.value === "phone" ? html`<${PhoneTabs} />` : html`<${StatusBar} />`}
     ${documentId.value === "" && html`<${StartCard} />`}
-    <${Notices} />
+    ${dialog.value === null && html`<${Notices} />`}
     <${Dialogs} />
     ${help.value && html`<${HelpPlace} />`}
     <${DropLayer} />
@@ -85,16 +86,6 @@ function GoneBar() {
   return html`<div class="bar gone" role="alert"><${Icon} name="info" /><span>${t("gone")}</span>
     ${role.value === "presenter" && state && html`<button type="button" class="button small" onClick=${again}>${t("gone.again")}</button>`}
     <button type="button" class="button small" onClick=${() => goTo("")}>${t("gone.home")}</button></div>`;
-}
-
-function Notices() {
-  return html`<div class="notices" aria-live="polite">${notices.value.map(
-    (
-      notice,
-    ) => html`<div key=${notice.id} class=${`notice ${notice.bad ? "bad" : ""}`} role=${notice.bad ? "alert" : "status"}>
-    <${Icon} name=${notice.bad ? "error" : "check"} /><span>${notice.text}</span>
-    <${IconButton} icon="close" size=${14} label=${t("dismiss")} onClick=${() => dismiss(notice.id)} /></div>`,
-  )}</div>`;
 }
 
 const PHONE_PANELS = ["scene", "properties", "joints", "displays"];

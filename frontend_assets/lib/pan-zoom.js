@@ -10,6 +10,8 @@ const SCALE_MAX = 3;
 /** Below it no name can be read: of a large drawing a part is shown rather. */
 const FIT_MIN = 0.55;
 const MARGIN = 34;
+/** Where only so little around it lets all of it be seen. */
+const MARGIN_LEAST = 8;
 
 /** @param {View} view @param {number} factor @param {{x: number, y: number}} at stays where it is @param {number} [closest] the largest scale @param {number} [farthest] the smallest @returns {View} */
 export function zoomed(view, factor, at, closest = SCALE_MAX, farthest = SCALE_MIN) {
@@ -32,17 +34,21 @@ export function resized(view, before, now) {
 
 /** @param {Size} drawing @param {Size} frame @param {{x: number, y: number}} [heart] of the drawing: where all of it has no room, what is around this @returns {View} in the middle, as large as can be read */
 export function fitted(drawing, frame, heart = { x: 0, y: 0 }) {
-  const wide = (frame.width - 2 * MARGIN) / Math.max(drawing.width, 1);
-  const high = (frame.height - 2 * MARGIN) / Math.max(drawing.height, 1);
-  const scale = Math.max(FIT_MIN, Math.min(1, wide, high));
+  const within = (/** @type {number} */ around) =>
+    Math.min(
+      (frame.width - 2 * around) / Math.max(drawing.width, 1),
+      (frame.height - 2 * around) / Math.max(drawing.height, 1),
+    );
+  const margin = [MARGIN, MARGIN_LEAST].find((one) => within(one) >= FIT_MIN) ?? MARGIN;
+  const scale = Math.max(FIT_MIN, Math.min(1, within(margin)));
   const place = (
     /** @type {number} */ inner,
     /** @type {number} */ outer,
     /** @type {number} */ middle,
   ) => {
     const room = outer - inner * scale;
-    if (room >= 2 * MARGIN) return room / 2;
-    return clamp(outer / 2 - middle * scale, room - MARGIN, MARGIN);
+    if (room >= 2 * margin) return room / 2;
+    return clamp(outer / 2 - middle * scale, room - margin, margin);
   };
   return {
     x: place(drawing.width, frame.width, heart.x),

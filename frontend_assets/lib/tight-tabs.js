@@ -54,11 +54,12 @@ function showActive(tabs) {
   else if (left < room.left) tabs.scrollLeft -= Math.ceil(room.left - left);
 }
 
-/** A tab of which only a part is in view is not shown: the menu has it. @param {Element} tabs */
+/** A tab of which only a part is in view is not shown, but for the one in front: the menu has it. @param {Element} tabs */
 function hideCut(tabs) {
   const room = tabs.getBoundingClientRect();
   for (const tab of tabs.children) {
     const { left, right } = tab.getBoundingClientRect();
-    tab.classList.toggle("cut-tab", left < room.left - 1 || right > room.right + 1);
+    const isCut = left < room.left - 1 || right > room.right + 1;
+    tab.classList.toggle("cut-tab", isCut && !tab.matches(".dv-active-tab"));
   }
 }

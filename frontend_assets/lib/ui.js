@@ -271,8 +271,8 @@ function onMenuKey(menu, event, close) {
   event.stopPropagation();
 }
 
-/** What stands in the head of every window beside the way out of it. */
-export const DialogAside = createContext(/** @type {(() => ComponentChildren) | null} */ (null));
+/** What every window has: in its head beside the way out, and over it what the page tells meanwhile. @typedef {{help: () => ComponentChildren, notices: () => ComponentChildren}} Parts */
+export const DialogParts = createContext(/** @type {Parts | null} */ (null));
 
 /**
  * A modal window. Escape and a click beside it close it.
@@ -282,7 +282,7 @@ export const DialogAside = createContext(/** @type {(() => ComponentChildren) | 
 export function Dialog({ title, closeLabel, class: names, onClose, children }) {
   const element = useRef(/** @type {HTMLDialogElement | null} */ (null));
   const heading = useId();
-  const aside = useContext(DialogAside);
+  const parts = useContext(DialogParts);
   // Before the next key press: what is typed right after a shortcut belongs to the dialog.
   useLayoutEffect(() => {
     const before = document.activeElement;
@@ -301,9 +301,10 @@ export function Dialog({ title, closeLabel, class: names, onClose, children }) {
     onCancel=${onClose} onClick=${closeBeside}>
     <section class="dialog-body">
       <header><h2 id=${heading}>${title}</h2>
-        ${aside && html`<${aside} />`}<${IconButton} icon="close" label=${closeLabel} class="dialog-close" onClick=${onClose} /></header>
+        ${parts && html`<${parts.help} />`}<${IconButton} icon="close" label=${closeLabel} class="dialog-close" onClick=${onClose} /></header>
       ${children}
     </section>
+    ${parts && html`<${parts.notices} />`}
   </dialog>`;
 }
 

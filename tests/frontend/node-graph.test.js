@@ -125,6 +125,9 @@ test("a drawing too large to be read whole shows what is around its heart", () =
   assert.equal(wide.x + 2000 * wide.scale, 200, "it is in the middle");
   const corner = fitted({ width: 4000, height: 100 }, frame, { x: 0, y: 0 });
   assert.ok(corner.x > 0 && corner.x < 100, "no more is empty than around it");
+  const tight = fitted({ width: 100, height: 500 }, frame, { x: 50, y: 250 });
+  assert.ok(tight.scale > 0.55 && tight.y > 0, "it is seen whole, with less around it");
+  assert.ok(tight.y + 500 * tight.scale < frame.height);
 });
 
 /** @param {string} id */
