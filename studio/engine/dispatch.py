@@ -63,7 +63,7 @@ _VIEW: Final = (
     _row(m.SetDisplay, lambda d, c, _: d.set_display(c.display, c.name, value=c.value)),
 )
 _QUESTIONS: Final = (
-    _row(m.GetUrdf, lambda d, c, _: m.Urdf(request=c.request, text=d.urdf())),
+    _row(m.GetUrdf, lambda d, c, _: d.expanded.urdf(c)),
     _row(m.GetUrdfChanges, lambda d, c, _: d.expanded.changes(c)),
     _row(m.GetOrigin, lambda d, c, who: d.origins.origin(c, who)),
     _row(m.GetEffects, lambda d, c, who: d.origins.effects(c, who)),

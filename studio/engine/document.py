@@ -24,7 +24,7 @@ from studio.engine.keeping.sharing import SharedFile, place_edits
 from studio.engine.live.live_desk import LiveDesk
 from studio.engine.meshes.mesh_desk import MeshDesk
 from studio.engine.messages import Built, Saved
-from studio.engine.model import Model
+from studio.engine.model import Model, urdf_text
 from studio.engine.packages_used import PackagesUsed
 from studio.engine.policy import target_of
 from studio.engine.posing.motion import Motion
@@ -162,10 +162,10 @@ class Document:
         self._spawn("opening", self._open())
 
     def learn_types(self) -> None:
-        """Take up the types of the opened packages beside, and get ready for displays."""
+        """Take up the types of the opened packages beside, and get ready for what comes later."""
         self._spawn("types", self._take_types())
         self._spawn("sweep", self.saving.sweep())
-        self._spawn("displays", self.live.prepare())
+        self._spawn("imports", self._services.import_rest(self.opened))
 
     async def _take_types(self) -> None:
         self.board.find("types", await asyncio.to_thread(take_types, self.location))
@@ -269,15 +269,16 @@ class Document:
         self.board.displays()
         self.variants.doubt()
 
-    def urdf(self) -> str:
-        """The expanded URDF of the last good run.
+    async def urdf(self) -> str:
+        """The expanded URDF of the last good run, written in another thread.
 
         Raises:
             CommandError: There was none yet.
         """
         if self.expansion is None:
             raise CommandError(f"{self.title} has not been expanded yet: mend its problems first.")
-        return self.model.urdf(self.expansion.root_attributes)
+        parts, root = self.model.assembly.parts(), self.expansion.root_attributes
+        return await asyncio.to_thread(urdf_text, parts, root)
 
     async def ask(self, query: Query, reply: type[AnyReply], asker: Listener) -> AnyReply:
         """Ask the worker about the last good run.

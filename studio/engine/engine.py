@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import gc
 import os
 import re
 from functools import partial
@@ -250,8 +251,11 @@ class Engine:
             self.default_document = next(iter(self.documents), None)
         document.board.audience.tell(m.Gone(document=document.id))
         document.drafts.forget()
+        self._watching = {who: one for who, one in self._watching.items() if one is not document}
         await document.close()
         self._tell_list()
+        # Its parts know each other. The garbage of several documents would stall the loop longer.
+        asyncio.get_running_loop().call_soon(gc.collect)
 
     async def _list_folder(self, command: m.ListFolder) -> m.Folder:
         listed = await asyncio.to_thread(list_folder, command.path, self.served)

@@ -107,10 +107,6 @@ class Model:
             for uri in mesh_uris(link):
                 yield link.name, uri
 
-    def urdf(self, root_attributes: Iterable[tuple[str, str]]) -> str:
-        """The robot as URDF text, one indented element after the other."""
-        return urdf_text(self.assembly.parts(), root_attributes)
-
     def _axes_of(self, change: Change) -> frozenset[str]:
         """Links whose drawn joint axis changed: the children of the changed joints."""
         joints = change.robot.joints
@@ -118,7 +114,10 @@ class Model:
 
 
 def urdf_text(parts: Iterable[Part], root_attributes: Iterable[tuple[str, str]]) -> str:
-    """A robot of these parts as URDF text; in any thread, for a large robot takes its time."""
+    """A robot of these parts as URDF text, one indented element after the other.
+
+    In any thread, for a large robot takes its time.
+    """
     root = ElementTree.Element("robot", dict(root_attributes))
     root.extend(part_element(part, root.attrib) for part in parts)
     ElementTree.indent(root)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import asyncio
-from typing import TYPE_CHECKING, TypeAlias
+from importlib import import_module
+from typing import TYPE_CHECKING, Final, TypeAlias
 
 from studio.description.client import DescriptionWorker
 from studio.engine.wire.desk import WireDesk
@@ -17,6 +18,17 @@ if TYPE_CHECKING:
     from studio.settings import Settings
 
     Opened: TypeAlias = Callable[[float], Awaitable[None]]
+
+
+USED_LATER: Final = (
+    *("studio.engine.live.drawing_room", "studio.engine.live.robot_models"),
+    *("studio.engine.live.catalogue_views", "studio.engine.live.topic_views"),
+    *("studio.engine.bridge.driving_work", "studio.engine.bridge.goal_work"),
+    *("studio.engine.bridge.hearing_channels", "studio.engine.bridge.parameter_work"),
+    *("studio.engine.bridge.publication_work", "studio.engine.bridge.requests"),
+    *("studio.ros.messages.shared", "studio.ros.graph.node_parts", "studio.ros.types.plain"),
+)
+"""With what they import, all that functions of the loop import when they are first called."""
 
 
 class Services:
@@ -39,6 +51,15 @@ class Services:
         """Warm the workers in the background."""
         self._warm(self._spare.warm())
         self._warm(self._pool.warm())
+
+    async def import_rest(self, opened: Opened) -> None:
+        """Import what an opening does without, in a thread: at its first use it stalls the loop.
+
+        Args:
+            opened: Waits for an opening, for so many seconds at most.
+        """
+        await opened(self.patience_s)
+        await asyncio.to_thread(_import_rest)
 
     def description_worker(self, opened: Opened | None = None) -> DescriptionWorker:
         """A worker of one document's own, warm where one was spare; the next spare is started.
@@ -69,3 +90,8 @@ class Services:
         await asyncio.gather(*warming, return_exceptions=True)
         workers = (self._pool.close(), self._spare.close(), self.validator.close())
         await asyncio.gather(*workers, self.wire.close())
+
+
+def _import_rest() -> None:
+    for name in USED_LATER:
+        import_module(name)

@@ -12,9 +12,12 @@ from studio.errors import EditError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+    from typing import TypeAlias
 
     from studio.description.editing.sources import Sources
     from studio.description.values import Expansion, Site
+
+    _MadeOf: TypeAlias = tuple[Site, str | None, str | None]
 
 
 class SiteBook:
@@ -24,6 +27,8 @@ class SiteBook:
         self.sites: dict[str, Site] = {}
         self._order: tuple[str, ...] = ()
         self._told: dict[str, SiteView] = {}
+        self._told_of: dict[str, _MadeOf] = {}
+        """What each view was made of: comparing is quick, and making thousands is not."""
         self._unsure: set[str] = set()
         self._order_is_news = False
         self._ahead: set[str] = set()
@@ -40,6 +45,7 @@ class SiteBook:
         self._order, self._order_is_news = expansion.site_order, True
         self.sites = {name: self.sites[name] for name in self._order if name in self.sites}
         self._told = {name: view for name, view in self._told.items() if name in self.sites}
+        self._told_of = {name: self._told_of[name] for name in self._told}
 
     def take_failure(self, sources: Sources) -> None:
         """A run failed: the texts as they stand in edited files are news, the values are not."""
@@ -63,7 +69,10 @@ class SiteBook:
             site = self.sites[name]
             if name in self._ahead:
                 site = replace(site, text=_text_now(site, sources))
-            view = _view(site, sources, arguments)
+            made_of = _made_of(site, sources, arguments)
+            if made_of == self._told_of.get(name):
+                continue
+            self._told_of[name], view = made_of, site_view(*made_of)
             if view != self._told.get(name):
                 self._told[name] = view
                 changed.append(view)
@@ -77,9 +86,9 @@ class SiteBook:
         return Sites(order=self._order, changed=tuple(self._told.values()))
 
 
-def _view(site: Site, sources: Sources, arguments: Mapping[str, str]) -> SiteView:
+def _made_of(site: Site, sources: Sources, arguments: Mapping[str, str]) -> _MadeOf:
     argument = arguments.get(site.name) if site.kind == SiteKind.ARG else None
-    return site_view(site, _saved_text(site, sources), argument)
+    return site, _saved_text(site, sources), argument
 
 
 def _saved_text(site: Site, sources: Sources) -> str | None:

@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import asyncio
+import gc
 import os
 import shutil
 import signal
+import weakref
 from typing import TYPE_CHECKING
 
 import pytest
 
+from studio.engine import messages as m
 from studio.engine.messages import GetText
 from studio.errors import CommandError, OutsideRootsError, StaleEditError
+from tests.support.loop_watch import calls_here
 from tests.support.open_documents import Ear, engine, opened, until
 from tests.support.packages import write_package
 
@@ -239,10 +243,10 @@ def test_the_expanded_urdf_can_be_had_once_there_is_one(arm: Path, tmp_path: Pat
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, _ = await opened(made, arm)
-            assert '<box size="0.1 0.1 0.4"' in document.urdf()
+            assert '<box size="0.1 0.1 0.4"' in await document.urdf()
             bad, _ = await opened(made, arm.with_name("bad.urdf.xacro"))
             with pytest.raises(CommandError):
-                bad.urdf()
+                await bad.urdf()
 
     asyncio.run(run())
 
@@ -293,5 +297,48 @@ def test_a_file_of_a_chosen_package_is_shown_and_cannot_be_edited(arm: Path, tmp
             await made.execute(asked, ear)
             assert ear.last("text")["text"] == "<robot/>"
             assert ear.last("text")["read_only"]
+
+    asyncio.run(run())
+
+
+def test_the_memory_of_a_closed_document_is_given_back_at_once(tmp_path: Path):
+    file = tmp_path / "r" / "r.urdf"
+    file.parent.mkdir()
+    file.write_text('<robot name="r"><link name="base"/></robot>')
+
+    async def run() -> None:
+        async with engine(tmp_path / "data") as made:
+            ear = Ear()
+            made.attach(ear)
+            name = await made.open_path(file, {})
+            await made.document(name).opened()
+            await made.execute(m.Watch(document=name), ear)
+            left = weakref.ref(made.document(name))
+            await made.execute(m.CloseDocument(document=name), ear)
+            await until(lambda: left() is None)
+
+    gc.disable()
+    try:
+        asyncio.run(run())
+    finally:
+        gc.enable()
+
+
+def test_a_save_makes_only_those_rows_anew_that_it_changes(tmp_path: Path):
+    file = tmp_path / "r" / "arm.urdf.xacro"
+    file.parent.mkdir()
+    file.write_text(ARM)
+
+    async def run() -> None:
+        async with engine(tmp_path / "data") as made:
+            document, ear = await opened(made, file)
+            await document.edit_site(ear.site("reach")["id"], "0.5", "")
+            assert ear.site("reach")["saved_text"] == "0.4"
+            with calls_here() as calls:
+                await document.save()
+            assert ear.site("reach")["saved_text"] is None
+            assert calls["SiteBook.news"]
+            assert calls["site_view"] == 1
+            assert len(ear.sites()) > 1
 
     asyncio.run(run())

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import ast
 import asyncio
 import os
 import subprocess
@@ -142,3 +143,37 @@ asyncio.run(run())
 """
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "False"
+
+
+STUDIO = Path(__file__).parents[2] / "studio"
+IMPORTED_IN_THREADS = {"studio.engine.wire.link", "studio.engine.wire.report"}
+
+
+def _imported_at_first_use() -> set[str]:
+    """What functions of rooms that work on the loop import when they are called."""
+    found: set[str] = set()
+    for room in ("engine", "displays", "scene", "ros"):
+        for file in (STUDIO / room).rglob("*.py"):
+            for one in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+                if isinstance(one, ast.FunctionDef | ast.AsyncFunctionDef):
+                    inner = (two for two in ast.walk(one) if isinstance(two, ast.ImportFrom))
+                    found |= {two.module for two in inner if two.module}
+    return {one for one in found if one.startswith("studio.")}
+
+
+def test_once_a_robot_is_open_nothing_is_left_to_import_on_the_loop(tmp_path: Path):
+    entry = tmp_path / "r.urdf"
+    entry.write_text(robot(link("base")))
+    program = f"""
+import asyncio, sys
+from pathlib import Path
+from tests.support.open_documents import engine, opened, until
+
+async def run():
+    async with engine(Path({str(tmp_path / "data")!r})) as made:
+        await opened(made, Path({str(entry)!r}))
+        await until(lambda: {_imported_at_first_use() - IMPORTED_IN_THREADS!r} <= set(sys.modules))
+
+asyncio.run(run())
+"""
+    subprocess.run([sys.executable, "-c", program], check=True, cwd=STUDIO.parent, timeout=240)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import argparse
 import asyncio
+import gc
 import json
 import logging
 import shutil
@@ -14,23 +15,22 @@ import sys
 import tempfile
 import time
 from collections import Counter
-from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from random import Random
 from typing import TYPE_CHECKING, Any, Final
 
-import pytest
-
 from studio.engine.engine import Engine
 from studio.engine.roles import Role
+from studio.engine.services import USED_LATER
 from studio.settings import Settings, WireChoice
 from studio.web.commands import answer
 from tests.support.command_fuzzer import WORDS, CommandFuzzer
-from tests.support.open_documents import Ear
+from tests.support.loop_watch import Stall, stalls
+from tests.support.open_documents import Ear, until
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Generator, Sequence
+    from collections.abc import Sequence
 
 STALL_S: Final = 0.1
 _MODELS: Final = Path(__file__).parents[2] / "models"
@@ -38,6 +38,7 @@ _AT_ONCE: Final = 8
 _OPEN_MOST: Final = 3
 _TOGETHER_WITHIN_S: Final = 120.0
 _LONG_TEXT_BYTES: Final = 1_000_000
+_STALLS_SHOWN: Final = 20
 
 
 @dataclass
@@ -46,8 +47,8 @@ class Swept:
 
     ends: Counter[str] = field(default_factory=Counter[str])
     failures: list[str] = field(default_factory=list[str])
-    stalls: list[tuple[float, str]] = field(default_factory=list[tuple[float, str]])
-    """Seconds of the processor that one turn of the loop took, and the commands under way then."""
+    stalls: list[tuple[Stall, str]] = field(default_factory=list[tuple[Stall, str]])
+    """Each with the commands under way then."""
 
 
 class _SweepEar(Ear):
@@ -56,26 +57,6 @@ class _SweepEar(Ear):
     def post(self, data: bytes, *, binary: bool = False, key: str | None = None) -> None:
         if data.startswith(b'{"type":"refused"'):
             super().post(data, binary=binary, key=key)
-
-
-@contextmanager
-def long_callbacks(limit_s: float, notice: Callable[[float], None]) -> Generator[None]:
-    """Notice what takes more of the loop's thread than that before it lets others run.
-
-    By the time of the processor that this thread took: a busy machine adds nothing to it.
-    """
-    run = asyncio.Handle._run  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType, reportAttributeAccessIssue]
-
-    def measured(handle: asyncio.Handle) -> None:
-        began_s = time.thread_time()
-        run(handle)
-        took_s = time.thread_time() - began_s
-        if took_s > limit_s:
-            notice(took_s)
-
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(asyncio.Handle, "_run", measured)
-        yield
 
 
 class _Log(logging.Handler):
@@ -103,7 +84,7 @@ class _Sweep:
         """Send so many commands, some at once."""
         for ear in self._ears:
             self._engine.attach(ear)
-        with long_callbacks(self._stall_s, self._notice):
+        with stalls(self._stall_s, self._notice):
             await self._send_all(count)
         return self.swept
 
@@ -115,8 +96,8 @@ class _Sweep:
             async with asyncio.timeout(_TOGETHER_WITHIN_S):
                 await asyncio.gather(*(self._send(text) for text in texts))
 
-    def _notice(self, took_s: float) -> None:
-        self.swept.stalls.append((took_s, " ".join(kinds(self._under_way))))
+    def _notice(self, stall: Stall) -> None:
+        self.swept.stalls.append((stall, " ".join(kinds(self._under_way))))
 
     async def _ready(self) -> None:
         """Have a document open, not many, and its names known to the fuzzer."""
@@ -129,6 +110,7 @@ class _Sweep:
             robot = self._random.choice(sorted(self._folder.rglob("*.urdf.xacro")))
             document = self._engine.document(await self._engine.open_path(robot, {}))
             await document.opened()
+            await until(lambda: all(one in sys.modules for one in USED_LATER))
             for ear in self._ears:
                 await answer(self._engine, ear, self._watch(document.id))
         self._fuzzer.known = self._known()
@@ -194,6 +176,8 @@ async def sweep(folder: Path, seed: int, count: int, stall_s: float = STALL_S) -
     door.addHandler(log)
     made = Engine(settings)
     await made.start()
+    gc.collect()
+    gc.freeze()  # as `studio` does: a collection then looks at what came later
     try:
         swept = await _Sweep(made, robots, Random(seed), stall_s).run(count)
     finally:
@@ -216,7 +200,8 @@ def main() -> int:
     said: list[Any] = [f"{given.count} commands of seed {given.seed} in {took_s:.0f} s"]
     said += [f"  {count:6} {end}" for end, count in swept.ends.most_common()]
     said += [f"Failed inside: {one}" for one in swept.failures]
-    said += [f"Stalled {s * 1000:.0f} ms: {what}" for s, what in sorted(swept.stalls)[-20:]]
+    longest = sorted(swept.stalls, key=lambda one: one[0].took_s)[-_STALLS_SHOWN:]
+    said += [f"Stalled {stall}\nUnder way: {what}" for stall, what in longest]
     sys.stdout.write("\n".join(said) + "\n")
     return 1 if swept.failures or swept.stalls else 0
 

@@ -44,7 +44,7 @@ async def link_poses(data_folder: Path) -> dict[str, Any]:
             "joints": [{key: joint[key] for key in _JOINT} for joint in told["joints"]],
             "origins": (await _answer(document, m.GetFrames()))["origins"],
             "positions": by_name,
-            "poses": _poses(document, by_name),
+            "poses": await _poses(document, by_name),
             "masses": (await _answer(document, m.GetMasses()))["links"],
             "centre": total(
                 document.model.robot, document.model.kinematics, positions
@@ -58,9 +58,9 @@ async def _answer(document: Document, command: m.Command) -> dict[str, Any]:
     return ear.events[0]
 
 
-def _poses(document: Document, positions: dict[str, float]) -> dict[str, list[float]]:
+async def _poses(document: Document, positions: dict[str, float]) -> dict[str, list[float]]:
     """Three rows of each link's pose, one after the other."""
-    found = poses_by_yourdfpy(io.BytesIO(document.urdf().encode()), positions)
+    found = poses_by_yourdfpy(io.BytesIO((await document.urdf()).encode()), positions)
     assert found is not None
     return {link: pose[:3].ravel().tolist() for link, pose in found.items()}
 

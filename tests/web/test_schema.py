@@ -11,7 +11,8 @@ import pytest
 
 from studio.engine.messages import COMMANDS
 from tests.support.command_fuzzer import CommandFuzzer
-from tests.support.command_sweep import long_callbacks, sweep
+from tests.support.command_sweep import sweep
+from tests.support.loop_watch import Stall, stalls
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -38,22 +39,43 @@ def test_the_fuzzer_makes_commands_of_every_kind_and_most_can_be_read():
     assert readable > 3000
 
 
-def test_the_sweep_notices_work_on_the_loop_and_no_wait_for_the_processor():
-    def work() -> None:
-        end_s = time.thread_time() + 0.2
-        while time.thread_time() < end_s:
-            pass
+def _work_in_python() -> None:
+    end_s = time.thread_time() + 0.3
+    while time.thread_time() < end_s:
+        pass
 
-    async def run() -> list[float]:
-        noticed: list[float] = []
-        with long_callbacks(0.1, noticed.append):
+
+def _work_in_c() -> None:
+    """One call that lets nobody else at the interpreter."""
+    sum(range(20_000_000))
+
+
+def test_the_sweep_notices_work_on_the_loop_and_no_wait_for_the_processor():
+    async def run() -> list[Stall]:
+        noticed: list[Stall] = []
+        with stalls(0.1, noticed.append):
             asyncio.get_running_loop().call_soon(time.sleep, 0.3)
-            await asyncio.to_thread(work)
+            await asyncio.sleep(0)
+            await asyncio.sleep(0)
             assert not noticed
-            asyncio.get_running_loop().call_soon(work)
+            asyncio.get_running_loop().call_soon(_work_in_python)
             await asyncio.sleep(0)
             await asyncio.sleep(0)
         return noticed
 
-    (took_s,) = asyncio.run(run())
-    assert took_s >= 0.2
+    (stall,) = asyncio.run(run())
+    assert stall.took_s >= 0.3
+    assert "_work_in_python" in stall.what
+    assert "while time.thread_time()" in str(stall)
+
+
+def test_the_sweep_notices_a_thread_that_holds_the_interpreter():
+    async def run() -> list[Stall]:
+        noticed: list[Stall] = []
+        with stalls(0.1, noticed.append):
+            while not noticed:
+                await asyncio.to_thread(_work_in_c)
+        return noticed
+
+    stall, *_ = asyncio.run(run())
+    assert "held by the thread" in stall.what

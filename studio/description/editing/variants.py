@@ -78,6 +78,14 @@ class NamedTexts:
         self._now = self._saved
         self._names: dict[bytes, dict[TextName, Draft]] = {disk: _named(file, self._saved)}
 
+    def has_read(self, now: bytes) -> bool:
+        """Whether the texts of these bytes are known, so that asking for them takes no time."""
+        return now in self._names
+
+    def read(self, now: bytes) -> None:
+        """Read the texts of these bytes, if they are not known."""
+        self._at(now)
+
     def saved_text(self, name: TextName) -> str | None:
         """What the disk says; None when it has no such text."""
         found = self._names[self.disk].get(name)

@@ -121,7 +121,7 @@ class CheckDesk:
     async def _validate(self) -> None:
         await self._document.opened(self._patience_s)
         await asyncio.sleep(min(_VALIDATE_AFTER_S, self._quiet_s))
-        found = await self._validator.validate(self._document.urdf())
+        found = await self._validator.validate(await self._document.urdf())
         part = self._document.model.assembly.part
         self._second_opinion = tuple(placed(one, part) for one in found)
         self._tell()

@@ -46,7 +46,8 @@ class ExportDesk:
             CommandError: There was no good run yet.
             ExportError: It comes to too much.
         """
-        text, location, name = self._document.urdf(), self._document.location, self._name
+        location, name = self._document.location, self._name
+        text = await self._document.urdf()
         if meshes == "copied":
             return await asyncio.to_thread(self._with_meshes, text)
         if meshes == "absolute":

@@ -6,7 +6,6 @@ import asyncio
 import logging
 import time
 from dataclasses import replace
-from importlib import import_module
 from typing import TYPE_CHECKING, Final
 
 from studio.engine.listeners import LastTold
@@ -73,7 +72,7 @@ class LiveDesk:
 
     @property
     def _room(self) -> DrawingRoom:
-        """Made when it is first needed: what it imports takes time, and many need no displays."""
+        """Made when it is first needed: what it imports takes time, and no opening waits for it."""
         if self._made is None:
             from studio.engine.live.drawing_room import DrawingRoom  # noqa: PLC0415 - see above
             from studio.engine.live.robot_models import RobotModels  # noqa: PLC0415
@@ -109,11 +108,6 @@ class LiveDesk:
         yield self._displays()
         if self._states.event is not None:
             yield self._states.event
-
-    async def prepare(self) -> None:
-        """Import what displays need once the robot is there: on the loop it would stall it."""
-        await self._document.opened(self._services.patience_s)
-        await asyncio.to_thread(import_module, "studio.engine.live.drawing_room")
 
     async def add(self, command: m.AddDisplay) -> None:
         """Add a display; with a topic, the connection is made if there is none."""

@@ -10,6 +10,7 @@ from studio.description.editing.line_diff import LineDiff
 from studio.description.values import Expansion, OpenRequest
 from studio.engine.messages import expanded as m
 from studio.engine.messages.diff_lines import hunk_views
+from studio.engine.messages.texts import Urdf
 from studio.engine.questions.urdf_lines import PartLines, difference, part_lines
 from studio.errors import CommandError
 
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from studio.description.client import DescriptionWorker
     from studio.description.values import Part
     from studio.engine.document import Document
+    from studio.engine.messages.texts import GetUrdf
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +45,14 @@ class ExpandedDesk:
         self._arguments = document.sources.arguments
         self._saved: _Saved | None = None
         self._turn = asyncio.Lock()
+
+    async def urdf(self, command: GetUrdf) -> Urdf:
+        """The URDF as it is now.
+
+        Raises:
+            CommandError: There is none yet.
+        """
+        return Urdf(request=command.request, text=await self._document.urdf())
 
     async def changes(self, command: m.GetUrdfChanges) -> m.UrdfChanges:
         """What differs now.

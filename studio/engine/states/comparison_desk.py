@@ -13,7 +13,7 @@ from studio.engine.states.second_robot import SecondRobot, SecondRobots, present
 from studio.errors import CommandError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Awaitable, Callable
 
     from studio.description.client import DescriptionWorker
     from studio.engine.document import Document
@@ -82,7 +82,7 @@ class ComparisonDesk:
         self._made.clear()
 
     async def follow(
-        self, present: Callable[[], Recipe], recipe_of: Callable[[Side], Recipe | None]
+        self, present: Callable[[], Awaitable[Recipe]], recipe_of: Callable[[Side], Recipe | None]
     ) -> None:
         """Bring everything up to date.
 
@@ -95,7 +95,7 @@ class ComparisonDesk:
             return
         sides, robots = self.sides, list[SecondRobot]()
         for side in sides:
-            recipe = present() if side == _PRESENT else recipe_of(side)
+            recipe = await present() if side == _PRESENT else recipe_of(side)
             if recipe is None:
                 self.sides = None
                 await self._end()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import os
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -14,7 +15,7 @@ from studio.packages.roots import package_folder_of
 from studio.packages.uris import resolve_uri
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable, Iterator
 
     from studio.description.editing.sources import Sources
     from studio.description.values import Edit
@@ -31,6 +32,17 @@ class Recipe:
     texts: dict[TextName, str] = field(default_factory=dict[TextName, str])
     edited_otherwise: tuple[str, ...] = ()
     """Files with unsaved edits beyond the values of texts: no variant holds those."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Unread:
+    """A file whose texts are to be read: of its bytes on disk, unless they are known, and now."""
+
+    path: str
+    file: str
+    disk: bytes
+    now: bytes
+    known: NamedTexts | None
 
 
 class RecipeBook:
@@ -57,6 +69,16 @@ class RecipeBook:
         """Whether the document is as the files say."""
         same = self._sources.arguments == self._opened_with
         return same and not self._sources.unsaved_files
+
+    async def read(self, variants: Iterable[Variant] = ()) -> None:
+        """Read the texts that differ from the disk or that variants name, in another thread.
+
+        What is asked then takes little time, if nothing is awaited before: a text of a megabyte
+        is read for a second.
+        """
+        files = {name.file for one in variants for name in one.texts}
+        while unread := self._unread(files):
+            self._texts |= await asyncio.to_thread(_read, unread)
 
     def present(self) -> Recipe:
         """The document as it is now."""
@@ -152,6 +174,26 @@ class RecipeBook:
             known = self._texts[path] = NamedTexts(self._file(path), path, disk)
         return known
 
+    def _unread(self, files: Iterable[str]) -> list[_Unread]:
+        """What `read` has to read: unsaved files, and those that variants call so."""
+        found: list[_Unread] = []
+        for path in dict.fromkeys((*self._sources.unsaved_files, *self._paths(files))):
+            now, disk = self._sources.text(path), self._sources.saved(path)
+            known = self._texts.get(path)
+            known = known if known is not None and known.disk == disk else None
+            if known is None or not known.has_read(now):
+                found.append(_Unread(path, self._file(path), disk, now, known))
+        return found
+
+    def _paths(self, files: Iterable[str]) -> Iterator[str]:
+        for file in files:
+            try:
+                path = self._path(file)
+                self._sources.saved(path)
+            except PackageError:  # told where its texts are asked for
+                continue
+            yield path
+
     def _file(self, path: str) -> str:
         """A file's name in a variant: what lies in another package goes by that."""
         entry, package = self._entry, package_folder_of(Path(path))
@@ -173,3 +215,13 @@ class RecipeBook:
         entry = self._location().entry
         assert entry is not None
         return entry
+
+
+def _read(unread: Iterable[_Unread]) -> dict[str, NamedTexts]:
+    """The texts of files, by path."""
+    found: dict[str, NamedTexts] = {}
+    for one in unread:
+        named = one.known or NamedTexts(one.file, one.path, one.disk)
+        named.read(one.now)
+        found[one.path] = named
+    return found

@@ -73,7 +73,7 @@ class VariantDesk:
         await self._lookout.close()
         await asyncio.gather(self._watch.close(), self._comparison.close())
 
-    def save(self, command: m.SaveVariant | m.UpdateVariant) -> m.VariantSaved:
+    async def save(self, command: m.SaveVariant | m.UpdateVariant) -> m.VariantSaved:
         """Keep the present state, as a new variant or in one that there is.
 
         Raises:
@@ -81,6 +81,7 @@ class VariantDesk:
             VariantsFileError: The file as it is cannot be read.
             NotSavedError: It cannot be written.
         """
+        await self._book.read()
         present = self._book.present()
         if isinstance(command, m.SaveVariant):
             name = self._shelf.free_name(command.name)
@@ -107,6 +108,7 @@ class VariantDesk:
             CommandError: There is no such variant.
         """
         if command.name:
+            await self._book.read([self._shelf.find(command.name)])
             variant = self._shelf.find(command.name)
             wanted = self._book.of_variant(variant).arguments
             edits, left_out = self._book.edits_to(variant)
@@ -118,7 +120,7 @@ class VariantDesk:
         change = self._step(label, wanted, edits)
         if edits or change.arguments is not None:
             await self._document.follow(change)
-        self._look_up()
+        await self._look_up()
         self._tell()
         return m.VariantApplied(request=command.request, left_out=left_out)
 
@@ -185,10 +187,14 @@ class VariantDesk:
         self.doubt()
 
     async def _look(self) -> None:
-        self._look_up()
+        await self._look_up()
         self._tell()
-        await self._comparison.follow(self._book.present, self._recipe_of)
+        await self._comparison.follow(self._present, self._recipe_of)
         self._watch.watch({str(self._shelf.path), *self._comparison.files})
+
+    async def _present(self) -> Recipe:
+        await self._book.read(self._shelf.items)
+        return self._book.present()
 
     def _recipe_of(self, side: m.Side) -> Recipe | None:
         if side.kind == "saved":
@@ -196,8 +202,10 @@ class VariantDesk:
         known = next((one for one in self._shelf.items if one.name == side.name), None)
         return self._book.of_variant(known) if known else None
 
-    def _look_up(self) -> None:
+    async def _look_up(self) -> None:
         """Find out which variant the robot is."""
+        if self._shelf.items:
+            await self._book.read(self._shelf.items)
         names = {one.name: one for one in self._shelf.items}
         if self._active not in names:
             self._active = ""

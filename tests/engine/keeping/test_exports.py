@@ -68,7 +68,7 @@ def test_a_urdf_with_paths_and_one_with_copies_are_read_by_another_program(
             document, ear = await opened(made, arm)
             await document.edit_site(ear.site("reach")["id"], "0.5", "")
             plain = await document.exports.urdf("package")
-            assert (plain.name, whole(plain)) == ("arm.urdf", document.urdf().encode())
+            assert (plain.name, whole(plain)) == ("arm.urdf", (await document.urdf()).encode())
             copied = await document.exports.urdf("copied")
             assert unpacked(copied, tmp_path / "out") == {
                 "arm/arm.urdf",
@@ -105,7 +105,7 @@ def test_the_packages_hold_the_edits_and_open_as_the_same_robot(arm: Path, tmp_p
             zipped.write_bytes(whole(await document.exports.package(all_used=True)))
             again, _ = await opened(made, zipped)
             assert (again.entry.name, again.has_unsaved) == (arm.name, False)
-            assert again.urdf() == document.urdf()
+            assert (await again.urdf()) == (await document.urdf())
 
     asyncio.run(run())
 

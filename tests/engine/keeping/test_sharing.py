@@ -72,7 +72,7 @@ def test_a_link_opens_the_same_robot_as_a_document_of_its_own(mast: Path, tmp_pa
             name, left_out = await follow(made, link.text)
             other = made.document(name)
             assert (name != document.id, left_out) == (True, ())
-            assert other.urdf() == document.urdf()
+            assert (await other.urdf()) == (await document.urdf())
             assert other.sources.unsaved_count == 1
             assert other.sources.undo_labels == ("Edits of a link",)
             await other.undo()

@@ -9,6 +9,7 @@ from studio.engine import messages as m
 from studio.engine.dispatch import carry_out
 from studio.engine.messages.expanded import GetUrdfChanges
 from studio.engine.roles import Role
+from tests.support.loop_watch import calls_here
 from tests.support.open_documents import Ear, engine, opened
 
 if TYPE_CHECKING:
@@ -101,3 +102,21 @@ def type_edit(document: Document, file: Path, start: int, end: int) -> Any:  # n
     told = document.texts.answer(m.GetText(file=str(file)), Role.PRESENTER)
     change = m.TextChange(start=start, end=end, text="1")
     return m.EditText(file=str(file), version=told.version, changes=(change,))
+
+
+def test_the_urdf_is_written_off_the_event_loop(tmp_path: Path):
+    file = tmp_path / "r" / "r.xacro"
+    file.parent.mkdir()
+    file.write_text(ROBOT)
+
+    async def run() -> None:
+        async with engine(tmp_path / "data") as made:
+            document, _ = await opened(made, file)
+            ear = Ear()
+            with calls_here() as calls:
+                await carry_out(document, m.GetUrdf(request=1), ear)
+            assert '<link name="base">' in ear.last("urdf")["text"]
+            assert calls["carry_out"]
+            assert not calls["urdf_text"]
+
+    asyncio.run(run())

@@ -70,11 +70,11 @@ def test_a_property_is_renamed_in_two_files_as_one_step(tmp_path: Path):
         answer = await asked(document, r.GetRenaming(**place, name="span", request=3))
         assert (answer["type"], answer["request"]) == ("renaming", 3)
         assert (answer["count"], answer["files"], answer["kind"]) == (3, 2, "property")
-        urdf = document.urdf()
+        urdf = await document.urdf()
         await asked(document, r.Rename(**place, name="span", count=3))
         assert text(document, mast) == MAST.replace("reach", "span")
         assert text(document, parts) == PARTS.replace("reach", "span")
-        assert document.urdf() == urdf
+        assert (await document.urdf()) == urdf
         assert document.sources.undo_labels == ("Rename reach → span",)
         await document.undo()
         assert (text(document, mast), text(document, parts)) == (MAST, PARTS)
@@ -86,11 +86,11 @@ def test_a_property_is_renamed_in_two_files_as_one_step(tmp_path: Path):
 def test_an_arg_that_was_passed_is_passed_under_its_new_name(tmp_path: Path):
     async def story(document: Document, mast: Path, _parts: Path) -> None:
         await document.history.pass_arguments({"high": "5"})
-        urdf = document.urdf()
+        urdf = await document.urdf()
         place: dict[str, Any] = {"file": str(mast), "offset": MAST.index("high")}
         await asked(document, r.Rename(**place, name="tall", count=2))
         assert document.sources.arguments == {"tall": "5"}
-        assert document.urdf() == urdf
+        assert (await document.urdf()) == urdf
         assert len(document.sources.undo_labels) == 2
         await document.undo()
         assert document.sources.arguments == {"high": "5"}

@@ -7,6 +7,7 @@ import shutil
 from typing import TYPE_CHECKING
 
 from studio.engine import messages as m
+from tests.support.loop_watch import calls_here
 from tests.support.packages import write_package
 from tests.support.variant_desk import desk
 
@@ -55,5 +56,23 @@ def test_a_file_goes_by_its_place_beside_the_entry_or_by_its_package(tmp_path: P
             (visual,) = at.document.model.robot.links["base"].visuals
             assert visual.geometry.size_m == (2, 2, 3)  # pyright: ignore
             await at.is_told("Tall")
+
+    asyncio.run(run())
+
+
+def test_texts_are_read_off_the_event_loop(tmp_path: Path):
+    async def run() -> None:
+        async with desk(write(tmp_path / "src"), tmp_path / "data") as at:
+            with calls_here() as calls:
+                await at.edit("part", "3")
+                await at.ask(m.SaveVariant(name="Tall"))
+                await at.is_told("Tall")
+                await at.edit("side", "2")
+                await at.ask(m.UpdateVariant(name="Tall"))
+                assert await at.apply("") == []
+                assert await at.apply("Tall") == []
+                await at.is_told("Tall")
+            assert calls["RecipeBook.present"]
+            assert not calls["parse_source"]
 
     asyncio.run(run())
