@@ -37,6 +37,8 @@ export class CameraView {
   #meshes = 0;
   #lastArrival_ms = 0;
   #picturesSince = 0;
+  /** Where the eye was put when the robot arrived; null: it was moved since. @type {Vector3 | null} */
+  #arrivedAt = null;
   #usualSmoothTime = 0;
   /** @type {"rviz" | "trackpad"} */
   #mouse = "rviz";
@@ -103,6 +105,7 @@ export class CameraView {
   carry(way) {
     const [camera, control] = [this.#door.mutable?.camera, this.#control()];
     if (!camera || !control) return;
+    this.#arrivedAt = null;
     const now = control.getTarget(this.#vector(), false).add(way);
     const soon = control.getTarget(this.#vector()).add(way);
     control.moveTo(now.x, now.y, now.z, false);
@@ -175,9 +178,10 @@ export class CameraView {
     if (!this.#isArriving() || !this.#control()) return;
     this.#picturesSince += 1;
     const meshes = this.#robot.meshCount();
-    if (meshes <= this.#meshes) return;
-    const first = this.#meshes === 0;
-    this.#meshes = meshes;
+    const isReset = this.#isReset();
+    if (meshes <= this.#meshes && !isReset) return;
+    const first = this.#meshes === 0 || isReset;
+    this.#meshes = Math.max(meshes, this.#meshes);
     this.#lastArrival_ms = performance.now();
     this.#picturesSince = 0;
     this.#fitArrived(first ? this.#inScene(DIRECTIONS.iso ?? [1, 0, 0]) : this.#direction());
@@ -190,9 +194,16 @@ export class CameraView {
     return rest_ms < ARRIVED.ms || this.#picturesSince < ARRIVED.pictures;
   }
 
+  /** viser puts the camera at its own place when its scene stands, which may be after the robot. */
+  #isReset() {
+    const now = this.#arrivedAt && this.#control()?.getPosition(this.#vector());
+    return Boolean(now && this.#arrivedAt && now.distanceTo(this.#arrivedAt) > NEAREST_M / 10);
+  }
+
   /** @param {Vector3} direction */
   #fitArrived(direction) {
     this.#look(this.#robot.corners(this.#robot.drawn), direction, FILL, false);
+    this.#arrivedAt = this.#control()?.getPosition(this.#vector()) ?? null;
   }
 
   /** Look at points so that they fill a part of the picture and lie in its middle.
@@ -227,6 +238,7 @@ export class CameraView {
   #move(eye, target, animate) {
     const control = this.#control();
     if (!control) return;
+    this.#arrivedAt = null;
     this.#usualSmoothTime ||= control.smoothTime;
     if (animate && !matchMedia("(prefers-reduced-motion: reduce)").matches) {
       control.smoothTime = SMOOTH_S;

@@ -288,6 +288,15 @@ def test_fit_fills_two_thirds_of_the_view(view: ScenePage):
     assert 0.45 < height / HEIGHT < 0.7
 
 
+def test_the_robot_is_fitted_again_where_viser_places_its_camera_after_it_came(
+    page: Page, server: SceneServer
+):
+    view = ScenePage(page, server, rover()).open()
+    place = view.run("studio3d.getCamera()")["position"]
+    view.run("__viserMutable.resetCameraPose(false)")
+    view.until(f"Math.hypot(...studio3d.getCamera().position.map((x, n) => x - {place}[n])) < 1e-3")
+
+
 def test_after_a_cut_connection_all_is_as_it_was(view: ScenePage):
     view.run("studio3d.view('left')")
     view.pictures(2)
