@@ -51,7 +51,8 @@ export function TurtleField({ prefix, world, turtles, chosen, choose, isPlacing 
   }));
   const field = useRef(/** @type {HTMLElement | null} */ (null));
   useEffect(() => halt, []);
-  useEffect(() => {
+  // With the hint, not after it: a key that comes between would press the button once more.
+  useLayoutEffect(() => {
     if (isPlacing.value) field.current?.focus();
   }, [isPlacing.value]);
   const onKeyDown = (/** @type {KeyboardEvent} */ event) => {

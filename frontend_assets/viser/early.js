@@ -3,6 +3,26 @@
 // viser reconnects only while its document has the focus; in a frame of our page it seldom has.
 document.hasFocus = () => true;
 
+// While it is disconnected, viser asks its worker every second for a new connection, and the worker
+// gives up the one that it is opening: where that takes longer it would never be connected. Here a
+// connection that is being opened is waited for; after five seconds the worker gives it up by itself.
+window.Worker = class extends Worker {
+  #isOpening = false;
+
+  constructor(...source) {
+    super(...source);
+    this.addEventListener("message", ({ data }) => {
+      if (data?.type === "closed") this.#isOpening = false;
+    });
+  }
+
+  postMessage(message, ...transfer) {
+    if (message?.type === "retry" && this.#isOpening) return;
+    if (message?.type === "retry" || message?.type === "set_server") this.#isOpening = true;
+    super.postMessage(message, ...transfer);
+  }
+};
+
 /** What the page around remembers, as lib/remembered.js writes it. */
 const recall = (key) => {
   try {

@@ -41,6 +41,17 @@ _PIXEL = """(canvas, [across, down]) => {
   return [...copy.getImageData(0, 0, 1, 1).data].slice(0, 3);
 }"""
 
+_FOCUSED_WITH_HINT = """(button) => new Promise((resolve) => {
+  const panel = button.closest(".panel-body");
+  new MutationObserver((_, watch) => {
+    if (!panel.querySelector(".turtle-hint")) return;
+    watch.disconnect();
+    resolve(document.activeElement.getAttribute("role"));
+  }).observe(panel, { childList: true, subtree: true });
+  button.focus();
+  button.click();
+})"""
+
 
 class Turtles:
     """The panel, and what the turtle tells meanwhile to a node of its own."""
@@ -131,7 +142,9 @@ def t2_the_slides_yaml_turns_it(turtles: Turtles) -> None:
 
 def sv4_a_second_turtle_appears(turtles: Turtles) -> None:
     shown(turtles.tab, "turtlesim")
-    turtles.panel.get_by_role("button", name="New turtle").click()
+    button = turtles.panel.get_by_role("button", name="New turtle")
+    wait_until("it is served", button.is_enabled)
+    assert button.evaluate(_FOCUSED_WITH_HINT) == "application"
     turtles.panel.get_by_text("Click where the new turtle is to stand").wait_for()
     turtles.page.keyboard.press("Enter")
     second = turtles.panel.get_by_role("button", name=re.compile("^turtle2"))

@@ -311,6 +311,17 @@ def test_after_a_cut_connection_all_is_as_it_was(view: ScenePage):
     assert near(view.run("studio3d.getCamera()")["position"], camera["position"])
 
 
+def test_a_view_comes_back_though_a_connection_takes_longer_than_viser_waits(view: ScenePage):
+    """viser asks for another one each second."""
+    view.server.handshake_s = 1.5
+    try:
+        view.server.drop_connections()
+        view.until("heard.filter(([type]) => type === 'connection').length === 2")
+    finally:
+        view.server.handshake_s = 0.0
+    assert [told["connected"] for told in view.heard("connection")] == [False, True]
+
+
 def test_a_view_in_a_frame_without_the_focus_comes_back_too(page: Page, server: SceneServer):
     view = ScenePage(page, server, rover()).open(framed=True)
     page.evaluate("window.focus()")

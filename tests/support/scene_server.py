@@ -58,11 +58,13 @@ class Socket:
 class SceneServer:
     """The loop runs in a thread of its own; `call` runs something there and waits for it.
 
-    Page: `url`; websocket: the same without the slash. `allowed` may be replaced by a test.
+    Page: `url`; websocket: the same without the slash. `allowed` may be replaced by a test, and
+    so may `handshake_s`: how long each websocket waits before it is accepted.
     """
 
     def __init__(self) -> None:
         self.allowed: Callable[[str], bool] = lambda _: True
+        self.handshake_s = 0.0
         self.connections: set[ServerConnection] = set()
         self._loop = asyncio.new_event_loop()
         self._ready = threading.Event()
@@ -128,9 +130,10 @@ class SceneServer:
         finally:
             self.connections.discard(connection)
 
-    def _answer(self, _: ServerConnection, request: Request) -> Response | None:
+    async def _answer(self, _: ServerConnection, request: Request) -> Response | None:
         path = request.path.partition("?")[0]
         if request.headers.get("Upgrade"):
+            await asyncio.sleep(self.handshake_s)
             return None
         if path == "/d/one/viser/":
             return _response("text/html", viser_page("/a"))

@@ -7,7 +7,7 @@ tests/contract/test_router_restart.py meets.
 from __future__ import annotations
 
 import json
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from typing import TYPE_CHECKING
 
 import zenoh
@@ -119,6 +119,28 @@ def test_a_session_that_outlives_the_router_sees_the_peer_at_the_next():
         wait_until("the router is gone", lambda: not wire.is_connected)
         with start_router(parse_endpoint(endpoint), refusing()):
             wait_until("the node is seen again", lambda: seen(wire) == {NODE})
+
+
+def test_the_tokens_of_a_hundred_nodes_are_seen_again_after_a_restart_and_end_with_them():
+    endpoint = free_endpoint()
+    tokens = tuple(
+        f"@ros2_lv/0/{PEER_ID}/{node}/{part}/NN/%/%/node_{node}_{part}"
+        for node in range(100)
+        for part in range(18)
+    )
+    with (
+        start_router(parse_endpoint(endpoint), refusing()) as first,
+        open_test_session(endpoint) as wire,
+        ExitStack() as stack,
+    ):
+        with refused_peer(endpoint, tokens):
+            wait_until("all are seen", lambda: seen(wire) == set(tokens))
+            first.close()
+            wait_until("the router is gone", lambda: not wire.is_connected)
+            stack.enter_context(start_router(parse_endpoint(endpoint), refusing()))
+            wait_until("all are seen again", lambda: seen(wire) == set(tokens))
+        wait_until("none is seen", lambda: not seen(wire))
+        assert wire.is_connected
 
 
 def test_a_router_at_all_addresses_is_found_beside_it():
