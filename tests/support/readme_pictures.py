@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import io
 import sys
 import tempfile
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+from PIL import Image
 
 from tests.support.browser import open_browser
 from tests.support.server import running_studio
@@ -50,7 +53,13 @@ def take(tab: StudioPage, name: str) -> None:
     """Write a picture of the whole page once it stands still."""
     tab.page.mouse.move(2, 2)
     tab.page.wait_for_timeout(_STILL_MS)
-    tab.page.screenshot(path=FOLDER / f"{name}.png")
+    with Image.open(io.BytesIO(tab.page.screenshot())) as picture:
+        smaller(picture.convert("RGB")).save(FOLDER / f"{name}.png", optimize=True)
+
+
+def smaller(picture: Image.Image) -> Image.Image:
+    """The same without the last bit of each colour, which nobody sees: a fifth less in a file."""
+    return picture.point([min(255, (value + 1) & ~1) for value in range(256)] * 3)
 
 
 def show(tab: StudioPage, panel: str) -> None:
