@@ -42,9 +42,10 @@ class ColladaLooks:
         return self._looks[material]
 
     def _read(self, material: str) -> Look | None:
-        found = self._materials.get(material) or next(
-            (one for one in self._materials.values() if one.get("name") == material), None
-        )
+        found = self._materials.get(material)
+        if found is None:
+            named = (one for one in self._materials.values() if one.get("name") == material)
+            found = next(named, None)
         instance = None if found is None else found.find("instance_effect")
         effect = None if instance is None else self._effects.get(_target(instance, "url"))
         profile = None if effect is None else effect.find("profile_COMMON")

@@ -270,8 +270,12 @@ def close(session: zenoh.Session) -> None:
     if session.is_closed():
         return
     closing = threading.Thread(target=_close, args=(session,), name="zenoh-close", daemon=True)
-    closing.start()
-    closing.join(_CLOSE_TIMEOUT_S)
+    try:
+        closing.start()
+    except RuntimeError:  # since Python 3.12 none starts any more while the process ends
+        _close(session)
+    else:
+        closing.join(_CLOSE_TIMEOUT_S)
 
 
 def _close(session: zenoh.Session) -> None:
