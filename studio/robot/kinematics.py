@@ -48,6 +48,8 @@ class Kinematics:
         self._robot = robot
         self._turned: tuple[Floats, Floats] | None = None
         """The rotations of links that were asked for last, and their quaternions."""
+        self._stood: tuple[Floats, Floats] | None = None
+        """The positions that were asked for last, and the poses in their parents at these."""
         self.link_names = tuple(robot.links)
         joints = tuple(robot.joints.values())
         moving = [joint for joint in joints if joint.type in _MOVES]
@@ -82,8 +84,10 @@ class Kinematics:
         rows = [self._row[one.name] for one in joints]
         if all(_turns_as(self._robot.joints[one.name], one) for one in joints):
             made._motion = self._motion.shifted(rows, joints)
+            made._stood = self._stood_shifted(rows, joints)
         else:
             made._motion = self._motion.with_rows(rows, joints)
+            made._stood = None
         made._robot = robot
         return made
 
@@ -221,8 +225,27 @@ class Kinematics:
                 raise ValueError("The joints form a cycle.")
             parent = parent[parent]
 
+    def _stood_shifted(
+        self, rows: Sequence[int], joints: Sequence[Joint]
+    ) -> tuple[Floats, Floats] | None:
+        """The last poses with the origins of other joints in some rows; None: not known."""
+        if self._stood is None or any(one.type is JointType.PRISMATIC for one in joints):
+            return None
+        positions, links = self._stood[0], self._stood[1].copy()
+        if rows:
+            links[self._child[rows], :3, 3] = [one.origin.xyz for one in joints]
+        return positions, links
+
     def _parent_from_child(self, positions: Floats) -> Floats:
         """Pose of each link in its parent, (..., L + 1, 4, 4); roots and the world: identity."""
+        if positions.ndim > 1:
+            return self._links_at(positions)
+        stood = self._stood  # an edit leaves the joints where they stand
+        if stood is None or not np.array_equal(stood[0], positions):
+            stood = self._stood = positions.copy(), self._links_at(positions)
+        return stood[1]
+
+    def _links_at(self, positions: Floats) -> Floats:
         batch = positions.shape[:-1]
         motion, at = self._motion, self._at
         shape = motion.parent_from_joint.shape

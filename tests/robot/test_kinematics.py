@@ -82,9 +82,17 @@ def test_refitted_kinematics_are_those_of_the_robot_with_other_numbers(
         limit=Limit(-abs(limit), abs(limit)),
         mimic=old.mimic and Mimic("turn", limit, 0.3),
     )
-    after = replace(before, joints={**before.joints, name: new})
-    refitted, fresh = Kinematics(before).refitted(after, [name]), Kinematics(after)
+    moved = replace(old, origin=Origin(xyz, old.origin.rpy))
+    for joint in (moved, new):
+        after = replace(before, joints={**before.joints, name: joint})
+        _check_refitted(Kinematics(before), after, name)
+
+
+def _check_refitted(kinematics: Kinematics, after: Robot, name: str) -> None:
+    fresh = Kinematics(after)
     at = fresh.random_positions(np.random.default_rng(0))
+    kinematics.wxyz_xyz(at)  # what it remembers of these is no longer so
+    refitted = kinematics.refitted(after, [name])
     np.testing.assert_array_equal(refitted.random_positions(np.random.default_rng(0)), at)
     np.testing.assert_array_equal(refitted.wxyz_xyz(at), fresh.wxyz_xyz(at))
     np.testing.assert_array_equal(refitted.axes, fresh.axes)
