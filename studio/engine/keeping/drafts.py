@@ -43,8 +43,10 @@ class DraftDesk:
         self._written: KeptSources | None = None
         self._restored = Restored(at="", files=())
         self._writing: asyncio.Task[None] | None = None
+        self._not_shown: asyncio.TimerHandle | None = None
+        """Ends the time that an edit has to be shown."""
         self._is_noted = self._is_forgotten = False
-        self._shown, self._ended = asyncio.Event(), asyncio.Event()
+        self._ended = asyncio.Event()
 
     def events(self) -> Iterable[Restored]:
         """What a newcomer is told."""
@@ -71,9 +73,15 @@ class DraftDesk:
         self._is_noted = True
         self._end_notice()
         if shown:
-            self._shown.set()
-        else:
-            self._shown.clear()
+            self._begin()
+        elif self._not_shown is None:
+            loop = asyncio.get_running_loop()
+            self._not_shown = loop.call_later(_SHOWN_WITHIN_S, self._begin)
+
+    def _begin(self) -> None:
+        if self._not_shown is not None:
+            self._not_shown.cancel()
+            self._not_shown = None
         if self._file is not None and (self._writing is None or self._writing.done()):
             self._writing = asyncio.create_task(self._write_while_noted())
 
@@ -100,8 +108,9 @@ class DraftDesk:
 
     async def close(self) -> None:
         """Write what is not written yet, and leave the draft to the next run."""
-        self._shown.set()
         self._ended.set()
+        if self._not_shown is not None:
+            self._begin()
         if self._writing:
             await self._writing
         if self._file is None:
@@ -147,10 +156,7 @@ class DraftDesk:
             self._document.board.audience.tell(self._restored)
 
     async def _write_while_noted(self) -> None:
-        while self._is_noted:
-            if not self._shown.is_set():
-                with suppress(TimeoutError):
-                    await asyncio.wait_for(self._shown.wait(), _SHOWN_WITHIN_S)
+        while self._is_noted and self._not_shown is None:
             await self._write()
             known = self._written
             large = known is not None and known.size_bytes > _LARGE_BYTES
