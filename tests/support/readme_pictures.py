@@ -112,11 +112,12 @@ def take_live(browser: Browser) -> None:
         tab_of(browser, studio, "dark") as tab,
     ):
         connect(tab)
-        add_displays(tab)
-        tab.page.keyboard.press("Control+2")
+        # Before there is much to draw, which leaves a slow machine no time for a click.
         frame = tab.page.get_by_role("textbox", name="Fixed frame")
         frame.fill("odom")
         frame.press("Enter")
+        add_displays(tab)
+        tab.page.keyboard.press("Control+2")
         look_at_odometry(tab)
         tab.page.wait_for_timeout(_DRIVEN_MS)
         tab.page.get_by_role("button", name="Fit", exact=False).first.click()
