@@ -8,7 +8,7 @@ import signal
 import socket
 import sys
 from collections import deque
-from contextlib import suppress
+from contextlib import ExitStack, contextmanager, suppress
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -216,11 +216,12 @@ def asked(studio: RunningStudio, **command: object) -> list[dict[str, Any]]:
         return answer.json()["events"]
 
 
-def texts_of(studio: RunningStudio) -> dict[str, Any]:
-    """The text of the open file, as it is edited and as the disk has it."""
+def texts_of(studio: RunningStudio, name: str = "rover") -> dict[str, Any]:
+    """The text of an open file, as it is edited and as the disk has it."""
     with studio.client() as client:
-        (document,) = client.get("/api/documents").json()["documents"]
-    (text, _) = asked(studio, type="get_text", file=document["path"])
+        documents = client.get("/api/documents").json()["documents"]
+    (path,) = (one["path"] for one in documents if one["id"] == name)
+    (text, _) = asked(studio, type="get_text", file=path, document=name)
     return text
 
 
@@ -243,3 +244,41 @@ def test_unsaved_work_outlasts_a_kill_and_ends_with_a_fresh_copy(tmp_path: Path)
     with running_studio(["demo", "--fresh"], data) as studio:
         fresh = texts_of(studio)
         assert (fresh["text"], fresh["saved"]) == (text["text"], None)
+
+
+@contextmanager
+def descriptors(limit: int) -> Iterator[None]:
+    """What is started in the block may hold so many; this process may hold all it can."""
+    import resource
+
+    _, most = resource.getrlimit(resource.RLIMIT_NOFILE)
+    if most < 2 * limit:
+        pytest.skip(f"This system lets nobody hold {2 * limit} descriptors")
+    resource.setrlimit(resource.RLIMIT_NOFILE, (limit, most))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_NOFILE, (most, most))
+
+
+@linux
+def test_with_more_silent_strangers_than_descriptors_the_presenter_gets_in_and_works(
+    tmp_path: Path,
+):
+    data = tmp_path / "data"
+    with ExitStack() as held:
+        with descriptors(1_024):
+            studio = held.enter_context(running_studio(["demo"], data))
+        for _ in range(1_100):
+            held.enter_context(socket.create_connection(("127.0.0.1", studio.port), timeout=60))
+        held.enter_context(watch(studio, "rover"))
+        meshes = set((data / "meshes").rglob("*"))
+        asked(studio, type="open_example", name="arm6_description", document="")
+        wait_until("its meshes", lambda: set((data / "meshes").rglob("*")) - meshes)
+        text = texts_of(studio, "arm6")
+        at = text["text"].index("<robot")
+        change = {"start": at, "end": at, "text": "<!-- mine -->"}
+        seen = {"file": text["file"], "version": text["version"], "document": "arm6"}
+        asked(studio, type="edit_text", changes=[change], **seen)
+        asked(studio, type="save", document="arm6")
+        assert "<!-- mine --><robot" in Path(text["file"]).read_text(encoding="utf-8")

@@ -89,9 +89,12 @@ def test_a_viewer_s_flood_of_frames_holds_up_no_presenter(web: RunningWeb, part:
                         one.send(part * 10_000)
 
         thread = threading.Thread(target=flood)
-        assert slowest_answer_s(lane, thread) < 1.0
-        end.set()
-        thread.join(60)
+        try:
+            slowest_s = slowest_answer_s(lane, thread)
+        finally:
+            end.set()
+            thread.join(60)
+        assert slowest_s < 1.0
 
 
 @pytest.mark.network
