@@ -274,7 +274,7 @@ def test_with_more_silent_strangers_than_descriptors_the_presenter_gets_in_and_w
         held.enter_context(watch(studio, "rover"))
         meshes = set((data / "meshes").rglob("*"))
         asked(studio, type="open_example", name="arm6_description", document="")
-        wait_until("its meshes", lambda: set((data / "meshes").rglob("*")) - meshes)
+        wait_until("its meshes", lambda: len(set((data / "meshes").rglob("*")) - meshes) > 0)
         text = texts_of(studio, "arm6")
         at = text["text"].index("<robot")
         change = {"start": at, "end": at, "text": "<!-- mine -->"}
