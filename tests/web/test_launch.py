@@ -27,7 +27,7 @@ from tests.support.studio_page import wait_until
 from tests.support.wire import free_port
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Generator, Iterator
 
     from websockets.sync.connection import Connection
 
@@ -247,7 +247,7 @@ def test_unsaved_work_outlasts_a_kill_and_ends_with_a_fresh_copy(tmp_path: Path)
 
 
 @contextmanager
-def descriptors(limit: int) -> Iterator[None]:
+def descriptors(limit: int) -> Generator[None]:
     """What is started in the block may hold so many; this process may hold all it can."""
     import resource
 
