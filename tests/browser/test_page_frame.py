@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import base64
+import io
 import re
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
+from PIL import Image, ImageStat
 
 from tests.support.studio_page import VIEWPORT, StudioPage, wait_until
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Browser, Locator
+    from playwright.sync_api import Browser, FloatRect, Locator
 
     from tests.support.server import RunningStudio
 
@@ -37,13 +40,8 @@ _SAY_SLOW = """async () => {
   state.graphics.value = { ...state.graphics.value, light: true };
 }"""
 _DARK_BY_CHOICE = """try { localStorage.setItem("studio.theme", '"dark"'); } catch {}"""
-_GROUNDS = """() => {
-  const view = document.querySelector("iframe")?.contentDocument;
-  if (!view?.documentElement?.dataset.graphics || !view.querySelector("#root *")) return null;
-  const ground = (one) => view.defaultView.getComputedStyle(one).backgroundColor;
-  return [ground(view.documentElement), ground(view.body), view.documentElement.dataset.theme];
-}"""
-_DARK_GROUND = "rgb(13, 17, 23)"
+_DARK = 100
+"""Brightness that the 3D view stays below, with a robot in it."""
 
 
 @pytest.fixture
@@ -169,19 +167,39 @@ def test_no_notice_covers_an_error_of_the_3d_view(tab: StudioPage):
     error.wait_for(state="detached")
 
 
-def test_the_3d_view_is_dark_before_our_script_came_where_the_dark_theme_was_chosen(
+def test_the_3d_view_is_never_white_while_it_opens_in_the_dark_theme(
     browser: Browser, studio: RunningStudio
 ):
     context = browser.new_context(viewport=VIEWPORT, color_scheme="light")
     context.add_init_script(_DARK_BY_CHOICE)
-    page = context.new_page()
-    page.route("**/viser/studio3d.js", lambda route: route.abort())
+    tab = StudioPage(context.new_page())
+    recording: Any = context.new_cdp_session(tab.page)
+    pictures: list[str] = []
+
+    def keep(event: dict[str, Any]) -> None:
+        pictures.append(event["data"])
+        recording.send("Page.screencastFrameAck", {"sessionId": event["sessionId"]})
+
+    recording.on("Page.screencastFrame", keep)
+    recording.send("Page.startScreencast", {"format": "png"})
     try:
-        page.goto(studio.url)
-        wait_until("viser's page", lambda: page.evaluate(_GROUNDS) is not None)
-        assert page.evaluate(_GROUNDS) == [_DARK_GROUND, _DARK_GROUND, "dark"]
+        tab.open(studio.url)
+        place = tab.page.locator("iframe").bounding_box()
+        assert place is not None
+        seen = [brightness(one, place) for one in pictures]
+        # The first ones are of the empty tab, before the page came.
+        since = next(n for n, one in enumerate(seen) if one < _DARK)
+        assert max(seen[since:]) < _DARK, seen
     finally:
         context.close()
+
+
+def brightness(picture: str, place: FloatRect) -> float:
+    """Of the middle of a place in a recorded picture, from 0 to 255."""
+    left, top = int(place["x"] + place["width"] / 4), int(place["y"] + place["height"] / 4)
+    right, bottom = left + int(place["width"] / 2), top + int(place["height"] / 2)
+    with Image.open(io.BytesIO(base64.b64decode(picture))) as image:
+        return ImageStat.Stat(image.convert("L").crop((left, top, right, bottom))).mean[0]
 
 
 def test_every_panel_has_a_way_on_a_phone(tab: StudioPage):

@@ -36,6 +36,8 @@ ON_THE_WIRE = (
     "lessons",
 )  # fmt: skip
 """Panels that show something only while a ROS 2 system is there."""
+OF_DEEDS = ("actions", "services", "parameters", "publish", "turtlesim", "jerry")
+"""Panels whose pictures `deed_pictures` and `field_pictures` take."""
 _HIGHEST_PX = 380
 DRAWN_WHOLE = ("graph", "plot")
 """Panels whose drawing fills them: cut off, it would show nothing."""
@@ -118,7 +120,7 @@ def take_panels(camera: Camera) -> None:
     """Each panel in front, cut to it."""
     camera.page.get_by_role("treeitem", name="upper_arm", exact=True).click()
     for panel in camera.page.evaluate(PANEL_IDS):
-        if wanted(panel) and panel not in {"problems", "displays", *ON_THE_WIRE}:
+        if wanted(panel) and panel not in {"problems", "displays", *ON_THE_WIRE, *OF_DEEDS}:
             camera.page.evaluate(SHOW_PANEL, panel)
             camera.take(panel, camera.page.evaluate(_DOCK_OF, panel))
 
