@@ -14,7 +14,7 @@ from tests.support.scene_server import SceneServer
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from playwright.sync_api import Browser, Page
+    from playwright.sync_api import Browser
 
 B = (False, True)
 pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(180)]
@@ -288,15 +288,6 @@ def test_fit_fills_two_thirds_of_the_view(view: ScenePage):
     assert 0.45 < height / HEIGHT < 0.7
 
 
-def test_the_robot_is_fitted_again_where_viser_places_its_camera_after_it_came(
-    page: Page, server: SceneServer
-):
-    view = ScenePage(page, server, rover()).open()
-    place = view.run("studio3d.getCamera()")["position"]
-    view.run("__viserMutable.resetCameraPose(false)")
-    view.until(f"Math.hypot(...studio3d.getCamera().position.map((x, n) => x - {place}[n])) < 1e-3")
-
-
 def test_after_a_cut_connection_all_is_as_it_was(view: ScenePage):
     view.run("studio3d.view('left')")
     view.pictures(2)
@@ -320,13 +311,6 @@ def test_a_view_comes_back_though_a_connection_takes_longer_than_viser_waits(vie
     finally:
         view.server.handshake_s = 0.0
     assert [told["connected"] for told in view.heard("connection")] == [False, True]
-
-
-def test_a_view_in_a_frame_without_the_focus_comes_back_too(page: Page, server: SceneServer):
-    view = ScenePage(page, server, rover()).open(framed=True)
-    page.evaluate("window.focus()")
-    server.drop_connections()
-    view.until("heard.filter(([type]) => type === 'connection').length === 2")
 
 
 def test_a_link_stays_hidden_when_it_is_made_anew(view: ScenePage):
