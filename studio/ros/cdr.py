@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import struct
+from contextlib import contextmanager
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, cast
 
@@ -27,7 +28,7 @@ from studio.ros.types.classes import (
 from studio.ros.types.definitions import DUMMY_FIELD, Field, Message, Shape
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Generator
 
 HEADER_BYTES = 4
 SEQUENCE_PLACES_MAX = 2**32 - 1
@@ -104,23 +105,42 @@ class _Part:
         self.cls = maker_of(kind)
         self.fields = _fields(definition_of(kind), attributes_of(kind))
         self._parts = cast("Any", parts)
-        self.getsize_cdr, self.size_cdr = generate_getsize_cdr(self.fields, self._parts)
+        with _interruptible():
+            self.getsize_cdr, self.size_cdr = generate_getsize_cdr(self.fields, self._parts)
 
     @cached_property
     def serialize_cdr_le(self) -> Callable[..., int]:
-        return generate_serialize_cdr(self.fields, self._parts, "le")
+        with _interruptible():
+            return generate_serialize_cdr(self.fields, self._parts, "le")
 
     @cached_property
     def serialize_cdr_be(self) -> Callable[..., int]:
-        return generate_serialize_cdr(self.fields, self._parts, "be")
+        with _interruptible():
+            return generate_serialize_cdr(self.fields, self._parts, "be")
 
     @cached_property
     def deserialize_cdr_le(self) -> Callable[..., Any]:
-        return generate_deserialize_cdr(self.fields, self._parts, "le")
+        with _interruptible():
+            return generate_deserialize_cdr(self.fields, self._parts, "le")
 
     @cached_property
     def deserialize_cdr_be(self) -> Callable[..., Any]:
-        return generate_deserialize_cdr(self.fields, self._parts, "be")
+        with _interruptible():
+            return generate_deserialize_cdr(self.fields, self._parts, "be")
+
+
+@contextmanager
+def _interruptible() -> Generator[None]:
+    """Let Ctrl-C be caught by whoever waits for code to be generated.
+
+    CPython notes an interrupt that leaves an `exec` of text as unhandled, and ends the process by
+    the signal even where it was caught; executing a text again takes the note back.
+    """
+    try:
+        yield
+    except KeyboardInterrupt:
+        exec("")
+        raise
 
 
 class _Parts:

@@ -1,7 +1,10 @@
 from __future__ import annotations
 
 import contextlib
+import signal
 import struct
+import subprocess
+import sys
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -176,3 +179,38 @@ def test_texts_of_wide_letters_are_refused_with_the_reason():
     wide = message("cdr_pkg/msg/Wide")
     with pytest.raises(UnknownTypeError, match="wstring"):
         Codec(wide)
+
+
+@pytest.mark.parametrize("caught", [True, False])
+@pytest.mark.parametrize("moment", range(3))
+def test_ctrl_c_while_code_is_generated_ends_the_process_only_where_nobody_catches_it(
+    moment: int, caught: bool
+):
+    program = f"""
+import signal, sys
+from studio.ros.cdr import Codec
+from studio.ros.types.library import TypeLibrary
+
+def interrupt(frame, event, _):
+    code = frame.f_code
+    if code.co_filename in ("<string>", "<generated>") and code.co_name == "<module>":
+        moments.append(code)
+    if len(moments) > {moment}:
+        sys.settrace(None)
+        signal.raise_signal(signal.SIGINT)
+
+kind = TypeLibrary("jazzy").message("std_msgs/msg/String")
+moments = []
+sys.settrace(interrupt)
+try:
+    Codec(kind).encode(kind(data="x"))
+except KeyboardInterrupt:
+    print("interrupted")
+    if not {caught}:
+        raise
+"""
+    ended = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=False
+    )
+    assert ended.stdout == "interrupted\n"
+    assert ended.returncode == (0 if caught else -signal.SIGINT)

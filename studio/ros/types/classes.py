@@ -102,9 +102,8 @@ def maker_of(kind: type[MessageValue]) -> Callable[..., MessageValue]:
             lines.append(f" _self.{slot} = {name}")
     # A message without fields carries one byte.
     arguments = ", ".join(names) or DUMMY_FIELD
-    made: dict[str, Any] = {}
-    exec("\n".join([f"def make({arguments}):", *lines, " return _self"]), known, made)
-    return made["make"]
+    code = "\n".join([f"def make({arguments}):", *lines, " return _self"])
+    return _defined(code, known)["make"]
 
 
 def make_class(
@@ -174,9 +173,18 @@ def _make_init(
     # A message without fields carries one byte, which decoding hands over.
     arguments = arguments or [f"{DUMMY_FIELD}=0"]
     code = f"def __init__(_self, {', '.join(arguments)}):\n" + ("\n".join(lines) or " pass")
+    return _defined(code, known)["__init__"]
+
+
+def _defined(code: str, known: dict[str, object]) -> dict[str, Any]:
+    """Run generated code, and give what it defines.
+
+    It is compiled before: an interrupt that leaves an `exec` of text ends the process at its exit,
+    even where it was caught.
+    """
     made: dict[str, Any] = {}
-    exec(code, known, made)
-    return made["__init__"]
+    exec(compile(code, "<generated>", "exec"), known, made)
+    return made
 
 
 def _scalar_default(field: Field) -> object:
