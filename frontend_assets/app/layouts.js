@@ -87,8 +87,11 @@ export const layoutDesk = signal(null);
 export function followSize(dock, element) {
   const arrange = () => {
     const kind = size.value;
-    dock.setSingle(kind === "phone");
-    dock.arrange(untracked(() => arrangementFor(kind, element)));
+    // The words of a panel come with it: they must not arrange all anew.
+    untracked(() => {
+      dock.setSingle(kind === "phone");
+      dock.arrange(arrangementFor(kind, element));
+    });
   };
   const measure = () => {
     size.value = sizeOf(innerWidth, innerHeight);
@@ -96,6 +99,7 @@ export function followSize(dock, element) {
   measure();
   addEventListener("resize", measure);
   effect(arrange);
+  effect(dock.nameAll);
   layoutDesk.value = deskFor(dock, arrange);
   return {
     keep() {

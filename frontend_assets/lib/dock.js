@@ -26,6 +26,7 @@ import { keepTabsWhole } from "./tight-tabs.js";
  * @typedef {object} Dock
  * @property {(id: string) => void} show bring a panel to the front, opened where it is missing
  * @property {(id: string, other: string) => void} showBeside the same, with another one kept in sight
+ * @property {() => void} nameAll panels by their titles, in another language or with their words
  * @property {(id: string) => boolean} isOpen
  * @property {() => string | null} active
  * @property {(step: 1 | -1) => void} focusNext
@@ -104,6 +105,9 @@ export function createDock(element, panels, options) {
     showBeside: (id, other) => {
       show(api, panels, id);
       if (!single) uncover(api, panels, id, other);
+    },
+    nameAll() {
+      for (const { id, api: one } of api.panels) one.setTitle(titleOf(id, panels));
     },
     isOpen: (id) => api.getPanel(id) !== undefined,
     active: () => api.activePanel?.id ?? null,
@@ -278,9 +282,12 @@ function toggleMaximized(api) {
 }
 
 /** @param {string} id @param {Record<string, Panel>} panels */
+const titleOf = (id, panels) => panels[id]?.title() ?? id;
+
+/** @param {string} id @param {Record<string, Panel>} panels */
 function described(id, panels) {
   const renderer = panels[id]?.keepsFrame ? "always" : "onlyWhenVisible";
-  return { id, contentComponent: id, tabComponent: id, title: panels[id]?.title() ?? id, renderer };
+  return { id, contentComponent: id, tabComponent: id, title: titleOf(id, panels), renderer };
 }
 
 /** @param {DockviewApi} api @param {string} id @returns {HTMLElement | null} the tab of a panel */

@@ -107,6 +107,16 @@ def test_a_panel_moves_by_keys_and_the_layout_comes_back_by_its_name(tab: Studio
     wait_until("the saved layout again", lambda: groups(tab) == mine)
 
 
+def test_a_panel_whose_words_come_with_it_stays_the_one_that_keys_are_for(tab: StudioPage):
+    tab.page.set_viewport_size({"width": 720, "height": 640})
+    search(tab, "diagnostics")
+    tab.page.keyboard.press("Enter")
+    panel = tab.page.get_by_role("tabpanel", name="Diagnostics")
+    panel.get_by_text("Not connected with ROS 2.").wait_for()
+    active = tab.page.locator(".dv-active-group .dv-active-tab")
+    assert active.inner_text() == "Diagnostics"
+
+
 def test_layouts_travel_as_a_file_and_what_is_no_such_file_is_refused(
     tab: StudioPage, tmp_path: Path
 ):
