@@ -131,6 +131,8 @@ def dialog_faults(tab: StudioPage, name: str, theme: Theme) -> list[str]:
     else:
         tab.page.evaluate(_SHOW_DIALOG, DIALOGS[name])
     tab.page.locator("dialog h2").wait_for()
+    if name == "save":
+        tab.page.locator(".hunk-line").first.wait_for()
     found = faults(tab, name, "dialog", theme)
     tab.page.evaluate(_SHOW_DIALOG, None)
     tab.page.locator("dialog").wait_for(state="detached")
