@@ -8,21 +8,13 @@ import pytest
 
 from tests.support.robots import rover
 from tests.support.scene_page import ScenePage
-from tests.support.scene_server import SceneServer
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from playwright.sync_api import Page
 
+    from tests.support.scene_server import SceneServer
+
 pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(180)]
-
-
-@pytest.fixture(scope="module")
-def server() -> Iterator[SceneServer]:
-    with SceneServer() as running:
-        running.call(lambda scene: scene.show(rover(), None))
-        yield running
 
 
 def test_the_robot_is_fitted_again_where_viser_places_its_camera_after_it_came(

@@ -9,22 +9,16 @@ import pytest
 from studio.robot.values import Robot
 from tests.support.robots import rover
 from tests.support.scene_page import HEIGHT, WIDTH, ScenePage
-from tests.support.scene_server import SceneServer
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from playwright.sync_api import Browser
 
+    from tests.support.scene_server import SceneServer
+
 B = (False, True)
 pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(180)]
-
-
-@pytest.fixture(scope="module")
-def server() -> Iterator[SceneServer]:
-    with SceneServer() as running:
-        running.call(lambda scene: scene.show(rover(), None))
-        yield running
 
 
 @pytest.fixture(scope="module")
