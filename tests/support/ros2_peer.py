@@ -213,6 +213,7 @@ def _started(
             **kept,
             "ROUTER_ENDPOINT": endpoint,
             "ZENOH_ROUTER_CHECK_ATTEMPTS": "-1",
+            "RUST_LOG": "error",  # of zenoh: it warns of a slow start among what `ros2` says
             **(environment or {}),
         },
         stdin=stdin,
