@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 import studio
+from studio.server.ports import bind, port_of
 from studio.settings import repository_or_wheel
-from studio.web.ports import bind, port_of
 
 MODELS = repository_or_wheel("models")
 ROBOT = MODELS / "xacro_robot_description" / "urdf" / "xacro_robot.urdf.xacro"

@@ -88,8 +88,8 @@ def server_settings(options: argparse.Namespace) -> Settings:
         WireSettingsError: `--router` or `--connect` names no endpoint.
     """
     from studio.ros.wire.endpoints import parse_endpoint
+    from studio.server.credentials import new_token
     from studio.settings import Settings, WireChoice, data_folder
-    from studio.web.credentials import new_token
 
     router = () if options.router in {"auto", "off"} else (options.router,)
     for endpoint in (*options.connect, *router):
@@ -118,7 +118,7 @@ def serve(
     `nodes` starts nodes once the page is served, and the studio joins them.
     """
     gc.disable()  # all that is imported lives on: looking through it meanwhile costs a third
-    from studio.web.launch import Opening, launch
+    from studio.server.launch import Opening, launch
 
     gc.freeze()
     gc.set_threshold(_NEW_OBJECTS_MAX)

@@ -12,8 +12,8 @@ from xml.sax.saxutils import quoteattr
 
 import pytest
 
-from studio.engine import messages as m
-from studio.web.exports import disposition
+from studio import protocol as m
+from studio.server.exports import disposition
 from tests.support.open_documents import engine, opened
 from tests.support.packages import write_package
 

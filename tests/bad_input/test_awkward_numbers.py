@@ -10,14 +10,14 @@ import numpy as np
 import pytest
 from pydantic import TypeAdapter, ValidationError
 
-from studio.engine import messages as m
+from studio import protocol as m
 from tests.support.open_documents import Ear, engine, opened
 from tests.support.packages import write_package
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from studio.engine.document import Document
+    from studio.documents.document import Document
 
 
 MAST = """<robot name="mast" xmlns:xacro="http://www.ros.org/wiki/xacro">

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from studio.engine import messages as m
-from studio.engine.messages.rewriting import Rename
+from studio import protocol as m
 from studio.errors import NotSavedError
+from studio.protocol.rewriting import Rename
 from tests.support.open_documents import engine, opened, until
 from tests.support.permissions import open_folder, unprivileged
 

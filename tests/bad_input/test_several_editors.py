@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio.engine import messages as m
+from studio import protocol as m
 from studio.errors import UnknownDocumentError
 from tests.support.open_documents import Ear, engine, opened
 

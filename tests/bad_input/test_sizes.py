@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio.engine import messages as m
+from studio import protocol as m
 from studio.errors import UploadError
 from tests.support.large_robots import robot_of_includes, robot_of_links
 from tests.support.open_documents import engine, opened

@@ -12,16 +12,16 @@ from typing import TYPE_CHECKING
 from starlette.websockets import WebSocket
 
 from studio.cli import main
-from studio.web import launch
-from studio.web.app import make_app
-from studio.web.lane import Lane
+from studio.server import launch
+from studio.server.app import make_app
+from studio.server.lane import Lane
 
 if TYPE_CHECKING:
     from starlette.types import ASGIApp, Receive, Scope, Send
 
-    from studio.web.assets import Assets
-    from studio.web.credentials import Credentials
-    from studio.web.surface import OpenDocuments
+    from studio.server.assets import Assets
+    from studio.server.credentials import Credentials
+    from studio.server.surface import OpenDocuments
 
 PATH = "/echo"
 

@@ -16,8 +16,8 @@ import numpy as np
 from studio.displays.map import MapDisplay
 from studio.displays.point_cloud2 import PointCloud2Display
 from studio.displays.tf import TfDisplay
-from studio.engine.live.frames_desk import FramesDesk
-from studio.engine.messages.live import GetTf
+from studio.live.displays.frames_desk import FramesDesk
+from studio.protocol.live import GetTf
 from studio.robot.values import Joint, JointType, Link, Origin, Robot
 from studio.scene import DocumentScene
 from tests.benchmarks.displays import TYPES, cloud_message, map_message

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import pytest
 import zenoh
 
-from studio.engine.wire.report import examine
+from studio.live.connection.report import examine
 from studio.ros.client import DurabilityPolicy, QoSProfile
 from studio.ros.graph.graph import Graph
 from studio.ros.graph.unseen import unseen_nodes

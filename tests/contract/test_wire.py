@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, get_args
 
 import pytest
 
-from studio.engine.messages import COMMANDS, EVENTS, Command, Event
-from studio.web.schema import openapi, wire_schemas
-from studio.web.wire_types import target, wire_types
+from studio.protocol import COMMANDS, EVENTS, Command, Event
+from studio.server.schema import openapi, wire_schemas
+from studio.server.wire_types import target, wire_types
 
 if TYPE_CHECKING:
     from pydantic import BaseModel
@@ -22,7 +22,7 @@ KINDS: list[type[BaseModel]] = [
 
 def test_the_types_of_the_page_are_fresh():
     assert target().read_text(encoding="utf-8") == wire_types(), (
-        "run: python -m studio.web.wire_types"
+        "run: python -m studio.server.wire_types"
     )
 
 

@@ -19,7 +19,7 @@ from tests.support.studio_page import changed_bytes
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from studio.engine.document import Document
+    from studio.documents.document import Document
 
 pytestmark = [pytest.mark.corpus, pytest.mark.timeout(300)]
 

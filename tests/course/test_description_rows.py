@@ -16,7 +16,7 @@ from tests.support.xacro_command import expand_by_command
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from studio.engine.document import Document
+    from studio.documents.document import Document
 
 
 LAYERS = ("visual", "collision", "inertia", "com", "frames", "names", "axes")

@@ -11,8 +11,8 @@ import pytest
 
 from studio.displays.catalogue import DISPLAYS
 from studio.displays.drawing import Points
-from studio.engine.messages import live as v
 from studio.nodes.demos.rover.room import clearance_m
+from studio.protocol import live as v
 from studio.ros.messages import message
 from tests.support.demos import heard, node_at, running_demo
 from tests.support.display_samples import BASE, SAMPLES

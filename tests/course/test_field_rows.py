@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from studio.engine.messages.calls import CallService
-from studio.engine.messages.publishing import Publish
-from studio.engine.messages.topics import ListTopics
+from studio.protocol.calls import CallService
+from studio.protocol.publishing import Publish
+from studio.protocol.topics import ListTopics
 from tests.support.bridged import Bridged, bridged
 from tests.support.demos import heard, node_at, running_demo
 from tests.support.open_documents import until

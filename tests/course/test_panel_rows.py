@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from studio.engine.messages.calls import CallService, CancelCall, GetActions, GetServices
-from studio.engine.messages.goals import CancelGoal, GetGoalStatuses, SendGoal
-from studio.engine.messages.parameters import (
+from studio.errors import CommandError
+from studio.protocol.calls import CallService, CancelCall, GetActions, GetServices
+from studio.protocol.goals import CancelGoal, GetGoalStatuses, SendGoal
+from studio.protocol.parameters import (
     DumpParameters,
     FollowParameters,
     GetParameterNodes,
@@ -18,8 +19,7 @@ from studio.engine.messages.parameters import (
     LoadParameters,
     SetParameter,
 )
-from studio.engine.messages.publishing import Publish, StopPublishing
-from studio.errors import CommandError
+from studio.protocol.publishing import Publish, StopPublishing
 from tests.support.bridged import Bridged, bridged
 from tests.support.demos import heard, node_at, running_demo
 from tests.support.open_documents import until
@@ -28,7 +28,7 @@ from tests.support.wire import running_router
 if TYPE_CHECKING:
     from collections.abc import Generator
 
-    from studio.engine.messages import BridgeCommand
+    from studio.protocol import BridgeCommand
 
 pytestmark = [pytest.mark.network, pytest.mark.timeout(120)]
 SONG = "radio_station_interfaces/action/ChooseSong"

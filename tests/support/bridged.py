@@ -5,16 +5,16 @@ from __future__ import annotations
 from contextlib import asynccontextmanager
 from typing import TYPE_CHECKING, Any, cast, get_args
 
-from studio.engine.bridge.desk import BridgeDesk
-from studio.engine.messages.calls import FollowDeeds
-from studio.engine.wire.desk import WireDesk
+from studio.live.connection.desk import WireDesk
+from studio.live.panels.desk import BridgeDesk
+from studio.protocol.calls import FollowDeeds
 from studio.settings import WireChoice
 from tests.support.open_documents import Ear, until
 
 if TYPE_CHECKING:
     from collections.abc import AsyncGenerator
 
-    from studio.engine.messages import BridgeCommand
+    from studio.protocol import BridgeCommand
 
 
 class Bridged:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Final, cast
 
-from studio.web.schema import Schema, wire_schemas
+from studio.server.schema import Schema, wire_schemas
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

@@ -20,11 +20,11 @@ from pathlib import Path
 from random import Random
 from typing import TYPE_CHECKING, Any, Final
 
-from studio.engine.engine import Engine
-from studio.engine.roles import Role
-from studio.engine.services import USED_LATER
+from studio.documents.engine import Engine
+from studio.documents.services import USED_LATER
+from studio.protocol.roles import Role
+from studio.server.commands import answer
 from studio.settings import Settings, WireChoice
-from studio.web.commands import answer
 from tests.support.command_fuzzer import WORDS, CommandFuzzer
 from tests.support.loop_watch import Stall, stalls
 from tests.support.open_documents import Ear, until
@@ -172,7 +172,7 @@ async def sweep(folder: Path, seed: int, count: int, stall_s: float = STALL_S) -
     long_text.with_name("long.urdf.xacro").write_text(f"<robot name='long'>\n{filling}</robot>\n")
     settings = Settings(data_folder=folder / "data", wire=WireChoice(router="off"))
     settings.data_folder.mkdir()
-    log, door = _Log(), logging.getLogger("studio.web.commands")
+    log, door = _Log(), logging.getLogger("studio.server.commands")
     door.addHandler(log)
     made = Engine(settings)
     await made.start()

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from websockets.frames import Frame, Opcode
 
-from studio.engine.roles import Role
+from studio.protocol.roles import Role
 
 if TYPE_CHECKING:
     from collections.abc import Generator

@@ -11,9 +11,9 @@ import random
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from studio.engine.bridge.interfaces import InterfaceDesk
-from studio.engine.messages.interfaces import GetInterface
-from studio.engine.wire.desk import WireDesk
+from studio.live.connection.desk import WireDesk
+from studio.live.panels.interfaces import InterfaceDesk
+from studio.protocol.interfaces import GetInterface
 from studio.ros.cdr import Codec
 from studio.ros.messages import message
 from studio.ros.types.classes import class_of_field, definition_of

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from studio.engine.bridge.hearing_frames import FRAME_HEAD, MESSAGE_HEAD
-from studio.engine.messages.hearing import Heard, NotHeard
+from studio.live.panels.hearing_frames import FRAME_HEAD, MESSAGE_HEAD
+from studio.protocol.hearing import Heard, NotHeard
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from pydantic import BaseModel
 
-    from studio.engine.bridge.hearing_frames import Tick
+    from studio.live.panels.hearing_frames import Tick
 
 
 class Came(NamedTuple):

@@ -11,9 +11,14 @@ import argparse
 import ast
 import re
 import statistics
+import sys
 from collections import defaultdict
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 PAGE_IMPORT = re.compile(
@@ -80,43 +85,25 @@ def _targets(node: ast.Import | ast.ImportFrom, modules: frozenset[str]) -> set[
 
 
 def circles(graph: dict[str, frozenset[str]]) -> list[list[str]]:
-    """Groups of two and more nodes that reach each other, the largest first (Tarjan 1972)."""
-    index: dict[str, int] = {}
-    low: dict[str, int] = {}
-    stack: list[str] = []
-    found: list[list[str]] = []
+    """Groups of two and more nodes that all reach each other, the largest first."""
+    reached = {node: _reached_from(node, graph) for node in graph}
+    groups = {
+        frozenset(other for other in far if node in reached[other])
+        for node, far in reached.items()
+        if node in far
+    }
+    return sorted((sorted(group) for group in groups), key=len, reverse=True)
 
-    def visit(root: str) -> None:
-        work = [(root, iter(sorted(graph[root])))]
-        index[root] = low[root] = len(index)
-        stack.append(root)
-        while work:
-            node, rest = work[-1]
-            for other in rest:
-                if other not in graph:
-                    continue
-                if other not in index:
-                    index[other] = low[other] = len(index)
-                    stack.append(other)
-                    work.append((other, iter(sorted(graph[other]))))
-                    break
-                if other in stack:
-                    low[node] = min(low[node], index[other])
-            else:
-                work.pop()
-                if work:
-                    low[work[-1][0]] = min(low[work[-1][0]], low[node])
-                if low[node] == index[node]:
-                    cut = stack.index(node)
-                    group = stack[cut:]
-                    del stack[cut:]
-                    if len(group) > 1:
-                        found.append(sorted(group))
 
-    for node in sorted(graph):
-        if node not in index:
-            visit(node)
-    return sorted(found, key=len, reverse=True)
+def _reached_from(start: str, graph: dict[str, frozenset[str]]) -> set[str]:
+    """What `start` imports, directly or not; itself only along a circle."""
+    reached: set[str] = set()
+    waiting = [start]
+    while waiting:
+        news = (graph[waiting.pop()] & graph.keys()) - reached
+        reached |= news
+        waiting += news
+    return reached
 
 
 def longest_chain(graph: dict[str, frozenset[str]]) -> list[str]:
@@ -127,14 +114,18 @@ def longest_chain(graph: dict[str, frozenset[str]]) -> list[str]:
         if node not in best:
             under = above | {node}
             rest = [below(one, under) for one in sorted(graph[node] & graph.keys() - under)]
-            best[node] = [node, *max(rest, key=len, default=[])]
+            best[node] = [node, *_longest(rest)]
         return best[node]
 
-    return max((below(node, frozenset()) for node in sorted(graph)), key=len, default=[])
+    return _longest(below(node, frozenset()) for node in sorted(graph))
 
 
-def print_python(folder: Path) -> None:
-    """Print the figures of the Python files."""
+def _longest(chains: Iterable[list[str]]) -> list[str]:
+    return max(chains, key=len, default=list[str]())
+
+
+def python_figures(folder: Path) -> Iterator[str]:
+    """Give the figures of the Python files."""
     files = python_files(folder)
     lines = [file.lines for file in files.values()]
     importers: dict[str, set[str]] = defaultdict(set)
@@ -145,25 +136,25 @@ def print_python(folder: Path) -> None:
     runs = {name: file.runs for name, file in files.items()}
     every = {name: file.imports for name, file in files.items()}
     import_share = sum(file.import_lines for file in files.values()) / sum(lines)
-    print(f"files                      {len(files)}")
-    print(f"lines                      {sum(lines)}")
-    print(f"median file                {statistics.median(lines):.0f} lines")
-    print(f"over 600 lines             {sum(count > 600 for count in lines)}")
-    print(f"imports                    {import_share:.1%} of the lines")
-    print(f"one importer               {len(alone) / len(files):.0%} of the files")
-    print(f"types imported apart       {sum(bool(file.types) for file in files.values())} files")
+    yield f"files                      {len(files)}"
+    yield f"lines                      {sum(lines)}"
+    yield f"median file                {statistics.median(lines):.0f} lines"
+    yield f"over 600 lines             {sum(count > 600 for count in lines)}"
+    yield f"imports                    {import_share:.1%} of the lines"
+    yield f"one importer               {len(alone) / len(files):.0%} of the files"
+    yield f"types imported apart       {sum(bool(file.types) for file in files.values())} files"
     chain = longest_chain(runs)
-    print(f"longest chain of imports   {len(chain)}")
-    print(f"  {' > '.join(name.removeprefix('studio.') for name in chain)}")
-    print(f"circles as it runs         {[len(one) for one in circles(runs)]}")
+    yield f"longest chain of imports   {len(chain)}"
+    yield f"  {' > '.join(name.removeprefix('studio.') for name in chain)}"
+    yield f"circles as it runs         {[len(one) for one in circles(runs)]}"
     with_types = circles(every)
-    print(f"circles with types         {[len(one) for one in with_types]}")
+    yield f"circles with types         {[len(one) for one in with_types]}"
     for one in with_types:
-        print(f"  {' '.join(name.removeprefix('studio.') for name in one)}")
+        yield f"  {' '.join(name.removeprefix('studio.') for name in one)}"
 
 
-def print_page() -> None:
-    """Print the figures of the page's modules."""
+def page_figures() -> Iterator[str]:
+    """Give the figures of the page's modules."""
     root = REPOSITORY / "frontend_assets"
     paths = [
         path
@@ -173,26 +164,24 @@ def print_page() -> None:
     importers: dict[Path, set[Path]] = defaultdict(set)
     for path in paths:
         for target in PAGE_IMPORT.findall(path.read_text(encoding="utf-8")):
-            if target.startswith("."):
-                importers[(path.parent / target).resolve()].add(path)
+            importers[(path.parent / target).resolve()].add(path)
     lines = [len(path.read_text(encoding="utf-8").splitlines()) for path in paths]
     alone = sum(len(importers[path]) == 1 for path in paths)
-    print(f"modules                    {len(paths)}")
-    print(f"lines                      {sum(lines)}")
-    print(f"median module              {statistics.median(lines):.0f} lines")
-    print(f"one importer               {alone / len(paths):.0%} of the modules")
+    yield f"modules                    {len(paths)}"
+    yield f"lines                      {sum(lines)}"
+    yield f"median module              {statistics.median(lines):.0f} lines"
+    yield f"one importer               {alone / len(paths):.0%} of the modules"
 
 
 def main() -> None:
     """Print what was asked for."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("folder", nargs="?", default="studio")
-    given = parser.parse_args()
-    print(f"== {given.folder}")
-    print_python((REPOSITORY / given.folder).resolve())
-    if given.folder == "studio":
-        print("== frontend_assets")
-        print_page()
+    folder = parser.parse_args().folder
+    lines = [f"== {folder}", *python_figures((REPOSITORY / folder).resolve())]
+    if folder == "studio":
+        lines += ["== frontend_assets", *page_figures()]
+    sys.stdout.writelines(f"{line}\n" for line in lines)
 
 
 if __name__ == "__main__":

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 from tests.support.open_documents import engine, opened, until
 
 if TYPE_CHECKING:
-    from studio.engine.document import Document
+    from studio.documents.document import Document
     from tests.support.open_documents import Ear
 
 _RENAME = Path.replace

@@ -15,15 +15,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from studio.engine import messages as m
-from studio.engine.dispatch import carry_out
-from studio.engine.roles import Role
+from studio import protocol as m
+from studio.documents.dispatch import carry_out
+from studio.protocol.roles import Role
 from studio.robot.inertia import total
 from tests.support.open_documents import Ear, engine, opened
 from tests.support.yourdfpy_poses import poses_by_yourdfpy
 
 if TYPE_CHECKING:
-    from studio.engine.document import Document
+    from studio.documents.document import Document
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 FILE = REPOSITORY / "tests" / "support" / "link-poses.json"

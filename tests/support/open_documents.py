@@ -7,15 +7,15 @@ import json
 from contextlib import asynccontextmanager
 from typing import TYPE_CHECKING, Any
 
-from studio.engine.engine import Engine
-from studio.engine.roles import Role
+from studio.documents.engine import Engine
+from studio.protocol.roles import Role
 from studio.settings import Settings
 
 if TYPE_CHECKING:
     from collections.abc import AsyncGenerator, Callable
     from pathlib import Path
 
-    from studio.engine.document import Document
+    from studio.documents.document import Document
 
 _PATIENCE_S = 60.0
 

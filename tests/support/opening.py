@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 from tests.support.open_documents import Ear
 
 if TYPE_CHECKING:
-    from studio.engine import messages as m
-    from studio.engine.document import Document
-    from studio.engine.engine import Engine
+    from studio import protocol as m
+    from studio.documents.document import Document
+    from studio.documents.engine import Engine
 
 ROBOT = b'<robot name="r"><link name="base"/></robot>'
 

@@ -19,7 +19,7 @@ LONGEST: Final = (
     "tests/test_cli.py",
     "tests/corpus/test_corpus_opens.py",
     "tests/bad_input/test_bad_files.py",
-    "tests/web/test_launch.py",
+    "tests/server/test_launch.py",
 )
 """Minutes each: begun last, one of them would keep all others waiting."""
 

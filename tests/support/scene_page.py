@@ -133,7 +133,7 @@ class ScenePage:
             self.run("(positions) => studio3d.setPositions(positions)", told)
 
     def state(self) -> dict[str, Any]:
-        """What the page is told of the robot: RobotState of engine.messages."""
+        """What the page is told of the robot: RobotState of the protocol."""
         joints = [
             {
                 "name": joint.name,

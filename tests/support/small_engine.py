@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 from starlette.requests import ClientDisconnect
 
-from studio.engine.bridge.hearing_frames import Tick, chunk_of
-from studio.engine.keeping.exports import Download
-from studio.engine.listeners import tell
-from studio.engine.messages import (
+from studio.documents.keeping.exports import Download
+from studio.errors import ExportError, SaveConflictError, UnknownDocumentError, UploadError
+from studio.live.panels.hearing_frames import Tick, chunk_of
+from studio.protocol import (
     AnimateJoints,
     CloseDocument,
     Command,
@@ -26,8 +26,8 @@ from studio.engine.messages import (
     Urdf,
     ZeroJoints,
 )
-from studio.engine.messages.hearing import Hear, NotHeard
-from studio.errors import ExportError, SaveConflictError, UnknownDocumentError, UploadError
+from studio.protocol.hearing import Hear, NotHeard
+from studio.protocol.listeners import tell
 from studio.ros.attachment import Attachment
 from studio.ros.node.inbox import RawSample
 from studio.scene.connection import SUBPROTOCOL
@@ -35,10 +35,10 @@ from studio.scene.connection import SUBPROTOCOL
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator, Callable
 
-    from studio.engine.bridge.hearing import Hearer
-    from studio.engine.keeping.exports import MeshNames
-    from studio.engine.listeners import Listener
-    from studio.engine.messages.hearing import Wish
+    from studio.documents.keeping.exports import MeshNames
+    from studio.live.panels.hearing import Hearer
+    from studio.protocol.hearing import Wish
+    from studio.protocol.listeners import Listener
     from studio.scene import Connection
 
 FLOOD = 40

@@ -10,11 +10,11 @@ import sys
 import time
 from pathlib import Path
 
-from studio.web.app import make_app
-from studio.web.assets import Assets
-from studio.web.credentials import Credentials
-from studio.web.ports import address, bind, port_of
-from studio.web.server import Server
+from studio.server.app import make_app
+from studio.server.assets import Assets
+from studio.server.credentials import Credentials
+from studio.server.ports import address, bind, port_of
+from studio.server.server import Server
 from tests.support.small_engine import SmallEngine
 
 _FOREVER_S = 1000.0

@@ -6,15 +6,15 @@ from contextlib import asynccontextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from studio.engine import messages as m
+from studio import protocol as m
 from tests.support.open_documents import Ear, engine, opened, until
 from tests.support.packages import write_package
 
 if TYPE_CHECKING:
     from collections.abc import AsyncGenerator
 
-    from studio.engine.document import Document
-    from studio.engine.engine import Engine
+    from studio.documents.document import Document
+    from studio.documents.engine import Engine
 
 MAST = """<robot name="mast" xmlns:xacro="http://www.ros.org/wiki/xacro">
   <xacro:arg name="gripper" default="false"/>

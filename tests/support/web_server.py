@@ -10,13 +10,13 @@ import httpx2
 from websockets.sync.client import connect
 from websockets.typing import Origin, Subprotocol
 
-from studio.engine.roles import Role
-from studio.web.app import make_app
-from studio.web.assets import Assets
-from studio.web.credentials import Credentials
-from studio.web.ports import bind, port_of
-from studio.web.protocol import StudioSocket
-from studio.web.server import Server
+from studio.protocol.roles import Role
+from studio.server.app import make_app
+from studio.server.assets import Assets
+from studio.server.credentials import Credentials
+from studio.server.ports import bind, port_of
+from studio.server.protocol import StudioSocket
+from studio.server.server import Server
 from tests.support.small_engine import SmallEngine
 
 if TYPE_CHECKING:

@@ -6,7 +6,7 @@ import math
 from contextlib import asynccontextmanager
 from typing import TYPE_CHECKING
 
-from studio.engine.engine import Engine
+from studio.documents.engine import Engine
 from studio.ros.messages import message
 from studio.settings import Settings, WireChoice
 from tests.support.open_documents import opened
@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from collections.abc import AsyncGenerator, Callable
     from pathlib import Path
 
-    from studio.engine.document import Document
-    from studio.engine.messages import Command
+    from studio.documents.document import Document
+    from studio.protocol import Command
     from studio.ros.client import Node, Publisher
     from tests.support.open_documents import Ear
 

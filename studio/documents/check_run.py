@@ -1,0 +1,266 @@
+"""Checks robots without a browser: each is opened as the page would, looked at, and closed."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import tempfile
+from contextlib import asynccontextmanager
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+from studio.description.client import DescriptionWorker
+from studio.documents.document import Document
+from studio.documents.services import Services
+from studio.errors import UnreadableFileError
+from studio.live.connection.opened_types import take_types
+from studio.packages.roots import is_below
+from studio.packages.workspace import open_location
+from studio.problems import Problem, Severity
+
+if TYPE_CHECKING:
+    from collections.abc import AsyncGenerator, Iterable, Mapping, Sequence
+
+    from studio.documents.services import Opened
+    from studio.packages.entry_points import EntryPoint
+    from studio.packages.workspace import Location, Progress
+    from studio.settings import Settings
+
+_AT_ONCE: Final = (os.cpu_count() or 1) + 2
+"""Robots that are open at the same time: each core has work while others wait for quiet."""
+_QUIET_S: Final = 0.05
+"""Nobody edits: what comes so shortly after something else is looked at together with it."""
+_OF_FRAGMENTS: Final = frozenset(
+    {
+        *("dangling-parent", "dangling-child", "several-roots", "no-links", "no-robot-name"),
+        *("unknown-macro", "unknown-block", "undefined-property", "undefined-argument"),
+    }
+)
+"""Codes of what is wrong with a part of a robot that is taken for a whole one."""
+_UNREADABLE: Final = frozenset(
+    {
+        *("file-unreadable", "file-empty", "file-binary", "file-utf16", "file-encoding"),
+        *("file-too-large", "file-lfs-pointer", "outside-roots"),
+    }
+)
+"""Codes of an entry file of which nothing could be read."""
+
+
+@dataclass(frozen=True, slots=True)
+class CheckedFile:
+    """One robot description and all that was found wrong with it."""
+
+    path: Path
+    problems: tuple[Problem, ...]
+
+    @property
+    def is_readable(self) -> bool:
+        """Whether the file itself could be read."""
+        return not any(
+            one.code in _UNREADABLE and one.place is not None and one.place.file == str(self.path)
+            for one in self.problems
+        )
+
+    @property
+    def is_fragment(self) -> bool:
+        """Whether it lacks what the file has that includes it."""
+        return any(one.code in _OF_FRAGMENTS for one in self.problems)
+
+    @property
+    def has_errors(self) -> bool:
+        """Whether anything keeps it from being what it is meant to be."""
+        return any(one.severity is Severity.ERROR for one in self.problems)
+
+
+async def check_path(
+    settings: Settings, path: Path, arguments: Mapping[str, str], tell: Progress
+) -> list[CheckedFile]:
+    """Check a file, or every robot file of a folder or zip that can be opened.
+
+    What is unsaved in a running studio does not count: only what the disk has.
+
+    Args:
+        settings: Where packages are looked for, and what is remembered.
+        path: What to check.
+        arguments: Passed to xacro for each of them.
+        tell: Told how far it is, from any thread.
+
+    Raises:
+        PackageError: Nothing there can be opened.
+    """
+    location = await asyncio.to_thread(
+        open_location, path, settings.package_paths, settings.data_folder, os.environ, tell
+    )
+    async with _services(settings) as services:
+        run = _Run(location, arguments, services, tell)
+        types = asyncio.create_task(asyncio.to_thread(_types_below, location, path))
+        if location.entry is not None and _is_same(location.entry, path):
+            checked = await run.check([location.entry])
+        else:
+            checked = await _check_folder(run, location, path)
+        first, *others = checked
+        return [replace(first, problems=(*first.problems, *await types)), *others]
+
+
+def _is_same(entry: Path, path: Path) -> bool:
+    return entry == Path(os.path.realpath(path))
+
+
+async def _check_folder(run: _Run, location: Location, path: Path) -> list[CheckedFile]:
+    """Check all robots of a folder; a file that another one includes is a part of that one.
+
+    A file that the others only might include, and did not, is a robot if it is whole.
+
+    Raises:
+        UnreadableFileError: There is none.
+    """
+    points = [one for one in location.candidates if one.openable]
+    if not points:
+        raise UnreadableFileError(str(path), "holds no robot description that can be opened.")
+    robots = whole_robots(location.candidates)
+    checked = await run.check(robots)
+    left = [one.path for one in points if one.path not in {*robots, *run.files_read}]
+    checked += [one for one in await run.check(left) if not one.is_fragment]
+    run.ended(len(checked))
+    return checked
+
+
+def whole_robots(points: Iterable[EntryPoint]) -> list[Path]:
+    """The openable files that come first of all that include each other, in their order.
+
+    Each of the others is included by one of these, over any number of steps.
+    """
+    known = list(points)
+    included: dict[Path, list[Path]] = {}
+    for point in known:
+        for includer in point.included_by:
+            included.setdefault(includer, []).append(point.path)
+    robots: dict[Path, None] = {}
+    reached: set[Path] = set()
+    for point in sorted(known, key=lambda one: bool(one.included_by)):
+        if point.openable and point.path not in reached:
+            robots[point.path] = None
+            waiting = [point.path]
+            while waiting:
+                one = waiting.pop()
+                if one not in reached:
+                    reached.add(one)
+                    waiting += included.get(one, ())
+    return [one.path for one in known if one.path in robots]
+
+
+class _Run:
+    """Opens one file after the other as the page would, some at once."""
+
+    def __init__(
+        self,
+        location: Location,
+        arguments: Mapping[str, str],
+        services: Services,
+        tell: Progress,
+    ) -> None:
+        self._location, self._arguments = location, arguments
+        self._services, self._tell = services, tell
+        self._turns = asyncio.Semaphore(_AT_ONCE)
+        self._done = self._all = 0
+        self.files_read: set[Path] = set()
+
+    async def check(self, entries: Sequence[Path]) -> list[CheckedFile]:
+        """Check these files, in their order."""
+        self._all += len(entries)
+        return list(await asyncio.gather(*map(self._check_in_turn, entries)))
+
+    def ended(self, count: int) -> None:
+        """Say that all is checked, and how many robots it was."""
+        self._tell("Checked", count, count)
+
+    async def _check_in_turn(self, entry: Path) -> CheckedFile:
+        async with self._turns:
+            checked = await self._check(replace(self._location, entry=entry))
+        self._done += 1
+        self._tell(f"Checked {entry.name}", self._done, self._all)
+        return checked
+
+    async def _check(self, location: Location) -> CheckedFile:
+        document = Document("check", location, self._arguments, self._services)
+        try:
+            document.start()
+            await document.opened()
+            await asyncio.gather(document.checks.settled(), document.robot_checks.settled())
+            self.files_read.update(map(Path, document.files_read))
+            return CheckedFile(document.entry, tuple(map(_as_checked, document.board.found)))
+        finally:
+            await document.close()
+
+
+def _types_below(location: Location, path: Path) -> list[Problem]:
+    """What is wrong with the types of packages below a path, told once for all robots there."""
+    real = Path(os.path.realpath(path))
+    return [
+        one for one in take_types(location) if one.place and is_below(Path(one.place.file), real)
+    ]
+
+
+def _as_checked(problem: Problem) -> Problem:
+    """A robot that waits for an argument has nothing wrong with it: it could not be looked at."""
+    if problem.fix is None or problem.fix.action != "give_arguments":
+        return problem
+    sentence = f"{problem.sentence} It was not checked."
+    return replace(problem, severity=Severity.WARNING, sentence=sentence)
+
+
+class _LentWorker(DescriptionWorker):
+    """A worker that goes back to where it was taken from: a new process takes longer than a run."""
+
+    def __init__(self, idle: list[_LentWorker]) -> None:
+        super().__init__()
+        self._idle = idle
+
+    async def close(self) -> None:
+        """Forget the robot and wait for the next one."""
+        self.needs_reopen = True
+        self._idle.append(self)
+
+    async def end(self) -> None:
+        """End the process."""
+        await super().close()
+
+
+class _CheckServices(Services):
+    """Services whose workers are used again for the next robot, which nobody edits meanwhile."""
+
+    def __init__(self, settings: Settings) -> None:
+        super().__init__(settings)
+        self.quiet_s = _QUIET_S
+        self._idle: list[_LentWorker] = []
+        self._lent: list[_LentWorker] = []
+
+    async def start(self) -> None:
+        """Warm the workers for meshes in the background."""
+        self._warm(self._pool.warm())
+
+    def description_worker(self, opened: Opened | None = None) -> DescriptionWorker:
+        """A worker that has nothing to do, or a new one; there is no spare."""
+        del opened
+        if self._idle:
+            return self._idle.pop()
+        self._lent.append(_LentWorker(self._idle))
+        return self._lent[-1]
+
+    async def close(self) -> None:
+        """End all workers."""
+        await asyncio.gather(*(one.end() for one in self._lent), super().close())
+
+
+@asynccontextmanager
+async def _services(settings: Settings) -> AsyncGenerator[Services]:
+    """Workers and the cache of meshes; drafts of unsaved edits are kept away."""
+    services = _CheckServices(settings)
+    with tempfile.TemporaryDirectory(prefix="studio-check-") as folder:
+        services.settings = replace(settings, data_folder=Path(folder))
+        await services.start()
+        try:
+            yield services
+        finally:
+            await services.close()

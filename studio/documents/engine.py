@@ -1,0 +1,282 @@
+"""The engine: all open documents, and the commands that concern more than one of them."""
+
+from __future__ import annotations
+
+import asyncio
+import gc
+import os
+import re
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from studio import protocol as m
+from studio.documents.dispatch import carry_out
+from studio.documents.document import Document
+from studio.documents.keeping.left_work import LeftWorkDesk
+from studio.documents.keeping.sharing import found_again, link_to, read_link
+from studio.documents.launching import form_at, form_of
+from studio.documents.library import Library
+from studio.documents.services import Services
+from studio.documents.upload_desk import UploadDesk
+from studio.errors import CommandError, OutsideRootsError, UnknownDocumentError
+from studio.live.connection.rejoining import Rejoining
+from studio.live.connection.robots import EngineWireCommand, WireRobotDesk
+from studio.live.panels.desk import BridgeDesk
+from studio.packages.listing import list_folder
+from studio.packages.roots import ServedRoots
+from studio.packages.workspace import Location, open_location
+from studio.protocol.listeners import Audience, tell
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from studio.packages.workspace import Progress
+    from studio.protocol.listeners import Listener
+    from studio.settings import Settings
+
+_DOCUMENT_LIMIT = 32
+
+
+class Engine:
+    """Holds the documents by id; built, started and closed on the server's loop."""
+
+    def __init__(self, settings: Settings) -> None:
+        self.documents: dict[str, Document] = {}
+        self.default_document: str | None = None
+        self._settings = settings
+        self._services = Services(settings)
+        self._lobby = Audience()
+        self._watching: dict[Listener, Document] = {}
+        self.library = Library(settings, self)
+        self.uploads = UploadDesk(settings.data_folder, self)
+        wire = self._services.wire
+        self._rejoining = Rejoining(wire, settings.data_folder)
+        self._bridge = BridgeDesk(wire)
+        self.hearing = self._bridge.hearing
+        self._wire_robots = WireRobotDesk(wire, settings.data_folder, self, self._bridge)
+        self.served = ServedRoots((self.library.robots_folder,))
+        """What can be listed and opened out of the page."""
+        self._left_work = LeftWorkDesk(self, settings.data_folder)
+
+    async def start(self) -> None:
+        """Warm the workers in the background; pages are served meanwhile."""
+        await self._services.start()
+
+    def rejoin(self, *, always: bool = False) -> None:
+        """Join the ROS 2 system that it was connected with when it ended; `always`: in any case."""
+        self._rejoining.begin(always=always)
+
+    async def close(self) -> None:
+        """Close all documents and end all workers."""
+        await self._rejoining.close()
+        await asyncio.gather(self._left_work.close(), self._bridge.close())
+        documents, self.documents = tuple(self.documents.values()), {}
+        await asyncio.gather(*(document.close() for document in documents), self._services.close())
+
+    def attach(self, listener: Listener) -> None:
+        """A control lane was opened: tell it what is open."""
+        self._lobby.add(listener)
+        tell(listener, self._list())
+        self._left_work.attach(listener)
+        self._services.wire.attach(listener)
+        self._bridge.attach(listener)
+
+    def detach(self, listener: Listener) -> None:
+        """A control lane was closed."""
+        self._lobby.remove(listener)
+        self._left_work.detach(listener)
+        self._services.wire.detach(listener)
+        self._bridge.detach(listener)
+        if document := self._watching.pop(listener, None):
+            document.board.audience.remove(listener)
+
+    def document(self, name: str) -> Document:
+        """The open document of that id.
+
+        Raises:
+            UnknownDocumentError: There is none.
+        """
+        try:
+            return self.documents[name]
+        except KeyError:
+            raise UnknownDocumentError(name) from None
+
+    async def execute(self, command: m.Command, listener: Listener) -> None:
+        """Carry out one command and answer it; whether the role may was decided at the door.
+
+        Raises:
+            StudioError: It cannot be done.
+        """
+        match command:
+            case m.Watch():
+                self._watch(self.document(command.document), listener)
+            case m.CloseDocument():
+                await self._close(self.document(command.document), discard=command.discard)
+            case m.ForgetWork():
+                await self._left_work.forget(command.path)
+            case _:
+                if (answer := await self._answer(command, listener)) is not None:
+                    tell(listener, answer)
+        tell(listener, m.Done(request=command.request))
+
+    async def _answer(self, command: m.Command, listener: Listener) -> m.Event | None:
+        """Carry out what the asker alone is answered, or what is a document's own."""
+        answer: m.Event | None = None
+        match command:
+            case m.OpenPath():
+                name = await self._open_served(command)
+                answer = m.Opened(request=command.request, document=name)
+            case m.GetArguments():
+                answer = await self._launch_form(command)
+            case m.GetLink():
+                document = self.document(command.document)
+                answer = link_to(document.sources, document.location, command.request)
+            case m.OpenLink():
+                answer = await self._open_link(command)
+            case m.ListFolder():
+                answer = await self._list_folder(command)
+            case _ if isinstance(command, EngineWireCommand):
+                answer = await self._wire_robots.carry_out(command)
+            case _ if isinstance(command, m.LibraryCommand):
+                answer = await self.library.carry_out(command)
+            case _ if isinstance(command, m.BridgeCommand):
+                answer = await self._bridge.carry_out(command, listener)
+            case _:
+                await carry_out(self.document(command.document), command, listener)
+        return answer
+
+    async def open_path(
+        self, path: Path, arguments: dict[str, str], progress: Progress | None = None
+    ) -> str:
+        """Open what the command line names; its folders are served from now on.
+
+        Args:
+            path: A file, a folder or a zip.
+            arguments: Passed to xacro.
+            progress: Told, in another thread, how far the search for packages is.
+
+        Raises:
+            StudioError: Nothing there can be opened.
+        """
+        return self._open(await self._locate(path, progress), arguments)
+
+    def find_open(self, path: Path) -> Document | None:
+        """The document whose entry file this is."""
+        return next((one for one in self.documents.values() if one.entry == path), None)
+
+    async def open_at(
+        self, path: Path, arguments: Mapping[str, str], within: ServedRoots | None
+    ) -> str:
+        """Open for the library, which saw to it that the path may be opened.
+
+        Raises:
+            StudioError: Nothing there can be opened.
+        """
+        location = await self._locate(path, within=within)
+        known = location.entry and not arguments and self.find_open(location.entry)
+        return known.id if known else self._open(location, dict(arguments))
+
+    async def close_saved(self, document: Document) -> None:
+        """Close a document whose text was saved elsewhere."""
+        await self._close(document, discard=True)
+
+    async def _open_served(self, command: m.OpenPath) -> str:
+        """Open out of the page: nothing is served then that was not before, but a zip's folder."""
+        try:
+            path = self.served.resolve(Path(command.path))
+        except OutsideRootsError:  # a page that outlived the studio shows what was opened before
+            if not self.library.may_reopen(command.path):
+                raise
+            return await self.open_at(Path(command.path), command.arguments, None)
+        return self._open(await self._locate(path, within=self.served), command.arguments)
+
+    async def _launch_form(self, command: m.GetArguments) -> m.Arguments:
+        """The form of an open document, or of a file below the served folders."""
+        if not command.path:
+            return await form_of(self.document(command.document), command.request)
+        path = self.served.resolve(Path(command.path))
+        return await form_at(await self._locate(path, within=self.served), command.request)
+
+    async def _open_link(self, command: m.OpenLink) -> m.LinkOpened:
+        """Open what a link holds by the ordinary way, then make its edits."""
+        shared = read_link(command.link)
+        locations = [one.location for one in self.documents.values()]
+        path = found_again(shared.entry, self.served, locations)
+        opening = m.OpenPath(path=str(path), arguments=shared.arguments)
+        name = await self._open_served(opening)
+        left_out = await self.document(name).take_shared(shared.files)
+        return m.LinkOpened(request=command.request, document=name, left_out=left_out)
+
+    async def _locate(
+        self, path: Path, progress: Progress | None = None, within: ServedRoots | None = None
+    ) -> Location:
+        settings = self._settings
+        find = partial(open_location, path, settings.package_paths, settings.data_folder)
+        return await asyncio.to_thread(find, dict(os.environ), progress, within=within)
+
+    def _open(self, location: Location, arguments: dict[str, str]) -> str:
+        served = location.served
+        self.served = self.served.with_roots(served.writable, served.read_only)
+        if len(self.documents) >= _DOCUMENT_LIMIT:
+            raise CommandError(f"{_DOCUMENT_LIMIT} documents are open: close one first.")
+        document = Document(self._free_id(location), location, arguments, self._services)
+        document.on_unsaved = self._tell_list
+        self.documents[document.id] = document
+        self.default_document = self.default_document or document.id
+        document.start()
+        document.learn_types()
+        self.library.note(document)
+        self._tell_list()
+        return document.id
+
+    def _free_id(self, location: Location) -> str:
+        """A readable id that stays the same when the same file is opened after a restart."""
+        stem = location.entry.name.split(".")[0] if location.entry else ""
+        base = re.sub(r"[^a-z0-9]+", "-", stem.lower()).strip("-") or "robot"
+        names = [base, *(f"{base}-{number}" for number in range(2, _DOCUMENT_LIMIT + 2))]
+        return next(name for name in names if name not in self.documents)
+
+    def _watch(self, document: Document, listener: Listener) -> None:
+        if before := self._watching.pop(listener, None):
+            before.board.audience.remove(listener)
+        self._watching[listener] = document
+        document.board.attach(listener)
+
+    async def _close(self, document: Document, *, discard: bool) -> None:
+        if document.has_unsaved and not discard:
+            raise CommandError(f"{document.title} has unsaved edits: save or discard them first.")
+        del self.documents[document.id]
+        if self.default_document == document.id:
+            self.default_document = next(iter(self.documents), None)
+        document.board.audience.tell(m.Gone(document=document.id))
+        document.drafts.forget()
+        self._watching = {who: one for who, one in self._watching.items() if one is not document}
+        await document.close()
+        self._tell_list()
+        # Its parts know each other. The garbage of several documents would stall the loop longer.
+        asyncio.get_running_loop().call_soon(gc.collect)
+
+    async def _list_folder(self, command: m.ListFolder) -> m.Folder:
+        listed = await asyncio.to_thread(list_folder, command.path, self.served)
+        return m.Folder(
+            request=command.request,
+            path=listed.path,
+            parent=listed.parent,
+            entries=tuple(
+                m.FolderEntry.model_validate(entry, from_attributes=True)
+                for entry in listed.entries
+            ),
+        )
+
+    def _list(self) -> m.Documents:
+        return m.Documents(
+            documents=tuple(
+                m.DocumentEntry(id=one.id, title=one.title, path=one.path, unsaved=one.has_unsaved)
+                for one in self.documents.values()
+            )
+        )
+
+    def _tell_list(self) -> None:
+        self._lobby.tell(self._list())
+        self._left_work.doubt()

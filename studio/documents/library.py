@@ -1,0 +1,237 @@
+"""What is opened beside the served folders: recent files, examples, and what is new."""
+
+from __future__ import annotations
+
+import asyncio
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import TYPE_CHECKING, Final, Literal, Protocol
+
+from studio import protocol as m
+from studio.errors import (
+    CommandError,
+    NotMadeError,
+    UnreadableFileError,
+)
+from studio.packages.examples import examples
+from studio.packages.naming import robot_of
+from studio.packages.presence import is_file, is_folder
+from studio.packages.recent import RecentFile, RecentFiles
+from studio.packages.roots import ServedRoots, is_below
+from studio.packages.skeleton import ROBOTS, make_file, make_package, template_text
+from studio.packages.untitled import FOLDER as UNTITLED
+from studio.packages.untitled import drop_untitled, new_untitled
+from studio.packages.working_copy import FOLDER as EXAMPLES
+from studio.packages.working_copy import working_copy
+from studio.packages.workspace import UPLOADS
+from studio.settings import LOOPBACK_HOSTS, repository_or_wheel
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from studio.documents.document import Document
+    from studio.settings import Settings
+
+
+class Opener(Protocol):
+    """What the engine does for the library."""
+
+    @property
+    def served(self) -> ServedRoots:
+        """What may be read and written already."""
+        ...
+
+    def document(self, name: str, /) -> Document:
+        """The open document of that id.
+
+        Raises:
+            UnknownDocumentError: There is none.
+        """
+        ...
+
+    def find_open(self, path: Path, /) -> Document | None:
+        """The document that shows this file."""
+        ...
+
+    async def open_at(
+        self, path: Path, arguments: Mapping[str, str], within: ServedRoots | None
+    ) -> str:
+        """Open a path, serve its folders from now on, and give the document's id.
+
+        Raises:
+            StudioError: Nothing there can be opened.
+        """
+        ...
+
+    async def close_saved(self, document: Document, /) -> None:
+        """Close a document whose text was saved elsewhere."""
+        ...
+
+
+class Library:
+    """Carries out the commands of `messages.opening`; `noted` is told of every opening."""
+
+    def __init__(self, settings: Settings, opener: Opener) -> None:
+        self._settings, self._opener = settings, opener
+        self._data_folder = settings.data_folder
+        self._recent = RecentFiles(settings.data_folder)
+        self._models = repository_or_wheel("models")
+
+    @property
+    def robots_folder(self) -> Path:
+        """Where new robots go; served and writable, though it may not be there yet."""
+        return self._data_folder / ROBOTS
+
+    async def carry_out(self, command: m.LibraryCommand) -> m.Event:
+        """Carry out one command and give its answer.
+
+        Raises:
+            StudioError: It cannot be done.
+        """
+        match command:
+            case m.ListRecent():
+                return await self._list_recent(command.request)
+            case m.ForgetRecent():
+                self._recent.forget(command.path)
+                return await self._list_recent(command.request)
+            case m.ListExamples():
+                return self._list_examples(command.request)
+            case m.ListPlaces():
+                return self._list_places(command.request)
+            case _:
+                document = await self._open(command)
+                return m.Opened(request=command.request, document=document)
+
+    def note(self, document: Document) -> None:
+        """A document was opened: it is the newest of the recent files."""
+        now_s = datetime.now(UTC).timestamp()
+        arguments = document.sources.arguments
+        self._recent.note(document.path, document.title, arguments, now_s)
+
+    def may_reopen(self, path: str) -> bool:
+        """Whether a path may be opened though nothing serves it: it was opened before."""
+        known = self._recent.find(path)
+        return known is not None and self._may_open(known)
+
+    async def _open(
+        self,
+        command: m.OpenRecent | m.OpenExample | m.NewRobot | m.NewUntitled | m.SaveAs,
+    ) -> str:
+        match command:
+            case m.OpenRecent():
+                return await self._open_recent(command.path)
+            case m.OpenExample():
+                if all(one.package != command.name for one in examples(self._models)):
+                    raise CommandError(f'There is no example "{command.name}": choose another.')
+                copy = await asyncio.to_thread(
+                    working_copy, self._models, self._data_folder, command.name, fresh=False
+                )
+                return await self._opener.open_at(copy, command.arguments, None)
+            case m.NewRobot():
+                text = template_text(command.template, robot_of(command.name))
+                folder = self._place(command.folder)
+                file = await asyncio.to_thread(make_package, folder, command.name, text)
+                return await self._open_new(file, self._opener.served)
+            case m.NewUntitled():
+                file = await asyncio.to_thread(new_untitled, self._data_folder, command.text)
+                return await self._open_new(file, None)
+            case m.SaveAs():
+                return await self._save_as(command)
+
+    async def _open_recent(self, path: str) -> str:
+        known = self._recent.find(path)
+        if known is None or not self.may_reopen(path):
+            raise CommandError(f"{path} is not among the recent files: open its folder.")
+        if not is_file(Path(path)):
+            raise UnreadableFileError(path, "is no longer there: take it out of the list.")
+        if (document := self._opener.find_open(Path(path))) is not None:
+            return document.id
+        return await self._opener.open_at(Path(path), known.arguments, None)
+
+    async def _open_new(self, path: Path, within: ServedRoots | None) -> str:
+        return await self._opener.open_at(path, {}, within)
+
+    async def _save_as(self, command: m.SaveAs) -> str:
+        document = self._opener.document(command.document)
+        if len(document.files_read) > 1:
+            raise CommandError(
+                f"{document.title} reads other files, which would stay behind: "
+                "save it where it is, and copy its folder."
+            )
+        text = document.sources.text(document.path)
+        make = make_package if command.as_package else make_file
+        folder = self._place(command.folder)
+        file = await asyncio.to_thread(make, folder, command.name, text)
+        opened = await self._opener.open_at(file, document.sources.arguments, self._opener.served)
+        if (self._data_folder / UNTITLED) in document.entry.parents:
+            await self._opener.close_saved(document)
+            drop_untitled(document.entry, self._data_folder)
+            self._recent.forget(document.path)
+        return opened
+
+    def _place(self, folder: str) -> Path:
+        """The folder in which something is to be made.
+
+        Raises:
+            PackageError: It is not served, or may not be written.
+        """
+        if not folder:
+            return self.robots_folder
+        place = self._opener.served.resolve(folder)
+        if place != self.robots_folder and not is_folder(place):
+            raise NotMadeError(str(place), "there is no such folder: choose another one.")
+        if place != self.robots_folder and not self._opener.served.may_write(place / "x"):
+            raise NotMadeError(str(place), "it may only be read: choose another folder.")
+        return place
+
+    async def _list_recent(self, request: int) -> m.Recent:
+        files = await asyncio.to_thread(self._recent_entries)
+        return m.Recent(request=request, files=files)
+
+    def _recent_entries(self) -> tuple[m.RecentEntry, ...]:
+        return tuple(
+            m.RecentEntry(
+                path=one.path,
+                title=one.title,
+                time_s=one.time_s,
+                origin=self._origin_of(Path(one.path)),
+                is_there=is_file(Path(one.path)),
+            )
+            for one in self._recent.all()
+            if self._may_open(one)
+        )
+
+    def _may_open(self, one: RecentFile) -> bool:
+        """On the owner's own machine all that was opened once; from elsewhere what is served."""
+        own = self._settings.host in LOOPBACK_HOSTS
+        return own or self._opener.served.serves(one.path)
+
+    def _origin_of(self, path: Path) -> Literal["file", "example", "upload", "untitled"]:
+        for folder, origin in _ORIGINS.items():
+            if is_below(path, self._data_folder / folder):
+                return origin
+        return "file"
+
+    def _list_examples(self, request: int) -> m.Examples:
+        found = (
+            m.ExampleEntry(name=one.package, robot=one.robot, text=one.text)
+            for one in examples(self._models)
+        )
+        return m.Examples(request=request, examples=tuple(found))
+
+    def _list_places(self, request: int) -> m.Places:
+        apart = (EXAMPLES, UPLOADS, UNTITLED)
+        served = [
+            str(one)
+            for one in self._opener.served.writable
+            if is_folder(one) and not any(is_below(one, self._data_folder / name) for name in apart)
+        ]
+        folders = dict.fromkeys((str(self.robots_folder), *served))
+        return m.Places(request=request, folders=tuple(folders))
+
+
+_ORIGINS: Final[dict[str, Literal["example", "upload", "untitled"]]] = {
+    EXAMPLES: "example",
+    UPLOADS: "upload",
+    UNTITLED: "untitled",
+}

@@ -1,0 +1,110 @@
+"""The meshes of one open document: wanted as its scene names them, shown as they come."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from studio.documents.meshes.mesh_loading import MeshLoading
+from studio.packages.uris import resolve_uri
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Mapping
+    from pathlib import Path
+
+    from studio.description.values import Part
+    from studio.documents.document import Document
+    from studio.problems import Problem
+    from studio.robot.loaded_mesh import LoadedMesh
+    from studio.robot.meshes import MeshLibrary
+
+
+class MeshDesk:
+    """Keeps what is loaded in step with what the document's scene needs.
+
+    Args:
+        document: Whose model names the meshes and whose scene draws them.
+        library: Loads a file once, whatever the number of askers.
+        arrived: Called when a mesh came, or failed to.
+    """
+
+    def __init__(
+        self, document: Document, library: MeshLibrary, arrived: Callable[[], None]
+    ) -> None:
+        self._document, self._told = document, arrived
+        self._nearer: dict[Problem, Problem] = {}
+        """Problems with what was meant, by what they are without."""
+        self._loading = MeshLoading(library, self._resolve, self._arrived, self._count)
+
+    @property
+    def files(self) -> tuple[str, ...]:
+        """The files of all meshes in use."""
+        return tuple(self._loading.files.values())
+
+    def want(self) -> None:
+        """Load what the scene lacks, and forget what nobody names any more."""
+        scene = self._document.scene
+        self._loading.forget(self._document.model.mesh_uris() | scene.live.mesh_uris())
+        self._loading.want(scene.missing_meshes())
+        self._tell_problems()
+
+    def retry(self) -> None:
+        """Load those again that failed."""
+        self._loading.want(tuple(self._loading.problems))
+
+    def reload(self, files: Iterable[str]) -> None:
+        """Load what these files hold again."""
+        changed = set(files)
+        self._loading.want([uri for uri, file in self._loading.files.items() if file in changed])
+
+    @property
+    def problems(self) -> dict[str, Problem]:
+        """What is wrong with meshes of the robot by URI, each at the first link that names it."""
+        model, found = self._document.model, self._loading.problems
+        if not found:
+            return {}
+        users = model.mesh_users()
+        return {
+            uri: _placed(found[uri], users.get(uri)) for uri in model.mesh_uris() if uri in found
+        }
+
+    def trouble_of(self, uri: str) -> str:
+        """Why a mesh cannot be shown, whoever names it, in a sentence."""
+        found = self._loading.problems.get(uri)
+        return found.sentence if found else f"Mesh {uri} cannot be shown."
+
+    def tell_nearer(self, nearer: Mapping[Problem, Problem]) -> None:
+        """Say from now on what was meant by names of meshes that are not there."""
+        self._nearer = dict(nearer)
+        self._tell_problems()
+
+    async def settled(self) -> None:
+        """Wait until nothing is under way."""
+        await self._loading.settled()
+
+    async def close(self) -> None:
+        """Give up what is under way."""
+        await self._loading.close()
+
+    def _arrived(self, uri: str, mesh: LoadedMesh | None) -> None:
+        self._document.scene.provide_mesh(uri, mesh)
+        self._document.scene.flush()
+        self._told()
+        self._tell_problems()
+
+    def _tell_problems(self) -> None:
+        found = self.problems.values()
+        self._document.board.find("mesh", [self._nearer.get(one, one) for one in found])
+
+    def _count(self, done: int, total: int) -> None:
+        self._document.board.progress("meshes", done, total)
+
+    def _resolve(self, uri: str) -> tuple[Path, tuple[Path, ...]]:
+        """Where a mesh lies, and the folders that it may draw on."""
+        location = self._document.location
+        path = resolve_uri(uri, self._document.entry, location.index, location.served)
+        return path, location.served.all
+
+
+def _placed(problem: Problem, part: Part | None) -> Problem:
+    return replace(problem, place=part.place, parts=(part.key,)) if part else problem

@@ -1,0 +1,97 @@
+"""What all documents share: the mesh library, the workers, and the settings."""
+
+from __future__ import annotations
+
+import asyncio
+from importlib import import_module
+from typing import TYPE_CHECKING, Final, TypeAlias
+
+from studio.description.client import DescriptionWorker
+from studio.live.connection.desk import WireDesk
+from studio.robot.meshes import MeshLibrary
+from studio.robot.pool import mesh_pool
+from studio.robot.validation import UrdfValidator
+
+if TYPE_CHECKING:
+    from collections.abc import Awaitable, Callable, Coroutine
+
+    from studio.settings import Settings
+
+    Opened: TypeAlias = Callable[[float], Awaitable[None]]
+
+
+USED_LATER: Final = (
+    *("studio.live.displays.drawing_room", "studio.live.displays.robot_models"),
+    *("studio.live.displays.catalogue_views", "studio.live.displays.topic_views"),
+    *("studio.live.panels.driving_work", "studio.live.panels.goal_work"),
+    *("studio.live.panels.hearing_channels", "studio.live.panels.parameter_work"),
+    *("studio.live.panels.publication_work", "studio.live.panels.requests"),
+    *("studio.ros.messages.shared", "studio.ros.graph.node_parts", "studio.ros.types.plain"),
+)
+"""With what they import, all that functions of the loop import when they are first called."""
+
+
+class Services:
+    """Built once by the engine, on its loop."""
+
+    def __init__(self, settings: Settings) -> None:
+        self.settings = settings
+        self.quiet_s = 0.4
+        """Without a run or a mesh, before a document is checked: no edit ever waits for it."""
+        self.patience_s = 5.0
+        """What nobody waits for begins after the last mesh of an opening, or after so long."""
+        self._pool = mesh_pool()
+        self.meshes = MeshLibrary(settings.data_folder / "meshes", self._pool)
+        self.validator = UrdfValidator()
+        self.wire = WireDesk(settings.wire)
+        self._spare = DescriptionWorker()
+        self._warming: set[asyncio.Task[None]] = set()
+
+    async def start(self) -> None:
+        """Warm the workers in the background."""
+        self._warm(self._spare.warm())
+        self._warm(self._pool.warm())
+
+    async def import_rest(self, opened: Opened) -> None:
+        """Import what an opening does without, in a thread: at its first use it stalls the loop.
+
+        Args:
+            opened: Waits for an opening, for so many seconds at most.
+        """
+        await opened(self.patience_s)
+        await asyncio.to_thread(_import_rest)
+
+    def description_worker(self, opened: Opened | None = None) -> DescriptionWorker:
+        """A worker of one document's own, warm where one was spare; the next spare is started.
+
+        Args:
+            opened: Waits for an opening, for so many seconds at most; the next spare starts then.
+        """
+        taken, self._spare = self._spare, DescriptionWorker()
+        self._warm(self._warm_spare(self._spare, opened))
+        return taken
+
+    async def _warm_spare(self, spare: DescriptionWorker, opened: Opened | None) -> None:
+        if opened is not None:
+            await opened(self.patience_s)
+        if spare is self._spare:  # else it was taken, and perhaps ended, meanwhile
+            await spare.warm()
+
+    def _warm(self, work: Coroutine[None, None, None]) -> None:
+        task = asyncio.create_task(work)
+        self._warming.add(task)
+        task.add_done_callback(self._warming.discard)
+
+    async def close(self) -> None:
+        """End all workers."""
+        warming = tuple(self._warming)
+        for task in warming:
+            task.cancel()
+        await asyncio.gather(*warming, return_exceptions=True)
+        workers = (self._pool.close(), self._spare.close(), self.validator.close())
+        await asyncio.gather(*workers, self.wire.close())
+
+
+def _import_rest() -> None:
+    for name in USED_LATER:
+        import_module(name)

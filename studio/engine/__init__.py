@@ -1,1 +1,0 @@
-"""The open documents: commands in, events out, undo, the tick."""

@@ -1,0 +1,212 @@
+"""WireDesk: the one connection with a ROS 2 system, opened when it is first used."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import TYPE_CHECKING, Final, Literal, TypeAlias
+
+from studio.documents.lookout import Lookout
+from studio.errors import CommandError, StudioError
+from studio.live.connection.nearby import Nearby
+from studio.live.connection.plan import planned_wire
+from studio.protocol.listeners import Audience, LastTold, tell
+from studio.protocol.wire import WireState
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from studio.live.connection.link import WireLink
+    from studio.protocol.listeners import Listener
+    from studio.settings import WireChoice
+
+_NODES_SHOWN: Final = 200
+_PAUSE_S: Final = 0.25
+"""Between two looks at who is there."""
+
+_CLOSING: Final = "The studio is closing: nothing is connected any more."
+_OPENING_PATIENCE_S: Final = 0.5
+"""At the end, for a connection that is being made."""
+
+_Phase: TypeAlias = Literal["off", "connecting", "failed"]
+
+
+class WireDesk:
+    """Holds the connection for all documents and tells every page how it stands.
+
+    Nothing of Zenoh is imported before the first `link`: who needs no ROS does not pay for it.
+    """
+
+    def __init__(self, choice: WireChoice) -> None:
+        self._choice = choice
+        self._audience = Audience()
+        self._link: WireLink | None = None
+        self._opening: asyncio.Task[WireLink] | None = None
+        self._phase: _Phase = "off"
+        self._trouble = ""
+        self._told = LastTold[WireState](self._audience)
+        self._lookout = Lookout(self._look, pause_s=_PAUSE_S)
+        self._nearby = Nearby(lambda: self._choice, self._is_alone, self._tell)
+        self._closed = False
+        self.on_link: Callable[[WireLink | None], None] = _nobody
+        """Told of each connection that is made, and with None that it was ended on demand."""
+        self._turn = asyncio.Lock()
+        """A connection is made once the one before is ended: their router has one place."""
+
+    def attach(self, listener: Listener) -> None:
+        """Tell a page how it stands, now and whenever that changes."""
+        self._audience.add(listener)
+        tell(listener, self._state())
+        self._nearby.look()
+
+    def detach(self, listener: Listener) -> None:
+        """Forget a page; it need not be there."""
+        self._audience.remove(listener)
+
+    @property
+    def current(self) -> WireLink | None:
+        """The connection, if there is one."""
+        return self._link
+
+    @property
+    def choice(self) -> WireChoice:
+        """Where a connection is looked for."""
+        return self._choice
+
+    def choose(self, choice: WireChoice) -> None:
+        """Look elsewhere from the next connection on."""
+        self._choice = choice
+        self._tell()
+
+    async def link(self) -> WireLink:
+        """Give the connection; the first who asks has it opened.
+
+        Raises:
+            StudioError: There is no router, and none may be started; or the settings are wrong.
+        """
+        if self._closed:
+            raise CommandError(_CLOSING)
+        if self._link is not None:
+            return self._link
+        if self._opening is None or self._opening.done():
+            self._opening = asyncio.create_task(self._open())
+        return await asyncio.shield(self._opening)
+
+    async def disconnect(self) -> None:
+        """End the connection, and the router if it is ours, until somebody asks for it again.
+
+        Whoever uses it has let go of it before.
+        """
+        async with self._turn:
+            link, self._link = self._link, None
+            self._phase, self._trouble = "off", ""
+            self.on_link(None)
+            if link is not None:
+                await asyncio.to_thread(link.close)
+            self._tell()
+
+    async def close(self) -> None:
+        """End the connection, and the router if it is ours."""
+        self._closed = True
+        await asyncio.gather(self._lookout.close(), self._nearby.close())
+        if self._opening is not None:
+            await asyncio.wait({self._opening}, timeout=_OPENING_PATIENCE_S)
+        link, self._link = self._link, None
+        if link is not None:
+            await asyncio.to_thread(link.close)
+
+    async def _open(self) -> WireLink:
+        async with self._turn:
+            return await self._open_in_turn()
+
+    async def _open_in_turn(self) -> WireLink:
+        self._phase, self._trouble = "connecting", ""
+        self._tell()
+        try:
+            link = await asyncio.to_thread(self._open_link, asyncio.get_running_loop())
+        except Exception as error:
+            said = str(error) if isinstance(error, StudioError) else "The terminal says why."
+            self._phase, self._trouble = "failed", said
+            self._tell()
+            raise
+        if self._closed:
+            await asyncio.to_thread(link.close)
+            raise CommandError(_CLOSING)
+        self._link = link
+        self.on_link(link)
+        self._tell()
+        return link
+
+    def _open_link(self, loop: asyncio.AbstractEventLoop) -> WireLink:
+        from studio.live.connection.link import WireLink  # noqa: PLC0415 - imports zenoh
+
+        def doubt() -> None:
+            if not loop.is_closed():
+                loop.call_soon_threadsafe(self._doubt)
+
+        return WireLink(self._choice, doubt)
+
+    def _is_alone(self) -> bool:
+        """Whether a page is there that is not connected, and might like to be."""
+        is_idle = self._link is None and self._phase != "connecting"
+        return is_idle and not self._closed and len(self._audience) > 0
+
+    def _doubt(self) -> None:
+        if not self._closed:
+            self._lookout.doubt()
+
+    async def _look(self) -> None:
+        link = self._link
+        if link is not None:
+            # Of thousands of nodes it takes its time.
+            seen = await asyncio.to_thread(_state_with, link)
+            if link is self._link:  # else it is told how things stood before
+                self._tell(seen)
+
+    def _tell(self, seen: WireState | None = None) -> None:
+        self._told.tell(seen or self._state())
+        self._nearby.look()
+
+    def _state(self) -> WireState:
+        return self._state_without() if self._link is None else _state_with(self._link)
+
+    def _state_without(self) -> WireState:
+        """How it stands while there is no connection; what the environment says may be wrong."""
+        trouble, endpoint, domain, distro = self._trouble, "", 0, ""
+        try:
+            planned = planned_wire(self._choice)
+            endpoint, domain = ", ".join(planned.connect), planned.domain
+            distro = planned.profile.distro
+        except StudioError as error:
+            trouble = str(error)
+        return WireState(
+            state=self._phase,
+            router="",
+            endpoint=endpoint,
+            domain=domain,
+            distro=distro,
+            nodes=(),
+            node_count=0,
+            nearby_count=self._nearby.node_count,
+            trouble=trouble,
+        )
+
+
+def _nobody(_link: WireLink | None) -> None:
+    """For a desk whose connections nobody keeps."""
+
+
+def _state_with(link: WireLink) -> WireState:
+    """How a connection stands; any thread."""
+    is_connected = link.is_connected
+    nodes = link.node_names() if is_connected else []
+    return WireState(
+        state="connected" if is_connected else "lost",
+        router="own" if link.has_own_router else "joined",
+        endpoint=link.endpoint,
+        domain=link.domain,
+        distro=link.distro,
+        nodes=tuple(nodes[:_NODES_SHOWN]),
+        node_count=len(nodes),
+        nearby_count=0,
+        trouble="",
+    )

@@ -1,0 +1,228 @@
+"""FeedDesk: a document's robot on the wire: what goes out, and who moves its joints."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from contextlib import asynccontextmanager
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final, Literal
+
+from studio.errors import CommandError, StudioError
+from studio.live.connection.sending import RobotSending
+from studio.packages.from_wire import keep_description
+from studio.protocol.listeners import LastTold
+from studio.protocol.wire import WireFeed
+
+if TYPE_CHECKING:
+    from collections.abc import AsyncGenerator, Iterable
+    from pathlib import Path
+
+    from studio.documents.document import Document
+    from studio.live.connection.desk import WireDesk
+    from studio.live.connection.hearing import DescriptionIn, JointsIn
+    from studio.protocol.wire import JointSource
+
+TICK_S: Final = 1 / 60
+_TELL_EVERY_S: Final = 0.5
+_TOPICS: Final = {"joint_states": "/joint_states", "tf": "/tf"}
+
+_log = logging.getLogger(__name__)
+
+
+@dataclass(slots=True)
+class _Described:
+    """Where the description comes from, and what was wrong with the last one."""
+
+    description: DescriptionIn
+    data_folder: Path
+    trouble: str = ""
+
+
+class FeedDesk:
+    """Carries out what is asked about one document and the wire."""
+
+    def __init__(self, document: Document, wire: WireDesk) -> None:
+        self._document, self._wire = document, wire
+        self._sending = RobotSending(document)
+        self._following: JointsIn | None = None
+        self._source: Literal["sliders", "joint_states", "tf"] = "sliders"
+        self._described: _Described | None = None
+        self._told = LastTold[WireFeed](document.board.audience)
+        self._told_s = 0.0
+        self._ticking: asyncio.Task[None] | None = None
+        self._turn = asyncio.Lock()
+        """Two who switch at once do it one after the other."""
+        self._closed = False
+
+    def events(self) -> Iterable[WireFeed]:
+        """What a newcomer is told."""
+        yield self._state()
+
+    async def choose(self, source: JointSource) -> None:
+        """Let one source move the joints, and no other.
+
+        Raises:
+            StudioError: There is no way to the wire.
+        """
+        async with self._switching():
+            if source == "joint_states" or source == "tf":  # noqa: PLR1714 - it narrows the type
+                await self._follow(source)
+            else:
+                await self._stop_following()
+                self._document.motion.animate(running=source == "animation")
+
+    async def publish_robot(self, *, running: bool) -> None:
+        """Publish the description and TF, or stop; errors as for `choose`."""
+        async with self._switching():
+            if running:
+                self._demand_other_description()
+                await self._sending.start_robot(await self._wire.link())
+            else:
+                await self._sending.stop_robot()
+
+    async def publish_joints(self, *, running: bool) -> None:
+        """Publish the joints' positions, or stop; errors as for `choose`."""
+        async with self._switching():
+            if running:
+                await self._sending.start_joints(await self._wire.link())
+            else:
+                await self._sending.stop_joints()
+
+    async def describe(self, description: DescriptionIn, data_folder: Path) -> None:
+        """Let the description come from the wire: what comes anew is written into the file."""
+        async with self._switching():
+            await self._sending.stop_robot()  # it would be its own echo
+            before, self._described = self._described, _Described(description, data_folder)
+            if before is not None:
+                await asyncio.to_thread(before.description.close)
+
+    async def let_go(self) -> None:
+        """Switch everything off, before the connection is ended."""
+        async with self._turn:
+            await self._end()
+            self._tell()
+
+    async def close(self) -> None:
+        """Say nothing more, and hear nothing; what is being switched on is ended by itself."""
+        self._closed = True
+        await self._end()
+
+    async def _end(self) -> None:
+        if self._ticking is not None:
+            self._ticking.cancel()
+            await asyncio.gather(self._ticking, return_exceptions=True)
+        await self._sending.stop_robot()
+        await self._sending.stop_joints()
+        await self._stop_following()
+        described, self._described = self._described, None
+        if described is not None:
+            await asyncio.to_thread(described.description.close)
+
+    @asynccontextmanager
+    async def _switching(self) -> AsyncGenerator[None]:
+        """Switch something; a document that was closed meanwhile keeps nothing on."""
+        async with self._turn:
+            yield
+            if self._closed:
+                await self._end()
+            else:
+                self._go_on()
+
+    async def _follow(self, source: Literal["joint_states", "tf"]) -> None:
+        link = await self._wire.link()
+        await self._stop_following()
+        model = self._document.model
+        hear = link.hear_tf if source == "tf" else link.hear_joint_states
+        await self._sending.pause_joints(paused=source == "joint_states")  # no echo
+        self._following = await asyncio.to_thread(hear, model.robot, model.kinematics)
+        self._source = source
+        self._document.motion.lead(_TOPICS[source])
+
+    async def _stop_following(self) -> None:
+        self._source = "sliders"
+        self._document.motion.lead("")
+        self._sending.measured(0)
+        following, self._following = self._following, None
+        if following is not None:
+            await asyncio.to_thread(following.close)
+        await self._sending.pause_joints(paused=False)
+
+    def _demand_other_description(self) -> None:
+        """To tell a description where it comes from would be an echo.
+
+        Raises:
+            CommandError: It comes from the wire.
+        """
+        if self._described is not None:
+            raise CommandError(
+                f"This robot comes from {self._described.description.source}, so another node "
+                "publishes it: save it as a file of your own to publish it from here."
+            )
+
+    def _go_on(self) -> None:
+        """Tick while anything is on; a tick that finds nothing is the last one."""
+        self._tell()
+        if self._is_on and (self._ticking is None or self._ticking.done()):
+            self._ticking = asyncio.create_task(self._tick())
+
+    @property
+    def _is_on(self) -> bool:
+        sends = self._sending.sends_robot or self._sending.sends_joints
+        return sends or self._following is not None or self._described is not None
+
+    async def _tick(self) -> None:
+        loop = asyncio.get_running_loop()
+        while self._is_on:
+            began_s = loop.time()
+            try:
+                self._take()
+                await self._take_description()
+                await self._sending.step(began_s)
+            except Exception:  # noqa: BLE001 - one robot that cannot be told must not end the rest
+                _log.exception("A tick of the wire failed.")
+            if began_s - self._told_s >= _TELL_EVERY_S:
+                self._told_s = began_s
+                self._tell()
+            await asyncio.sleep(max(0.0, began_s + TICK_S - loop.time()))
+
+    def _take(self) -> None:
+        """Move the joints to where the wire says they are."""
+        following, model = self._following, self._document.model
+        if following is None:
+            return
+        following.fit(model.robot, model.kinematics)
+        if positions := following.collect():
+            self._document.motion.follow(positions)
+            self._sending.measured(following.stamp_ns)
+
+    async def _take_description(self) -> None:
+        """Write what came into the file, which is watched as every file of a document is."""
+        described = self._described
+        text = described.description.newest() if described else None
+        if described is None or text is None:
+            return
+        source = described.description.source
+        try:
+            await asyncio.to_thread(keep_description, described.data_folder, source, text)
+            described.trouble = ""
+        except StudioError as error:
+            described.trouble = str(error)
+
+    def _tell(self) -> None:
+        self._told.tell(self._state())
+
+    def _state(self) -> WireFeed:
+        following = self._following
+        return WireFeed(
+            source=self._source,
+            source_state=following.state() if following else "",
+            rate_hz=following.rate_hz() if following else 0,
+            strangers=following.strangers() if following else (),
+            publishes_robot=self._sending.sends_robot,
+            publishes_joints=self._sending.sends_joints,
+            joints_paused=self._sending.joints_paused,
+            rivals=self._sending.rivals(),
+            description_from=self._described.description.source if self._described else "",
+            trouble=self._described.trouble if self._described else "",
+        )

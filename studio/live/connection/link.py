@@ -1,0 +1,253 @@
+"""WireLink: the connection itself, its nodes, and the thread that carries out their work.
+
+The only file of the engine that imports Zenoh, by way of ros: the desk imports it when it is used.
+"""
+
+from __future__ import annotations
+
+import logging
+import threading
+from typing import TYPE_CHECKING, Final
+
+from studio.errors import CommandError, ExternalShutdownException, NotServedError
+from studio.live.connection.hearing import STRING, DescriptionIn, JointsIn, Place
+from studio.live.connection.plan import planned_wire
+from studio.live.connection.telling import JointsOut, RobotOut
+from studio.live.connection.topic_rates import TopicRates
+from studio.ros.messages.shared import types_of
+from studio.ros.node.context import Context
+from studio.ros.node.executor import SingleThreadedExecutor
+from studio.ros.node.node import Node
+from studio.ros.wire.opening import open_wire
+from studio.ros.wire.watching import RouterWatch
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from studio.protocol.wire import OpenFromWire
+    from studio.robot.kinematics import Kinematics
+    from studio.robot.values import Robot
+    from studio.ros.graph.graph import Graph
+    from studio.ros.node.info import TakeBytes
+    from studio.ros.node.subscription import MessageCallback
+    from studio.ros.qos import QoSProfile
+    from studio.ros.types.classes import MessageValue
+    from studio.ros.types.library import TypeLibrary
+    from studio.ros.wire.settings import WireSettings
+    from studio.settings import WireChoice
+
+_log = logging.getLogger(__name__)
+_ANSWER_S: Final = 3.0
+
+
+class WireLink:
+    """An open connection; made and closed in a thread, for both wait.
+
+    `changed` is called from other threads whenever the connection or who is there changed;
+    `topic_rates` tells how often and how large what others publish is.
+
+    Raises:
+        WireError: There is no way to a router; the sentence says why.
+    """
+
+    def __init__(self, choice: WireChoice, changed: Callable[[], None]) -> None:
+        settings = planned_wire(choice)
+        self._wire = open_wire(settings, choice.router, types_of(settings.profile.distro))
+        self._context = Context.over(self._wire, owns_wire=True)
+        self._executor = SingleThreadedExecutor(context=self._context)
+        self._graph = self._context.graph
+        self._graph.on_change(changed)
+        self.topic_rates = TopicRates(self._context)
+        self._node = self._new_node("studio")
+        self._taken: set[str] = set()
+        # Zenoh joins a router that comes back by itself.
+        self._watch = RouterWatch(self._wire, lambda _is_there: changed())
+        self._ended = threading.Event()
+        self._spinning = threading.Thread(target=self._spin, name="wire-spin", daemon=True)
+        self._spinning.start()
+
+    @property
+    def is_connected(self) -> bool:
+        """Whether the router is there."""
+        return self._watch.is_connected
+
+    @property
+    def has_own_router(self) -> bool:
+        """Whether the router is one that this process started."""
+        return self._wire.router is not None
+
+    @property
+    def settings(self) -> WireSettings:
+        """How it was reached, for others who are to meet it."""
+        return self._wire.settings
+
+    @property
+    def endpoint(self) -> str:
+        """Where the router is."""
+        return ", ".join(self._wire.settings.connect)
+
+    @property
+    def domain(self) -> int:
+        """The ROS domain."""
+        return self._wire.domain
+
+    @property
+    def distro(self) -> str:
+        """Whose wire is spoken."""
+        return self._wire.profile.distro
+
+    @property
+    def zid(self) -> str:
+        """Of the session, by which its own nodes are known."""
+        return self._wire.zid
+
+    @property
+    def node(self) -> Node:
+        """The studio's own node, by which panels act."""
+        return self._node
+
+    @property
+    def types(self) -> TypeLibrary:
+        """All types that are known on this wire."""
+        return self._wire.types
+
+    @property
+    def graph(self) -> Graph:
+        """Who is there."""
+        return self._graph
+
+    def node_names(self) -> list[str]:
+        """Full names of the nodes of others."""
+        return [one.path for one in self._graph.nodes() if one.zid != self._wire.zid]
+
+    def publishers(self, topic: str) -> list[str]:
+        """Full names of the nodes of others that publish a topic."""
+        found = self._graph.publishers(topic)
+        return [one.node.path for one in found if one.node.zid != self._wire.zid]
+
+    def find_robots(self) -> tuple[tuple[str, ...], tuple[str, ...]]:
+        """Topics that tell a robot description, and nodes that may have one as a parameter."""
+        self._graph.settle()
+        topics = [
+            name
+            for name, types in self._graph.topics()
+            if STRING in types and name.endswith("robot_description")
+            if self.publishers(name)
+        ]
+        nodes = [name for name in self.node_names() if "robot_state_publisher" in name]
+        return tuple(sorted(topics, key=len)), tuple(nodes)
+
+    def robot_out(self) -> RobotOut:
+        """Begin to tell a robot.
+
+        Raises:
+            CommandError: Another document tells one.
+        """
+        self._take("robot_state_publisher", "its robot")
+        return RobotOut(self, self._new_node("robot_state_publisher"))
+
+    def joints_out(self) -> JointsOut:
+        """Begin to tell where joints stand; errors as for `robot_out`."""
+        self._take("joint_state_publisher", "its joints")
+        return JointsOut(self, self._new_node("joint_state_publisher"))
+
+    def hear_joint_states(self, robot: Robot, kinematics: Kinematics) -> JointsIn:
+        """Hear where joints stand from `/joint_states`."""
+        return JointsIn(self, robot, kinematics, from_tf=False)
+
+    def hear_tf(self, robot: Robot, kinematics: Kinematics) -> JointsIn:
+        """Hear where joints stand from `/tf`."""
+        return JointsIn(self, robot, kinematics, from_tf=True)
+
+    def hear_description(self, wanted: OpenFromWire) -> DescriptionIn:
+        """Hear a robot's description; what is latched, or a parameter, comes at once.
+
+        Raises:
+            NotServedError: There is no such node, or it has no parameters.
+            NoAnswerError: It does not answer.
+        """
+        if not wanted.node:
+            return DescriptionIn(self, wanted.topic)
+        value = self._parameter(wanted.node, wanted.parameter)
+        return DescriptionIn(self, "/parameter_events", Place(wanted.node, wanted.parameter), value)
+
+    def _parameter(self, node: str, name: str) -> str:
+        """The value of a parameter that is a text; empty where it is none."""
+        kind = self._wire.types.service("rcl_interfaces/srv/GetParameters")
+        client = self._node.create_client(kind, f"{node}/get_parameters", timeout_s=_ANSWER_S)
+        try:
+            if not client.wait_for_service(_ANSWER_S):
+                raise NotServedError("service", client.srv_name)
+            answer = client.call(kind.Request(names=[name]), timeout_sec=_ANSWER_S)
+        finally:
+            self._node.destroy_client(client)
+        return answer.values[0].string_value if answer.values else ""
+
+    def subscribe(
+        self, type_name: str, topic: str, take: Callable[[MessageValue], None], qos: QoSProfile
+    ) -> Callable[[], None]:
+        """Hear a topic, in the thread of the link; gives what ends that."""
+        return self._subscribed(type_name, topic, take, qos)
+
+    def hear(
+        self, type_name: str, topic: str, take: TakeBytes, qos: QoSProfile
+    ) -> Callable[[], None]:
+        """Hear a topic's messages as bytes, in the thread of the link; gives what ends that.
+
+        Raises:
+            RosNameError: No topic is named so.
+            UnknownTypeError: The type is not known here.
+        """
+        return self._subscribed(type_name, topic, take, qos, raw=True)
+
+    def let_go(self, node: Node) -> None:
+        """End a node of a document."""
+        self._executor.remove_node(node)
+        node.destroy_node()
+        self._taken.discard(node.get_name())  # last: else two may be there under one name
+
+    def close(self) -> None:
+        """End all nodes, the session, and the router if it is ours."""
+        self._ended.set()
+        self._watch.close()
+        self._context.shutdown()
+        self._executor.shutdown()
+        self._spinning.join()
+
+    def _new_node(self, name: str) -> Node:
+        node = Node(name, context=self._context)
+        self._executor.add_node(node)
+        return node
+
+    def _subscribed(
+        self,
+        type_name: str,
+        topic: str,
+        take: MessageCallback,
+        qos: QoSProfile,
+        *,
+        raw: bool = False,
+    ) -> Callable[[], None]:
+        kind = self._wire.types.message(type_name)
+        subscription = self._node.create_subscription(kind, topic, take, qos, raw=raw)
+
+        def end() -> None:
+            self._node.destroy_subscription(subscription)
+
+        return end
+
+    def _take(self, name: str, what: str) -> None:
+        if name in self._taken:
+            raise CommandError(
+                f"Another open robot publishes {what} already: turn that off there first."
+            )
+        self._taken.add(name)
+
+    def _spin(self) -> None:
+        while not self._ended.is_set():
+            try:
+                self._executor.spin_once()
+            except ExternalShutdownException:
+                return
+            except Exception:  # noqa: BLE001 - one message that cannot be used must not end the rest
+                _log.exception("What came from the wire could not be used.")

@@ -1,0 +1,77 @@
+"""Nearby: how many nodes the router of this machine has, looked at while nobody has connected."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import TYPE_CHECKING, Final
+
+from studio.errors import StudioError
+from studio.live.connection.plan import planned_wire
+from studio.ros.wire.endpoints import parse_endpoint
+from studio.ros.wire.probing import Answer, probe
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from studio.settings import WireChoice
+
+_PAUSE_S: Final = 5.0
+"""Between two looks."""
+
+
+class Nearby:
+    """Looks again and again while `is_wanted`, and calls `changed` when the number is another.
+
+    Only at a router of this machine: elsewhere nobody asked to be looked at. Where none answers,
+    one connection a look is all that it costs, and Zenoh is not imported.
+    """
+
+    def __init__(
+        self,
+        choice: Callable[[], WireChoice],
+        is_wanted: Callable[[], bool],
+        changed: Callable[[], None],
+    ) -> None:
+        self._choice, self._is_wanted, self._changed = choice, is_wanted, changed
+        self._looking: asyncio.Task[None] | None = None
+        self.node_count = 0
+        """Of the domain that would be joined; 0 where nobody looks."""
+
+    def look(self) -> None:
+        """Look from now on, if that is wanted and is not done yet."""
+        if self._is_wanted() and (self._looking is None or self._looking.done()):
+            self._looking = asyncio.create_task(self._look())
+
+    async def close(self) -> None:
+        """Look no more."""
+        if self._looking is not None:
+            self._looking.cancel()
+            await asyncio.gather(self._looking, return_exceptions=True)
+
+    async def _look(self) -> None:
+        while self._is_wanted():
+            self._take(await asyncio.to_thread(nodes_nearby, self._choice()))
+            await asyncio.sleep(_PAUSE_S)
+        self.node_count = 0
+
+    def _take(self, count: int) -> None:
+        if count != self.node_count and self._is_wanted():
+            self.node_count = count
+            self._changed()
+
+
+def nodes_nearby(choice: WireChoice) -> int:
+    """Count the nodes at the router of this machine; 0 where none is looked for or answers.
+
+    Lasts some seconds at most, so in a thread.
+    """
+    try:
+        places = [parse_endpoint(one) for one in planned_wire(choice).connect]
+        is_here = len(places) == 1 and places[0].is_loopback and places[0].is_stream
+        if not is_here or probe(places[0]) is not Answer.ZENOH:
+            return 0
+        from studio.live.connection.report import examine  # noqa: PLC0415 - imports zenoh
+
+        return examine(choice, ()).nodes
+    except StudioError:
+        return 0

@@ -1,0 +1,187 @@
+"""What there is at a place on the wire, and why nobody is met there: looked at, never joined.
+
+Imports Zenoh, by way of ros: it is imported when somebody asks.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Final
+
+from studio.errors import NoRouterError, TokenError
+from studio.live.connection.plan import planned_wire
+from studio.protocol.wire import DomainView, Verdict, WireReport
+from studio.ros.graph.diagnosis import DistroHashes, foreign_hashes
+from studio.ros.graph.endpoints import GraphEndpoint, GraphNode
+from studio.ros.graph.unseen import unseen_nodes
+from studio.ros.messages.shared import types_of
+from studio.ros.profiles import PROFILES
+from studio.ros.tokens import ADMIN_SPACE, EndpointToken, NodeToken, parse_token
+from studio.ros.wire.door import standing_tokens
+from studio.ros.wire.endpoints import parse_endpoint
+from studio.ros.wire.probing import Answer, probe
+from studio.ros.wire.session import open_session
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterable
+
+    from studio.ros.wire.session import WireSession
+    from studio.ros.wire.settings import WireSettings
+    from studio.settings import WireChoice
+
+_LOOK_TIMEOUT_S: Final = 3.0
+_BRIDGES: Final = "@/*/@ros2_lv/**"
+"""Tokens of zenoh-bridge-ros2dds, whose keys are others than rmw_zenoh's."""
+_SHOWN_MAX: Final = 20
+_TYPES_MAX: Final = 400
+"""So many types are compared with every distribution: that is slow, and fewer tell as much."""
+
+
+@dataclass(slots=True)
+class Census:
+    """Who is there, by their tokens.
+
+    Attributes:
+        nodes: How many of others each domain has.
+        endpoints: Of others in the domain that is looked at, one for each form of a type.
+        has_bridge: Somebody bridges to DDS there.
+        unseen: How many processes publish in that domain, of which no node is seen.
+    """
+
+    nodes: Counter[int] = field(default_factory=Counter[int])
+    endpoints: dict[tuple[str, str], GraphEndpoint] = field(
+        default_factory=dict[tuple[str, str], GraphEndpoint]
+    )
+    has_bridge: bool = False
+    unseen: int = 0
+
+    def take(self, token: str, domain: int, own: Collection[str]) -> None:
+        """Count one token, unless it is of the studio's own or none of ROS."""
+        try:
+            parsed = parse_token(token)
+        except TokenError:
+            return
+        node = parsed if isinstance(parsed, NodeToken) else parsed.node
+        if node.zid in own:
+            return
+        if isinstance(parsed, NodeToken):
+            self.nodes[node.domain] += 1
+        elif node.domain == domain:
+            self._take_form(token, parsed)
+
+    def _take_form(self, text: str, token: EndpointToken) -> None:
+        form = (token.type_name, token.type_hash)
+        if form not in self.endpoints and len(self.endpoints) < _TYPES_MAX:
+            self.endpoints[form] = GraphEndpoint.of(text, token, GraphNode.of(token.node))
+
+
+def examine(choice: WireChoice, own: Collection[str], request: int = 0) -> WireReport:
+    """Look what there is at a place; lasts some seconds at most, so in a thread.
+
+    Args:
+        choice: The place; whatever it says of starting a router, none is.
+        own: Sessions of the studio, whose nodes do not count.
+        request: That is answered.
+
+    Raises:
+        WireSettingsError: The settings cannot be.
+    """
+    settings = planned_wire(choice)
+    answer = _answer_at(settings)
+    if answer is Answer.NOBODY:
+        return _report(settings, "no_router", request, starts=_starts(choice, settings))
+    if answer is Answer.OTHER:
+        return _report(settings, "foreign", request)
+    try:
+        with open_session(settings, types_of(settings.profile.distro)) as wire:
+            census = count(wire, own)
+            unseen = unseen_nodes(wire)
+            census.unseen = unseen.count if unseen else 0
+    except NoRouterError:
+        verdict = "no_router" if answer is Answer.UNKNOWN else "not_admitted"
+        return _report(settings, verdict, request)
+    return _judged(settings, census, request)
+
+
+def count(wire: WireSession, own: Collection[str]) -> Census:
+    """Ask the router for the tokens of every domain, once."""
+    census = Census()
+    for token in set(standing_tokens(wire.zenoh, f"{ADMIN_SPACE}/*/**", _LOOK_TIMEOUT_S)):
+        census.take(token, wire.domain, own)
+    if not census.nodes:
+        census.has_bridge = any(standing_tokens(wire.zenoh, _BRIDGES, _LOOK_TIMEOUT_S))
+    return census
+
+
+def seen_distros(endpoints: Iterable[GraphEndpoint], hashes: DistroHashes) -> tuple[str, ...]:
+    """Name the distributions whose types most of these have; none where nothing tells."""
+    forms = [(one.type_name, one.type_hash) for one in endpoints]
+    fitting = {
+        distro: sum(hashes(distro, name) == form for name, form in forms) for distro in PROFILES
+    }
+    most = max(fitting.values(), default=0)
+    return tuple(distro for distro, fits in fitting.items() if most and fits == most)
+
+
+def _answer_at(settings: WireSettings) -> Answer:
+    if len(settings.connect) != 1:
+        return Answer.UNKNOWN
+    return probe(parse_endpoint(settings.connect[0]))
+
+
+def _starts(choice: WireChoice, settings: WireSettings) -> bool:
+    place = parse_endpoint(settings.connect[0])
+    return choice.router != "off" and place.is_loopback and place.is_stream
+
+
+def _judged(settings: WireSettings, census: Census, request: int) -> WireReport:
+    """Say what a count of those who are there means."""
+    ends = census.endpoints.values()
+    hashes = DistroHashes(types_of(settings.profile.distro))
+    foreign = foreign_hashes(ends, settings.profile, hashes)
+    return _report(
+        settings,
+        _verdict(settings.domain, census, is_foreign=bool(foreign)),
+        request,
+        census=census,
+        distros=seen_distros(ends, hashes),
+        types=tuple(name for one in foreign for name in one.types)[:_SHOWN_MAX],
+    )
+
+
+def _verdict(domain: int, census: Census, *, is_foreign: bool) -> Verdict:
+    if census.unseen:
+        return "unseen"
+    if census.nodes[domain]:
+        return "other_distro" if is_foreign else "fine"
+    if census.nodes.total():
+        return "other_domain"
+    return "bridge" if census.has_bridge else "alone"
+
+
+def _report(  # noqa: PLR0913 - the fields of one answer
+    settings: WireSettings,
+    verdict: Verdict,
+    request: int,
+    *,
+    starts: bool = False,
+    census: Census | None = None,
+    distros: tuple[str, ...] = (),
+    types: tuple[str, ...] = (),
+) -> WireReport:
+    nodes = census.nodes if census else Counter[int]()
+    domains = [DomainView(domain=one, nodes=nodes[one]) for one in sorted(nodes) if nodes[one]]
+    return WireReport(
+        request=request,
+        endpoint=", ".join(settings.connect),
+        domain=settings.domain,
+        distro=settings.profile.distro,
+        verdict=verdict,
+        starts_router=starts,
+        nodes=nodes[settings.domain],
+        domains=tuple(domains[:_SHOWN_MAX]),
+        distros=distros,
+        types=types,
+        unseen=census.unseen if census else 0,
+    )

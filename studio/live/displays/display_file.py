@@ -1,0 +1,69 @@
+"""Where the displays of a document are kept: one small file per entry in the data folder."""
+
+from __future__ import annotations
+
+import hashlib
+import logging
+import os
+import tempfile
+from contextlib import suppress
+from pathlib import Path
+from typing import Final
+
+import msgspec
+
+from studio.live.displays.display_list import DISPLAYS_MAX, DisplaySpec
+
+FOLDER: Final = "displays"
+_LIMIT_BYTES: Final = 4 << 20
+
+_log = logging.getLogger(__name__)
+
+
+class KeptDisplays(msgspec.Struct, frozen=True, omit_defaults=True):
+    """What is kept; the order is that of the list."""
+
+    displays: tuple[DisplaySpec, ...] = ()
+    groups_off: tuple[str, ...] = ()
+    fixed_frame: str = ""
+
+
+_DECODER: Final = msgspec.json.Decoder(KeptDisplays)
+_BROKEN: Final = (msgspec.MsgspecError, UnicodeDecodeError, RecursionError)
+
+
+class DisplayFile:
+    """Reads and writes it; a file that cannot be read is as none, for it holds no work."""
+
+    def __init__(self, data_folder: Path, entry: Path) -> None:
+        name = hashlib.sha256(os.fsencode(entry)).hexdigest()[:32]
+        self._path = data_folder / FOLDER / f"{name}.json"
+
+    def read(self) -> KeptDisplays:
+        """What was kept; nothing, if nothing was or it is broken."""
+        try:
+            if self._path.stat().st_size > _LIMIT_BYTES:
+                return KeptDisplays()
+            kept = _DECODER.decode(self._path.read_bytes())
+        except (OSError, *_BROKEN):
+            return KeptDisplays()
+        return msgspec.structs.replace(kept, displays=kept.displays[:DISPLAYS_MAX])
+
+    def write(self, kept: KeptDisplays) -> None:
+        """Keep this from now on; in any thread. What the disk refuses is logged."""
+        try:
+            self._path.parent.mkdir(parents=True, exist_ok=True)
+            self._replace(msgspec.json.encode(kept))
+        except OSError as error:
+            _log.warning("The displays are not kept in %s: %s.", self._path, error.strerror)
+
+    def _replace(self, data: bytes) -> None:
+        handle, name = tempfile.mkstemp(dir=self._path.parent, prefix=".", suffix=".json")
+        try:
+            with os.fdopen(handle, "wb") as stream:
+                stream.write(data)
+            Path(name).replace(self._path)
+        except OSError:
+            with suppress(OSError):
+                Path(name).unlink()
+            raise

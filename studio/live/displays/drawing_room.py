@@ -1,0 +1,279 @@
+"""DrawingRoom: the displays of a document at work, and the scene that they draw in."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import islice
+from typing import TYPE_CHECKING, Final, Protocol
+
+from studio.displays.display import Status, TopicRole
+from studio.displays.tf import TfDisplay
+from studio.errors import CommandError, SceneError
+from studio.live.displays.catalogue_views import property_view
+from studio.live.displays.ear import Hearing
+from studio.live.displays.followed_frames import FollowedFrames
+from studio.live.displays.frames_desk import STILL, FramesDesk, KnowsPublishers
+from studio.live.displays.reasons import remarks_on
+from studio.live.displays.running import RunningDisplay
+from studio.live.displays.topics_now import KnowsTopics, TopicsNow
+from studio.protocol.live import (
+    DisplayState,
+    DisplayStates,
+    DisplayView,
+    ListeningWish,
+    PropertyView,
+    Remark,
+)
+from studio.ros.messages.shared import shared_types
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from studio.displays.display import Display
+    from studio.documents.model import Model
+    from studio.live.displays.display_list import DisplayList, DisplaySpec, Listening
+    from studio.live.displays.ear import Wish
+    from studio.live.displays.placing import Pose
+    from studio.protocol.roles import Visitor
+
+_MORE_MAX: Final = 500
+"""Properties of one display that came with messages: more are not told."""
+_AT_ONCE_S: Final = 0.03
+"""All displays together take messages for so long in one step: the loop has other work, too."""
+
+_SENTENCE_MAX: Final = 600
+"""Addresses of meshes come from others."""
+_NO_TOPIC: Final = TopicRole("", (), depth=1)
+
+
+class KnowsGraph(KnowsPublishers, KnowsTopics, Protocol):
+    """What displays need of the graph."""
+
+
+class Connected(Hearing, Protocol):
+    """What displays need of a connection."""
+
+    @property
+    def is_connected(self) -> bool:
+        """Whether its router is there."""
+        ...
+
+    @property
+    def graph(self) -> KnowsGraph:
+        """Who publishes."""
+        ...
+
+
+class Meshes(Protocol):
+    """Who loads the meshes that the scene lacks."""
+
+    def want(self) -> None:
+        """Load them."""
+        ...
+
+    def trouble_of(self, uri: str) -> str:
+        """Why one cannot be shown, in a sentence."""
+        ...
+
+
+class DrawingRoom:
+    """Steps every display that is shown and applies what it draws."""
+
+    def __init__(self, model: Model, meshes: Meshes) -> None:
+        self._scene, self._meshes = model.scene, meshes
+        self.frames = FramesDesk(model)
+        self._running: dict[str, RunningDisplay] = {}
+        self._faults: dict[str, str] = {}
+        self._seen: frozenset[str] = frozenset()
+        self._followed = FollowedFrames(model.scene.live)
+        self._robot_at: Pose = STILL
+        self._robot_trouble = ""
+
+    def open(self, spec: DisplaySpec) -> None:
+        """Set a display to work.
+
+        Raises:
+            DisplayError: There is no such kind, or it does not take the values.
+        """
+        self._running[spec.id] = RunningDisplay(spec, shared_types())
+
+    def get(self, display: str) -> RunningDisplay:
+        """The one of an id.
+
+        Raises:
+            CommandError: There is none any more.
+        """
+        if found := self._running.get(display):
+            return found
+        raise CommandError("This display is not there any more: choose another.")
+
+    def close(self, display: str) -> RunningDisplay | None:
+        """Take one out of the scene; whoever asks closes it, in a thread."""
+        self._scene.live.drop(display)
+        self._faults.pop(display, None)
+        return self._running.pop(display, None)
+
+    def displays(self) -> dict[str, Display]:
+        """All displays by their ids."""
+        return {name: running.display for name, running in self._running.items()}
+
+    def listen(self, link: Connected, shown: Iterable[str]) -> None:
+        """Have TF and those that are shown heard, and no others; in a thread."""
+        self.frames.listen(link, link.graph)
+        wanted, connected = set(shown), link.is_connected
+        topics = TopicsNow(link.graph)
+        if connected:  # else all seem to be gone
+            self.frames.look(link.graph)
+        for display, running in tuple(self._running.items()):
+            if display in wanted:
+                running.listen(link, link.graph.publishers, connected=connected)
+                running.look_around(topics)
+            else:
+                running.deafen()
+
+    def deafen(self) -> None:
+        """Have nothing heard; in a thread."""
+        self.frames.deafen()
+        for running in tuple(self._running.values()):
+            running.deafen()
+
+    def close_all(self) -> None:
+        """Have nothing heard any more, whoever is about to listen; in a thread."""
+        self.frames.close()
+        for running in tuple(self._running.values()):
+            running.close()
+
+    def renew(self) -> None:
+        """The fixed frame is another: everything is placed anew."""
+        for running in self._running.values():
+            running.placing.renew()
+
+    def forget(self) -> None:
+        """Take what came by a connection that is no more off the screen."""
+        for running in self._running.values():
+            running.forget()
+
+    def follow(self, frame: str, now_ns: int, visitor: Visitor) -> str:
+        """Have a frame stand in the scene for a while; answers why it does not, or nothing."""
+        return self._followed.ask(frame, now_ns, visitor) or self.frames.trouble_of(frame)
+
+    def step(self, displays: DisplayList, now_ns: int) -> None:
+        """Draw what came since the last step."""
+        self.frames.step()
+        shown = self._shown_of(displays)
+        self._show_frames(running.display for running in shown.values())
+        self._place_robot()
+        self._followed.step(self.frames.lookup, now_ns)
+        for display, running in shown.items():
+            self._draw(display, running, now_ns, _AT_ONCE_S / len(shown))
+        self._scene.live.draw_waiting()
+
+    def view(self, spec: DisplaySpec) -> DisplayView:
+        """One display as it is set."""
+        running = self._running[spec.id]
+        heard = _heard(running)
+        return DisplayView(
+            id=spec.id,
+            kind=spec.kind,
+            name=spec.name,
+            group=spec.group,
+            enabled=spec.enabled,
+            topic=spec.topic,
+            reliable=heard.reliable,
+            latched=heard.latched,
+            depth=heard.depth,
+            wished=_wished(spec.listening),
+            values=dict(running.display.values),
+            more=_more_properties(running.display),
+        )
+
+    def states(self, displays: DisplayList, now_ns: int) -> DisplayStates:
+        """How all fare."""
+        return DisplayStates(
+            states=tuple(self._state(one, displays, now_ns) for one in displays),
+            fixed_frame_trouble=self._robot_trouble,
+        )
+
+    def _state(self, spec: DisplaySpec, displays: DisplayList, now_ns: int) -> DisplayState:
+        running = self._running[spec.id]
+        age_s = running.age_s(now_ns)
+        more = self._of_meshes(spec.id)
+        facts = running.facts(now_ns, shown=displays.is_shown(spec), more=more)
+        remarks = remarks_on(replace(facts, frame=self.frames.offered_for(facts.frame)))
+        if fault := self._faults.get(spec.id):
+            remarks = (Remark(level="error", reason="too_much", sentence=fault), *remarks)
+        return DisplayState(
+            id=spec.id,
+            rate_hz=round(running.rate_hz(now_ns), 1),
+            age_s=None if age_s is None else round(age_s),
+            lost=running.lost,
+            remarks=remarks,
+        )
+
+    def _of_meshes(self, display: str) -> tuple[Status, ...]:
+        """Which meshes cannot be shown; in their places are boxes of wire."""
+        failed = self._scene.live.failed_meshes(display)
+        if not failed:
+            return ()
+        words = self._meshes.trouble_of(failed[0])
+        if len(failed) > 1:
+            words = f"{len(failed)} meshes cannot be shown. The first: {words}"
+        return (Status("warn", "no_mesh", words[:_SENTENCE_MAX]),)
+
+    def _shown_of(self, displays: DisplayList) -> dict[str, RunningDisplay]:
+        """Those that are seen; what came before time jumped, or before one was hidden, is not."""
+        shown = {one.id: self._running[one.id] for one in displays if displays.is_shown(one)}
+        jumped = self.frames.has_jumped()
+        for display, running in self._running.items():
+            if jumped or (display in self._seen and display not in shown):
+                running.reset()
+        self._seen = frozenset(shown)
+        return shown
+
+    def _draw(self, display: str, running: RunningDisplay, now_ns: int, at_once_s: float) -> None:
+        drawn = running.drawn
+        shown = running.step(self.frames.lookup, now_ns, at_once_s)
+        if shown is None:
+            return
+        try:
+            if shown.drawing is drawn:
+                self._scene.live.place(display, shown.poses)
+            else:
+                self._scene.live.apply(display, shown.drawing, shown.poses)
+            running.drawn = shown.drawing
+            self._faults.pop(display, None)
+        except SceneError as error:
+            self._faults[display] = str(error)
+        if self._scene.live.missing_meshes():
+            self._meshes.want()
+
+    def _show_frames(self, displays: Iterable[Display]) -> None:
+        """Hand all frames to those that draw them."""
+        drawing = [one for one in displays if isinstance(one, TfDisplay)]
+        if drawing:
+            frames = self.frames.now()
+            for display in drawing:
+                display.show(frames)
+
+    def _place_robot(self) -> None:
+        pose, self._robot_trouble = self.frames.robot_pose()
+        if pose is not None and pose != self._robot_at:
+            self._robot_at = pose
+            self._scene.place_robot(*pose)
+
+
+def _heard(running: RunningDisplay) -> Wish | TopicRole:
+    """How the main topic is listened to; before there is one, how it would be."""
+    return running.wish() or next(iter(running.display.roles()), _NO_TOPIC)
+
+
+def _wished(listening: Listening) -> ListeningWish:
+    return ListeningWish(
+        reliable=listening.reliable, latched=listening.latched, depth=listening.depth
+    )
+
+
+def _more_properties(display: Display) -> tuple[PropertyView, ...]:
+    own = frozenset(display.PROPERTIES)
+    more = (one for one in display.properties() if one not in own)
+    return tuple(map(property_view, islice(more, _MORE_MAX)))

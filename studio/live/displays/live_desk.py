@@ -1,0 +1,388 @@
+"""LiveDesk: the displays of a document: what is asked of them, and the tick that draws them."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import time
+from dataclasses import replace
+from typing import TYPE_CHECKING, Final
+
+from studio.errors import CommandError, StudioError
+from studio.live.displays.display_file import DisplayFile, KeptDisplays
+from studio.live.displays.display_list import DisplayList, Listening
+from studio.protocol import live as m
+from studio.protocol.listeners import LastTold
+from studio.protocol.roles import Visitor
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from studio.displays.properties import Value
+    from studio.documents.document import Document
+    from studio.documents.services import Services
+    from studio.live.connection.link import WireLink
+    from studio.live.displays.display_list import DisplaySpec
+    from studio.live.displays.drawing_room import DrawingRoom, Meshes
+    from studio.live.displays.placing import Shown
+    from studio.live.displays.robot_models import RobotModels
+    from studio.protocol.listeners import Listener
+
+_TICK_S: Final = 1 / 30
+_LOOK_EVERY_S: Final = 0.5
+"""Between two looks at who publishes, and two words about how displays fare."""
+_UNSEEN_S: Final = 10.0
+"""After so long without a page nothing is heard and drawn; one that is loaded anew misses none."""
+_PAUSE_SHARE: Final = 0.5
+"""After a step that took long, others get this share of its time."""
+_ASKED_FOR_S: Final = 5.0
+"""TF is heard so long after somebody asked for frames: a panel of them asks every second."""
+
+_log = logging.getLogger(__name__)
+
+
+class LiveDesk:
+    """Carries out what is asked, and ticks while there is anything to draw.
+
+    Every command raises a CommandError or DisplayError when it cannot be done; then all is as it
+    was.
+    """
+
+    def __init__(self, document: Document, services: Services, meshes: Meshes) -> None:
+        self._document, self._services, self._wire = document, services, services.wire
+        self._file = DisplayFile(services.settings.data_folder, document.entry)
+        self._meshes = meshes
+        self._list = DisplayList()
+        self._made: DrawingRoom | None = None
+        self._robots: RobotModels | None = None
+        """Made with the room."""
+        self._link: WireLink | None = None
+        self._drawn_from: WireLink | None = None
+        self._listening = asyncio.Lock()
+        self._ticking: asyncio.Task[None] | None = None
+        self._keeping: asyncio.Task[None] | None = None
+        self._unkept: KeptDisplays | None = None
+        self._seen_s = time.monotonic()
+        self._fault = ""
+        self._looked_s = 0.0
+        self._asked_until_s = 0.0
+        self._states = LastTold[m.DisplayStates](document.board.audience)
+        self._settings = LastTold[m.LiveDisplays](document.board.audience)
+        self._closed = False
+
+    @property
+    def _room(self) -> DrawingRoom:
+        """Made when it is first needed: what it imports takes time, and no opening waits for it."""
+        if self._made is None:
+            from studio.live.displays.drawing_room import DrawingRoom  # noqa: PLC0415 - see above
+            from studio.live.displays.robot_models import RobotModels  # noqa: PLC0415
+
+            self._made = DrawingRoom(self._document.model, self._meshes)
+            self._robots = RobotModels(self._document, self._services)
+        return self._made
+
+    def restore(self) -> None:
+        """Take up the displays of the last time."""
+        kept = self._file.read()
+        if kept.fixed_frame:
+            self._room.frames.chosen = kept.fixed_frame
+        for spec in kept.displays:
+            self._restore_one(spec)
+        for group in {one.group for one in self._list} & set(kept.groups_off) - {""}:
+            self._list.switch_group(group, shown=False)
+        self._show_and_hide()
+        self._go_on()
+
+    def _restore_one(self, spec: DisplaySpec) -> None:
+        added = self._list.put(spec)
+        try:
+            self._room.open(added)
+        except StudioError as error:
+            self._list.remove(added.id)
+            _log.warning("The display %s was left out: %s", spec.name, error)
+
+    def events(self) -> Iterable[m.LiveEvent]:
+        """What a newcomer is told; with somebody there, it is drawn again."""
+        self._seen_s = time.monotonic()
+        self._go_on()
+        yield self._displays()
+        if self._states.event is not None:
+            yield self._states.event
+
+    async def add(self, command: m.AddDisplay) -> None:
+        """Add a display; with a topic, the connection is made if there is none."""
+        topic = _full_name(command.topic) or _first_topic(command.kind)
+        spec = self._list.add(command.kind, topic)
+        try:
+            self._room.open(spec)
+        except StudioError:
+            self._list.remove(spec.id)
+            raise
+        self._changed()
+        if spec.topic:
+            await self._connect()
+
+    async def remove(self, command: m.RemoveDisplay) -> None:
+        """Take a display away."""
+        self._list.remove(command.display)
+        running = self._room.close(command.display)
+        self._changed()
+        if running is not None:
+            await asyncio.to_thread(running.close)
+
+    def duplicate(self, command: m.DuplicateDisplay) -> None:
+        """Add one like another."""
+        self._room.open(self._list.duplicate(command.display))
+        self._changed()
+
+    def arrange(self, command: m.ArrangeDisplay) -> None:
+        """Name, group or move one."""
+        spec = self._list.get(command.display)
+        name = spec.name if command.name is None else command.name.strip()
+        if not name:
+            raise CommandError("A display needs a name of at least one letter.")
+        group = spec.group if command.group is None else command.group.strip()
+        if command.before is not None:
+            self._list.move(spec.id, command.before)
+        self._change(replace(spec, name=name, group=group))
+
+    def switch(self, command: m.SwitchDisplays) -> None:
+        """Show or hide one, or a group as a whole."""
+        if command.display:
+            self._change(replace(self._list.get(command.display), enabled=command.enabled))
+        else:
+            self._list.switch_group(command.group, shown=command.enabled)
+            self._changed()
+
+    async def set_topic(self, command: m.SetDisplayTopic) -> None:
+        """Listen to another topic, or otherwise."""
+        before = self._list.get(command.display)
+        listening = Listening(command.reliable, command.latched, command.depth)
+        spec = replace(before, topic=_full_name(command.topic), listening=listening)
+        old = None
+        if spec.topic != before.topic:
+            old = self._room.close(spec.id)
+            self._room.open(spec)
+        self._change(spec)
+        if old is not None:
+            await asyncio.to_thread(old.close)
+        if spec.topic:
+            await self._connect()
+
+    def set_property(self, command: m.SetDisplayProperty) -> None:
+        """Change a property."""
+        spec = self._list.get(command.display)
+        value = self._room.get(spec.id).set(command.name, command.value)
+        values: dict[str, Value] = {**spec.values, command.name: value}
+        self._change(replace(spec, values=values))
+
+    async def fix(self, command: m.SetFixedFrame) -> None:
+        """Draw everything in another frame."""
+        frame, frames = command.frame.strip().removeprefix("/"), self._room.frames
+        frames.chosen = frame
+        self._room.renew()
+        self._changed()
+        if frame and frame not in frames.own.links:
+            await self._connect()
+
+    def shown(self, display: str) -> Shown:
+        """What is shown of a display, and where its parts are in the fixed frame."""
+        return self._room.get(display).placing.shown
+
+    def kinds(self, command: m.GetDisplayKinds) -> m.DisplayKinds:
+        """Which displays there are."""
+        from studio.live.displays.catalogue_views import kind_views  # noqa: PLC0415 - imports all
+
+        return m.DisplayKinds(request=command.request, kinds=kind_views())
+
+    async def topics(self, command: m.GetTopics) -> m.Topics:
+        """Which topics there are; none without a connection."""
+        link = self._wire.current
+        if link is None:
+            return m.Topics(request=command.request, topics=())
+        from studio.live.displays.topic_views import topic_views  # noqa: PLC0415 - imports all
+
+        found = await asyncio.to_thread(topic_views, link)
+        return m.Topics(request=command.request, topics=found)
+
+    async def tf(self, command: m.GetTf) -> m.TfFrames:
+        """Which frames there are, and where one is in another; TF is heard from now on."""
+        is_first = not self._is_on
+        self._asked_until_s = time.monotonic() + _ASKED_FOR_S
+        self._go_on()
+        frames = self._room.frames
+        if is_first and not command.pose_only and self._wire.current is not None:
+            await frames.hear_first(self._wire.current.graph)
+        frames.step()
+        if command.pose_only:
+            return frames.answer(command, frames.fixed)
+        # Thousands of frames in words take a while, and the loop has other work.
+        return await asyncio.to_thread(frames.answer, command, frames.fixed)
+
+    def follow(self, command: m.FollowFrame, who: Listener) -> m.FrameFollowed:
+        """Have a frame stand in the scene, for a camera to go with it; TF is heard from now on."""
+        self._asked_until_s = time.monotonic() + _ASKED_FOR_S
+        self._go_on()
+        frame = command.frame.strip().removeprefix("/")
+        trouble = self._room.follow(frame, time.time_ns(), Visitor(who.role, who.person))
+        return m.FrameFollowed(request=command.request, trouble=trouble)
+
+    async def let_go(self) -> None:
+        """Let go of the connection; displays stay, and listen again when there is one."""
+        async with self._listening:
+            self._link = None
+            if self._robots is not None:
+                await self._robots.let_go()
+            if self._made is not None:
+                await asyncio.to_thread(self._made.deafen)
+
+    async def close(self) -> None:
+        """Draw nothing more."""
+        self._closed = True
+        if self._ticking is not None:
+            self._ticking.cancel()
+            await asyncio.gather(self._ticking, return_exceptions=True)
+        await self.let_go()
+        if self._robots is not None:
+            await self._robots.close()
+        if self._made is not None:
+            await asyncio.to_thread(self._made.close_all)
+        if self._keeping is not None:
+            await self._keeping
+
+    async def _connect(self) -> None:
+        """Have a connection; why there is none is told by the displays."""
+        try:
+            await self._wire.link()
+        except StudioError as error:
+            _log.info("Displays without a connection: %s", error)
+        self._looked_s = 0.0
+        self._go_on()
+
+    def _change(self, spec: DisplaySpec) -> None:
+        self._list.change(spec)
+        self._room.get(spec.id).spec = spec
+        self._changed()
+
+    def _changed(self) -> None:
+        """The list is another: tell it, keep it, draw it."""
+        self._show_and_hide()
+        self._tell_displays()
+        self._keep()
+        self._looked_s = 0.0
+        self._go_on()
+
+    def _show_and_hide(self) -> None:
+        for spec in self._list:
+            self._document.scene.live.show(spec.id, visible=self._list.is_shown(spec))
+
+    def _keep(self) -> None:
+        self._unkept = KeptDisplays(tuple(self._list), self._list.groups_off, self._fixed_frame)
+        if self._keeping is None or self._keeping.done():
+            self._keeping = asyncio.create_task(self._write())
+
+    async def _write(self) -> None:
+        """Keep the newest until there is no newer: a slider changes faster than the disk."""
+        while self._unkept is not None:
+            kept, self._unkept = self._unkept, None
+            await asyncio.to_thread(self._file.write, kept)
+
+    @property
+    def _fixed_frame(self) -> str:
+        return self._made.frames.chosen if self._made else ""
+
+    @property
+    def _is_on(self) -> bool:
+        now_s = time.monotonic()
+        if self._document.board.audience:
+            self._seen_s = now_s
+        wanted = now_s < self._asked_until_s or len(self._list) > 0 or self._fixed_frame != ""
+        return wanted and now_s - self._seen_s < _UNSEEN_S
+
+    def _go_on(self) -> None:
+        idle = self._ticking is None or self._ticking.done()
+        if idle and self._is_on and not self._closed:
+            self._ticking = asyncio.create_task(self._tick())
+
+    async def _tick(self) -> None:
+        loop = asyncio.get_running_loop()
+        while self._is_on:
+            began_s = loop.time()
+            try:
+                looks = began_s - self._looked_s >= _LOOK_EVERY_S
+                if looks:
+                    self._looked_s = began_s
+                    await self._listen()
+                self._step()
+                if looks:
+                    self._tell_displays()
+                    self._tell_states()
+            except Exception as error:  # noqa: BLE001 - what fails once must not end the rest
+                self._log_once(error)
+            ended_s = loop.time()
+            await asyncio.sleep(
+                max(began_s + _TICK_S - ended_s, _PAUSE_SHARE * (ended_s - began_s))
+            )
+        self._room.step(self._list, time.time_ns())
+        self._tell_states()
+        await self.let_go()
+        self._ticking = None
+        self._go_on()  # somebody may have asked meanwhile
+
+    def _step(self) -> None:
+        room = self._room
+        if self._robots is not None:
+            self._robots.step(room.displays(), self._link)
+        room.step(self._list, time.time_ns())
+
+    def _log_once(self, error: Exception) -> None:
+        """Say that a tick failed, unless that is what was said last: there are many ticks."""
+        if repr(error) != self._fault:
+            self._fault = repr(error)
+            _log.error("A tick of the live scene failed.", exc_info=error)
+
+    async def _listen(self) -> None:
+        """Listen to what is shown, as fits who publishes now."""
+        link = self._wire.current
+        if self._link is not None and link is not self._link:
+            await self.let_go()
+        if link is not self._drawn_from:
+            self._drawn_from = link
+            self._room.forget()
+        async with self._listening:
+            if link is None:
+                return
+            self._link = link
+            shown = [one.id for one in self._list if self._list.is_shown(one)]
+            await asyncio.to_thread(self._room.listen, link, shown)
+
+    def _tell_states(self) -> None:
+        self._states.tell(self._room.states(self._list, time.time_ns()))
+
+    def _tell_displays(self) -> None:
+        """Tell how all are set, if that is news: how they listen changes with who publishes."""
+        self._settings.tell(self._displays())
+
+    def _displays(self) -> m.LiveDisplays:
+        return m.LiveDisplays(
+            displays=tuple(self._room.view(spec) for spec in self._list),
+            groups_off=self._list.groups_off,
+            fixed_frame=self._fixed_frame,
+        )
+
+
+def _first_topic(kind: str) -> str:
+    """What a display listens to when nobody says what.
+
+    Raises:
+        DisplayError: There is no such kind.
+    """
+    from studio.displays.catalogue import display_of_kind  # noqa: PLC0415 - imports all
+
+    return display_of_kind(kind).FIRST_TOPIC
+
+
+def _full_name(topic: str) -> str:
+    """A topic as the graph names it."""
+    topic = topic.strip()
+    return f"/{topic}" if topic and topic[0] not in "/~" else topic

@@ -1,0 +1,173 @@
+"""OwnFrames: the frames of the document's own robot, told to its buffer as TF would."""
+
+from __future__ import annotations
+
+import threading
+from typing import TYPE_CHECKING, Final, NamedTuple, Protocol
+
+import numpy as np
+
+from studio.tf.admission import plain
+from studio.tf.columns import TransformColumns
+from studio.tf.forest import FRAMES_MAX
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Container
+
+    from studio.documents.posing.joints import JointPositions
+    from studio.robot.kinematics import Floats, Kinematics
+    from studio.robot.values import Robot
+    from studio.tf.buffer import TransformBuffer
+    from studio.tf.columns import Numbers
+
+PUBLISHER: Final = "this robot"
+
+
+class PosedRobot(Protocol):
+    """A robot and where its joints stand: what OwnFrames needs of a model."""
+
+    @property
+    def robot(self) -> Robot:
+        """Its links and joints."""
+        ...
+
+    @property
+    def kinematics(self) -> Kinematics:
+        """Of this robot; made anew with it."""
+        ...
+
+    @property
+    def joints(self) -> JointPositions:
+        """Where its joints stand."""
+        ...
+
+
+class OwnFrames:
+    """Tells where the links stand, for all times, as long as nobody on the wire tells of them.
+
+    `leave_to_others` may be called in any thread: it has to be before the others' transform is
+    taken in, for a static one is told only once.
+    """
+
+    def __init__(self, robot: PosedRobot, buffer: TransformBuffer) -> None:
+        self._robot, self._buffer = robot, buffer
+        self._lock = threading.Lock()
+        self._kinematics: Kinematics | None = None
+        self._values: Floats = np.empty(0)
+        self._edges: _Edges | None = None
+        self._told: Floats = np.empty((0, 7))
+        """The pose of each edge as it was told last."""
+        self._rooted: Robot | None = None
+        self._root = ""
+        self._children: frozenset[str] = frozenset()
+        self._told_by_others: dict[str, str] = {}
+        """By whom."""
+
+    @property
+    def root(self) -> str:
+        """The robot's root link; empty before there is a robot."""
+        if self._rooted is not self._robot.robot:
+            self._rooted = self._robot.robot
+            self._root = self._rooted.root
+        return self._root
+
+    @property
+    def links(self) -> tuple[str, ...]:
+        """All its links."""
+        return self._robot.kinematics.link_names
+
+    def leave_to_others(self, names: tuple[str, ...], who: str = "") -> None:
+        """Tell no more of frames that somebody on the wire tells of."""
+        if all(name in self._told_by_others for name in names):
+            return
+        children = frozenset(map(plain, names))
+        with self._lock:
+            own = children & self._children
+            # Names without end must not fill the memory.
+            is_full = len(self._told_by_others) >= FRAMES_MAX
+            self._told_by_others |= dict.fromkeys(own if is_full else children, who)
+            if own:
+                self._buffer.drop(own)
+                self._children -= own
+                self._edges = None
+
+    def take_back(self) -> None:
+        """Tell of all again: nobody is heard any more."""
+        with self._lock:
+            self._told_by_others, self._children = {}, frozenset()
+            self._kinematics = self._edges = None
+
+    def take_back_from(self, gone: Collection[str]) -> None:
+        """Tell again of links that those told of who are gone; in any thread."""
+        with self._lock:
+            free = {child for child, who in self._told_by_others.items() if who in gone}
+            if not free:
+                return
+            for child in free:
+                del self._told_by_others[child]
+            self._buffer.drop(free & {one.child for one in self._robot.robot.joints.values()})
+            self._kinematics = self._edges = None
+
+    def step(self) -> None:
+        """Tell what changed since the last step."""
+        kinematics, values = self._robot.kinematics, self._robot.joints.values
+        if kinematics is self._kinematics and np.array_equal(values, self._values):
+            return
+        parent_from_links = kinematics.wxyz_xyz_in_parents(values)
+        with self._lock:
+            if kinematics is not self._kinematics or self._edges is None:
+                self._find_edges(kinematics.link_names)
+            self._kinematics, self._values = kinematics, values.copy()
+            self._tell(parent_from_links)
+
+    def _find_edges(self, links: tuple[str, ...]) -> None:
+        before = self._edges
+        self._edges = _edges_of(self._robot.robot, links, self._told_by_others)
+        if before is None or before[:2] != self._edges[:2]:
+            self._told = np.full((len(self._edges.children), 7), np.nan)
+        children = frozenset(self._edges.children)
+        self._buffer.drop(self._children - children)
+        self._children = children
+
+    def _tell(self, parent_from_links: Floats) -> None:
+        """Tell of the edges that moved: of a large robot few do."""
+        edges = self._edges
+        if edges is None or not edges.children:
+            return
+        poses = parent_from_links[edges.rows]
+        moved = np.flatnonzero((poses != self._told).any(axis=1))
+        if moved.size:
+            self._told[moved] = poses[moved]
+            self._buffer.put(edges.transforms(moved, poses), static=True, publisher=PUBLISHER)
+
+
+class _Edges(NamedTuple):
+    """Which link hangs on which, and where each child is among all links."""
+
+    parents: tuple[str, ...]
+    children: tuple[str, ...]
+    rows: Numbers
+
+    def transforms(self, some: Numbers, poses: Floats) -> TransformColumns:
+        rows: list[int] = some.tolist()
+        return TransformColumns(
+            tuple(self.parents[row] for row in rows),
+            tuple(self.children[row] for row in rows),
+            np.zeros(len(rows), np.int64),
+            poses[some, 4:],
+            poses[some, :4],
+        )
+
+
+def _edges_of(robot: Robot, links: tuple[str, ...], left_out: Container[str]) -> _Edges:
+    place = {name: at for at, name in enumerate(links)}
+    edges = [
+        (one.parent, one.child)
+        for one in robot.joints.values()
+        if one.parent in place and one.child in place and one.child not in left_out
+    ]
+    return _Edges(
+        tuple(parent for parent, _ in edges),
+        tuple(child for _, child in edges),
+        np.array([place[child] for _, child in edges], np.int64),
+    )

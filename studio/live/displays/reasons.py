@@ -1,0 +1,268 @@
+"""Why a display shows nothing: one sentence, and one click that mends it where one does."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final
+
+from studio.errors import ExtrapolationError, UnconnectedFramesError, UnknownFrameError
+from studio.protocol.live import Mend, Remark
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from studio.displays.display import Status
+    from studio.errors import FrameError
+    from studio.live.displays.display_list import DisplaySpec
+
+_SHOWN_MAX: Final = 6
+_FRAMES_MAX: Final = 3
+"""A robot has many links: what else is wrong is said, too."""
+
+
+@dataclass(frozen=True, slots=True)
+class OnWire:
+    """Who publishes the topic of a display.
+
+    Attributes:
+        connected: Whether there is a connection with a ROS 2 system at all.
+        lost: Whether there was a connection, and its router is gone.
+        publishers: Of the topic, of any type.
+        types: Under which it is published.
+        foreign_hash: Whether all publishers of a type that fits have it in another form.
+    """
+
+    connected: bool = False
+    publishers: int = 0
+    types: tuple[str, ...] = ()
+    foreign_hash: bool = False
+    lost: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Facts:
+    """What is known of a display that may show nothing.
+
+    Attributes:
+        spec: How it is set.
+        shown: Whether it is switched on, and its group with it.
+        types: Of messages that it shows; empty: it listens to no topic.
+        fitting_kind: The display that shows what is published on the topic; empty: none.
+        wire: Who publishes.
+        instead: A topic that is published and would fit; empty: there is none.
+        heard: Messages that came.
+        silent_s: Since the last one, when it is longer ago than is usual of them.
+        trouble: Why the topic cannot be heard at all, in a sentence.
+        frames: Why parts of the drawing have no place.
+        frame: In it everything can be drawn so that the first of them has a place; empty: in none.
+        stamp_zero: Whether messages come without a time.
+        statuses: What the display itself says.
+        draws: Whether anything of it is on screen.
+        waits: Whether a message waits for its transforms.
+    """
+
+    spec: DisplaySpec
+    shown: bool = True
+    types: tuple[str, ...] = ()
+    fitting_kind: str = ""
+    wire: OnWire = OnWire()
+    instead: str = ""
+    heard: int = 0
+    silent_s: float | None = None
+    trouble: str = ""
+    frames: tuple[FrameError, ...] = ()
+    frame: str = ""
+    stamp_zero: bool = False
+    statuses: tuple[Status, ...] = ()
+    draws: bool = False
+    waits: bool = False
+
+
+def remarks_on(facts: Facts) -> tuple[Remark, ...]:
+    """What is to be said, the first thing that is in the way first; "ok" when all is well."""
+    found = list(_remarks(facts))[:_SHOWN_MAX]
+    if not found and facts.shown and not facts.waits:
+        return (_well(facts),)
+    return tuple(found)
+
+
+def _well(facts: Facts) -> Remark:
+    """Nothing is in the way."""
+    if facts.draws:
+        return Remark(level="ok", reason="", sentence="Shown.")
+    if facts.heard:
+        what = f"Messages come on {facts.spec.topic}, and there is nothing in them to draw."
+    else:
+        what = "There is nothing to draw."
+    return _warn("empty", what)
+
+
+def _remarks(facts: Facts) -> Iterator[Remark]:
+    if not facts.shown:
+        yield from _hidden(facts)
+        return
+    if facts.types and (silence := _silence(facts)):
+        yield silence
+        if facts.heard == 0:
+            return
+    for error in facts.frames[:_FRAMES_MAX]:
+        yield _remark_on_frame(error, facts.frame)
+    if (more := len(facts.frames) - _FRAMES_MAX) > 0:
+        yield _error("no_frame", f"{more:,} more of its frames have no place in the fixed frame.")
+    if facts.stamp_zero:
+        yield _warn(
+            "stamp_zero",
+            "Messages come with the time 0, so they are drawn where their frame is now: "
+            "have the publisher stamp them.",
+        )
+    for status in facts.statuses:
+        yield _said_by_itself(facts, status)
+
+
+def _said_by_itself(facts: Facts, status: Status) -> Remark:
+    mend = _of_property(facts.spec, *status.mend) if status.mend else None
+    if status.reason == "not_connected_frame" and facts.frame:
+        mend = _drawn_in(facts.frame)
+    return Remark(
+        level=status.level, reason=status.reason or "", sentence=status.sentence, mend=mend
+    )
+
+
+def _hidden(facts: Facts) -> Iterator[Remark]:
+    spec = facts.spec
+    if not spec.enabled:
+        return
+    yield _warn(
+        "group_off",
+        f'The group "{spec.group}" is hidden as a whole.',
+        Mend(
+            label=f"Show {spec.group}",
+            command={"type": "switch_displays", "group": spec.group, "enabled": True},
+        ),
+    )
+
+
+def _silence(facts: Facts) -> Remark | None:
+    """Why no message comes, or none that can be shown."""
+    spec, wire = facts.spec, facts.wire
+    if not spec.topic:
+        sentence = f"{spec.kind} listens to no topic yet: choose one."
+        return _warn("no_topic", sentence, _other_topic(facts))
+    if wire.lost:
+        return _error(
+            "connection_lost",
+            "The router of ROS 2 is not there any more: it is joined again once it runs.",
+        )
+    if not wire.connected:
+        return _error(
+            "not_connected",
+            "There is no connection with a ROS 2 system.",
+            Mend(label="Connect", command={"type": "connect_wire"}),
+        )
+    if facts.trouble:
+        return _error("not_heard", facts.trouble)
+    return _fault_of_publishers(facts) or _no_message(facts)
+
+
+def _fault_of_publishers(facts: Facts) -> Remark | None:
+    """Nobody publishes the topic, or none publishes what can be shown."""
+    spec, wire = facts.spec, facts.wire
+    if wire.publishers == 0:
+        sentence = f"Nobody publishes {spec.topic}: start its node."
+        return _error("no_publisher", sentence, _other_topic(facts))
+    if not set(wire.types) & set(facts.types):
+        return _other_type(facts)
+    if wire.foreign_hash:
+        return _error(
+            "other_hash",
+            f"{spec.topic} is published with a {facts.types[0]} of another form, so its bytes "
+            "cannot be read here: run both sides with the same distribution of ROS 2.",
+        )
+    return None
+
+
+def _other_topic(facts: Facts) -> Mend | None:
+    """Listen to one that is there."""
+    if not facts.instead:
+        return None
+    return Mend(
+        label=f"Listen to {facts.instead}",
+        command={
+            "type": "set_display_topic",
+            "display": facts.spec.id,
+            "topic": facts.instead,
+        },
+    )
+
+
+def _other_type(facts: Facts) -> Remark:
+    spec, published = facts.spec, ", ".join(facts.wire.types)
+    sentence = f"{spec.topic} is published as {published}, and {spec.kind} shows {facts.types[0]}."
+    if not facts.fitting_kind:
+        return _error("other_type", f"{sentence} Choose another topic.")
+    command: dict[str, bool | int | float | str] = {
+        "type": "add_display",
+        "kind": facts.fitting_kind,
+        "topic": spec.topic,
+    }
+    return _error(
+        "other_type", sentence, Mend(label=f"Add a {facts.fitting_kind} for it", command=command)
+    )
+
+
+def _no_message(facts: Facts) -> Remark | None:
+    if facts.heard == 0:
+        return _warn("no_message", f"No message has come on {facts.spec.topic} yet.")
+    if facts.silent_s is not None:
+        return _warn(
+            "silent", f"The last message on {facts.spec.topic} came {facts.silent_s:.0f} s ago."
+        )
+    return None
+
+
+def _remark_on_frame(error: FrameError, frame: str) -> Remark:
+    if isinstance(error, UnconnectedFramesError) and error.nearest:
+        return _error("not_connected_frame", str(error), _drawn_in(error.nearest))
+    mend = _drawn_in(frame) if frame else None
+    if isinstance(error, ExtrapolationError):
+        return _error("stamp_out_of_buffer", str(error), mend)
+    if isinstance(error, UnknownFrameError) and not error.frame:
+        return _error(
+            "no_frame_id",
+            "Messages come without a frame: have the publisher fill in frame_id of their header.",
+        )
+    return _error("no_frame", str(error), mend)
+
+
+def _drawn_in(frame: str) -> Mend:
+    return Mend(
+        label=f"Draw everything in {frame}", command={"type": "set_fixed_frame", "frame": frame}
+    )
+
+
+def _of_property(spec: DisplaySpec, name: str, value: bool | float | str) -> Mend:  # noqa: FBT001
+    return Mend(
+        label=_label(name, value),
+        command={
+            "type": "set_display_property",
+            "display": spec.id,
+            "name": name,
+            "value": value,
+        },
+    )
+
+
+def _label(name: str, value: bool | float | str) -> str:  # noqa: FBT001
+    if isinstance(value, bool):
+        return f"Switch {'on' if value else 'off'} {name}"
+    if value == "":
+        return f"Clear {name}"
+    return f"Set {name} to {value:g}" if isinstance(value, float) else f"Set {name} to {value}"
+
+
+def _warn(reason: str, sentence: str, mend: Mend | None = None) -> Remark:
+    return Remark(level="warn", reason=reason, sentence=sentence, mend=mend)
+
+
+def _error(reason: str, sentence: str, mend: Mend | None = None) -> Remark:
+    return Remark(level="error", reason=reason, sentence=sentence, mend=mend)

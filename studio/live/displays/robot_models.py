@@ -1,0 +1,258 @@
+"""RobotModels: gives each RobotModel display the robot that its description tells."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from contextlib import suppress
+from dataclasses import replace
+from functools import partial
+from typing import TYPE_CHECKING, Final, Protocol
+
+from studio.displays.robot_model import RobotModelDisplay
+from studio.errors import StudioError
+from studio.live.displays.robot_reading import RobotReader
+from studio.packages.uris import resolve_uri
+from studio.protocol.wire import OpenFromWire
+
+if TYPE_CHECKING:
+    from collections.abc import Coroutine, Mapping
+
+    from studio.displays.display import Display
+    from studio.displays.robot_model import DescriptionSource
+    from studio.documents.document import Document
+    from studio.documents.services import Services
+    from studio.documents.states.second_robot import SecondRobot
+    from studio.live.connection.hearing import DescriptionIn
+    from studio.robot.values import Robot
+
+_PAUSE_S: Final = 0.5
+"""Between two readings of one description: whoever publishes it may do so all the time."""
+_ASK_AGAIN_S: Final = 2.0
+"""A node that does not answer may be on its way."""
+_NOT_CONNECTED: Final = "There is no connection with a ROS 2 system, where the parameter would be."
+
+_log = logging.getLogger(__name__)
+
+
+class HearsDescriptions(Protocol):
+    """What is needed of the connection."""
+
+    def hear_description(self, wanted: OpenFromWire) -> DescriptionIn:
+        """Hear a robot's description, in a thread; raises a StudioError."""
+        ...
+
+
+class _Model:
+    """One display, and how far its description is."""
+
+    def __init__(self, display: RobotModelDisplay) -> None:
+        self.display = display
+        self.source = display.source
+        self.wanted = self.done = ""
+        """Texts, or the file, as it is to be read and as it was."""
+        self.is_partial = False
+        """Whether the description that is shown could be read in part only."""
+        self.own: Robot | None = None
+        """The document's robot as it was taken last."""
+        self.working: asyncio.Task[None] | None = None
+        self.hearing: DescriptionIn | None = None
+        self.asking = False
+        self.ask_after_s = 0.0
+        self.is_gone = False
+
+    def taken_hearing(self) -> DescriptionIn | None:
+        """What hears its parameter, to be closed: from now on it is not asked."""
+        hearing, self.hearing = self.hearing, None
+        return hearing
+
+
+class RobotModels:
+    """Steps on the loop with the displays; what takes its time is done beside.
+
+    Args:
+        document: Whose robot one may show, and whose packages are looked into.
+        services: For a worker of their own.
+    """
+
+    def __init__(self, document: Document, services: Services) -> None:
+        self._document = document
+        nowhere = services.settings.data_folder / "from_ros" / "nowhere"
+        self._reader = RobotReader(services.description_worker, nowhere)
+        self._models: dict[str, _Model] = {}
+        self._link: HearsDescriptions | None = None
+        self._tasks: set[asyncio.Task[None]] = set()
+
+    def step(self, displays: Mapping[str, Display], link: HearsDescriptions | None) -> None:
+        """Look at what is wanted now, and hand out what has come.
+
+        Args:
+            displays: All there are by their ids.
+            link: The connection, if there is one.
+        """
+        models = {name: one for name, one in displays.items() if isinstance(one, RobotModelDisplay)}
+        for name, model in tuple(self._models.items()):
+            if models.get(name) is not model.display:
+                self._forget(self._models.pop(name))
+        self._link = link
+        for name, display in models.items():
+            self._step(self._models.setdefault(name, _Model(display)))
+
+    async def let_go(self) -> None:
+        """Hear nothing more: the connection is about to end."""
+        self._link = None
+        heard = [model.taken_hearing() for model in self._models.values()]
+        await asyncio.gather(*(_close(one) for one in heard if one is not None))
+
+    async def close(self) -> None:
+        """End the worker, and all that is under way."""
+        for model in self._models.values():
+            model.is_gone = True
+        await self.let_go()
+        for task in tuple(self._tasks):
+            task.cancel()
+        await asyncio.gather(*self._tasks, return_exceptions=True)
+        await self._reader.close()
+
+    def _step(self, model: _Model) -> None:
+        display, source = model.display, model.display.source
+        if source != model.source:
+            self._begin_anew(model, source)
+        match source.kind:
+            case "Document":
+                self._show_own(model)
+            case "Topic":
+                self._want(model, display.description)
+            case "File":
+                self._want(model, source.where)
+            case "Parameter":
+                self._hear(model)
+
+    def _show_own(self, model: _Model) -> None:
+        robot = self._document.model.robot
+        if model.own is robot:
+            return
+        model.own = robot
+        try:
+            model.display.show(robot)
+            model.display.fail("")
+        except StudioError as error:
+            model.display.fail(str(error))
+
+    def _begin_anew(self, model: _Model, source: DescriptionSource) -> None:
+        """Another source was chosen: what was heard of the one before does not count."""
+        model.source, model.wanted, model.done, model.ask_after_s = source, "", "", 0.0
+        model.own = None
+        model.display.fail("")
+        self._deafen(model)
+
+    def _want(self, model: _Model, text: str) -> None:
+        """Have a text or file read, if it was not; the newest counts."""
+        model.wanted = text
+        if text == model.done:
+            model.done = text  # this very object, for it is long: no need to compare it again
+        elif model.working is None:
+            model.working = self._spawn(self._work(model))
+
+    async def _work(self, model: _Model) -> None:
+        try:
+            while not model.is_gone and model.wanted != model.done:
+                source, text = model.source, model.wanted
+                await self._read(model, source, text)
+                if source == model.source:
+                    model.done = text
+                await asyncio.sleep(_PAUSE_S)
+        finally:
+            model.working = None
+
+    async def _read(self, model: _Model, source: DescriptionSource, text: str) -> None:
+        try:
+            is_file = source.kind == "File"
+            second = await (self._of_file(text) if is_file else self._reader.read_text(text))
+            if source == model.source and not model.is_gone:
+                model.display.fail(_shown(model, second))
+        except StudioError as error:
+            if source == model.source:
+                model.display.fail(_kept(model.display, str(error)))
+
+    async def _of_file(self, uri: str) -> SecondRobot:
+        document = self._document
+        find = partial(
+            resolve_uri, uri, document.entry, document.location.index, document.location.served
+        )
+        path = await asyncio.to_thread(find)
+        return await self._reader.read_file(replace(document.target, entry=str(path)))
+
+    def _hear(self, model: _Model) -> None:
+        """Take what the parameter told; ask for it where that was not done, or in vain."""
+        if model.hearing is not None:
+            text = model.hearing.newest()
+            self._want(model, model.wanted if text is None else text)
+        elif self._link is None:
+            model.display.fail(_NOT_CONNECTED)
+        elif not model.asking and asyncio.get_running_loop().time() >= model.ask_after_s:
+            model.asking = True
+            self._spawn(self._ask(model, self._link, model.source))
+
+    async def _ask(self, model: _Model, link: HearsDescriptions, source: DescriptionSource) -> None:
+        wanted = OpenFromWire(node=source.where, parameter=source.parameter)
+        try:
+            hearing = await asyncio.to_thread(link.hear_description, wanted)
+        except StudioError as error:
+            model.ask_after_s = asyncio.get_running_loop().time() + _ASK_AGAIN_S
+            if source == model.source:
+                model.display.fail(str(error))
+            return
+        finally:
+            model.asking = False
+        if source == model.source and link is self._link and not model.is_gone:
+            model.hearing = hearing
+            model.display.fail("")
+        else:
+            await _close(hearing)
+
+    def _forget(self, model: _Model) -> None:
+        model.is_gone = True
+        self._deafen(model)
+
+    def _deafen(self, model: _Model) -> None:
+        if (hearing := model.taken_hearing()) is not None:
+            self._spawn(_close(hearing))
+
+    def _spawn(self, work: Coroutine[None, None, None]) -> asyncio.Task[None]:
+        task = asyncio.create_task(work)
+        self._tasks.add(task)
+        task.add_done_callback(self._ended)
+        return task
+
+    def _ended(self, task: asyncio.Task[None]) -> None:
+        self._tasks.discard(task)
+        if not task.cancelled() and (error := task.exception()):
+            _log.error("The robot of a display could not be read.", exc_info=error)
+
+
+async def _close(hearing: DescriptionIn) -> None:
+    with suppress(StudioError):  # the connection has ended meanwhile
+        await asyncio.to_thread(hearing.close)
+
+
+def _shown(model: _Model, second: SecondRobot) -> str:
+    """Show a robot, and give what is to be said of it.
+
+    What is broken comes after a good one only if that is none; else the good one stays.
+
+    Raises:
+        DisplayError: It is more than can be drawn.
+    """
+    display, robot = model.display, second.robot
+    fault = second.fault or ("" if robot.links else "It describes no link.")
+    if fault and (not robot.links or (display.robot.links and not model.is_partial)):
+        return _kept(display, fault)
+    display.show(robot)
+    model.is_partial = bool(fault)
+    return fault and f"The description is shown as far as it can be read: {fault}"
+
+
+def _kept(display: RobotModelDisplay, fault: str) -> str:
+    stays = " What was there before stays." if display.robot.links else ""
+    return f"The description cannot be shown: {fault}{stays}"

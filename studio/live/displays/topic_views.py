@@ -1,0 +1,22 @@
+"""Topics as the page is told of them, each with the display that shows it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from studio.live.connection.topic_kinds import carried_types, kind_for
+from studio.protocol.live import TopicView
+
+if TYPE_CHECKING:
+    from studio.live.connection.link import WireLink
+
+
+def topic_views(link: WireLink) -> tuple[TopicView, ...]:
+    """Topics that somebody publishes, by name; any thread."""
+    found: list[TopicView] = []
+    for name, _ in link.graph.topics():
+        if publishers := link.graph.publishers(name):
+            types = carried_types(publishers, ())
+            kind = kind_for(name, types)
+            found.append(TopicView(name=name, types=types, publishers=len(publishers), kind=kind))
+    return tuple(found)

@@ -1,0 +1,110 @@
+"""CallDesk: services that are called from a page, each with its time-out and its end."""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Final, Literal, TypeAlias
+
+from studio.live.panels.ledger import Ledger
+from studio.live.panels.running import Outcome, Running
+from studio.protocol.calls import Begun, Calls, CallService, CallView, CancelCall
+
+if TYPE_CHECKING:
+    from studio.live.connection.desk import WireDesk
+    from studio.live.panels.requests import ServiceRequest
+
+_KEPT: Final = 40
+_RUNNING_MAX: Final = 30
+_State: TypeAlias = Literal["calling", "answered", "failed", "cancelled"]
+
+
+@dataclass
+class Call:
+    """A call, from the request to its end."""
+
+    deed: int
+    name: str
+    service_type: str
+    text: str
+    timeout_s: float
+    state: _State = "calling"
+    began_s: float = field(default_factory=lambda: time.time_ns() / 1e9)
+    took_s: float = 0.0
+    reply: str = ""
+    trouble: str = ""
+
+    @property
+    def is_over(self) -> bool:
+        """Whether it has its end."""
+        return self.state != "calling"
+
+    def view(self) -> CallView:
+        """As the page is told."""
+        return CallView(**{name: getattr(self, name) for name in CallView.model_fields})
+
+
+def _told(is_whole: bool, calls: tuple[Call, ...]) -> Calls:  # noqa: FBT001 - as a ledger says it
+    return Calls(whole=is_whole, deeds=tuple(one.view() for one in calls))
+
+
+class CallDesk:
+    """Begins and ends calls; how they fare is in its ledger."""
+
+    def __init__(self, wire: WireDesk) -> None:
+        self._wire = wire
+        self.ledger: Ledger[Call] = Ledger(_told, kept=_KEPT, running=_RUNNING_MAX)
+        self._running = Running()
+
+    async def begin(self, command: CallService) -> Begun:
+        """Ask a service, and do not wait for its reply.
+
+        Raises:
+            StudioError: It cannot be asked.
+        """
+        from studio.live.panels.requests import ServiceRequest  # noqa: PLC0415 - imports zenoh
+
+        number = self.ledger.next_number()
+        link = await self._wire.link()
+        request = await asyncio.to_thread(ServiceRequest, link, command)
+        call = Call(number, request.name, request.type_name, command.text, command.timeout_s)
+        self.ledger.add(call)
+        self._running.start(
+            number,
+            request.answer(call.timeout_s),
+            lambda outcome: self._finish(call, request, outcome),
+        )
+        return Begun(request=command.request, deed=number)
+
+    def cancel(self, command: CancelCall) -> None:
+        """Wait for a reply no longer; what is over stays as it is.
+
+        Raises:
+            CommandError: There is no such call.
+        """
+        self.ledger.get(command.deed)
+        self._running.cancel(command.deed)
+
+    async def let_go(self) -> None:
+        """End all: the connection is about to."""
+        await self._running.end_all("The connection with ROS 2 was ended.")
+
+    async def close(self) -> None:
+        """End all that runs, and tell nobody any more."""
+        await self.let_go()
+        await self.ledger.close()
+
+    async def _finish(self, call: Call, request: ServiceRequest, outcome: Outcome[str]) -> None:
+        call.took_s = round(time.time_ns() / 1e9 - call.began_s, 4)
+        call.state, call.trouble = _STATES[outcome.kind], outcome.trouble
+        call.reply = outcome.value or ""
+        self.ledger.changed(call)
+        await asyncio.to_thread(request.close)
+
+
+_STATES: Final[dict[str, _State]] = {
+    "done": "answered",
+    "failed": "failed",
+    "cancelled": "cancelled",
+}

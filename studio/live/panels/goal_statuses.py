@@ -1,0 +1,101 @@
+"""GoalStatusDesk: how all goals of an action stand, as its server tells everybody."""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Final
+
+from studio.protocol.goals import GetGoalStatuses, GoalStatuses, GoalStatusView
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from studio.live.connection.desk import WireDesk
+    from studio.live.connection.link import WireLink
+    from studio.ros.types.classes import MessageValue
+
+_ASKED_FOR_S: Final = 10.0
+"""An action is heard so long after somebody asked for it: a panel asks again and again."""
+_SHOWN: Final = 50
+
+
+@dataclass
+class _Ear:
+    """What an action tells, and what ends the hearing."""
+
+    end: Callable[[], None]
+    asked_s: float
+    newest: Any = None
+    """A GoalStatusArray; written by the thread of the link."""
+
+
+class GoalStatusDesk:
+    """Hears the actions that somebody asks for; `own_ids` tells which goals are ours."""
+
+    def __init__(self, wire: WireDesk, own_ids: Callable[[], frozenset[str]]) -> None:
+        self._wire, self._own_ids = wire, own_ids
+        self._ears: dict[str, _Ear] = {}
+        self._turn = asyncio.Lock()
+
+    async def statuses(self, command: GetGoalStatuses) -> GoalStatuses:
+        """Tell how the goals stand; the first answer may come before the server is heard.
+
+        Raises:
+            RosNameError: No action is named so.
+        """
+        link = self._wire.current
+        views: tuple[GoalStatusView, ...] = ()
+        if link is not None:
+            async with self._turn:
+                newest = await asyncio.to_thread(self._hear, link, command.name)
+            views = _views(newest, self._own_ids())
+        return GoalStatuses(request=command.request, name=command.name, goals=views)
+
+    async def let_go(self) -> None:
+        """Hear nothing any more."""
+        async with self._turn:
+            await asyncio.to_thread(self._forget, float("inf"))
+
+    def _hear(self, link: WireLink, name: str) -> MessageValue | None:
+        from studio.live.panels.requests import wire_name  # noqa: PLC0415 - imports zenoh
+        from studio.ros.qos import qos_profile_action_status_default  # noqa: PLC0415
+
+        now_s = time.monotonic()
+        self._forget(now_s - _ASKED_FOR_S)
+        action = wire_name(name)
+        ear = self._ears.get(action)
+        if ear is None:
+            ear = self._ears[action] = _Ear(lambda: None, now_s)
+            ear.end = link.subscribe(
+                "action_msgs/msg/GoalStatusArray",
+                f"{action}/_action/status",
+                lambda message, ear=ear: setattr(ear, "newest", message),
+                qos_profile_action_status_default,
+            )
+        ear.asked_s = now_s
+        return ear.newest
+
+    def _forget(self, before_s: float) -> None:
+        for name, ear in tuple(self._ears.items()):
+            if ear.asked_s < before_s:
+                del self._ears[name]
+                ear.end()
+
+
+def _views(newest: Any, own: frozenset[str]) -> tuple[GoalStatusView, ...]:  # noqa: ANN401 - see _Ear
+    if newest is None:
+        return ()
+    from studio.ros.action.states import GoalStatus  # noqa: PLC0415 - takes its time
+
+    found = [
+        GoalStatusView(
+            goal_id=(goal_id := bytes(one.goal_info.goal_id.uuid).hex()),
+            state=GoalStatus(one.status).name.lower(),
+            stamp_s=one.goal_info.stamp.sec + one.goal_info.stamp.nanosec / 1e9,
+            is_ours=goal_id in own,
+        )
+        for one in newest.status_list
+    ]
+    return tuple(sorted(found, key=lambda one: -one.stamp_s)[:_SHOWN])

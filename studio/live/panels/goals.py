@@ -1,0 +1,237 @@
+"""GoalDesk: goals that are sent from pages: several at once, each with its feedback and its end."""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from collections import deque
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Final
+
+from studio.live.panels.ledger import Ledger
+from studio.live.panels.running import Outcome, Running
+from studio.protocol.calls import Begun
+from studio.protocol.goals import CancelGoal, FeedbackView, Goals, GoalState, GoalView, SendGoal
+
+if TYPE_CHECKING:
+    from studio.live.connection.desk import WireDesk
+    from studio.live.connection.link import WireLink
+    from studio.live.panels.goal_work import ActionClients, GoalRequest
+    from studio.live.panels.logs import LogDesk
+    from studio.protocol.logs import LogLine
+
+_KEPT: Final = 40
+_RUNNING_MAX: Final = 30
+_FEEDBACK_KEPT: Final = 50
+_FEEDBACK_CHARACTERS: Final = 4_000
+_LOOK_S: Final = 0.2
+"""Between two looks at what a server tells of a goal that has no feedback."""
+_LOG_PATIENCE_S: Final = 1.0
+"""What a server logs may come later than its answer."""
+_CLOCKS_APART_S: Final = 1.0
+_OVER: Final = frozenset({"succeeded", "canceled", "aborted", "rejected", "failed"})
+
+
+@dataclass
+class Goal:
+    """A goal, from the sending to its end; of the loop."""
+
+    deed: int
+    name: str
+    action_type: str
+    text: str
+    state: GoalState = "sending"
+    began_s: float = field(default_factory=lambda: time.time_ns() / 1e9)
+    took_s: float = 0.0
+    goal_id: str = ""
+    result: str = ""
+    trouble: str = ""
+    servers: tuple[str, ...] = ()
+    server_said: LogLine | None = None
+    log_from: int = 0
+    """Number of the last line of the log before it was sent."""
+    feedback_count: int = 0
+    kept: deque[tuple[int, float, Any]] = field(
+        default_factory=lambda: deque(maxlen=_FEEDBACK_KEPT)
+    )
+    told: int = 0
+    """Number of the last feedback that all who follow were told."""
+
+    @property
+    def is_over(self) -> bool:
+        """Whether it has its end."""
+        return self.state in _OVER
+
+    def heard(self, feedback: object) -> None:
+        """Take in what its server says."""
+        self.feedback_count += 1
+        self.kept.append((self.feedback_count, time.time_ns() / 1e9 - self.began_s, feedback))
+
+    def view(self, *, is_whole: bool) -> GoalView:
+        """As the page is told: with all feedback that is kept, or with what is new."""
+        from studio.ros.types.json_texts import to_json  # noqa: PLC0415 - takes its time
+
+        kept = [one for one in tuple(self.kept) if is_whole or one[0] > self.told]
+        if not is_whole and kept:
+            self.told = kept[-1][0]
+        views = tuple(
+            FeedbackView(
+                number=number, after_s=round(at_s, 3), values=to_json(said, _FEEDBACK_CHARACTERS)
+            )
+            for number, at_s, said in kept
+        )
+        own = {name: getattr(self, name) for name in GoalView.model_fields if name != "feedback"}
+        return GoalView(**own, feedback=views)
+
+
+def _told(is_whole: bool, goals: tuple[Goal, ...]) -> Goals:  # noqa: FBT001 - as a ledger says it
+    return Goals(whole=is_whole, deeds=tuple(one.view(is_whole=is_whole) for one in goals))
+
+
+class GoalDesk:
+    """Sends goals and has them cancelled; how they fare is in its ledger."""
+
+    def __init__(self, wire: WireDesk, logs: LogDesk) -> None:
+        self._wire, self._logs = wire, logs
+        self.ledger: Ledger[Goal] = Ledger(_told, kept=_KEPT, running=_RUNNING_MAX)
+        self._running = Running()
+        self._requests: dict[int, GoalRequest] = {}
+        self._clients: tuple[WireLink, ActionClients] | None = None
+
+    async def begin(self, command: SendGoal) -> Begun:
+        """Send a goal, and do not wait what becomes of it.
+
+        Raises:
+            StudioError: It cannot be sent.
+        """
+        from studio.live.panels.goal_work import GoalRequest  # noqa: PLC0415 - imports zenoh
+
+        number = self.ledger.next_number()
+        link = await self._wire.link()
+        clients = self._clients_of(link)
+        request = await asyncio.to_thread(GoalRequest, link, clients, command)
+        goal = Goal(number, request.name, request.type_name, command.text)
+        goal.log_from = await self._logs.listen()
+        self._requests[number] = request
+        self.ledger.add(goal)
+        self._running.start(
+            number,
+            self._follow(goal, request, command.timeout_s),
+            lambda outcome: self._finish(goal, request, outcome),
+        )
+        return Begun(request=command.request, deed=number)
+
+    async def cancel(self, command: CancelGoal) -> None:
+        """Ask that a goal end; done when its server agrees.
+
+        Raises:
+            StudioError: There is no such goal, or its server says no.
+        """
+        goal = self.ledger.get(command.deed)
+        request = self._requests.get(command.deed)
+        if request is None or goal.is_over:
+            return
+        if goal.state == "sending":
+            self._running.cancel(goal.deed)
+            return
+        before, goal.state = goal.state, "canceling"
+        self.ledger.changed(goal)
+        try:
+            await request.cancel()
+        except BaseException:
+            if goal.state == "canceling":
+                goal.state = before
+                self.ledger.changed(goal)
+            raise
+
+    def own_ids(self) -> frozenset[str]:
+        """Ids of the goals that were sent from here, in hex."""
+        return frozenset(one.goal_id for one in self.ledger.all() if one.goal_id)
+
+    async def let_go(self) -> None:
+        """Hear of no goal any more: the connection is about to end."""
+        await self._running.end_all(
+            "The connection with ROS 2 was ended: the goal may go on where it is carried out."
+        )
+        self._clients = None
+
+    async def close(self) -> None:
+        """End all that runs, and tell nobody any more."""
+        await self.let_go()
+        await self.ledger.close()
+
+    def _clients_of(self, link: WireLink) -> ActionClients:
+        from studio.live.panels.goal_work import ActionClients  # noqa: PLC0415 - imports zenoh
+
+        if self._clients is None or self._clients[0] is not link:
+            self._clients = link, ActionClients(link)
+        return self._clients[1]
+
+    async def _follow(
+        self, goal: Goal, request: GoalRequest, timeout_s: float
+    ) -> tuple[GoalState, str]:
+        """Give how it ended, and its result."""
+        loop = asyncio.get_running_loop()
+
+        def take(feedback: object) -> None:
+            goal.heard(feedback)
+            self.ledger.changed(goal)
+
+        def on_feedback(feedback: object) -> None:  # in the thread of the link
+            if not loop.is_closed():
+                loop.call_soon_threadsafe(take, feedback)
+
+        if not await request.accepted(timeout_s, on_feedback):
+            return "rejected", ""
+        goal.state, goal.goal_id = "accepted", request.goal_id
+        self.ledger.changed(goal)
+        looking = asyncio.create_task(self._look(goal, request))
+        try:
+            status, result = await request.result()
+        finally:
+            looking.cancel()
+        return _ended(status.name.lower()), result
+
+    async def _look(self, goal: Goal, request: GoalRequest) -> None:
+        """See what its server tells of it by the topic of all goals."""
+        while True:
+            if goal.state == "accepted" and request.status.name == "EXECUTING":
+                goal.state = "executing"
+                self.ledger.changed(goal)
+            await asyncio.sleep(_LOOK_S)
+
+    async def _finish(
+        self, goal: Goal, request: GoalRequest, outcome: Outcome[tuple[GoalState, str]]
+    ) -> None:
+        goal.took_s = round(time.time_ns() / 1e9 - goal.began_s, 3)
+        goal.trouble = outcome.trouble
+        if outcome.value is not None:
+            goal.state, goal.result = outcome.value
+        else:
+            goal.state = "canceled" if outcome.kind == "cancelled" else "failed"
+        self._requests.pop(goal.deed, None)
+        goal.servers = request.servers
+        self.ledger.changed(goal)
+        await asyncio.to_thread(request.close)
+        if goal.state in {"aborted", "rejected"}:
+            await self._find_why(goal)
+
+    async def _find_why(self, goal: Goal) -> None:
+        """Look for what its server logged: its answer holds no reason."""
+        since_s = goal.began_s - _CLOCKS_APART_S
+        end_s = time.monotonic() + _LOG_PATIENCE_S
+        while goal.server_said is None and time.monotonic() < end_s:
+            goal.server_said = self._logs.newest_warning(
+                goal.servers, after=goal.log_from, since_s=since_s
+            )
+            await asyncio.sleep(_LOOK_S)
+        if goal.server_said is not None:
+            self.ledger.changed(goal)
+
+
+def _ended(name: str) -> GoalState:
+    match name:
+        case "succeeded" | "canceled" | "aborted":
+            return name
+        case _:
+            return "failed"

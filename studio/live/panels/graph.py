@@ -1,0 +1,154 @@
+"""GraphDesk: tells who is there, who speaks with whom, and what one node has."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import TYPE_CHECKING, Literal
+
+from studio.protocol.graph import (
+    LINKS_MAX,
+    NODES_MAX,
+    EndView,
+    GetGraph,
+    GetNode,
+    GraphAnswer,
+    GraphLinkView,
+    GraphNodeView,
+    NodeAnswer,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Mapping
+
+    from studio.live.connection.desk import WireDesk
+    from studio.live.connection.link import WireLink
+    from studio.ros.graph.endpoints import GraphEndpoint, GraphNode
+    from studio.ros.graph.graph import Graph, NamesAndTypes
+
+
+class GraphDesk:
+    """Asks the connection; without one, nobody is there."""
+
+    def __init__(self, wire: WireDesk) -> None:
+        self._wire = wire
+
+    async def graph(self, command: GetGraph) -> GraphAnswer:
+        """Tell who is there; nothing, if that is what is known."""
+        link = self._wire.current
+        if link is None or link.graph.version == command.known:
+            known = -1 if link is None else command.known
+            return GraphAnswer(
+                request=command.request, version=known, nodes=(), links=(), other_count=0, more=0
+            )
+        return await asyncio.to_thread(_answer, link, command.request)
+
+    async def node(self, command: GetNode) -> NodeAnswer:
+        """Tell what a node has."""
+        link = self._wire.current
+        if link is None:
+            return _node_answer(command, 0, {})
+        return await asyncio.to_thread(_node, link.graph, command)
+
+
+def _answer(link: WireLink, request: int) -> GraphAnswer:
+    graph = link.graph
+    # What changes meanwhile is told with the next answer.
+    version = graph.version
+    nodes = _nodes(graph.nodes(), link.zid)
+    shown = nodes[:NODES_MAX]
+    links = _links(graph, {one.name: at for at, one in enumerate(shown)})
+    more = len(nodes) - len(shown) + max(0, len(links) - LINKS_MAX)
+    return GraphAnswer(
+        request=request,
+        version=version,
+        nodes=tuple(shown),
+        links=tuple(links[:LINKS_MAX]),
+        other_count=len(link.node_names()),
+        more=more,
+    )
+
+
+def _nodes(found: Iterable[GraphNode], own: str) -> list[GraphNodeView]:
+    """Those of one name as one, in order."""
+    by_name: dict[str, list[GraphNode]] = {}
+    for one in found:
+        by_name.setdefault(one.path, []).append(one)
+    return [
+        GraphNodeView(name=name, count=len(same), own=all(one.zid == own for one in same))
+        for name, same in by_name.items()
+    ]
+
+
+def _links(graph: Graph, places: Mapping[str, int]) -> list[GraphLinkView]:
+    def of(
+        kind: Literal["topic", "service", "action"],
+        found: NamesAndTypes,
+        ends: tuple[Callable[[str], Iterable[str]], Callable[[str], Iterable[str]]],
+    ) -> list[GraphLinkView]:
+        return [_link(kind, name, types, ends, places) for name, types in found]
+
+    return [
+        *of("topic", graph.topics(), (_paths(graph.publishers), _paths(graph.subscriptions))),
+        *of("service", graph.services(), (_paths(graph.clients), _paths(graph.servers))),
+        *of(
+            "action",
+            graph.actions(),
+            (
+                lambda name: (one.path for one in graph.action_clients(name)),
+                lambda name: (one.path for one in graph.action_servers(name)),
+            ),
+        ),
+    ]
+
+
+def _paths(ends: Callable[[str], list[GraphEndpoint]]) -> Callable[[str], Iterable[str]]:
+    return lambda name: (end.node.path for end in ends(name))
+
+
+def _link(
+    kind: Literal["topic", "service", "action"],
+    name: str,
+    types: list[str],
+    ends: tuple[Callable[[str], Iterable[str]], Callable[[str], Iterable[str]]],
+    places: Mapping[str, int],
+) -> GraphLinkView:
+    from studio.ros.names import is_hidden  # noqa: PLC0415
+
+    sources, targets = (
+        tuple(sorted({places[path] for path in paths(name) if path in places})) for paths in ends
+    )
+    return GraphLinkView(
+        kind=kind,
+        name=name,
+        types=tuple(types),
+        sources=sources,
+        targets=targets,
+        hidden=is_hidden(name),
+    )
+
+
+def _node(graph: Graph, command: GetNode) -> NodeAnswer:
+    from studio.ros.graph.node_parts import parts_of  # noqa: PLC0415 - imports zenoh
+
+    same = [one for one in graph.nodes() if one.path == command.name]
+    parts = parts_of(graph, same[0], hidden=False)._asdict() if same else {}
+    return _node_answer(command, len(same), parts)
+
+
+def _node_answer(
+    command: GetNode, count: int, parts: Mapping[str, list[tuple[str, str]]]
+) -> NodeAnswer:
+    def ends(group: str) -> tuple[EndView, ...]:
+        return tuple(EndView(name=name, type=kind) for name, kind in parts.get(group, ()))
+
+    return NodeAnswer(
+        request=command.request,
+        name=command.name,
+        count=count,
+        subscribers=ends("subscribers"),
+        publishers=ends("publishers"),
+        service_servers=ends("service_servers"),
+        service_clients=ends("service_clients"),
+        action_servers=ends("action_servers"),
+        action_clients=ends("action_clients"),
+    )

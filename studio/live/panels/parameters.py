@@ -1,0 +1,203 @@
+"""ParameterDesk: parameters of nodes, asked and set from pages, and told there when they change."""
+
+from __future__ import annotations
+
+import asyncio
+from collections import OrderedDict
+from typing import TYPE_CHECKING, Final
+
+from studio.documents.lookout import Lookout
+from studio.protocol.listeners import tell
+from studio.protocol.parameters import (
+    DumpParameters,
+    FollowParameters,
+    GetParameterNodes,
+    GetParameters,
+    LoadParameters,
+    ParameterDump,
+    ParameterNodes,
+    Parameters,
+    ParametersChanged,
+    ParametersLoaded,
+    ParameterView,
+    SetParameter,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from studio.live.connection.desk import WireDesk
+    from studio.live.connection.link import WireLink
+    from studio.live.panels.parameter_work import RemoteParameters
+    from studio.protocol.listeners import Listener
+    from studio.ros.types.classes import MessageValue
+
+_LIST: Final = "/list_parameters"
+_LIST_TYPE: Final = "rcl_interfaces/srv/ListParameters"
+_REMOTES_KEPT: Final = 16
+_PAUSE_S: Final = 0.1
+_NEWS_MAX: Final = 2_000
+"""Of one node between two words about it."""
+
+
+class ParameterDesk:
+    """Keeps the clients of the nodes that were asked last, and one ear for all changes."""
+
+    def __init__(self, wire: WireDesk) -> None:
+        self._wire = wire
+        self._remotes: OrderedDict[tuple[int, str], RemoteParameters] = OrderedDict()
+        self._turn = asyncio.Lock()
+        self._followed: dict[Listener, str] = {}
+        self._ear: tuple[WireLink, Callable[[], None]] | None = None
+        self._news: dict[str, dict[str, ParameterView | None]] = {}
+        self._lookout = Lookout(self._tell, pause_s=_PAUSE_S)
+
+    async def nodes(self, command: GetParameterNodes) -> ParameterNodes:
+        """Tell which nodes have parameters."""
+        link = self._wire.current
+        found = await asyncio.to_thread(_nodes, link) if link is not None else ()
+        return ParameterNodes(request=command.request, nodes=found)
+
+    async def parameters(self, command: GetParameters) -> Parameters:
+        """Tell all of a node.
+
+        Raises:
+            StudioError: The node does not tell them.
+        """
+        remote = await self._remote(command.node)
+        views = await remote.views()
+        return Parameters(request=command.request, node=remote.node, parameters=views)
+
+    async def set(self, command: SetParameter) -> None:
+        """Have a node set one.
+
+        Raises:
+            StudioError: It does not; its reason is told.
+        """
+        remote = await self._remote(command.node)
+        await remote.set(command.name, command.text, command.value_type)
+
+    async def dump(self, command: DumpParameters) -> ParameterDump:
+        """Write all of a node down; errors as for `parameters`."""
+        remote = await self._remote(command.node)
+        text = await remote.dump()
+        return ParameterDump(request=command.request, node=remote.node, text=text)
+
+    async def load(self, command: LoadParameters) -> ParametersLoaded:
+        """Have a node set what a file says.
+
+        Raises:
+            StudioError: It is no such file, says nothing of the node, or the node is silent.
+        """
+        remote = await self._remote(command.node)
+        count, refused = await remote.load(command.text)
+        return ParametersLoaded(
+            request=command.request, node=remote.node, count=count, refused=refused
+        )
+
+    async def follow(self, command: FollowParameters, listener: Listener) -> None:
+        """Tell a page when parameters of a node change; of one node at a time."""
+        if command.node:
+            self._followed[listener] = f"/{command.node.removeprefix('/')}"
+        else:
+            self._followed.pop(listener, None)
+        await self._fit_ear()
+
+    def detach(self, listener: Listener) -> None:
+        """A page is gone."""
+        self._followed.pop(listener, None)
+
+    async def let_go(self) -> None:
+        """Need the connection no more."""
+        async with self._turn:
+            remotes, self._remotes = tuple(self._remotes.values()), OrderedDict()
+            ear, self._ear = self._ear, None
+            await asyncio.to_thread(_close, remotes, ear[1] if ear else None)
+
+    async def close(self) -> None:
+        """End all."""
+        self._followed.clear()
+        await self.let_go()
+        await self._lookout.close()
+
+    async def _remote(self, node: str) -> RemoteParameters:
+        from studio.live.panels.parameter_work import RemoteParameters  # noqa: PLC0415 - zenoh
+
+        link = await self._wire.link()
+        async with self._turn:
+            key = id(link), node
+            found = self._remotes.pop(key, None)
+            remote = found or await asyncio.to_thread(RemoteParameters, link, node)
+            self._remotes[key] = remote
+            if len(self._remotes) > _REMOTES_KEPT:
+                _, oldest = self._remotes.popitem(last=False)
+                await asyncio.to_thread(oldest.close)
+            return remote
+
+    async def _fit_ear(self) -> None:
+        """Hear changes while somebody follows a node."""
+        async with self._turn:
+            link = self._wire.current if self._followed else None
+            if self._ear is not None and self._ear[0] is not link:
+                end, self._ear = self._ear[1], None
+                await asyncio.to_thread(end)
+            if link is not None and self._ear is None:
+                self._ear = (
+                    link,
+                    await asyncio.to_thread(self._listen, link, asyncio.get_running_loop()),
+                )
+
+    def _listen(self, link: WireLink, loop: asyncio.AbstractEventLoop) -> Callable[[], None]:
+        from studio.ros.qos import qos_profile_parameter_events  # noqa: PLC0415 - takes its time
+
+        def take(event: MessageValue) -> None:  # in the thread of the link
+            if not loop.is_closed():
+                loop.call_soon_threadsafe(self._take, event)
+
+        return link.subscribe(
+            "rcl_interfaces/msg/ParameterEvent",
+            "/parameter_events",
+            take,
+            qos_profile_parameter_events,
+        )
+
+    def _take(self, event: MessageValue) -> None:
+        from studio.live.panels.parameter_work import changed_view  # noqa: PLC0415 - zenoh
+
+        node = str(event.node)
+        if node not in self._followed.values():
+            return
+        news = self._news.setdefault(node, {})
+        for one in (*event.new_parameters, *event.changed_parameters):
+            news[str(one.name)] = changed_view(one)
+        news.update(dict.fromkeys(str(one.name) for one in event.deleted_parameters))
+        while len(news) > _NEWS_MAX:
+            del news[next(iter(news))]
+        self._lookout.doubt()
+
+    async def _tell(self) -> None:
+        news, self._news = self._news, {}
+        for node, found in news.items():
+            event = ParametersChanged(
+                node=node,
+                parameters=tuple(one for one in found.values() if one is not None),
+                gone=tuple(name for name, one in found.items() if one is None),
+            )
+            for listener, followed in tuple(self._followed.items()):
+                if followed == node:
+                    tell(listener, event)
+
+
+def _nodes(link: WireLink) -> tuple[str, ...]:
+    return tuple(
+        name.removesuffix(_LIST)
+        for name, types in link.graph.services()
+        if name.endswith(_LIST) and _LIST_TYPE in types
+    )
+
+
+def _close(remotes: tuple[RemoteParameters, ...], end: Callable[[], None] | None) -> None:
+    for one in remotes:
+        one.close()
+    if end is not None:
+        end()

@@ -1,0 +1,94 @@
+"""Saying: a publisher and the message that it sends, made anew where it holds the time.
+
+Imports Zenoh, by way of ros: the desk imports it when it is used.
+"""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING, Final, cast
+
+from studio.live.panels.requests import wire_name
+from studio.ros.names import full_type_name
+from studio.ros.node.codecs import codec_of
+from studio.ros.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from studio.ros.remote.known_types import known_message
+from studio.ros.types.plain import from_dict, from_yaml
+from studio.ros.types.yaml_texts import read_yaml
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from studio.live.connection.link import WireLink
+    from studio.protocol.publishing import Publish
+
+_NOW_WORDS: Final = frozenset({"now", "auto"})
+
+
+class Saying:
+    """One message on one topic; made and closed in a thread, said in any.
+
+    Raises:
+        StudioError: The topic cannot be named so, its type is not known, or the values do not
+            fit it.
+    """
+
+    def __init__(self, link: WireLink, asked: Publish) -> None:
+        self.name, self.type_name = wire_name(asked.name), full_type_name(asked.message_type)
+        why: list[str] = []
+        kind = known_message(link.node, self.name, self.type_name, why.append)
+        message = from_yaml(kind, asked.text, now_ns=time.time_ns())
+        values = read_yaml(asked.text)
+        has_time = _holds_word(values)
+        written = codec_of(kind).encode(message)
+        self._make = (
+            (lambda: from_dict(kind, values, now_ns=time.time_ns()))
+            if has_time
+            else (lambda: written)
+        )
+        self._link = link
+        self._publisher = link.node.create_publisher(kind, self.name, _profile(asked))
+        self._end: Callable[[], object] = lambda: None
+
+    def listeners(self) -> int:
+        """Count who subscribes to the topic."""
+        return self._publisher.get_subscription_count()
+
+    def say(self) -> None:
+        """Send it once."""
+        self._publisher.publish(self._make())
+
+    def repeat(self, rate_hz: float, said: Callable[[], None]) -> None:
+        """Send it so often a second from now on, in the thread of the link."""
+
+        def beat() -> None:
+            self.say()
+            said()
+
+        node = self._link.node
+        timer = node.create_timer(1 / rate_hz, beat)
+        self._end = lambda: node.destroy_timer(timer)
+
+    def close(self) -> None:
+        """Send nothing any more."""
+        self._end()
+        self._link.node.destroy_publisher(self._publisher)
+
+
+def _profile(asked: Publish) -> QoSProfile:
+    reliable, best = ReliabilityPolicy.RELIABLE, ReliabilityPolicy.BEST_EFFORT
+    kept, not_kept = DurabilityPolicy.TRANSIENT_LOCAL, DurabilityPolicy.VOLATILE
+    return QoSProfile(
+        depth=asked.depth,
+        reliability=reliable if asked.reliable else best,
+        durability=kept if asked.latched else not_kept,
+    )
+
+
+def _holds_word(values: object) -> bool:
+    """Whether a word that stands for the time is anywhere in it."""
+    if isinstance(values, dict):
+        return any(map(_holds_word, cast("dict[object, object]", values).values()))
+    if isinstance(values, list):
+        return any(map(_holds_word, cast("list[object]", values)))
+    return isinstance(values, str) and values in _NOW_WORDS

@@ -1,0 +1,170 @@
+"""PublishDesk: messages that pages publish: once, or until the last who could stop it is gone."""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Final, Literal, TypeAlias
+
+from studio.live.panels.ledger import Ledger
+from studio.live.panels.running import Outcome, Running
+from studio.protocol.calls import Begun
+from studio.protocol.publishing import Publications, PublicationView, Publish, StopPublishing
+from studio.protocol.roles import Role
+
+if TYPE_CHECKING:
+    from studio.live.connection.desk import WireDesk
+    from studio.live.panels.publication_work import Saying
+    from studio.protocol.listeners import Listener
+
+_KEPT: Final = 20
+_RUNNING_MAX: Final = 20
+_LISTENER_PATIENCE_S: Final = 1.0
+"""For somebody who listens to what is published once."""
+_STAY_S: Final = 0.2
+"""After what is published once, for it to be on its way."""
+_LOOK_S: Final = 0.5
+_GRACE_S: Final = 3.0
+"""A page that is loaded anew is back within this time."""
+
+_State: TypeAlias = Literal["running", "done", "stopped", "failed"]
+_STATES: Final[dict[str, _State]] = {"done": "done", "failed": "failed", "cancelled": "stopped"}
+
+
+_AS_ASKED: Final = {"text", "rate_hz", "reliable", "latched", "depth"}
+_OWN: Final = tuple(name for name in PublicationView.model_fields if name not in _AS_ASKED)
+
+
+@dataclass
+class Publication:
+    """What is published, and how often it was; counted in the thread of the link."""
+
+    deed: int
+    name: str
+    message_type: str
+    asked: Publish
+    state: _State = "running"
+    sent: int = 0
+    listeners: int = 0
+    began_s: float = field(default_factory=lambda: time.time_ns() / 1e9)
+    trouble: str = ""
+
+    @property
+    def is_over(self) -> bool:
+        """Whether it is published no more."""
+        return self.state != "running"
+
+    def said(self) -> None:
+        """Count once more."""
+        self.sent += 1
+
+    def view(self) -> PublicationView:
+        """As the page is told."""
+        own = {name: getattr(self, name) for name in _OWN}
+        return PublicationView(**own, **self.asked.model_dump(include=_AS_ASKED))
+
+
+def _told(is_whole: bool, found: tuple[Publication, ...]) -> Publications:  # noqa: FBT001
+    return Publications(whole=is_whole, deeds=tuple(one.view() for one in found))
+
+
+class PublishDesk:
+    """Begins and ends publications; how they fare is in its ledger."""
+
+    def __init__(self, wire: WireDesk) -> None:
+        self._wire = wire
+        self.ledger: Ledger[Publication] = Ledger(_told, kept=_KEPT, running=_RUNNING_MAX)
+        self._running = Running()
+        self._presenters: set[Listener] = set()
+        self._leaving: asyncio.TimerHandle | None = None
+
+    async def begin(self, command: Publish) -> Begun:
+        """Publish, and do not wait for it.
+
+        Raises:
+            StudioError: It cannot be published.
+        """
+        from studio.live.panels.publication_work import Saying  # noqa: PLC0415 - imports zenoh
+
+        number = self.ledger.next_number()
+        link = await self._wire.link()
+        saying = await asyncio.to_thread(Saying, link, command)
+        publication = Publication(number, saying.name, saying.type_name, command)
+        self.ledger.add(publication)
+        self._running.start(
+            number,
+            self._say(publication, saying),
+            lambda outcome: self._finish(publication, saying, outcome),
+        )
+        return Begun(request=command.request, deed=number)
+
+    def stop(self, command: StopPublishing) -> None:
+        """Publish it no more.
+
+        Raises:
+            CommandError: There is no such publication.
+        """
+        if command.deed:
+            self.ledger.get(command.deed)
+            self._running.cancel(command.deed)
+        else:
+            self._stop_all("")
+
+    def attach(self, listener: Listener) -> None:
+        """A page is there that may stop what runs."""
+        if listener.role is Role.PRESENTER:
+            self._presenters.add(listener)
+
+    def detach(self, listener: Listener) -> None:
+        """A page is gone; when nobody is left who could stop it, what runs ends in a moment."""
+        was_there = listener in self._presenters
+        self._presenters.discard(listener)
+        if was_there and not self._presenters and self.ledger.under_way():
+            if self._leaving is not None:
+                self._leaving.cancel()
+            self._leaving = asyncio.get_running_loop().call_later(_GRACE_S, self._left)
+
+    async def let_go(self) -> None:
+        """End all: the connection is about to."""
+        await self._running.end_all("The connection with ROS 2 was ended.")
+
+    async def close(self) -> None:
+        """End all that runs, and tell nobody any more."""
+        if self._leaving is not None:
+            self._leaving.cancel()
+        await self.let_go()
+        await self.ledger.close()
+
+    def _left(self) -> None:
+        self._leaving = None
+        if not self._presenters:
+            self._stop_all("The last page that could stop it was closed.")
+
+    def _stop_all(self, reason: str) -> None:
+        for one in self.ledger.under_way():
+            self._running.cancel(one.deed, reason)
+
+    async def _say(self, publication: Publication, saying: Saying) -> None:
+        from studio.live.panels.requests import came_true  # noqa: PLC0415 - imports zenoh
+
+        rate_hz = publication.asked.rate_hz
+        if rate_hz > 0:
+            await asyncio.to_thread(saying.repeat, rate_hz, publication.said)
+            while True:
+                publication.listeners = saying.listeners()
+                self.ledger.changed(publication)
+                await asyncio.sleep(_LOOK_S)
+        await came_true(lambda: saying.listeners() > 0, _LISTENER_PATIENCE_S)
+        publication.listeners = saying.listeners()
+        await asyncio.to_thread(saying.say)
+        publication.said()
+        self.ledger.changed(publication)
+        await asyncio.sleep(_STAY_S)
+
+    async def _finish(
+        self, publication: Publication, saying: Saying, outcome: Outcome[None]
+    ) -> None:
+        await asyncio.to_thread(saying.close)
+        publication.state, publication.trouble = _STATES[outcome.kind], outcome.trouble
+        self.ledger.changed(publication)

@@ -1,0 +1,145 @@
+"""TopicDesk: tells which topics there are, who is at their ends, and what keeps those apart."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import TYPE_CHECKING, Final
+
+from studio.live.connection.topic_kinds import carried_types, kind_for
+from studio.protocol.topics import (
+    GetTopicEnds,
+    ListTopics,
+    Misfit,
+    TopicEnd,
+    TopicEnds,
+    TopicRow,
+    TopicTable,
+)
+from studio.ros.qos_matching import why_unmatched
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from studio.live.connection.desk import WireDesk
+    from studio.live.connection.link import WireLink
+    from studio.ros.duration import Duration
+    from studio.ros.graph.endpoints import GraphEndpoint
+
+ENDS_MAX: Final = 100
+"""Of a side that are told; `/rosout` has one for every node."""
+MISFITS_MAX: Final = 20
+
+
+class TopicDesk:
+    """Asks the graph of the connection; without one there are no topics."""
+
+    def __init__(self, wire: WireDesk) -> None:
+        self._wire = wire
+
+    async def table(self, command: ListTopics) -> TopicTable:
+        """Tell every topic."""
+        link = self._wire.current
+        rows = await asyncio.to_thread(_rows, link) if link else ()
+        return TopicTable(request=command.request, topics=rows)
+
+    def ends(self, command: GetTopicEnds) -> TopicEnds:
+        """Tell who is at the ends of a topic.
+
+        Raises:
+            RosNameError: No topic is named so.
+        """
+        link = self._wire.current
+        publishers = link.graph.publishers(command.topic) if link else []
+        subscribers = link.graph.subscriptions(command.topic) if link else []
+        own = link.zid if link else ""
+        return TopicEnds(
+            request=command.request,
+            publishers=tuple(_end(one, own) for one in publishers[:ENDS_MAX]),
+            subscribers=tuple(_end(one, own) for one in subscribers[:ENDS_MAX]),
+            misfits=_misfits(publishers[:ENDS_MAX], subscribers[:ENDS_MAX]),
+        )
+
+
+def _rows(link: WireLink) -> tuple[TopicRow, ...]:
+    found: list[TopicRow] = []
+    for name, types in link.graph.topics():
+        publishing, hearing = link.graph.publishers(name), link.graph.subscriptions(name)
+        # What the studio publishes somebody wanted; what it hears only serves to show it.
+        publishers, subscribers = len(publishing), _others(hearing, link.zid)
+        if publishers or subscribers:
+            carried = carried_types(publishing, hearing)
+            found.append(
+                TopicRow(
+                    name=name,
+                    types=(*carried, *(one for one in types if one not in carried)),
+                    publishers=publishers,
+                    subscribers=subscribers,
+                    kind=kind_for(name, carried),
+                )
+            )
+    return tuple(found)
+
+
+def _others(ends: Iterable[GraphEndpoint], own_zid: str) -> int:
+    """How many are not the studio's own."""
+    return sum(one.node.zid != own_zid for one in ends)
+
+
+def _end(endpoint: GraphEndpoint, own_zid: str) -> TopicEnd:
+    qos = endpoint.qos
+    return TopicEnd(
+        node=endpoint.node.path,
+        own=endpoint.node.zid == own_zid,
+        type_name=endpoint.type_name,
+        reliability=_words(qos.reliability.name),
+        durability=_words(qos.durability.name),
+        history=_words(qos.history.name),
+        depth=qos.depth,
+        deadline_s=_seconds(qos.deadline),
+        lifespan_s=_seconds(qos.lifespan),
+        liveliness=_words(qos.liveliness.name),
+        lease_s=_seconds(qos.liveliness_lease_duration),
+        hash=endpoint.type_hash,
+    )
+
+
+def _words(name: str) -> str:
+    """As `ros2 topic info` writes a policy, in small letters."""
+    return name.lower().replace("_", " ")
+
+
+def _seconds(span: Duration) -> float | None:
+    """None stands for no bound at all."""
+    return span.nanoseconds / 1e9 if span.nanoseconds else None
+
+
+def _misfits(
+    publishers: Sequence[GraphEndpoint], subscribers: Sequence[GraphEndpoint]
+) -> tuple[Misfit, ...]:
+    found: list[Misfit] = []
+    for publisher in publishers:
+        for subscriber in subscribers:
+            reasons = (*_why_deaf(publisher, subscriber),)
+            unmatched = why_unmatched(publisher.qos, subscriber.qos)
+            if (reasons or unmatched) and len(found) < MISFITS_MAX:
+                found.append(
+                    Misfit(
+                        publisher=publisher.node.path,
+                        subscriber=subscriber.node.path,
+                        reasons=(*reasons, *unmatched),
+                        heard=not reasons,
+                    )
+                )
+    return tuple(found)
+
+
+def _why_deaf(publisher: GraphEndpoint, subscriber: GraphEndpoint) -> list[str]:
+    """What keeps them apart on Zenoh, too, whose keys hold type and hash."""
+    if publisher.type_name != subscriber.type_name:
+        return [f"one sends {publisher.type_name}, the other wants {subscriber.type_name}"]
+    if publisher.type_hash != subscriber.type_hash:
+        return [
+            f"their {publisher.type_name} are of different forms: they come from different "
+            "distributions or versions of its package"
+        ]
+    return []

@@ -1,0 +1,140 @@
+"""Messages about what is done in a ROS 2 system: services called, goals sent, topics published."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, TypeAlias
+
+from pydantic import Field, StringConstraints
+
+from studio.protocol.interfaces import NAME_MAX
+from studio.protocol.message import CommandMessage, Message
+
+TEXT_MAX = 400_000
+Name: TypeAlias = Annotated[str, StringConstraints(min_length=1, max_length=NAME_MAX)]
+Yaml: TypeAlias = Annotated[str, StringConstraints(max_length=TEXT_MAX)]
+"""Values as a command line gives them; empty: all defaults."""
+PlainJson: TypeAlias = str
+"""JSON of plain values. What JSON's numbers do not hold, as nan and whole numbers of more than 53
+bits, stands in it as a text."""
+
+
+class GetServices(CommandMessage):
+    """Ask which services somebody serves."""
+
+    type: Literal["get_services"] = "get_services"
+
+
+class GetActions(CommandMessage):
+    """Ask which actions somebody serves."""
+
+    type: Literal["get_actions"] = "get_actions"
+
+
+class ReadValues(CommandMessage):
+    """Read YAML as values of a type; refused with the field that does not take its value."""
+
+    type: Literal["read_values"] = "read_values"
+    name: Name
+    """Of the type in full."""
+    place: int = Field(default=0, ge=0, le=2)
+    """Among the parts of `interface`: 0 is the message itself, a request or a goal."""
+    text: Yaml
+
+
+class FollowDeeds(CommandMessage):
+    """Be told what runs and ran of a kind, for any page, from now on; or no more."""
+
+    type: Literal["follow_deeds"] = "follow_deeds"
+    deeds: Literal["calls", "goals", "publications"]
+    following: bool = True
+
+
+class CallService(CommandMessage):
+    """Call a service; what becomes of it is told to those who follow calls."""
+
+    type: Literal["call_service"] = "call_service"
+    name: Name
+    service_type: Name
+    text: Yaml = ""
+    timeout_s: float = Field(default=10.0, gt=0, le=3600)
+
+
+class CancelCall(CommandMessage):
+    """Wait for the answer of a call no longer."""
+
+    type: Literal["cancel_call"] = "cancel_call"
+    deed: int
+
+
+class OfferView(Message):
+    """A service or an action."""
+
+    name: str
+    types: tuple[str, ...]
+    nodes: tuple[str, ...]
+    """Full names of those that serve it."""
+
+
+class Services(Message):
+    """Answer to `get_services`."""
+
+    type: Literal["services"] = "services"
+    request: int
+    services: tuple[OfferView, ...]
+
+
+class Actions(Message):
+    """Answer to `get_actions`."""
+
+    type: Literal["actions"] = "actions"
+    request: int
+    actions: tuple[OfferView, ...]
+
+
+class ValuesRead(Message):
+    """Answer to `read_values`: only what the text names; `now` and `auto` stay as they are."""
+
+    type: Literal["values_read"] = "values_read"
+    request: int
+    values: PlainJson
+
+
+class Begun(Message):
+    """Answer to what begins a deed: the number by which it is told and ended."""
+
+    type: Literal["begun"] = "begun"
+    request: int
+    deed: int
+
+
+class CallView(Message):
+    """A call, and what became of it."""
+
+    deed: int
+    name: str
+    service_type: str
+    text: str
+    """The request, as it was asked."""
+    state: Literal["calling", "answered", "failed", "cancelled"]
+    began_s: float
+    """Seconds since the epoch, by the studio's clock."""
+    took_s: float
+    timeout_s: float
+    reply: PlainJson
+    """Empty without one."""
+    trouble: str
+    """Why there is none, in a sentence."""
+
+
+class Calls(Message):
+    """Calls, the oldest first; all that are kept, or those that changed."""
+
+    type: Literal["calls"] = "calls"
+    whole: bool
+    deeds: tuple[CallView, ...]
+
+
+CallCommand: TypeAlias = (
+    GetServices | GetActions | ReadValues | FollowDeeds | CallService | CancelCall
+)
+CallEvent: TypeAlias = Services | Actions | ValuesRead | Begun | Calls

@@ -1,0 +1,95 @@
+"""Messages about the values that are edited, what a run made of them, and the undo list."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import Field
+
+from studio.description.values import SiteKind, Widget
+from studio.problems import Problem
+from studio.protocol.message import CommandMessage, Message
+
+
+class EditSite(CommandMessage):
+    """Write a new text at a site. All edits of one `gesture` are one undo step."""
+
+    type: Literal["edit_site"] = "edit_site"
+    site: str
+    text: str = Field(max_length=100_000)
+    gesture: str = ""
+
+
+class ResetSite(CommandMessage):
+    """Put a site back to what the file on disk says."""
+
+    type: Literal["reset_site"] = "reset_site"
+    site: str
+
+
+class Undo(CommandMessage):
+    """Take back the last step."""
+
+    type: Literal["undo"] = "undo"
+
+
+class Redo(CommandMessage):
+    """Do again what was taken back."""
+
+    type: Literal["redo"] = "redo"
+
+
+class SiteView(Message):
+    """One editable text, as a property row shows it."""
+
+    id: str
+    kind: SiteKind
+    name: str
+    file: str
+    line: int
+    text: str
+    saved_text: str | None
+    """What the file on disk says, when it differs."""
+    value: str
+    number: float | None
+    values: tuple[str, ...]
+    reads: int
+    widget: Widget
+    group: str
+    owner: str
+    argument: str | None
+    """For an arg: the value passed from outside, which wins over the default."""
+
+
+class Sites(Message):
+    """The changed sites, and the order of all when it changed (sites not in it are gone)."""
+
+    type: Literal["sites"] = "sites"
+    order: tuple[str, ...] | None
+    changed: tuple[SiteView, ...]
+
+
+class Problems(Message):
+    """All problems of the document now. `showing_last_good`: the view is older than the text."""
+
+    type: Literal["problems"] = "problems"
+    problems: tuple[Problem, ...]
+    showing_last_good: bool
+
+
+class History(Message):
+    """The undo list, newest last, and what is unsaved."""
+
+    type: Literal["history"] = "history"
+    undo: tuple[str, ...]
+    redo: tuple[str, ...]
+    unsaved_files: tuple[str, ...]
+    unsaved_count: int
+
+
+class Built(Message):
+    """A run ended: how long it took from the edit to the scene."""
+
+    type: Literal["built"] = "built"
+    ok: bool
+    duration_ms: float

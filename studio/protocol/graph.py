@@ -1,0 +1,93 @@
+"""Messages about who is there in a ROS 2 system, and who speaks with whom."""
+
+from __future__ import annotations
+
+from typing import Literal, TypeAlias
+
+from pydantic import Field
+
+from studio.protocol.message import CommandMessage, Message
+
+NODES_MAX = 1_000
+LINKS_MAX = 4_000
+
+
+class GetGraph(CommandMessage):
+    """Ask who is there, unless that is known already."""
+
+    type: Literal["get_graph"] = "get_graph"
+    known: int = Field(default=-1, ge=-1)
+    """The `version` of what is known; -1: nothing is."""
+
+
+class GraphNodeView(Message):
+    """The nodes of one name."""
+
+    name: str
+    count: int
+    """How many have it; more than one is a fault."""
+    own: bool
+    """It is the studio's."""
+
+
+class GraphLinkView(Message):
+    """What joins nodes: a topic, a service or an action."""
+
+    kind: Literal["topic", "service", "action"]
+    name: str
+    types: tuple[str, ...]
+    sources: tuple[int, ...]
+    """Places among the nodes: who publishes, calls, or sends goals."""
+    targets: tuple[int, ...]
+    """Who subscribes, or serves."""
+    hidden: bool
+    """Its name says that it is nobody's business."""
+
+
+class GraphAnswer(Message):
+    """Answer to `get_graph`."""
+
+    type: Literal["graph"] = "graph"
+    request: int
+    version: int
+    """Another one than known: all is told anew; else nothing is."""
+    nodes: tuple[GraphNodeView, ...]
+    links: tuple[GraphLinkView, ...]
+    other_count: int
+    """Nodes that are not the studio's, as `wire_state` counts them."""
+    more: int
+    """Nodes and links for which there was no room."""
+
+
+class GetNode(CommandMessage):
+    """Ask what a node has."""
+
+    type: Literal["get_node"] = "get_node"
+    name: str = Field(max_length=300)
+
+
+class EndView(Message):
+    """A name and its type."""
+
+    name: str
+    type: str
+
+
+class NodeAnswer(Message):
+    """Answer to `get_node`: what it has, grouped as `ros2 node info` does."""
+
+    type: Literal["node"] = "node"
+    request: int
+    name: str
+    count: int
+    """How many nodes have that name; what is told is of one of them; 0: none has."""
+    subscribers: tuple[EndView, ...]
+    publishers: tuple[EndView, ...]
+    service_servers: tuple[EndView, ...]
+    service_clients: tuple[EndView, ...]
+    action_servers: tuple[EndView, ...]
+    action_clients: tuple[EndView, ...]
+
+
+GraphCommand: TypeAlias = GetGraph | GetNode
+GraphEvent: TypeAlias = GraphAnswer | NodeAnswer

@@ -1,0 +1,97 @@
+"""Messages about what becomes of edits: gone through, looked at before saving, kept, restored."""
+
+from __future__ import annotations
+
+from typing import Literal, TypeAlias
+
+from pydantic import Field
+
+from studio.protocol.diff_lines import DiffLineView
+from studio.protocol.message import CommandMessage, Message
+
+
+class UndoTo(CommandMessage):
+    """Undo, or redo, until this many steps are done; refused when the list is no longer `of`."""
+
+    type: Literal["undo_to"] = "undo_to"
+    position: int = Field(ge=0, le=1 << 20)
+    of: int = Field(ge=0, le=1 << 20)
+    """How many steps there are in all, done and undone, where the wish was made."""
+
+
+class GetChanges(CommandMessage):
+    """What saving would change, file by file."""
+
+    type: Literal["get_changes"] = "get_changes"
+
+
+class FileChanges(Message):
+    """One file that has unsaved edits."""
+
+    file: str
+    added: int
+    removed: int
+    hunks: tuple[tuple[DiffLineView, ...], ...]
+    left_out: int
+    """Lines that differ, too, and are not among the hunks."""
+    hindrance: str
+    """Why it cannot be saved, a sentence; empty: it can."""
+
+
+class Changes(Message):
+    """Answer to `get_changes`."""
+
+    type: Literal["changes"] = "changes"
+    request: int
+    files: tuple[FileChanges, ...]
+    copies: str
+    """A folder that copies can be saved in; empty: there is none."""
+
+
+class SaveCopy(CommandMessage):
+    """Write a file's edited text to a path below the opened folders at which nothing is yet."""
+
+    type: Literal["save_copy"] = "save_copy"
+    file: str = Field(max_length=4096)
+    path: str = Field(max_length=4096)
+
+
+class DiscardRestored(CommandMessage):
+    """Give up what was restored at the opening; undo brings it back."""
+
+    type: Literal["discard_restored"] = "discard_restored"
+
+
+class ForgetWork(CommandMessage):
+    """Give up the unsaved work on a file that is not open."""
+
+    type: Literal["forget_work"] = "forget_work"
+    path: str = Field(max_length=4096)
+
+
+class LeftWorkEntry(Message):
+    """Unsaved work on one file; `at` is UTC, as ISO 8601."""
+
+    path: str
+    title: str
+    at: str
+
+
+class LeftWork(Message):
+    """Files below the served folders that are not open, and have unsaved work of an earlier run."""
+
+    type: Literal["left_work"] = "left_work"
+    entries: tuple[LeftWorkEntry, ...]
+
+
+class Restored(Message):
+    """Edits of an earlier run were brought back; `at` empty: that is no longer worth a word."""
+
+    type: Literal["restored"] = "restored"
+    at: str
+    """When they were kept: UTC, as ISO 8601."""
+    files: tuple[str, ...]
+
+
+KeepingCommand: TypeAlias = UndoTo | GetChanges | SaveCopy | DiscardRestored | ForgetWork
+KeepingEvent: TypeAlias = Changes | Restored | LeftWork

@@ -1,0 +1,80 @@
+"""What the studio answers an editor that asks about a text.
+
+Offsets and columns count UTF-16 code units of the text as an editor holds it: no byte order mark,
+every line break one LF. Offsets are from 0, lines and columns from 1.
+"""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import Field
+
+from studio.description.language.questions import Completions, Meaning, Outline, References
+from studio.protocol.message import OFFSET_LIMIT, CommandMessage, Message
+
+
+class OutlineAnswer(Message):
+    """Answer to `get_outline`."""
+
+    type: Literal["outline"] = "outline"
+    request: int
+    outline: Outline
+
+
+class MeaningAnswer(Message):
+    """Answer to `look_up`; None: nothing that is known stands there."""
+
+    type: Literal["meaning"] = "meaning"
+    request: int
+    meaning: Meaning | None
+
+
+class ReferencesAnswer(Message):
+    """Answer to `get_references`."""
+
+    type: Literal["references"] = "references"
+    request: int
+    references: References
+
+
+class CompletionsAnswer(Message):
+    """Answer to `complete`."""
+
+    type: Literal["completions"] = "completions"
+    request: int
+    completions: Completions
+
+
+class PlaceCommand(CommandMessage):
+    """A question about a place of a file's text, as `get_text` and `texts_changed` tell it.
+
+    `offset` counts UTF-16 code units from 0: no byte order mark, every line break one LF.
+    """
+
+    file: str = Field(max_length=4096)
+    offset: int = Field(ge=0, le=OFFSET_LIMIT)
+
+
+class LookUp(PlaceCommand):
+    """What stands there, what it came to in the run, and where it is defined."""
+
+    type: Literal["look_up"] = "look_up"
+
+
+class GetReferences(PlaceCommand):
+    """All places that name what stands there."""
+
+    type: Literal["get_references"] = "get_references"
+
+
+class Complete(PlaceCommand):
+    """What may be typed there."""
+
+    type: Literal["complete"] = "complete"
+
+
+class GetOutline(CommandMessage):
+    """What the files of the robot hold: includes, macros, properties, args."""
+
+    type: Literal["get_outline"] = "get_outline"

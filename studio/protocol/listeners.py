@@ -1,0 +1,79 @@
+"""Those who hear what happens: one Listener per control lane, one Audience per document."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Generic, Protocol, TypeVar
+
+if TYPE_CHECKING:
+    from studio.protocol import Event
+    from studio.protocol.roles import Role
+
+_Told = TypeVar("_Told", bound="Event")
+
+
+class Listener(Protocol):
+    """The sending end of one control lane."""
+
+    role: Role
+    person: str
+    """The same for all that comes from one browser, or with one token."""
+
+    def post(self, data: bytes, *, binary: bool = False, key: str | None = None) -> None:
+        """Queue one message without waiting; of one `key` only the newest need arrive."""
+        ...
+
+
+def encode(event: Event) -> bytes:
+    """One event as the JSON text that goes to every listener."""
+    return event.model_dump_json().encode()
+
+
+def tell(listener: Listener, event: Event) -> None:
+    """Send one event to one listener."""
+    listener.post(encode(event))
+
+
+class Audience:
+    """All listeners of one thing; an event is encoded once for all of them."""
+
+    def __init__(self) -> None:
+        self._listeners: set[Listener] = set()
+
+    def __len__(self) -> int:
+        return len(self._listeners)
+
+    def add(self, listener: Listener) -> None:
+        """Let it hear what comes from now on."""
+        self._listeners.add(listener)
+
+    def remove(self, listener: Listener) -> None:
+        """Forget it; it need not be there."""
+        self._listeners.discard(listener)
+
+    def tell(self, event: Event) -> None:
+        """Send one event to all."""
+        if self._listeners:
+            self.post(encode(event))
+
+    def post(self, data: bytes, *, binary: bool = False, key: str | None = None) -> None:
+        """Send encoded bytes to all."""
+        for listener in tuple(self._listeners):
+            listener.post(data, binary=binary, key=key)
+
+
+class LastTold(Generic[_Told]):
+    """What an audience was told last of one thing, so that it hears only news.
+
+    Attributes:
+        event: None before the first.
+    """
+
+    def __init__(self, audience: Audience) -> None:
+        self._audience = audience
+        self.event: _Told | None = None
+
+    def tell(self, event: _Told) -> None:
+        """Tell it, unless it was the last thing told."""
+        if event != self.event:
+            self.event = event
+            self._audience.tell(event)

@@ -1,0 +1,303 @@
+"""Messages about the live scene: displays of topics, and the frame that all is drawn in."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, TypeAlias
+
+from pydantic import Field, StringConstraints
+
+from studio.protocol.message import CommandMessage, Message
+
+RosName: TypeAlias = Annotated[str, StringConstraints(max_length=300, pattern=r"^[^\x00]*$")]
+"""Of a topic, a frame or a property with its link; what it may be is checked where it is used."""
+ShortName: TypeAlias = Annotated[str, StringConstraints(max_length=80, pattern=r"^[^\x00-\x1f]*$")]
+DisplayId: TypeAlias = Annotated[str, StringConstraints(max_length=20)]
+PropertyValue: TypeAlias = bool | int | float | str
+
+
+class AddDisplay(CommandMessage):
+    """Add a display; with a topic, it listens with what fits the topic's publishers."""
+
+    type: Literal["add_display"] = "add_display"
+    kind: ShortName
+    topic: RosName = ""
+
+
+class RemoveDisplay(CommandMessage):
+    """Remove a display."""
+
+    type: Literal["remove_display"] = "remove_display"
+    display: DisplayId
+
+
+class DuplicateDisplay(CommandMessage):
+    """Add one with the same settings, below it."""
+
+    type: Literal["duplicate_display"] = "duplicate_display"
+    display: DisplayId
+
+
+class ArrangeDisplay(CommandMessage):
+    """Give a display another name, group or place; what is None stays."""
+
+    type: Literal["arrange_display"] = "arrange_display"
+    display: DisplayId
+    name: ShortName | None = None
+    group: ShortName | None = None
+    before: DisplayId | None = None
+    """The display that it comes to stand before; empty: at the end."""
+
+
+class SwitchDisplays(CommandMessage):
+    """Show or hide displays: one, or all of a group."""
+
+    type: Literal["switch_displays"] = "switch_displays"
+    display: DisplayId = ""
+    group: ShortName = ""
+    """The group as a whole, if `display` is empty."""
+    enabled: bool
+
+
+class SetDisplayTopic(CommandMessage):
+    """Listen to another topic, or in another way; None chooses by the topic's publishers."""
+
+    type: Literal["set_display_topic"] = "set_display_topic"
+    display: DisplayId
+    topic: RosName
+    reliable: bool | None = None
+    latched: bool | None = None
+    depth: int | None = Field(default=None, ge=1, le=10_000)
+
+
+class SetDisplayProperty(CommandMessage):
+    """Change a property of a display, by RViz's name."""
+
+    type: Literal["set_display_property"] = "set_display_property"
+    display: DisplayId
+    name: RosName
+    value: PropertyValue
+
+
+class SetFixedFrame(CommandMessage):
+    """Draw everything in this frame; empty: in that of the robot's root link."""
+
+    type: Literal["set_fixed_frame"] = "set_fixed_frame"
+    frame: RosName
+
+
+class GetDisplayKinds(CommandMessage):
+    """Which displays there are."""
+
+    type: Literal["get_display_kinds"] = "get_display_kinds"
+
+
+class GetTopics(CommandMessage):
+    """Which topics there are, and which display shows each."""
+
+    type: Literal["get_topics"] = "get_topics"
+
+
+class GetTf(CommandMessage):
+    """Which frames there are; and where one of them is in another, if both are named."""
+
+    type: Literal["get_tf"] = "get_tf"
+    frame: RosName = ""
+    seen_from: RosName = ""
+    pose_only: bool = False
+    """Of all frames nothing is told: then it may be asked many times a second."""
+
+
+class FollowFrame(CommandMessage):
+    """Have a frame that is no link stand in the scene for some seconds, for a camera to go with."""
+
+    type: Literal["follow_frame"] = "follow_frame"
+    frame: RosName
+
+
+LiveCommand: TypeAlias = (
+    AddDisplay | RemoveDisplay | DuplicateDisplay | ArrangeDisplay | SwitchDisplays
+    | SetDisplayTopic | SetDisplayProperty | SetFixedFrame | GetDisplayKinds | GetTopics | GetTf
+    | FollowFrame
+)  # fmt: skip
+
+
+class DisplayKindView(Message):
+    """A kind of display."""
+
+    kind: str
+    doc: str
+    types: tuple[str, ...]
+    """Of messages that it shows; none: it listens to no topic."""
+    properties: tuple[PropertyView, ...]
+
+
+class DisplayKinds(Message):
+    """Answer to `get_display_kinds`."""
+
+    type: Literal["display_kinds"] = "display_kinds"
+    request: int
+    kinds: tuple[DisplayKindView, ...]
+
+
+class PropertyView(Message):
+    """A property of a kind of display."""
+
+    name: str
+    kind: Literal["switch", "whole", "number", "colour", "choice", "text", "frame"]
+    default: PropertyValue
+    doc: str
+    low: float | None
+    high: float | None
+    unit: str
+    choices: tuple[str, ...]
+    when: str
+    """The property that it depends on; empty: none."""
+    when_values: tuple[PropertyValue, ...]
+
+
+class ListeningWish(Message):
+    """How a display is to listen; None: as fits the publishers of its topic."""
+
+    reliable: bool | None
+    latched: bool | None
+    depth: int | None
+
+
+class DisplayView(Message):
+    """A display as it is set."""
+
+    id: str
+    kind: str
+    name: str
+    group: str
+    enabled: bool
+    topic: str
+    reliable: bool
+    latched: bool
+    depth: int
+    wished: ListeningWish
+    """What of these three was chosen; `reliable`, `latched` and `depth` are as they are now."""
+    values: dict[str, PropertyValue]
+    more: tuple[PropertyView, ...]
+    """What can be set beside what its kind has, as namespaces of markers that came."""
+
+
+class LiveDisplays(Message):
+    """All displays of a document, in their order, and the frame they are drawn in."""
+
+    type: Literal["live_displays"] = "live_displays"
+    displays: tuple[DisplayView, ...]
+    groups_off: tuple[str, ...]
+    """Groups that are hidden as a whole."""
+    fixed_frame: str
+    """As chosen; empty: that of the robot's root link."""
+
+
+class Mend(Message):
+    """One click that may help."""
+
+    label: str
+    command: dict[str, PropertyValue]
+    """What to send, by field, as JSON has it; `request` and `document` are the page's."""
+
+
+class Remark(Message):
+    """What is to be said of a display."""
+
+    level: Literal["ok", "warn", "error"]
+    reason: str
+    sentence: str
+    mend: Mend | None = None
+
+
+class DisplayState(Message):
+    """How a display fares."""
+
+    id: str
+    rate_hz: float
+    age_s: float | None
+    """Since the last message."""
+    lost: int
+    remarks: tuple[Remark, ...]
+
+
+class DisplayStates(Message):
+    """How all displays fare; told when it changes, at most twice a second."""
+
+    type: Literal["display_states"] = "display_states"
+    states: tuple[DisplayState, ...]
+    fixed_frame_trouble: str
+    """Why nothing can be drawn in the fixed frame, in a sentence."""
+
+
+class TopicView(Message):
+    """A topic that somebody publishes."""
+
+    name: str
+    types: tuple[str, ...]
+    """It is published with; those of subscribers do not count."""
+    publishers: int
+    kind: str
+    """Of the display that shows it; empty: none does."""
+
+
+class Topics(Message):
+    """Answer to `get_topics`."""
+
+    type: Literal["topics"] = "topics"
+    request: int
+    topics: tuple[TopicView, ...]
+
+
+class FrameView(Message):
+    """A frame of TF."""
+
+    name: str
+    parent: str
+    """Empty: it is the root of a tree."""
+    publisher: str
+    static: bool
+    rate_hz: float
+    age_s: float | None
+    state: Literal["fresh", "stale", "broken"]
+
+
+class TfPose(Message):
+    """Where a frame is in another."""
+
+    wxyz: tuple[float, float, float, float]
+    xyz: tuple[float, float, float]
+    """m."""
+    chain: tuple[str, ...]
+    """Frames on the way from the one that it is seen from, both ends with it."""
+
+
+class TfFrames(Message):
+    """Answer to `get_tf`."""
+
+    type: Literal["tf_frames"] = "tf_frames"
+    request: int
+    fixed: str
+    """The frame that everything is drawn in; one that nothing connects with it is broken."""
+    frames: tuple[FrameView, ...]
+    more: int
+    """Frames that are left out of the list."""
+    refused: tuple[str, ...]
+    """Transforms that were refused lately, in sentences."""
+    pose: TfPose | None
+    trouble: str
+    """Why there is no pose, in a sentence."""
+
+
+class FrameFollowed(Message):
+    """Answer to `follow_frame`."""
+
+    type: Literal["frame_followed"] = "frame_followed"
+    request: int
+    trouble: str
+    """Why it is not known where the frame is, in a sentence; empty: it is."""
+
+
+LiveEvent: TypeAlias = (
+    DisplayKinds | LiveDisplays | DisplayStates | Topics | TfFrames | FrameFollowed
+)

@@ -1,0 +1,55 @@
+"""Messages about the log of a ROS 2 system: what its nodes say on `/rosout`."""
+
+from __future__ import annotations
+
+from typing import Literal, TypeAlias
+
+from pydantic import Field
+
+from studio.protocol.message import CommandMessage, Message
+
+LINES_MAX = 2_000
+"""Of one answer."""
+
+
+class GetLog(CommandMessage):
+    """Ask for what was said after a line; the log is heard from the first such question on."""
+
+    type: Literal["get_log"] = "get_log"
+    after: int = Field(default=0, ge=0)
+    """Number of the last line that is known; 0: none."""
+
+
+class LogLine(Message):
+    """One thing that a node said."""
+
+    number: int
+    """Counts all that were heard, from 1."""
+    stamp_s: float
+    """By the clock of the node, since 1970."""
+    level: int
+    """10 debug, 20 info, 30 warning, 40 error, 50 fatal; others are possible."""
+    node: str
+    """Name of its logger, which begins with that of the node."""
+    text: str
+    file: str
+    function: str
+    line: int
+
+
+class LogAnswer(Message):
+    """Answer to `get_log`: the oldest lines after that one, and how many there are in all."""
+
+    type: Literal["log"] = "log"
+    request: int
+    connected: bool
+    """The log is heard; else nothing new comes."""
+    lines: tuple[LogLine, ...]
+    first: int
+    """Number of the oldest line that is kept; what was before it is gone."""
+    last: int
+    """Number of the newest line; 0: none came."""
+
+
+LogCommand: TypeAlias = GetLog
+LogEvent: TypeAlias = LogAnswer

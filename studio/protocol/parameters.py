@@ -1,0 +1,142 @@
+"""Messages about the parameters of nodes: listed, set, written down, and told when they change."""
+
+from __future__ import annotations
+
+from typing import Literal, TypeAlias
+
+from pydantic import Field
+
+from studio.protocol.calls import Name, PlainJson, Yaml
+from studio.protocol.interfaces import NAME_MAX
+from studio.protocol.message import CommandMessage, Message
+
+
+class GetParameterNodes(CommandMessage):
+    """Ask which nodes have parameters."""
+
+    type: Literal["get_parameter_nodes"] = "get_parameter_nodes"
+
+
+class GetParameters(CommandMessage):
+    """Ask for all parameters of a node, with what it says of them."""
+
+    type: Literal["get_parameters"] = "get_parameters"
+    node: Name
+
+
+class SetParameter(CommandMessage):
+    """Have a node set a parameter; refused with its reason when it does not."""
+
+    type: Literal["set_parameter"] = "set_parameter"
+    node: Name
+    name: Name
+    text: Yaml
+    """Of the value, as `ros2 param set` takes it."""
+    value_type: str = Field(default="", max_length=40)
+    """As it is told; empty: what the text looks like."""
+
+
+class DumpParameters(CommandMessage):
+    """Ask for all parameters of a node as a file of them."""
+
+    type: Literal["dump_parameters"] = "dump_parameters"
+    node: Name
+
+
+class LoadParameters(CommandMessage):
+    """Have a node set what a file says of it, one after another."""
+
+    type: Literal["load_parameters"] = "load_parameters"
+    node: Name
+    text: Yaml
+
+
+class FollowParameters(CommandMessage):
+    """Be told when parameters of a node change."""
+
+    type: Literal["follow_parameters"] = "follow_parameters"
+    node: str = Field(default="", max_length=NAME_MAX)
+    """Empty: of none any more."""
+
+
+class ParameterNodes(Message):
+    """Answer to `get_parameter_nodes`: full names, in order."""
+
+    type: Literal["parameter_nodes"] = "parameter_nodes"
+    request: int
+    nodes: tuple[str, ...]
+
+
+class ParameterView(Message):
+    """A parameter, and what its node says of it."""
+
+    name: str
+    value_type: str
+    """In the words of `ros2 param describe`: `bool`, `integer`, `double array` ..."""
+    value: PlainJson
+    description: str = ""
+    read_only: bool = False
+    constraints: str = ""
+    low: float | None = None
+    high: float | None = None
+    step: float = 0.0
+    """0: any value of the range."""
+
+
+class Parameters(Message):
+    """Answer to `get_parameters`, in the order of the alphabet."""
+
+    type: Literal["parameters"] = "parameters"
+    request: int
+    node: str
+    parameters: tuple[ParameterView, ...]
+
+
+class ParameterDump(Message):
+    """Answer to `dump_parameters`."""
+
+    type: Literal["parameter_dump"] = "parameter_dump"
+    request: int
+    node: str
+    text: str
+
+
+class ParameterRefusal(Message):
+    """A parameter that a node did not set, and why."""
+
+    name: str
+    reason: str
+
+
+class ParametersLoaded(Message):
+    """Answer to `load_parameters`."""
+
+    type: Literal["parameters_loaded"] = "parameters_loaded"
+    request: int
+    node: str
+    count: int
+    """So many were set."""
+    refused: tuple[ParameterRefusal, ...]
+
+
+class ParametersChanged(Message):
+    """Parameters of a node that is followed have new values."""
+
+    type: Literal["parameters_changed"] = "parameters_changed"
+    node: str
+    parameters: tuple[ParameterView, ...]
+    """With their values alone."""
+    gone: tuple[str, ...]
+
+
+ParameterCommand: TypeAlias = (
+    GetParameterNodes
+    | GetParameters
+    | SetParameter
+    | DumpParameters
+    | LoadParameters
+    | FollowParameters
+)
+ParameterMessage: TypeAlias = (
+    ParameterNodes | Parameters | ParameterDump | ParametersLoaded | ParametersChanged
+)

@@ -1,0 +1,67 @@
+"""Messages about what pages publish on topics, once or at a rate."""
+
+from __future__ import annotations
+
+from typing import Literal, TypeAlias
+
+from pydantic import Field
+
+from studio.protocol.calls import Name, Yaml
+from studio.protocol.message import CommandMessage, Message
+
+RATE_MAX_HZ = 1000.0
+
+
+class Publish(CommandMessage):
+    """Publish a message; how it fares is told to those who follow publications."""
+
+    type: Literal["publish"] = "publish"
+    name: Name
+    message_type: Name
+    text: Yaml = ""
+    rate_hz: float = Field(default=0.0, ge=0, le=RATE_MAX_HZ)
+    """0: once, as soon as somebody listens or after a second."""
+    reliable: bool = True
+    latched: bool = False
+    """Kept for those who come late, for as long as it is published."""
+    depth: int = Field(default=10, ge=1, le=10_000)
+
+
+class StopPublishing(CommandMessage):
+    """Publish it no more; those of that number, or all."""
+
+    type: Literal["stop_publishing"] = "stop_publishing"
+    deed: int = 0
+    """0: all."""
+
+
+class PublicationView(Message):
+    """What is or was published."""
+
+    deed: int
+    name: str
+    message_type: str
+    text: str
+    rate_hz: float
+    reliable: bool
+    latched: bool
+    depth: int
+    state: Literal["running", "done", "stopped", "failed"]
+    sent: int
+    listeners: int
+    """Who subscribes to the topic."""
+    began_s: float
+    """Seconds since the epoch, by the studio's clock."""
+    trouble: str
+
+
+class Publications(Message):
+    """Publications, the oldest first; all that are kept, or those that changed."""
+
+    type: Literal["publications"] = "publications"
+    whole: bool
+    deeds: tuple[PublicationView, ...]
+
+
+PublishCommand: TypeAlias = Publish | StopPublishing
+PublishEvent: TypeAlias = Publications

@@ -1,0 +1,43 @@
+"""Messages about how often, how large and how old what others publish is."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, TypeAlias
+
+from pydantic import Field
+
+from studio.protocol.live import RosName
+from studio.protocol.message import CommandMessage, Message
+
+
+class GetTopicRates(CommandMessage):
+    """How topics come; they are heard for some seconds from now on, so ask again every second."""
+
+    type: Literal["get_topic_rates"] = "get_topic_rates"
+    topics: Annotated[tuple[RosName, ...], Field(max_length=200)]
+    """Full names; those that are seen."""
+
+
+class TopicRate(Message):
+    """How a topic comes."""
+
+    name: str
+    rate_hz: float
+    """Messages in a second; 0 when none, or too few, come."""
+    bytes_per_s: float
+    age_s: float | None
+    """Since the last message came; None: none came since somebody looks."""
+    state: Literal["waiting", "live", "silent", "latched"]
+    """`waiting`: nothing came, but that is not for long; `latched`: it speaks once, and did."""
+
+
+class TopicRates(Message):
+    """Answer to `get_topic_rates`: those that somebody publishes, and for which there is room."""
+
+    type: Literal["topic_rates"] = "topic_rates"
+    request: int
+    rates: tuple[TopicRate, ...]
+
+
+RatesCommand: TypeAlias = GetTopicRates
+RatesEvent: TypeAlias = TopicRates

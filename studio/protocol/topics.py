@@ -1,0 +1,84 @@
+"""Messages about topics: which there are, and who is at both ends of one."""
+
+from __future__ import annotations
+
+from typing import Literal, TypeAlias
+
+from studio.protocol.live import RosName
+from studio.protocol.message import CommandMessage, Message
+
+
+class ListTopics(CommandMessage):
+    """Ask which topics anybody publishes or subscribes to."""
+
+    type: Literal["list_topics"] = "list_topics"
+
+
+class GetTopicEnds(CommandMessage):
+    """Ask who publishes a topic and who subscribes to it, how, and what keeps them apart."""
+
+    type: Literal["get_topic_ends"] = "get_topic_ends"
+    topic: RosName
+
+
+class TopicRow(Message):
+    """One topic; the studio's own subscriptions are not counted."""
+
+    name: str
+    types: tuple[str, ...]
+    """Those it is published with come first, then those it is only subscribed to with."""
+    publishers: int
+    subscribers: int
+    kind: str
+    """Of the display that shows it; empty: none does."""
+
+
+class TopicTable(Message):
+    """Answer to `list_topics`."""
+
+    type: Literal["topic_table"] = "topic_table"
+    request: int
+    topics: tuple[TopicRow, ...]
+
+
+class TopicEnd(Message):
+    """A publisher or a subscription."""
+
+    node: str
+    """Full name of its node."""
+    own: bool
+    """It is the studio's."""
+    type_name: str
+    reliability: str
+    durability: str
+    history: str
+    depth: int
+    deadline_s: float | None
+    lifespan_s: float | None
+    liveliness: str
+    lease_s: float | None
+    hash: str
+
+
+class Misfit(Message):
+    """A publisher and a subscription that would not meet on DDS."""
+
+    publisher: str
+    subscriber: str
+    reasons: tuple[str, ...]
+    heard: bool
+    """On Zenoh the messages come all the same; other types or hashes keep them apart there, too."""
+
+
+class TopicEnds(Message):
+    """Answer to `get_topic_ends`."""
+
+    type: Literal["topic_ends"] = "topic_ends"
+    request: int
+    publishers: tuple[TopicEnd, ...]
+    subscribers: tuple[TopicEnd, ...]
+    misfits: tuple[Misfit, ...]
+
+
+TopicsCommand: TypeAlias = ListTopics | GetTopicEnds
+TopicsEvent: TypeAlias = TopicTable | TopicEnds

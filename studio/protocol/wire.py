@@ -1,0 +1,199 @@
+"""Messages about ROS 2 on the wire: the connection, and what of a robot goes out and comes in."""
+
+from __future__ import annotations
+
+from typing import Literal, TypeAlias
+
+from pydantic import Field
+
+from studio.protocol.message import CommandMessage, Message
+
+JointSource: TypeAlias = Literal["sliders", "animation", "joint_states", "tf"]
+"""Who moves the joints: one of these at a time."""
+
+
+Distro: TypeAlias = Literal["", "humble", "jazzy", "kilted"]
+
+
+class WirePlace(CommandMessage):
+    """Where a ROS 2 system is looked for, and what it speaks; what is left out stays as it is."""
+
+    address: str = Field(default="", max_length=300)
+    """`robot.local`, `192.0.2.7:7447`, or an endpoint as Zenoh writes it."""
+    domain: int | None = Field(default=None, ge=0, le=232)
+    distro: Distro = ""
+
+
+class ConnectWire(WirePlace):
+    """Join the ROS 2 system, if that was not done yet; done when the connection stands.
+
+    Another place than that of now: what uses the connection lets go of it before.
+    """
+
+    type: Literal["connect_wire"] = "connect_wire"
+
+
+class ExamineWire(WirePlace):
+    """Look what there is at a place; nothing is joined or started by it."""
+
+    type: Literal["examine_wire"] = "examine_wire"
+
+
+class DisconnectWire(CommandMessage):
+    """Leave the ROS 2 system: all that went out or came in for any document ends before."""
+
+    type: Literal["disconnect_wire"] = "disconnect_wire"
+
+
+class SetJointSource(CommandMessage):
+    """Choose who moves the joints."""
+
+    type: Literal["set_joint_source"] = "set_joint_source"
+    source: JointSource
+
+
+class PublishRobot(CommandMessage):
+    """Publish `/robot_description` and TF as robot_state_publisher does, or stop."""
+
+    type: Literal["publish_robot"] = "publish_robot"
+    running: bool
+
+
+class PublishJoints(CommandMessage):
+    """Publish `/joint_states` as joint_state_publisher does, or stop."""
+
+    type: Literal["publish_joints"] = "publish_joints"
+    running: bool
+
+
+class FindWireRobots(CommandMessage):
+    """Look which robot descriptions there are on the wire."""
+
+    type: Literal["find_wire_robots"] = "find_wire_robots"
+
+
+class OpenFromWire(CommandMessage):
+    """Open a robot whose description comes from a topic, or from a parameter of a node."""
+
+    type: Literal["open_from_wire"] = "open_from_wire"
+    topic: str = Field(default="/robot_description", max_length=300)
+    node: str = Field(default="", max_length=300)
+    """Full name; empty: take the topic."""
+    parameter: str = Field(default="robot_description", max_length=300)
+
+
+WireCommand: TypeAlias = (
+    ConnectWire
+    | ExamineWire
+    | DisconnectWire
+    | SetJointSource
+    | PublishRobot
+    | PublishJoints
+    | FindWireRobots
+    | OpenFromWire
+)
+
+
+class WireState(Message):
+    """How the studio is connected with a ROS 2 system; told to every page."""
+
+    type: Literal["wire_state"] = "wire_state"
+    state: Literal["off", "connecting", "connected", "lost", "failed"]
+    """`lost`: the router went away; it is joined again by itself as soon as it is back."""
+    router: Literal["", "own", "joined"]
+    """Whose router it is: one that the studio started, or one that was there."""
+    endpoint: str
+    domain: int
+    distro: str
+    nodes: tuple[str, ...]
+    """Full names, without the studio's own; the first ones."""
+    node_count: int
+    nearby_count: int
+    """While not connected: nodes that are met at the router of this machine."""
+    trouble: str
+    """Why it failed, in a sentence."""
+
+
+class WireFeed(Message):
+    """What of a document's robot comes from the wire, and what goes there."""
+
+    type: Literal["wire_feed"] = "wire_feed"
+    source: Literal["sliders", "joint_states", "tf"]
+    """`sliders`: whoever moves them here; whether they swing is told by `joints`."""
+    source_state: Literal["", "waiting", "live", "silent"]
+    """Of a source on the wire: nothing came yet, it comes, or it came and does not any more."""
+    rate_hz: int
+    """Messages of the last second."""
+    strangers: tuple[str, ...]
+    """Joints that came and that the robot does not have; the first ones."""
+    publishes_robot: bool
+    publishes_joints: bool
+    joints_paused: bool
+    """Nothing of them goes out now: they follow `/joint_states`, and would be an echo."""
+    rivals: tuple[str, ...]
+    """Nodes that publish what this robot publishes; the first ones."""
+    description_from: str
+    """The topic or parameter that the description comes from; empty: from files."""
+    trouble: str
+    """What is wrong with it, in a sentence."""
+
+
+class WireRobots(Message):
+    """Answer to `find_wire_robots`: topics with a robot description, the usual one first."""
+
+    type: Literal["wire_robots"] = "wire_robots"
+    request: int
+    topics: tuple[str, ...]
+    nodes: tuple[str, ...]
+    """Full names of nodes that may have one as a parameter."""
+
+
+Verdict: TypeAlias = Literal[
+    "fine",
+    "no_router",
+    "foreign",
+    "not_admitted",
+    "alone",
+    "other_domain",
+    "other_distro",
+    "bridge",
+    "unseen",
+]
+"""`foreign`: something else holds the place; `not_admitted`: the router wants another name or
+certificate; `alone`: a router without nodes; `bridge`: only one for DDS, which speaks other
+keys; `other_distro`: nodes are there, and types of theirs have another form; `unseen`: processes
+publish, whose nodes the router does not show, for it is newer than they are."""
+
+
+class DomainView(Message):
+    """How many nodes of others a domain has."""
+
+    domain: int
+    nodes: int
+
+
+class WireReport(Message):
+    """Answer to `examine_wire`: what there is, and if nobody can be met there, why."""
+
+    type: Literal["wire_report"] = "wire_report"
+    request: int
+    endpoint: str
+    domain: int
+    distro: str
+    """That is spoken here."""
+    verdict: Verdict
+    starts_router: bool
+    """Connecting would start a router here."""
+    nodes: int
+    """Of others, in the domain."""
+    domains: tuple[DomainView, ...]
+    """Those that have nodes, in their order; the first ones."""
+    distros: tuple[str, ...]
+    """Whose types the nodes of the domain have, as far as their tokens tell."""
+    types: tuple[str, ...]
+    """Of another form than here; the first ones."""
+    unseen: int
+    """Processes that publish in the domain, while none of their nodes is seen."""
+
+
+WireEvent: TypeAlias = WireState | WireFeed | WireRobots | WireReport

@@ -1,0 +1,111 @@
+"""The application: every route of the one port, behind the guard."""
+
+from http import HTTPStatus
+from typing import Any, Final
+
+from fastapi import Depends, FastAPI
+from starlette.exceptions import HTTPException
+from starlette.requests import HTTPConnection, Request
+from starlette.responses import JSONResponse, Response
+from starlette.types import ASGIApp
+from starlette.websockets import WebSocket
+
+import studio
+from studio.errors import AccessError, CommandError, StudioError, UnknownDocumentError
+from studio.server.access import PUBLIC_ROUTES, ROUTE_DEEDS, demand
+from studio.server.api import Api
+from studio.server.assets import Assets
+from studio.server.credentials import Credentials
+from studio.server.exports import Exports
+from studio.server.guard import Guard
+from studio.server.log_out import LogOut
+from studio.server.origin import KnownHosts
+from studio.server.pages import not_found_page, trouble_page
+from studio.server.schema import openapi
+from studio.server.site import Site
+from studio.server.surface import OpenDocuments
+from studio.server.uploads import Uploads
+
+_STATUS: Final = (
+    (AccessError, HTTPStatus.FORBIDDEN),
+    (UnknownDocumentError, HTTPStatus.NOT_FOUND),
+    (CommandError, HTTPStatus.UNPROCESSABLE_ENTITY),
+    (StudioError, HTTPStatus.CONFLICT),
+)
+
+
+def make_app(
+    engine: OpenDocuments,
+    assets: Assets,
+    credentials: Credentials,
+    session: str,
+    bound: tuple[str, int],
+) -> ASGIApp:
+    """The whole application; `bound` is host and port that the server listens on.
+
+    The caller starts and closes the engine.
+    """
+    app = FastAPI(
+        title="Robot description studio",
+        version=studio.__version__,
+        openapi_url=None,  # FastAPI's own route would stand beside the door
+        docs_url=None,  # its pages load scripts from a public host
+        redoc_url=None,
+        redirect_slashes=False,
+        dependencies=[Depends(check_role)],
+    )
+    app.add_exception_handler(StudioError, _say)
+    app.add_exception_handler(HTTPException, _say_http)
+    Site(engine, assets, session).add_to(app)
+    app.include_router(Api(engine, session).router())
+    app.include_router(Exports(engine).router())
+    app.include_router(Uploads(engine).router())
+    app.include_router(LogOut(credentials).router())
+    document = openapi(app.routes)
+
+    async def openapi_document() -> dict[str, Any]:
+        return document
+
+    app.add_api_route("/api/openapi.json", openapi_document, include_in_schema=False)
+    host, port = bound
+    return Guard(app, KnownHosts.of(host), credentials, port)
+
+
+def check_role(connection: HTTPConnection) -> None:
+    """Ask `may` for every route; one that no table names is nobody's.
+
+    Raises:
+        NotAllowedError: The caller's role may not use this route.
+    """
+    path = connection.scope["route"].path
+    if path not in PUBLIC_ROUTES:
+        demand(connection.scope["state"]["role"], ROUTE_DEEDS.get(path, "unknown route"))
+
+
+async def _say(connection: Request | WebSocket, error: Exception) -> Response:
+    """An error of the studio as an answer in one sentence; a websocket is not opened then."""
+    status = next(status for kind, status in _STATUS if isinstance(error, kind))
+    if isinstance(connection, WebSocket):
+        return _plain(error, status)
+    if _wants_page(connection):
+        missing = status is HTTPStatus.NOT_FOUND
+        return not_found_page() if missing else trouble_page(str(error), status)
+    return _plain(error, status)
+
+
+async def _say_http(request: Request | WebSocket, error: Exception) -> Response:
+    """What the router itself refuses: no such address, no such method."""
+    assert isinstance(error, HTTPException)
+    if _wants_page(request) and error.status_code == HTTPStatus.NOT_FOUND:
+        return not_found_page()
+    return JSONResponse({"kind": "HttpError", "reason": error.detail}, error.status_code)
+
+
+def _plain(error: Exception, status: HTTPStatus) -> Response:
+    return JSONResponse({"kind": type(error).__name__, "reason": str(error)}, status)
+
+
+def _wants_page(connection: HTTPConnection) -> bool:
+    return not connection.url.path.startswith("/api/") and (
+        "text/html" in connection.headers.get("accept", "")
+    )

@@ -1,0 +1,147 @@
+"""The bulk lane: large messages on one streamed answer, beside a browser's data lane.
+
+A browser takes bytes from a streamed answer several times as fast as from a websocket. It hears
+on `/data` as always, sends `{"type": "ask_bulk"}` there, and is told a key: `{"type": "bulk_key",
+"key": ...}`. Then it opens `GET /bulk?key=...`, whose body does not end: frames as those of the
+data lane (see `studio/live/panels/hearing_frames.py`), each after its length as four bytes,
+little-endian. The first large message of a channel still comes on the data lane, where the number
+of the channel is told; those that follow come here, while this is open, and on `/data` afterwards.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import secrets
+import struct
+from typing import TYPE_CHECKING, Final
+
+from starlette.responses import Response
+
+from studio.errors import UnknownLaneError
+from studio.hub import GATE_BYTES
+from studio.live.panels.hearing_backlog import Backlog
+from studio.live.panels.hearing_frames import frame_parts
+from studio.server.http_protocol import connection_of
+
+if TYPE_CHECKING:
+    from starlette.types import Receive, Scope, Send
+
+    from studio.live.panels.hearing_frames import Chunk, Tick
+    from studio.server.data_lane import DataLane
+    from studio.server.http_protocol import StudioConnection
+
+_LENGTH: Final = struct.Struct("<I")
+_HEADERS: Final = (
+    (b"content-type", b"application/octet-stream"),
+    (b"connection", b"close"),
+    (b"x-accel-buffering", b"no"),  # a proxy that waits for the end would wait for ever
+)
+
+
+class BulkLane:
+    """One streamed answer; of what cannot go now as much is kept as is of worth."""
+
+    def __init__(self, connection: StudioConnection) -> None:
+        self._connection = connection
+        self._backlog = Backlog()
+        self._channels: frozenset[int] = frozenset()
+        connection.on_drain = self._resume
+
+    def take(self, tick: Tick) -> Tick:
+        """Send what is large; gives what is to go by the data lane."""
+        rest = tick.without(self._channels)
+        if rest is not tick:
+            for chunk in tick.chunks:
+                if chunk.channel in self._channels:
+                    self._post(chunk)
+        if not rest.large <= self._channels:
+            self._channels |= rest.large
+        return rest
+
+    def forget(self, channel: int) -> None:
+        """A channel is told anew: its next message goes by the data lane, after the words."""
+        self._channels -= {channel}
+
+    def leave(self) -> tuple[Chunk, ...]:
+        """Send nothing more; gives what was kept."""
+        self._channels = frozenset()
+        return self._backlog.take_all()
+
+    def _post(self, chunk: Chunk) -> None:
+        if self._backlog or not self._is_open():
+            self._backlog.add((chunk,))
+        else:
+            self._write(chunk)
+
+    def _resume(self) -> None:
+        while self._backlog and self._is_open():
+            self._write(self._backlog.pop())
+
+    def _is_open(self) -> bool:
+        return self._connection.pending_bytes() <= GATE_BYTES
+
+    def _write(self, chunk: Chunk) -> None:
+        parts = frame_parts((chunk,), self._backlog.dropped)
+        self._connection.write_chunk((_LENGTH.pack(sum(map(len, parts))), *parts))
+
+
+class BulkAnswer(Response):
+    """The answer whose body is a bulk lane."""
+
+    def __init__(self, lane: DataLane) -> None:
+        super().__init__()
+        self._lane = lane
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Stream until either side goes, or the data lane ends."""
+        await send({"type": "http.response.start", "status": 200, "headers": list(_HEADERS)})
+        connection = connection_of(scope)
+        bulk = BulkLane(connection)
+        leaving = asyncio.create_task(_left(receive))
+        self._lane.open_bulk(bulk, leaving.cancel)
+        try:
+            await asyncio.wait({leaving})
+        finally:
+            leaving.cancel()
+            connection.on_drain = None
+            self._lane.close_bulk(bulk)
+        if connection.pending_bytes():
+            connection.abort()  # who reads slowly would be waited for
+            await _left(receive)
+        else:
+            await send({"type": "http.response.body", "body": b"", "more_body": False})
+
+
+async def _left(receive: Receive) -> None:
+    while (await receive())["type"] != "http.disconnect":
+        pass
+
+
+class BulkKeys:
+    """Which data lane a key belongs to: nobody hears by a bulk lane what no data lane wished."""
+
+    def __init__(self) -> None:
+        self._lanes: dict[str, DataLane] = {}
+
+    def key_of(self, lane: DataLane) -> str:
+        """Its key, the same whenever it asks."""
+        for key, one in self._lanes.items():
+            if one is lane:
+                return key
+        key = secrets.token_urlsafe(24)
+        self._lanes[key] = lane
+        return key
+
+    def lane_of(self, key: str) -> DataLane:
+        """The lane whose key this is.
+
+        Raises:
+            UnknownLaneError: It is no open lane's.
+        """
+        if key not in self._lanes:
+            raise UnknownLaneError
+        return self._lanes[key]
+
+    def forget(self, lane: DataLane) -> None:
+        """It was closed."""
+        self._lanes = {key: one for key, one in self._lanes.items() if one is not lane}

@@ -1,0 +1,175 @@
+"""What proves a role: a token in the printed address, a cookie from then on."""
+
+from __future__ import annotations
+
+import hmac
+import os
+import secrets
+import stat
+from contextlib import suppress
+from typing import TYPE_CHECKING
+
+from studio.errors import DataFolderError, UnsafeKeyError
+from studio.protocol.roles import Role, Visitor
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+_KEY_FILE = "cookie.key"
+_KEY_BYTES = 32
+_KEY_LIFE_S = 24 * 3600.0
+_OTHERS = stat.S_IRWXG | stat.S_IRWXO
+
+
+def new_token() -> str:
+    """A presenter's token, fresh for every start."""
+    return secrets.token_urlsafe(24)
+
+
+class Credentials:
+    """Tokens, cookies and one-time codes.
+
+    The presenter's `token` is fresh for every start. The cookies' key is kept for a day, so that a
+    page that was open when the studio was started anew comes back by itself; `revoke` ends all
+    cookies before. `token` None: nobody is asked, everyone who reaches the port is a presenter.
+    """
+
+    def __init__(self, token: str | None, key: bytes, key_folder: Path | None = None) -> None:
+        self.token = token
+        self._key, self._key_folder = key, key_folder
+        self._codes: set[str] = set()
+
+    def token_of(self, role: Role) -> str | None:
+        """The token that an address carries; the viewer's does not betray the presenter's."""
+        if self.token is None or role is Role.PRESENTER:
+            return self.token
+        return _sign(self.token.encode(), role.value)
+
+    def role_of_token(self, given: str) -> Role | None:
+        """Whose token this is."""
+        return _match(given, {role: self.token_of(role) or "" for role in Role})
+
+    def new_code(self) -> str:
+        """A code that makes a presenter of the first who shows it, and of nobody else."""
+        code = secrets.token_urlsafe(24)
+        self._codes.add(code)
+        return code
+
+    def redeem(self, code: str) -> Role | None:
+        """The role that a one-time code gives, once."""
+        if code not in self._codes:
+            return None
+        self._codes.discard(code)
+        return Role.PRESENTER
+
+    def cookie_of(self, role: Role) -> str:
+        """The value of a new cookie: who has it is a person, apart from all others."""
+        person = secrets.token_hex(8)
+        return f"{person}.{self._signed(role, person)}"
+
+    def visitor_of_cookie(self, given: str) -> Visitor | None:
+        """Whose cookie this is."""
+        person, _, proof = given.partition(".")
+        role = _match(proof, {role: self._signed(role, person) for role in Role})
+        return Visitor(role, person) if role else None
+
+    def revoke(self) -> None:
+        """Make all cookies invalid that were ever given.
+
+        Raises:
+            DataFolderError: The new key cannot be written; the cookies are invalid all the same,
+                until the studio is started anew.
+        """
+        self._key = secrets.token_bytes(_KEY_BYTES)
+        if self._key_folder is None:
+            return
+        try:
+            _write_key(self._key_folder / _KEY_FILE, self._key)
+        except OSError as error:
+            raise _unusable(self._key_folder, error) from error
+
+    def _signed(self, role: Role, person: str) -> str:
+        return _sign(self._key, f"{role.value} {person}")
+
+
+def _sign(key: bytes, message: str) -> str:
+    return hmac.new(key, message.encode(), "sha256").hexdigest()
+
+
+def _match(given: str, proofs: dict[Role, str]) -> Role | None:
+    """Compare with every proof in constant time; an empty one matches nothing."""
+    found: Role | None = None
+    for role, proof in proofs.items():
+        if hmac.compare_digest(given.encode(), proof.encode()) and proof:
+            found = role
+    return found
+
+
+def cookie_key(data_folder: Path, now_s: float) -> bytes:
+    """The key of the last day's cookies, or a new one; a file that only its owner may read.
+
+    Args:
+        data_folder: Where `cookie.key` lives.
+        now_s: Seconds since the epoch.
+
+    Raises:
+        DataFolderError: The file cannot be read or written.
+        UnsafeKeyError: Others may know the key, or gave it.
+    """
+    path = data_folder / _KEY_FILE
+    try:
+        kept = _kept_key(path, now_s)
+        if kept is not None:
+            return kept
+        key = secrets.token_bytes(_KEY_BYTES)
+        _write_key(path, key)
+    except OSError as error:
+        raise _unusable(data_folder, error) from error
+    return key
+
+
+def _kept_key(path: Path, now_s: float) -> bytes | None:
+    """The key in the file; None when there is none, or one that is too old or broken."""
+    try:
+        descriptor = os.open(path, os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0))
+    except FileNotFoundError:
+        return None
+    with os.fdopen(descriptor, "rb") as file:
+        status = os.fstat(descriptor)
+        if os.name == "posix":
+            _check_owner(path, status)
+        kept = file.read(_KEY_BYTES + 1)
+    is_young = 0 <= now_s - status.st_mtime < _KEY_LIFE_S
+    return kept if is_young and len(kept) == _KEY_BYTES else None
+
+
+def _check_owner(path: Path, status: os.stat_result) -> None:
+    """Pass, or refuse a key that others may have read or written."""
+    if status.st_uid != os.geteuid():
+        raise UnsafeKeyError(str(path), "belongs to another user")
+    if status.st_mode & _OTHERS:
+        raise UnsafeKeyError(str(path), "can be read or written by other users")
+
+
+def _write_key(path: Path, key: bytes) -> None:
+    """Write beside it and rename: two studios that start at once never read half a key."""
+    draft = path.with_name(f"{path.name}.{os.getpid()}")
+    write_private(draft, key)
+    draft.replace(path)
+
+
+def write_private(path: Path, content: bytes) -> None:
+    """Write a new file that only its owner may read; what stands there is replaced, not followed.
+
+    Raises:
+        OSError: It cannot be written.
+    """
+    with suppress(FileNotFoundError):
+        path.unlink()
+    descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
+    with os.fdopen(descriptor, "wb") as file:
+        file.write(content)
+
+
+def _unusable(folder: Path, error: OSError) -> DataFolderError:
+    return DataFolderError(str(folder), error.strerror or "not readable")

@@ -1,0 +1,166 @@
+"""Who is connected, and what each may cost: strangers little and briefly, viewers within bounds.
+
+A connection is a stranger's until the guard has recognised a cookie or a token on it. The presenter
+always has room: strangers and viewers have a share of the descriptors each, the rest is kept back.
+"""
+
+from __future__ import annotations
+
+import logging
+import sys
+import time
+from typing import TYPE_CHECKING, Final, Protocol
+
+from uvicorn.server import ServerState
+
+from studio.protocol.roles import Role
+
+if TYPE_CHECKING:
+    from studio.protocol.roles import Visitor
+
+STRANGER_S: Final = 10.0
+"""From the connection to a request that is whole and carries a cookie or a token."""
+VIEWER_CONNECTIONS_MAX: Final = 64
+"""Of one viewer: a browser holds three websockets per tab, and six requests at a time."""
+_STRANGERS_MAX: Final = 128
+_DESCRIPTORS_WITHOUT_LIMIT: Final = 4096
+_SAY_EVERY_S: Final = 60.0
+_log = logging.getLogger(__name__)
+
+
+class Connection(Protocol):
+    """What is held: an HTTP connection or a websocket."""
+
+    def abort(self) -> None:
+        """End it at once."""
+        ...
+
+
+class Allowance:
+    """How fast somebody may send: units per second, and how many at once after a rest.
+
+    A unit is one websocket frame, or one KiB of it. Who sends faster is not refused but read later.
+    """
+
+    def __init__(self, units_per_s: float, at_once: float) -> None:
+        self._units_per_s, self._at_once = units_per_s, at_once
+        self._left, self._counted_s = at_once, 0.0
+
+    def spend(self, units: float, now_s: float) -> float:
+        """Take units off; answers for how many seconds nothing more may be read."""
+        earned = (now_s - self._counted_s) * self._units_per_s
+        self._left = min(self._at_once, self._left + earned) - units
+        self._counted_s = now_s
+        return max(0.0, -self._left / self._units_per_s)
+
+
+class Person:
+    """One browser, or one script: all connections that came with the same cookie or token."""
+
+    def __init__(self, role: Role) -> None:
+        self.connections = 0
+        presents = role is Role.PRESENTER
+        self._own = Allowance(4_000, 8_000) if presents else Allowance(500, 1_000)
+
+    def spend(self, units: float, now_s: float) -> float:
+        """Take units off its own allowance."""
+        return self._own.spend(units, now_s)
+
+
+class Crowd:
+    """All connections of one server; everything here runs on the loop's thread."""
+
+    def __init__(self, descriptors: int | None = None) -> None:
+        limit = descriptors or descriptor_limit()
+        self.strangers_max = min(_STRANGERS_MAX, limit // 8)
+        self.viewers_max = limit * 5 // 8
+        self._strangers: dict[Connection, None] = {}
+        self._known: dict[Connection, Visitor] = {}
+        self._people: dict[Visitor, Person] = {}
+        self._viewer_connections = 0
+        self._viewers = Allowance(10_000, 4_000)
+        self._refused, self._said_s = 0, -_SAY_EVERY_S
+
+    def arrive(self, connection: Connection) -> None:
+        """Hold a stranger's connection; of too many the oldest ends, which has said least."""
+        self._strangers[connection] = None
+        if len(self._strangers) > self.strangers_max:
+            oldest = next(iter(self._strangers))
+            del self._strangers[oldest]
+            oldest.abort()
+            self.refuse("too many connections without a request")
+
+    def recognise(self, connection: Connection, visitor: Visitor) -> bool:
+        """Count it as somebody's; False when they have as many as they may have."""
+        if self._known.get(connection) == visitor:
+            return True
+        self.leave(connection)
+        person = self._people.get(visitor) or Person(visitor.role)
+        if visitor.role is not Role.PRESENTER:
+            if person.connections >= VIEWER_CONNECTIONS_MAX:
+                return False
+            if self._viewer_connections >= self.viewers_max:
+                return False
+            self._viewer_connections += 1
+        person.connections += 1
+        self._people[visitor] = person
+        self._known[connection] = visitor
+        return True
+
+    def leave(self, connection: Connection) -> None:
+        """It ended, or another takes its place."""
+        self._strangers.pop(connection, None)
+        visitor = self._known.pop(connection, None)
+        if visitor is None:
+            return
+        person = self._people[visitor]
+        person.connections -= 1
+        if not person.connections:
+            del self._people[visitor]
+        if visitor.role is not Role.PRESENTER:
+            self._viewer_connections -= 1
+
+    def spend(self, connection: Connection, units: float) -> float:
+        """Count what came; answers for how many seconds nothing more may be read from it."""
+        visitor = self._known.get(connection)
+        if visitor is None:
+            return 0.0
+        now_s = time.monotonic()
+        pause_s = self._people[visitor].spend(units, now_s)
+        if visitor.role is Role.PRESENTER:
+            return pause_s
+        return max(pause_s, self._viewers.spend(units, now_s))
+
+    def end_all(self) -> None:
+        """End the connections of all who were recognised: their cookies are no longer valid."""
+        for connection in tuple(self._known):
+            connection.abort()
+
+    def refuse(self, why: str) -> None:
+        """Note that a stranger was refused: a line a minute at most, however many there are."""
+        self._refused += 1
+        now_s = time.monotonic()
+        if now_s - self._said_s < _SAY_EVERY_S:
+            return
+        count, self._refused, self._said_s = self._refused, 0, now_s
+        before = f" ({count - 1} others since the last such line)" if count > 1 else ""
+        _log.warning("A connection without a key was refused: %s%s.", why, before)
+
+
+class CrowdedState(ServerState):
+    """What the connections of one server share."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.crowd = Crowd()
+
+
+def descriptor_limit() -> int:
+    """How many files and sockets this process may hold open."""
+    if sys.platform == "win32":
+        return _DESCRIPTORS_WITHOUT_LIMIT
+    import resource  # noqa: PLC0415 - Unix only
+
+    limit, _ = resource.getrlimit(resource.RLIMIT_NOFILE)
+    unlimited = limit == resource.RLIM_INFINITY
+    return _DESCRIPTORS_WITHOUT_LIMIT if unlimited else limit

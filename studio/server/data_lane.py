@@ -1,0 +1,110 @@
+"""The data lane: a browser says what it hears, as JSON text; what comes goes to it in ticks."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+from pydantic import ValidationError
+
+from studio.hub import Outlet
+from studio.live.panels.hearing_backlog import Backlog
+from studio.live.panels.hearing_frames import Tick
+from studio.protocol.hearing import WISHES, AskBulk, BulkKey, Heard, NotHeard
+from studio.server.commands import malformed
+from studio.server.lane import FrameTransport, binary_frame, text_frame
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from pydantic import BaseModel
+
+    from studio.protocol.hearing import SaidOnLane
+    from studio.server.bulk_lane import BulkKeys, BulkLane
+    from studio.server.lane import Lane
+    from studio.server.surface import HearsTopics
+
+_TOO_SLOW: Final = 1013
+"""Close code `try again later`: the page connects anew and wishes all again."""
+_WISH_LIMIT_BYTES: Final = 4_096
+_TICK: Final = "tick"
+
+
+class DataLane:
+    """One browser's data lane: the Hearer to which the engine hands what came."""
+
+    def __init__(self, lane: Lane, keys: BulkKeys) -> None:
+        self._lane, self._keys = lane, keys
+        self._backlog = Backlog()
+        self._outlet = Outlet(FrameTransport(lane), on_hopeless=lambda: lane.close(_TOO_SLOW))
+        self._bulk: BulkLane | None = None
+        self._end_bulk: Callable[[], object] = lambda: None
+        lane.on_drain(self._outlet.resume)
+
+    def say(self, message: BaseModel, /) -> None:
+        """Queue one message in words."""
+        if self._bulk is not None and isinstance(message, Heard):
+            self._bulk.forget(message.channel)
+        self._outlet.post(text_frame(message.model_dump_json().encode()))
+
+    def take(self, tick: Tick, /) -> None:
+        """Send what came; what cannot go now is kept as far as it is of worth."""
+        rest = tick if self._bulk is None else self._bulk.take(tick)
+        if rest.chunks:
+            self._send(rest)
+
+    def open_bulk(self, bulk: BulkLane, end: Callable[[], object]) -> None:
+        """Send what is large by this one from now on; `end` ends it."""
+        self._end_bulk()
+        self._bulk, self._end_bulk = bulk, end
+        if self._outlet.closed:  # while the answer was made, the browser left
+            end()
+
+    def close_bulk(self, bulk: BulkLane) -> None:
+        """Send by it no more; what it kept goes by the data lane."""
+        left = bulk.leave()
+        if self._bulk is bulk:
+            self._bulk, self._end_bulk = None, lambda: None
+        if left:
+            self.take(Tick(left))
+
+    def _send(self, tick: Tick) -> None:
+        if not self._outlet.holds_back and not self._backlog.dropped:
+            if self._outlet.post(binary_frame(tick.frame), _TICK, late=self._late):
+                return
+            self._backlog.add(tick.chunks)
+        else:
+            self._backlog.add(tick.chunks)
+            self._outlet.post(self._late, _TICK)
+
+    async def serve(self, hearing: HearsTopics) -> None:
+        """Carry out wishes until the browser leaves."""
+        hearing.attach(self)
+        try:
+            while (text := await self._lane.receive()) is not None:
+                self._wish(hearing, text)
+        finally:
+            hearing.detach(self)
+            self._keys.forget(self)
+            self._outlet.close()
+            self._end_bulk()
+            await self._lane.finish()
+
+    def _wish(self, hearing: HearsTopics, text: bytes) -> None:
+        if len(text) > _WISH_LIMIT_BYTES:
+            self.say(NotHeard(wish=0, reason="A wish of so many bytes is not read."))
+            return
+        try:
+            wish = WISHES.validate_json(text)
+        except ValidationError as error:
+            self.say(NotHeard(wish=0, reason=malformed("wish", error)))
+        else:
+            self._carry_out(hearing, wish)
+
+    def _carry_out(self, hearing: HearsTopics, said: SaidOnLane) -> None:
+        if isinstance(said, AskBulk):
+            self.say(BulkKey(key=self._keys.key_of(self)))
+        else:
+            hearing.wish(self, said)
+
+    def _late(self) -> bytes:
+        return binary_frame(self._backlog.frame()) if self._backlog else b""

@@ -1,0 +1,178 @@
+"""One run of the studio: bind, start the engine, open what was asked for, say where it is."""
+
+from __future__ import annotations
+
+import asyncio
+import gc
+import logging
+import os
+import secrets
+import sys
+from contextlib import suppress
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from typing import TYPE_CHECKING
+
+from studio.documents.engine import Engine
+from studio.errors import SettingsError
+from studio.protocol.roles import Role
+from studio.server.app import make_app
+from studio.server.assets import Assets
+from studio.server.browser import Window, has_display
+from studio.server.credentials import Credentials, cookie_key
+from studio.server.origin import is_loopback
+from studio.server.ports import address, bind, code_address, port_of
+from studio.server.progress_bar import ProgressBar
+from studio.server.server import Server
+from studio.settings import DEFAULT_PORT, Settings, repository_or_wheel
+
+if TYPE_CHECKING:
+    import socket
+    from collections.abc import Callable
+    from pathlib import Path
+
+
+@dataclass(frozen=True, slots=True)
+class Opening:
+    """What to open first, and what to do once it is open and the address is said."""
+
+    path: Path
+    arguments: dict[str, str]
+    then: Callable[[], None] | None = None
+    joins_ros: bool = False
+    """Connect with ROS 2 afterwards, even where the studio was not connected before."""
+
+
+def launch(settings: Settings, opening: Opening, *, viewer_link: bool = False) -> None:
+    """Run the studio until a signal ends it.
+
+    Args:
+        settings: What the command line decided.
+        opening: The first document.
+        viewer_link: Whether to say the address for viewers too.
+
+    Raises:
+        StudioError: It cannot start, or what to open first cannot be opened.
+    """
+    logging.basicConfig(
+        stream=sys.stderr, level=logging.WARNING, format="%(levelname)s %(message)s"
+    )
+    if settings.token is None and not is_loopback(settings.host):
+        raise SettingsError("--no-token is only for this machine: leave it out with this --host.")
+    if settings.trusted and not is_loopback(settings.host):
+        raise SettingsError("--trust is only for this machine: leave it out with this --host.")
+    key = cookie_key(settings.data_folder, datetime.now(UTC).timestamp())
+    credentials = Credentials(settings.token, key, settings.data_folder)
+    with bind(settings.host, settings.port) as listener:
+        port = port_of(listener)
+        for sentence in remarks(settings, port, is_root=_is_root()):
+            _warn(sentence)
+        roles = (Role.PRESENTER, Role.VIEWER) if viewer_link else (Role.PRESENTER,)
+        links = [address(settings.host, port, credentials.token_of(role)) for role in roles]
+        visit = _Visit(opening, links)
+        visit.run(settings, credentials, listener)
+
+
+def remarks(settings: Settings, port: int, *, is_root: bool = False) -> list[str]:
+    """What is not as usual about how the studio runs and where it listens, in sentences."""
+    said: list[str] = []
+    if is_root:
+        said.append(
+            "The studio runs as root, and so does all that a file or a visitor makes it do: "
+            "start it as an ordinary user."
+        )
+    if settings.port is None and port != DEFAULT_PORT:
+        said.append(f"Port {DEFAULT_PORT} is taken by another program: this studio uses {port}.")
+    if not is_loopback(settings.host):
+        said.append(
+            "Other machines reach this studio, and the connection is not encrypted: "
+            "whoever has the address with its token can change and save files."
+        )
+    return said
+
+
+def _is_root() -> bool:
+    return os.name == "posix" and os.geteuid() == 0
+
+
+class _Visit:
+    """The life beside the server: the engine, and the opening of the first document."""
+
+    def __init__(self, opening: Opening, links: list[str]) -> None:
+        self._opening, self._links = opening, links
+        self._opens: asyncio.Task[None] | None = None
+        self._failure: Exception | None = None
+
+    def run(self, settings: Settings, credentials: Credentials, listener: socket.socket) -> None:
+        """Serve until the end.
+
+        Raises:
+            Exception: What ended it early; a StudioError unless it is a bug.
+        """
+        self._engine = Engine(settings)
+        self._window = Window(settings.data_folder)
+        self._settings, self._credentials = settings, credentials
+        self._port = port_of(listener)
+        bound = (settings.host, self._port)
+        assets = Assets(repository_or_wheel("frontend_assets"))
+        app = make_app(self._engine, assets, credentials, secrets.token_hex(8), bound)
+        self._server = Server(app, self)
+        self._server.run(sockets=[listener])
+        if self._failure is not None:
+            raise self._failure
+
+    async def begin(self) -> None:
+        """Start the engine."""
+        await self._engine.start()
+
+    async def answering(self) -> None:
+        """Open the first document beside the server, which must hear signals meanwhile."""
+        self._opens = asyncio.create_task(self._open())
+
+    async def end(self) -> None:
+        """End the engine with all its workers."""
+        if self._opens is not None:
+            self._opens.cancel()
+            with suppress(asyncio.CancelledError):
+                await self._opens
+        self._window.close()
+        await self._engine.close()
+
+    async def _open(self) -> None:
+        bar = ProgressBar(sys.stderr)
+        try:
+            opening = self._opening
+            await self._engine.open_path(opening.path, opening.arguments, bar.show)
+        except Exception as error:  # noqa: BLE001 - `run` raises it, once all has ended
+            self._failure = error
+            self._server.should_exit = True
+            return
+        finally:
+            bar.end()
+        gc.collect()
+        gc.freeze()  # what stands by now stays: a collection that looks at all of it takes 40 ms
+        for name, link in zip(("Studio", "Viewer"), self._links, strict=False):
+            _say(f"{name}: {link}")
+        if self._settings.open_browser and has_display():
+            self._open_browser()
+        if opening.then is not None:
+            opening.then()
+        self._engine.rejoin(always=opening.joins_ros)
+
+    def _open_browser(self) -> None:
+        if self._credentials.token is None:
+            self._window.show(self._links[0])
+            return
+        code = self._credentials.new_code()
+        self._window.show(code_address(self._settings.host, self._port, code))
+
+
+def _say(line: str) -> None:
+    """Write one line for whoever started the studio, who may wait for it at a pipe."""
+    with suppress(OSError):
+        sys.stdout.write(f"{line}\n")
+        sys.stdout.flush()
+
+
+def _warn(line: str) -> None:
+    sys.stderr.write(f"studio: {line}\n")

@@ -1,0 +1,140 @@
+"""The routes that a browser uses: the page, its files, the 3D view's page, the websockets."""
+
+from http import HTTPStatus
+from typing import TYPE_CHECKING, Final
+
+from fastapi import FastAPI
+from starlette.requests import Request
+from starlette.responses import HTMLResponse, RedirectResponse, Response
+from starlette.websockets import WebSocket
+
+import studio
+from studio.protocol import Hello
+from studio.scene import viser_page, viser_page_gzipped
+from studio.server.assets import Asset, Assets
+from studio.server.bulk_lane import BulkAnswer, BulkKeys
+from studio.server.control import ControlLane
+from studio.server.data_lane import DataLane
+from studio.server.lane import Lane
+from studio.server.pages import studio_page
+from studio.server.policy import SCENE_POLICY, WORKER_POLICY
+from studio.server.surface import OpenDocuments
+from studio.server.viser_lane import serve_scene
+
+if TYPE_CHECKING:
+    from studio.protocol.roles import Visitor
+
+_FOREVER: Final = "public, max-age=31536000, immutable"
+_ICON: Final = "styles/logo.svg"
+_WORKERS: Final = "workers/"
+
+
+class Site:
+    """The routes and what they need."""
+
+    def __init__(self, engine: OpenDocuments, assets: Assets, session: str) -> None:
+        self._engine, self._assets, self._session = engine, assets, session
+        self._bulk_keys = BulkKeys()
+
+    def add_to(self, app: FastAPI) -> None:
+        """Add every route; none of them is for scripts, so none is in the OpenAPI document."""
+        pages = (
+            ("/", self.home),
+            ("/d/{document}", self.page),
+            ("/d/{document}/viser/", self.scene_page),
+            ("/a/{tree}/{path:path}", self.asset),
+            ("/favicon.ico", self.icon),
+        )
+        for path, endpoint in pages:
+            app.add_api_route(
+                path,
+                endpoint,
+                methods=["GET", "HEAD"],
+                include_in_schema=False,
+                response_class=Response,
+                response_model=None,
+            )
+        app.add_api_route(
+            "/bulk",
+            self.bulk,
+            include_in_schema=False,
+            response_class=Response,
+            response_model=None,
+        )
+        app.add_api_websocket_route("/control", self.control)
+        app.add_api_websocket_route("/data", self.data)
+        app.add_api_websocket_route("/d/{document}/viser", self.scene)
+
+    async def home(self) -> Response:
+        """To the default document; the page itself while there is none."""
+        document = self._engine.default_document
+        if document is None:
+            return studio_page(self._assets.current())
+        return RedirectResponse(f"/d/{document}", HTTPStatus.SEE_OTHER)
+
+    async def page(self, document: str) -> Response:
+        """The studio's page for one document."""
+        self._engine.document(document)
+        return studio_page(self._assets.current())
+
+    async def scene_page(self, document: str, request: Request) -> Response:
+        """The page of viser, to be shown inside ours; another version's would not be let in."""
+        self._engine.document(document)
+        prefix = self._assets.current().base.rstrip("/")
+        headers = {"content-security-policy": SCENE_POLICY}
+        if not takes_gzip(request):
+            return HTMLResponse(viser_page(prefix), headers=headers)
+        headers |= {"content-encoding": "gzip"}
+        return HTMLResponse(viser_page_gzipped(prefix), headers=headers)
+
+    async def asset(self, tree: str, path: str, request: Request) -> Response:
+        """One file of the page; only paths that were found below its folder have an answer."""
+        found = self._assets.find(tree, path)
+        if found is None:
+            return Response(status_code=HTTPStatus.NOT_FOUND)
+        asset, is_exact = found
+        answer = _send(asset, request, _FOREVER if is_exact else "no-store")
+        if path.startswith(_WORKERS):
+            answer.headers["content-security-policy"] = WORKER_POLICY
+        return answer
+
+    async def icon(self, request: Request) -> Response:
+        """For browsers that ask without having been told."""
+        asset = self._assets.current().files.get(_ICON)
+        if asset is None:
+            return Response(status_code=HTTPStatus.NO_CONTENT)
+        return _send(asset, request, "max-age=3600")
+
+    async def control(self, websocket: WebSocket) -> None:
+        """The control lane."""
+        await websocket.accept()
+        visitor: Visitor = websocket.scope["state"]["visitor"]
+        hello = Hello(role=visitor.role.value, version=studio.__version__, session=self._session)
+        await ControlLane(Lane(websocket), visitor).serve(self._engine, hello)
+
+    async def data(self, websocket: WebSocket) -> None:
+        """The data lane."""
+        await websocket.accept()
+        await DataLane(Lane(websocket), self._bulk_keys).serve(self._engine.hearing)
+
+    async def bulk(self, key: str = "") -> Response:
+        """The bulk lane of the data lane that was told this key."""
+        return BulkAnswer(self._bulk_keys.lane_of(key))
+
+    async def scene(self, document: str, websocket: WebSocket) -> None:
+        """The 3D lane of one document."""
+        scene = self._engine.document(document).scene
+        await serve_scene(websocket, scene, websocket.scope["state"]["role"])
+
+
+def takes_gzip(request: Request) -> bool:
+    """Whether the browser unpacks gzip."""
+    return "gzip" in request.headers.get("accept-encoding", "")
+
+
+def _send(asset: Asset, request: Request, caching: str) -> Response:
+    """The file, compressed where the browser takes it."""
+    headers = {"content-type": asset.type, "cache-control": caching, "vary": "accept-encoding"}
+    if asset.compressed is not None and takes_gzip(request):
+        return Response(asset.compressed, headers=headers | {"content-encoding": "gzip"})
+    return Response(asset.content, headers=headers)

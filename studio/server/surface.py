@@ -1,0 +1,131 @@
+"""What the web room uses of the engine and of a document's 3D view."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Protocol
+
+if TYPE_CHECKING:
+    from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
+
+    from studio.documents.keeping.exports import Download, MeshNames
+    from studio.live.panels.hearing import Hearer
+    from studio.protocol import Command
+    from studio.protocol.hearing import Wish
+    from studio.protocol.listeners import Listener
+    from studio.scene import Connection
+
+
+class OpenScene(Protocol):
+    """The 3D view of one document."""
+
+    def serve(
+        self, connection: Connection, allowed: Callable[[str], bool], subprotocol: str | None
+    ) -> Awaitable[None]:
+        """Speak viser's protocol until the connection ends."""
+        ...
+
+
+class MakesDownloads(Protocol):
+    """A document for other programs. Each raises a StudioError when it cannot be made."""
+
+    async def urdf(self, meshes: MeshNames, /) -> Download:
+        """The expanded URDF."""
+        ...
+
+    async def package(self, *, all_used: bool) -> Download:
+        """The robot's package as a zip, or all that it uses."""
+        ...
+
+    async def page(self, *, dark: bool) -> Download:
+        """The 3D view as a page of its own."""
+        ...
+
+
+class OpenDocument(Protocol):
+    """One document."""
+
+    @property
+    def scene(self) -> OpenScene:
+        """Its 3D view."""
+        ...
+
+    @property
+    def exports(self) -> MakesDownloads:
+        """Makes what can be downloaded of it."""
+        ...
+
+
+class TakesUploads(Protocol):
+    """What keeps and opens the files that are sent."""
+
+    async def take(self, manifest: bytes, chunks: AsyncIterator[bytes], /) -> str:
+        """Keep and open them; gives the document's id.
+
+        Raises:
+            StudioError: They cannot be kept, or are no robot.
+        """
+        ...
+
+
+class HearsTopics(Protocol):
+    """What hears topics for browsers."""
+
+    def attach(self, hearer: Hearer, /) -> None:
+        """A data lane was opened."""
+        ...
+
+    def detach(self, hearer: Hearer, /) -> None:
+        """It was closed."""
+        ...
+
+    def wish(self, hearer: Hearer, wish: Wish, /) -> None:
+        """Carry out what a browser wishes; how that stands is told to it."""
+        ...
+
+
+class OpenDocuments(Protocol):
+    """The engine."""
+
+    @property
+    def hearing(self) -> HearsTopics:
+        """Hears topics for browsers."""
+        ...
+
+    @property
+    def uploads(self) -> TakesUploads:
+        """Takes what is dropped on the page."""
+        ...
+
+    @property
+    def default_document(self) -> str | None:
+        """Id of the document that `/` leads to."""
+        ...
+
+    @property
+    def documents(self) -> Mapping[str, OpenDocument]:
+        """Every open document by its id."""
+        ...
+
+    def document(self, id: str, /) -> OpenDocument:  # noqa: A002 - the engine's own word
+        """One document.
+
+        Raises:
+            UnknownDocumentError: No open document has that id.
+        """
+        ...
+
+    def attach(self, listener: Listener, /) -> None:
+        """Let it hear the list of documents, now and whenever it changes."""
+        ...
+
+    def detach(self, listener: Listener, /) -> None:
+        """Forget it, whatever it watched."""
+        ...
+
+    async def execute(self, command: Command, listener: Listener, /) -> None:
+        """Carry out one command and answer its listener.
+
+        Raises:
+            StudioError: It cannot be done.
+        """
+        ...

@@ -1,0 +1,88 @@
+from dataclasses import replace
+
+import pytest
+
+from studio.errors import CommandError
+from studio.live.displays.display_list import DISPLAYS_MAX, DisplayList
+
+
+def names(displays: DisplayList) -> list[str]:
+    return [one.name for one in displays]
+
+
+def three() -> DisplayList:
+    displays = DisplayList()
+    for kind in ("LaserScan", "Path", "Map"):
+        displays.add(kind)
+    return displays
+
+
+def test_each_is_named_after_its_kind_and_the_next_of_its_kind_is_numbered():
+    displays = three()
+    displays.add("Path")
+    displays.add("Path")
+    assert names(displays) == ["LaserScan", "Path", "Map", "Path 2", "Path 3"]
+
+
+def test_a_copy_stands_behind_what_it_was_made_of_and_has_its_settings():
+    displays = three()
+    path = next(one for one in displays if one.kind == "Path")
+    displays.change(replace(path, topic="/plan", values={"Alpha": 0.5}, name="Plan"))
+    copy = displays.duplicate(path.id)
+    assert names(displays) == ["LaserScan", "Plan", "Plan 2", "Map"]
+    assert (copy.topic, copy.values) == ("/plan", {"Alpha": 0.5})
+    assert copy.id != path.id
+
+
+def test_one_is_moved_before_another_and_to_the_end():
+    displays = three()
+    scan, _, grid = (one.id for one in displays)
+    displays.move(grid, scan)
+    assert names(displays) == ["Map", "LaserScan", "Path"]
+    displays.move(grid, "")
+    assert names(displays) == ["LaserScan", "Path", "Map"]
+    displays.move(scan, scan)
+    assert names(displays) == ["LaserScan", "Path", "Map"]
+
+
+def test_what_was_removed_is_not_there_any_more_and_its_id_is_not_given_again():
+    displays = three()
+    scan = next(iter(displays)).id
+    displays.remove(scan)
+    assert displays.add("Range").id != scan
+    with pytest.raises(CommandError, match="not there any more"):
+        displays.remove(scan)
+    with pytest.raises(CommandError, match="not there any more"):
+        displays.move("d2", "d99")
+    assert names(displays) == ["Path", "Map", "Range"]
+
+
+def test_a_group_is_hidden_as_a_whole_and_its_displays_stay_as_they_were():
+    displays = three()
+    path = next(one for one in displays if one.kind == "Path")
+    displays.change(replace(path, group="Planning"))
+    displays.switch_group("Planning", shown=False)
+    assert [displays.is_shown(one) for one in displays] == [True, False, True]
+    assert displays.groups_off == ("Planning",)
+    displays.switch_group("Planning", shown=True)
+    assert all(displays.is_shown(one) for one in displays)
+    with pytest.raises(CommandError, match="no group"):
+        displays.switch_group("Driving", shown=False)
+
+
+def test_a_group_that_nothing_is_in_any_more_is_not_told_as_hidden():
+    displays = three()
+    path = next(one for one in displays if one.kind == "Path")
+    displays.change(replace(path, group="Planning"))
+    displays.switch_group("Planning", shown=False)
+    displays.remove(path.id)
+    assert displays.groups_off == ()
+
+
+def test_there_is_an_end_to_adding():
+    displays = DisplayList()
+    for _ in range(DISPLAYS_MAX):
+        displays.add("Path")
+    assert len(displays) == DISPLAYS_MAX
+    with pytest.raises(CommandError, match="remove one first"):
+        displays.duplicate("d1")

@@ -1,0 +1,152 @@
+from dataclasses import replace
+
+import pytest
+from pydantic import TypeAdapter
+
+from studio.displays.display import Status
+from studio.errors import ExtrapolationError, UnconnectedFramesError, UnknownFrameError
+from studio.live.displays.display_list import DisplaySpec
+from studio.live.displays.reasons import Facts, OnWire, remarks_on
+from studio.protocol.live import LiveCommand
+from studio.protocol.wire import WireCommand
+
+COMMANDS: TypeAdapter[LiveCommand | WireCommand] = TypeAdapter(LiveCommand | WireCommand)
+SCAN = "sensor_msgs/msg/LaserScan"
+SPEC = DisplaySpec("d1", "LaserScan", "Front", "/scan")
+WELL = Facts(
+    SPEC,
+    types=(SCAN,),
+    wire=OnWire(connected=True, publishers=1, types=(SCAN,)),
+    heard=7,
+    draws=True,
+)
+NEAREST = UnconnectedFramesError("odom", "laser", "base")
+GROUPED = replace(SPEC, group="Sensors")
+CLOUD = "sensor_msgs/msg/PointCloud2"
+EMPTY = Status("warn", "transparent", "Its alpha is 0.", ("Alpha", 1.0))
+
+APART = Status("error", "not_connected_frame", "Nothing connects a with mop.")
+
+
+def mended_by(name: str, value: bool | str) -> Status:
+    return Status("warn", "empty", "Nothing of it is seen.", (name, value))
+
+
+def test_of_a_display_that_shows_what_it_should_nothing_else_is_said():
+    assert [one.level for one in remarks_on(WELL)] == ["ok"]
+    assert remarks_on(replace(WELL, draws=False, waits=True)) == ()
+
+
+def test_a_display_that_draws_nothing_for_no_other_reason_says_so():
+    (remark,) = remarks_on(replace(WELL, draws=False))
+    assert (remark.level, remark.reason) == ("warn", "empty")
+    assert remark.sentence == "Messages come on /scan, and there is nothing in them to draw."
+    (remark,) = remarks_on(replace(WELL, draws=False, types=(), heard=0))
+    assert remark.sentence == "There is nothing to draw."
+
+
+def test_a_router_that_is_gone_is_named_before_all_that_follows_from_it():
+    (remark,) = remarks_on(replace(WELL, wire=OnWire(connected=True, lost=True), heard=0))
+    assert (remark.reason, remark.mend) == ("connection_lost", None)
+
+
+@pytest.mark.parametrize(
+    ("facts", "reason", "words"),
+    [
+        (replace(WELL, spec=replace(SPEC, topic="")), "no_topic", "choose one"),
+        (replace(WELL, wire=OnWire()), "not_connected", "no connection"),
+        (replace(WELL, trouble="No type x.", heard=0), "not_heard", "No type x."),
+        (replace(WELL, wire=OnWire(True)), "no_publisher", "Nobody publishes /scan"),
+        (
+            replace(WELL, wire=OnWire(True, 1, (CLOUD,)), fitting_kind="PointCloud2", heard=0),
+            "other_type",
+            "is published as sensor_msgs/msg/PointCloud2",
+        ),
+        (replace(WELL, wire=OnWire(True, 1, ("a/msg/B",)), heard=0), "other_type", "another topic"),
+        (
+            replace(WELL, wire=OnWire(True, 1, (SCAN,), foreign_hash=True), heard=0),
+            "other_hash",
+            "of another form",
+        ),
+        (replace(WELL, heard=0), "no_message", "yet"),
+        (replace(WELL, silent_s=12.3), "silent", "12 s ago"),
+        (replace(WELL, frames=(NEAREST,)), "not_connected_frame", "No chain"),
+        (replace(WELL, frames=(UnknownFrameError("laser"),)), "no_frame", "tells of the frame"),
+        (replace(WELL, frames=(UnknownFrameError(""),)), "no_frame_id", "without a frame"),
+        (
+            replace(
+                WELL, frames=(ExtrapolationError("laser", 9 * 10**9, 0, 10**9),), frame="laser"
+            ),
+            "stamp_out_of_buffer",
+            "8.000 s newer",
+        ),
+        (replace(WELL, stamp_zero=True), "stamp_zero", "time 0"),
+        (replace(WELL, statuses=(EMPTY,)), "transparent", "alpha is 0"),
+        (replace(WELL, spec=GROUPED, shown=False), "group_off", "hidden as a whole"),
+    ],
+)
+def test_each_reason_is_one_sentence(facts: Facts, reason: str, words: str):
+    (remark,) = remarks_on(facts)
+    assert remark.reason == reason
+    assert words in remark.sentence
+    assert remark.sentence.endswith((".", "?"))
+
+
+@pytest.mark.parametrize(
+    ("facts", "label"),
+    [
+        (replace(WELL, wire=OnWire()), "Connect"),
+        (
+            replace(WELL, wire=OnWire(True, 1, (CLOUD,)), fitting_kind="PointCloud2"),
+            "Add a PointCloud2 for it",
+        ),
+        (
+            replace(WELL, spec=replace(SPEC, topic=""), instead="/scan"),
+            "Listen to /scan",
+        ),
+        (replace(WELL, wire=OnWire(True), instead="/front/scan"), "Listen to /front/scan"),
+        (replace(WELL, frames=(NEAREST,)), "Draw everything in base"),
+        (
+            replace(WELL, frames=(ExtrapolationError("a", 1, 2, 3),), frame="map"),
+            "Draw everything in map",
+        ),
+        (
+            replace(WELL, frames=(UnknownFrameError("odom"),), frame="laser"),
+            "Draw everything in laser",
+        ),
+        (replace(WELL, statuses=(EMPTY,)), "Set Alpha to 1"),
+        (replace(WELL, statuses=(mended_by("Show Axes", value=True),)), "Switch on Show Axes"),
+        (replace(WELL, statuses=(mended_by("Covariance", value=False),)), "Switch off Covariance"),
+        (replace(WELL, statuses=(mended_by("Filter", ""),)), "Clear Filter"),
+        (replace(WELL, statuses=(mended_by("Shape", "Axes"),)), "Set Shape to Axes"),
+        (replace(WELL, statuses=(APART,), frame="odom"), "Draw everything in odom"),
+        (replace(WELL, spec=GROUPED, shown=False), "Show Sensors"),
+    ],
+)
+def test_the_click_that_mends_it_is_a_command_as_the_page_sends_it(facts: Facts, label: str):
+    mend = remarks_on(facts)[0].mend
+    assert mend is not None
+    assert mend.label == label
+    assert COMMANDS.validate_python(mend.command).type == mend.command["type"]
+
+
+def test_of_a_display_that_somebody_switched_off_nothing_is_said():
+    assert remarks_on(replace(WELL, spec=replace(SPEC, enabled=False), shown=False)) == ()
+
+
+def test_one_that_was_heard_before_and_is_not_any_more_says_what_else_is_in_the_way():
+    facts = replace(WELL, wire=OnWire(True), statuses=(EMPTY,))
+    assert [one.reason for one in remarks_on(facts)] == ["no_publisher", "transparent"]
+
+
+def test_of_a_robot_without_any_frame_the_first_are_told_and_how_many_more_there_are():
+    links = tuple(UnknownFrameError(f"link{number}") for number in range(40))
+    remarks = remarks_on(replace(WELL, draws=False, frames=links, statuses=(EMPTY,)))
+    assert [one.sentence for one in remarks[:3]] == [str(error) for error in links[:3]]
+    assert remarks[3].sentence == "37 more of its frames have no place in the fixed frame."
+    assert remarks[4].reason == "transparent"
+
+
+def test_where_no_frame_would_help_none_is_offered():
+    lost = replace(WELL, frames=(UnknownFrameError("laser"),), statuses=(APART,))
+    assert [one.mend for one in remarks_on(lost)] == [None, None]

@@ -1,0 +1,60 @@
+"""What nodes say on /rosout, heard while there is a connection."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import TYPE_CHECKING
+
+import pytest
+
+from studio.live.connection.desk import WireDesk
+from studio.live.panels.logs import LogDesk
+from studio.protocol.logs import GetLog
+from studio.settings import WireChoice
+from tests.support.wire import PATIENCE_S
+
+if TYPE_CHECKING:
+    from studio.protocol.logs import LogAnswer
+    from studio.ros.client import Node
+
+pytestmark = pytest.mark.network
+
+
+async def until_said(desk: LogDesk, text: str) -> LogAnswer:
+    async with asyncio.timeout(PATIENCE_S):
+        while True:
+            answer = await desk.log(GetLog())
+            if any(one.text == text for one in answer.lines):
+                return answer
+            await asyncio.sleep(0.02)
+
+
+def test_it_is_heard_from_the_first_question_on_with_what_was_said_before(
+    endpoint: str, tester: Node
+):
+    async def run() -> None:
+        wire = WireDesk(WireChoice("off", (endpoint,)))
+        desk = LogDesk(wire)
+        try:
+            before = await desk.log(GetLog(request=3))
+            assert (before.request, before.connected, before.lines) == (3, False, ())
+            tester.get_logger().warning("said before")
+            await wire.link()
+            answer = await until_said(desk, "said before")
+            (line,) = (one for one in answer.lines if one.text == "said before")
+            assert (line.node, line.level) == (tester.get_name(), 30)
+            tester.get_logger().error("said after")
+            newer = await until_said(desk, "said after")
+            assert newer.last > answer.last
+            await desk.let_go()
+            await wire.disconnect()
+            kept = await desk.log(GetLog(after=line.number))
+            assert not kept.connected
+            assert "said after" in [one.text for one in kept.lines]
+            await wire.link()
+            tester.get_logger().info("heard again")
+            await until_said(desk, "heard again")
+        finally:
+            await wire.close()
+
+    asyncio.run(run())

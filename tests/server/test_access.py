@@ -1,0 +1,88 @@
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, get_args
+
+import pytest
+from viser import _messages as viser_messages  # pyright: ignore[reportPrivateUsage]
+
+from studio.errors import NotAllowedError
+from studio.protocol import Command
+from studio.protocol.roles import Role
+from studio.scene import VIEWER_MESSAGES
+from studio.server.access import PUBLIC_ROUTES, ROUTE_DEEDS, demand, may
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+COMMANDS = sorted(kind.model_fields["type"].default for kind in get_args(get_args(Command)[0]))
+VIEWER_COMMANDS = {
+    *("get_managed", "get_diagnostics"),
+    *("get_lessons", "get_demos", "get_demo_output", "get_demo_code"),
+    *("watch", "get_urdf", "get_text", "get_origin", "get_effects"),
+    *("get_outline", "look_up", "get_references"),
+    *("get_frames", "get_masses", "get_display_kinds", "get_topics", "get_tf"),
+    "follow_frame",
+    "get_topic_rates",
+    *("get_services", "get_actions", "read_values", "follow_deeds", "get_goal_statuses"),
+    *("get_parameter_nodes", "get_parameters", "dump_parameters", "follow_parameters"),
+    *(
+        "find_texts",
+        "get_urdf_changes",
+        "get_interface",
+        "list_interfaces",
+        "get_log",
+        "get_graph",
+        "get_node",
+    ),
+    *("list_topics", "get_topic_ends"),
+}
+CLIENT_MESSAGES = {
+    "ViewerCameraMessage",
+    "SceneNodeClickMessage",
+    "SceneNodeDragMessage",
+    "ScenePointerMessage",
+    "TransformControlsDragStartMessage",
+    "TransformControlsUpdateMessage",
+    "TransformControlsDragEndMessage",
+    "GetRenderResponseMessage",
+}
+
+
+def all_viser_messages() -> Iterator[str]:
+    waiting: list[type] = [viser_messages.Message]
+    while waiting:
+        kind = waiting.pop()
+        waiting.extend(kind.__subclasses__())
+        yield kind.__name__
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_the_presenter_may_every_command_and_a_viewer_only_look(command: str):
+    assert may(Role.PRESENTER, command)
+    assert may(Role.VIEWER, command) == (command in VIEWER_COMMANDS)
+    assert not may(None, command)
+
+
+@pytest.mark.parametrize("message", sorted(set(all_viser_messages())))
+def test_of_visers_messages_a_viewer_sends_the_camera_and_nobody_opens_a_tunnel(message: str):
+    assert may(Role.PRESENTER, f"viser:{message}") == (message in CLIENT_MESSAGES)
+    assert may(Role.VIEWER, f"viser:{message}") == (message in VIEWER_MESSAGES)
+
+
+def test_the_table_names_no_message_that_viser_does_not_have():
+    assert set(all_viser_messages()) >= CLIENT_MESSAGES
+
+
+@pytest.mark.parametrize("deed", ["", "unknown route", "Save", "save ", "viser:", "viser:save"])
+def test_what_the_table_does_not_name_nobody_may(deed: str):
+    assert not any(may(role, deed) for role in Role)
+
+
+def test_a_refusal_says_who_may_not_do_what():
+    with pytest.raises(NotAllowedError, match="A viewer may not edit site: ask the presenter"):
+        demand(Role.VIEWER, "edit_site")
+    demand(Role.PRESENTER, "edit_site")
+
+
+def test_public_routes_are_no_deeds():
+    assert not PUBLIC_ROUTES & ROUTE_DEEDS.keys()

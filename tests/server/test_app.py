@@ -1,0 +1,195 @@
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, get_args
+
+import pytest
+from fastapi import FastAPI
+from websockets.exceptions import InvalidStatus
+
+from studio.protocol import Command
+from studio.protocol.roles import Role
+from studio.scene import SUBPROTOCOL
+from studio.server.access import PUBLIC_ROUTES, ROUTE_DEEDS, may
+from studio.server.api import Api
+from studio.server.assets import Assets
+from studio.server.credentials import Credentials
+from studio.server.exports import Exports
+from studio.server.log_out import LogOut
+from studio.server.site import Site
+from studio.server.uploads import Uploads
+from tests.support.small_engine import URDF, SmallEngine
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from pydantic import BaseModel
+
+    from tests.support.web_server import RunningWeb
+
+SOCKETS = {"/data", "/control", "/d/{document}/viser"}
+POSTS = {"/api/commands", "/api/uploads", "/api/log-out"}
+STREAMS = {"/bulk"}
+"""They belong to a websocket, and are walked where they are tested."""
+
+
+def test_every_route_is_in_the_table_and_the_table_names_no_other(assets_folder: Path):
+    app = FastAPI(openapi_url=None, docs_url=None, redoc_url=None)
+    engine = SmallEngine()
+    Site(engine, Assets(assets_folder), "session").add_to(app)
+    app.include_router(Api(engine, "session").router())
+    app.include_router(Exports(engine).router())
+    app.include_router(Uploads(engine).router())
+    app.include_router(LogOut(Credentials(None, b"")).router())
+    found = {path for route in app.routes for path in _paths(route)}
+    assert found | {"/api/openapi.json"} == ROUTE_DEEDS.keys() | PUBLIC_ROUTES
+
+
+def _paths(route: object) -> set[str]:
+    """The paths of a route, or of the router that was included in its place."""
+    router = getattr(route, "original_router", None)
+    return {getattr(one, "path", "") for one in (router.routes if router else [route])}
+
+
+@pytest.mark.parametrize("path", sorted(ROUTE_DEEDS.keys() - SOCKETS - POSTS - STREAMS))
+def test_every_route_answers_each_role_as_the_table_says(web: RunningWeb, path: str):
+    for role in Role:
+        with web.client(role) as client:
+            answer = client.get(path.format(document="small"))
+            assert (answer.status_code < 400) == may(role, ROUTE_DEEDS[path])
+    with web.client() as client:
+        assert client.get(path.format(document="small")).status_code == 403
+
+
+@pytest.mark.parametrize("path", sorted(SOCKETS))
+def test_every_websocket_opens_for_each_role_as_the_table_says(web: RunningWeb, path: str):
+    for role in Role:
+        assert may(role, ROUTE_DEEDS[path])
+        address = path.format(document="small")
+        with web.websocket(address, role, subprotocols=(SUBPROTOCOL,)) as lane:
+            assert lane.response is not None
+
+
+FIELDS: dict[str, object] = {
+    **dict.fromkeys(("path", "part", "site", "text", "name", "value", "folder"), "x"),
+    **dict.fromkeys(("file", "link", "new_name", "code", "sentence", "label", "key"), "x"),
+    "values": {"x": "1"},
+    "keep": "mine",
+    "position": 0,
+    "of": 0,
+    "version": 0,
+    "offset": 0,
+    "count": 1,
+    "replacement": "x",
+    "changes": [{"start": 0, "end": 0, "text": "x"}],
+    "positions": {},
+    "running": True,
+    "display": "grid",
+    "template": "rover",
+    "source": "sliders",
+    **dict.fromkeys(("kind", "topic", "frame"), "x"),
+    "enabled": True,
+    "texts": {"x": "x"},
+    "topics": ["/x"],
+    "service_type": "x/srv/X",
+    "deed": 1,
+    "node": "/x",
+    "transition": 1,
+    **dict.fromkeys(("action_type", "message_type", "type_name"), "x/msg/X"),
+    "used_by": "topic",
+    "deeds": "calls",
+    "demo": "talker",
+    "pressed": "up",
+}
+"""A value for each field that a command needs."""
+
+
+@pytest.mark.parametrize("kind", get_args(get_args(Command)[0]))
+def test_every_command_by_rest_is_asked_of_the_same_table(web: RunningWeb, kind: type[BaseModel]):
+    command = {name: FIELDS[name] for name in kind.model_fields.keys() & FIELDS.keys()}
+    deed: str = kind.model_fields["type"].default
+    command |= {"type": deed, "document": "small"}
+    web.engine.go_on.set()
+    for role in Role:
+        with web.client(role) as client:
+            answer = client.post("/api/commands", content=json.dumps(command))
+            refused_by_table = answer.json().get("kind") == "NotAllowedError"
+            assert answer.status_code != 422, answer.text
+            assert refused_by_table == (not may(role, deed))
+            assert (answer.status_code == 403) == refused_by_table
+
+
+def test_the_root_leads_to_the_default_document(web: RunningWeb):
+    with web.client(Role.VIEWER) as client:
+        answer = client.get("/")
+        assert (answer.status_code, answer.headers["location"]) == (303, "/d/small")
+
+
+def test_the_root_is_the_page_while_nothing_is_open(web: RunningWeb):
+    web.engine.default_document = None
+    try:
+        with web.client(Role.VIEWER) as client:
+            answer = client.get("/")
+            assert answer.status_code == 200
+            assert 'src="/a/' in answer.text
+    finally:
+        web.engine.default_document = "small"
+
+
+@pytest.mark.parametrize("path", ["/d/gone", "/d/%3Cscript%3E", "/d/gone/viser/", "/no/such"])
+def test_an_unknown_address_says_so_and_links_home(web: RunningWeb, path: str):
+    with web.client(Role.VIEWER, {"accept": "text/html"}) as client:
+        answer = client.get(path)
+        assert answer.status_code == 404
+        assert '<a href="/">' in answer.text
+        assert "<script" not in answer.text
+    with web.client(Role.VIEWER) as client:
+        assert client.get(path).json()["reason"]
+
+
+def test_a_websocket_behind_which_nothing_is_does_not_open(web: RunningWeb):
+    with pytest.raises(InvalidStatus) as refused, web.websocket("/d/gone/viser"):
+        pass
+    assert refused.value.response.status_code == 404
+
+
+def test_the_urdf_comes_as_a_file(web: RunningWeb):
+    with web.client(Role.VIEWER) as client:
+        answer = client.get("/api/documents/small/urdf")
+        assert answer.text == URDF
+        assert answer.headers["content-type"] == "application/xml"
+        assert answer.headers["content-disposition"] == 'attachment; filename="robot.urdf"'
+        gone = client.get("/api/documents/gone/urdf")
+        assert (gone.status_code, gone.json()["kind"]) == (404, "UnknownDocumentError")
+
+
+def test_a_command_by_rest_brings_its_events(web: RunningWeb):
+    with web.client(Role.PRESENTER) as client:
+        command = '{"type": "get_urdf", "document": "small", "request": 5}'
+        assert client.post("/api/commands", content=command).json() == {
+            "events": [
+                {"type": "urdf", "request": 5, "text": URDF},
+                {"type": "done", "request": 5},
+            ]
+        }
+        refused = client.post("/api/commands", content='{"type": "save", "document": "small"}')
+        assert (refused.status_code, refused.json()["kind"]) == (409, "SaveConflictError")
+
+
+@pytest.mark.parametrize("body", ["", "{}", '{"type":"no"}', "[" * 10_000, "x" * (2 << 20)])
+def test_a_malformed_command_by_rest_is_a_sentence(web: RunningWeb, body: str):
+    with web.client(Role.PRESENTER) as client:
+        answer = client.post("/api/commands", content=body)
+        assert (answer.status_code, answer.json()["kind"]) == (422, "CommandError")
+
+
+def test_the_documents_are_listed(web: RunningWeb):
+    with web.client(Role.VIEWER) as client:
+        assert client.get("/api/documents").json()["documents"][0]["id"] == "small"
+    assert not web.engine.listeners
+
+
+def test_no_page_of_the_framework_is_there(web: RunningWeb):
+    with web.client(Role.PRESENTER) as client:
+        for path in ("/docs", "/redoc", "/openapi.json", "/docs/oauth2-redirect"):
+            assert client.get(path).status_code == 404
