@@ -1,1 +1,1 @@
-"""The ROS system in the studio: its connection, topics, displays at work, calls, goals, parameters."""
+"""The ROS system in the studio: its connection, topics, displays, calls, goals and parameters."""
