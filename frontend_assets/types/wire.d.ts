@@ -12,6 +12,7 @@ export interface Actions {
 export interface AddDisplay {
   request?: number;
   document?: string;
+  id?: string;
   type: "add_display";
   kind: string;
   topic?: string;
@@ -25,6 +26,7 @@ export interface AddDisplay {
 export interface AddInterfaces {
   request?: number;
   document?: string;
+  id?: string;
   type: "add_interfaces";
   texts: Record<string, string>;
 }
@@ -40,6 +42,7 @@ export interface AddedInterface {
 export interface AnimateJoints {
   request?: number;
   document?: string;
+  id?: string;
   type: "animate_joints";
   running: boolean;
 }
@@ -52,6 +55,7 @@ export interface AnimateJoints {
 export interface ApplyFix {
   request?: number;
   document?: string;
+  id?: string;
   type: "apply_fix";
   code: string;
   sentence: string;
@@ -62,6 +66,7 @@ export interface ApplyFix {
 export interface ApplyPose {
   request?: number;
   document?: string;
+  id?: string;
   type: "apply_pose";
   key: string;
   duration_s?: number;
@@ -71,6 +76,7 @@ export interface ApplyPose {
 export interface ApplyVariant {
   request?: number;
   document?: string;
+  id?: string;
   type: "apply_variant";
   name: string;
 }
@@ -100,6 +106,7 @@ export interface Arguments {
 export interface ArrangeDisplay {
   request?: number;
   document?: string;
+  id?: string;
   type: "arrange_display";
   display: string;
   name?: string | null;
@@ -128,6 +135,7 @@ export interface Built {
 export interface CallService {
   request?: number;
   document?: string;
+  id?: string;
   type: "call_service";
   name: string;
   service_type: string;
@@ -160,6 +168,7 @@ export interface Calls {
 export interface CancelCall {
   request?: number;
   document?: string;
+  id?: string;
   type: "cancel_call";
   deed: number;
 }
@@ -168,6 +177,7 @@ export interface CancelCall {
 export interface CancelGoal {
   request?: number;
   document?: string;
+  id?: string;
   type: "cancel_goal";
   deed: number;
 }
@@ -176,6 +186,7 @@ export interface CancelGoal {
 export interface ChangeState {
   request?: number;
   document?: string;
+  id?: string;
   type: "change_state";
   node: string;
   transition: number;
@@ -193,6 +204,7 @@ export interface Changes {
 export interface ChoosePackage {
   request?: number;
   document?: string;
+  id?: string;
   type: "choose_package";
   name: string;
   folder: string;
@@ -202,6 +214,7 @@ export interface ChoosePackage {
 export interface CloseDocument {
   request?: number;
   document?: string;
+  id?: string;
   type: "close_document";
   discard?: boolean;
 }
@@ -234,6 +247,7 @@ export interface Collisions {
 export interface CompareVariants {
   request?: number;
   document?: string;
+  id?: string;
   type: "compare_variants";
   sides?: [Side, Side] | null;
 }
@@ -254,6 +268,7 @@ export interface Comparison {
 export interface Complete {
   request?: number;
   document?: string;
+  id?: string;
   file: string;
   offset: number;
   type: "complete";
@@ -292,6 +307,7 @@ export interface CompletionsAnswer {
 export interface ConnectWire {
   request?: number;
   document?: string;
+  id?: string;
   address?: string;
   domain?: number | null;
   distro?: "" | "humble" | "jazzy" | "kilted";
@@ -310,6 +326,7 @@ export interface ConstantView {
 export interface DeletePose {
   request?: number;
   document?: string;
+  id?: string;
   type: "delete_pose";
   name: string;
 }
@@ -318,6 +335,7 @@ export interface DeletePose {
 export interface DeleteVariant {
   request?: number;
   document?: string;
+  id?: string;
   type: "delete_variant";
   name: string;
 }
@@ -404,6 +422,7 @@ export interface DifferenceView {
 export interface DiscardRestored {
   request?: number;
   document?: string;
+  id?: string;
   type: "discard_restored";
 }
 
@@ -411,6 +430,7 @@ export interface DiscardRestored {
 export interface DisconnectWire {
   request?: number;
   document?: string;
+  id?: string;
   type: "disconnect_wire";
 }
 
@@ -524,6 +544,7 @@ export interface Done {
 export interface Drive {
   request?: number;
   document?: string;
+  id?: string;
   type: "drive";
   topic: string;
   stamped?: boolean;
@@ -536,6 +557,7 @@ export interface Drive {
 export interface DumpParameters {
   request?: number;
   document?: string;
+  id?: string;
   type: "dump_parameters";
   node: string;
 }
@@ -544,6 +566,7 @@ export interface DumpParameters {
 export interface DuplicateDisplay {
   request?: number;
   document?: string;
+  id?: string;
   type: "duplicate_display";
   display: string;
 }
@@ -552,6 +575,7 @@ export interface DuplicateDisplay {
 export interface EditSite {
   request?: number;
   document?: string;
+  id?: string;
   type: "edit_site";
   site: string;
   text: string;
@@ -568,6 +592,7 @@ export interface EditSite {
 export interface EditText {
   request?: number;
   document?: string;
+  id?: string;
   type: "edit_text";
   file: string;
   version: number;
@@ -602,6 +627,7 @@ export interface EndView {
 export interface ExamineWire {
   request?: number;
   document?: string;
+  id?: string;
   address?: string;
   domain?: number | null;
   distro?: "" | "humble" | "jazzy" | "kilted";
@@ -654,6 +680,7 @@ export interface FileChanges {
 export interface FindTexts {
   request?: number;
   document?: string;
+  id?: string;
   text: string;
   match_case?: boolean;
   whole_word?: boolean;
@@ -664,6 +691,7 @@ export interface FindTexts {
 export interface FindWireRobots {
   request?: number;
   document?: string;
+  id?: string;
   type: "find_wire_robots";
 }
 
@@ -703,6 +731,7 @@ export interface FolderEntry {
 export interface FollowDeeds {
   request?: number;
   document?: string;
+  id?: string;
   type: "follow_deeds";
   deeds: "calls" | "goals" | "publications";
   following?: boolean;
@@ -712,6 +741,7 @@ export interface FollowDeeds {
 export interface FollowFrame {
   request?: number;
   document?: string;
+  id?: string;
   type: "follow_frame";
   frame: string;
 }
@@ -720,6 +750,7 @@ export interface FollowFrame {
 export interface FollowParameters {
   request?: number;
   document?: string;
+  id?: string;
   type: "follow_parameters";
   node?: string;
 }
@@ -728,6 +759,7 @@ export interface FollowParameters {
 export interface ForgetRecent {
   request?: number;
   document?: string;
+  id?: string;
   type: "forget_recent";
   path: string;
 }
@@ -736,6 +768,7 @@ export interface ForgetRecent {
 export interface ForgetWork {
   request?: number;
   document?: string;
+  id?: string;
   type: "forget_work";
   path: string;
 }
@@ -782,6 +815,7 @@ export interface Frames {
 export interface GetActions {
   request?: number;
   document?: string;
+  id?: string;
   type: "get_actions";
 }
 
@@ -789,6 +823,7 @@ export interface GetActions {
 export interface GetArguments {
   request?: number;
   document?: string;
+  id?: string;
   type: "get_arguments";
   path?: string;
 }
@@ -797,6 +832,7 @@ export interface GetArguments {
 export interface GetChanges {
   request?: number;
   document?: string;
+  id?: string;
   type: "get_changes";
 }
 
@@ -804,6 +840,7 @@ export interface GetChanges {
 export interface GetCollisions {
   request?: number;
   document?: string;
+  id?: string;
   type: "get_collisions";
   file: string;
 }
@@ -812,6 +849,7 @@ export interface GetCollisions {
 export interface GetDemoCode {
   request?: number;
   document?: string;
+  id?: string;
   type: "get_demo_code";
   demo: string;
 }
@@ -820,6 +858,7 @@ export interface GetDemoCode {
 export interface GetDemoOutput {
   request?: number;
   document?: string;
+  id?: string;
   type: "get_demo_output";
   demo: string;
   run?: number;
@@ -830,6 +869,7 @@ export interface GetDemoOutput {
 export interface GetDemos {
   request?: number;
   document?: string;
+  id?: string;
   type: "get_demos";
 }
 
@@ -837,6 +877,7 @@ export interface GetDemos {
 export interface GetDiagnostics {
   request?: number;
   document?: string;
+  id?: string;
   type: "get_diagnostics";
 }
 
@@ -844,6 +885,7 @@ export interface GetDiagnostics {
 export interface GetDisplayKinds {
   request?: number;
   document?: string;
+  id?: string;
   type: "get_display_kinds";
 }
 
@@ -851,6 +893,7 @@ export interface GetDisplayKinds {
 export interface GetEffects {
   request?: number;
   document?: string;
+  id?: string;
   type: "get_effects";
   site: string;
 }
@@ -859,6 +902,7 @@ export interface GetEffects {
 export interface GetFrames {
   request?: number;
   document?: string;
+  id?: string;
   type: "get_frames";
 }
 
@@ -866,6 +910,7 @@ export interface GetFrames {
 export interface GetGoalStatuses {
   request?: number;
   document?: string;
+  id?: string;
   type: "get_goal_statuses";
   name: string;
 }
@@ -874,6 +919,7 @@ export interface GetGoalStatuses {
 export interface GetGraph {
   request?: number;
   document?: string;
+  id?: string;
   type: "get_graph";
   known?: number;
 }
@@ -882,6 +928,7 @@ export interface GetGraph {
 export interface GetInterface {
   request?: number;
   document?: string;
+  id?: string;
   type: "get_interface";
   name: string;
   with_text?: boolean;
@@ -891,6 +938,7 @@ export interface GetInterface {
 export interface GetLessons {
   request?: number;
   document?: string;
+  id?: string;
   type: "get_lessons";
 }
 
@@ -898,6 +946,7 @@ export interface GetLessons {
 export interface GetLink {
   request?: number;
   document?: string;
+  id?: string;
   type: "get_link";
 }
 
@@ -905,6 +954,7 @@ export interface GetLink {
 export interface GetLog {
   request?: number;
   document?: string;
+  id?: string;
   type: "get_log";
   after?: number;
 }
@@ -913,6 +963,7 @@ export interface GetLog {
 export interface GetManaged {
   request?: number;
   document?: string;
+  id?: string;
   type: "get_managed";
 }
 
@@ -920,6 +971,7 @@ export interface GetManaged {
 export interface GetMasses {
   request?: number;
   document?: string;
+  id?: string;
   type: "get_masses";
 }
 
@@ -927,6 +979,7 @@ export interface GetMasses {
 export interface GetNode {
   request?: number;
   document?: string;
+  id?: string;
   type: "get_node";
   name: string;
 }
@@ -935,6 +988,7 @@ export interface GetNode {
 export interface GetOrigin {
   request?: number;
   document?: string;
+  id?: string;
   type: "get_origin";
   part: string;
 }
@@ -943,6 +997,7 @@ export interface GetOrigin {
 export interface GetOutline {
   request?: number;
   document?: string;
+  id?: string;
   type: "get_outline";
 }
 
@@ -950,6 +1005,7 @@ export interface GetOutline {
 export interface GetParameterNodes {
   request?: number;
   document?: string;
+  id?: string;
   type: "get_parameter_nodes";
 }
 
@@ -957,6 +1013,7 @@ export interface GetParameterNodes {
 export interface GetParameters {
   request?: number;
   document?: string;
+  id?: string;
   type: "get_parameters";
   node: string;
 }
@@ -965,6 +1022,7 @@ export interface GetParameters {
 export interface GetReferences {
   request?: number;
   document?: string;
+  id?: string;
   file: string;
   offset: number;
   type: "get_references";
@@ -974,6 +1032,7 @@ export interface GetReferences {
 export interface GetRenaming {
   request?: number;
   document?: string;
+  id?: string;
   file: string;
   offset: number;
   type: "get_renaming";
@@ -984,6 +1043,7 @@ export interface GetRenaming {
 export interface GetServices {
   request?: number;
   document?: string;
+  id?: string;
   type: "get_services";
 }
 
@@ -991,6 +1051,7 @@ export interface GetServices {
 export interface GetText {
   request?: number;
   document?: string;
+  id?: string;
   type: "get_text";
   file: string;
 }
@@ -999,6 +1060,7 @@ export interface GetText {
 export interface GetTf {
   request?: number;
   document?: string;
+  id?: string;
   type: "get_tf";
   frame?: string;
   seen_from?: string;
@@ -1009,6 +1071,7 @@ export interface GetTf {
 export interface GetTopicEnds {
   request?: number;
   document?: string;
+  id?: string;
   type: "get_topic_ends";
   topic: string;
 }
@@ -1017,6 +1080,7 @@ export interface GetTopicEnds {
 export interface GetTopicRates {
   request?: number;
   document?: string;
+  id?: string;
   type: "get_topic_rates";
   topics: string[];
 }
@@ -1025,6 +1089,7 @@ export interface GetTopicRates {
 export interface GetTopics {
   request?: number;
   document?: string;
+  id?: string;
   type: "get_topics";
 }
 
@@ -1032,6 +1097,7 @@ export interface GetTopics {
 export interface GetUrdf {
   request?: number;
   document?: string;
+  id?: string;
   type: "get_urdf";
 }
 
@@ -1039,6 +1105,7 @@ export interface GetUrdf {
 export interface GetUrdfChanges {
   request?: number;
   document?: string;
+  id?: string;
   type: "get_urdf_changes";
 }
 
@@ -1279,6 +1346,7 @@ export interface LinkView {
 export interface ListExamples {
   request?: number;
   document?: string;
+  id?: string;
   type: "list_examples";
 }
 
@@ -1286,6 +1354,7 @@ export interface ListExamples {
 export interface ListFolder {
   request?: number;
   document?: string;
+  id?: string;
   type: "list_folder";
   path?: string;
 }
@@ -1294,6 +1363,7 @@ export interface ListFolder {
 export interface ListInterfaces {
   request?: number;
   document?: string;
+  id?: string;
   type: "list_interfaces";
 }
 
@@ -1301,6 +1371,7 @@ export interface ListInterfaces {
 export interface ListPlaces {
   request?: number;
   document?: string;
+  id?: string;
   type: "list_places";
 }
 
@@ -1308,6 +1379,7 @@ export interface ListPlaces {
 export interface ListRecent {
   request?: number;
   document?: string;
+  id?: string;
   type: "list_recent";
 }
 
@@ -1315,6 +1387,7 @@ export interface ListRecent {
 export interface ListTopics {
   request?: number;
   document?: string;
+  id?: string;
   type: "list_topics";
 }
 
@@ -1337,6 +1410,7 @@ export interface LiveDisplays {
 export interface LoadParameters {
   request?: number;
   document?: string;
+  id?: string;
   type: "load_parameters";
   node: string;
   text: string;
@@ -1368,6 +1442,7 @@ export interface LogLine {
 export interface LookUp {
   request?: number;
   document?: string;
+  id?: string;
   file: string;
   offset: number;
   type: "look_up";
@@ -1442,6 +1517,7 @@ export interface Mend {
 export interface MendAll {
   request?: number;
   document?: string;
+  id?: string;
   type: "mend_all";
 }
 
@@ -1465,6 +1541,7 @@ export interface Misfit {
 export interface NewRobot {
   request?: number;
   document?: string;
+  id?: string;
   type: "new_robot";
   template: "blank" | "rover" | "arm";
   name: string;
@@ -1475,6 +1552,7 @@ export interface NewRobot {
 export interface NewUntitled {
   request?: number;
   document?: string;
+  id?: string;
   type: "new_untitled";
   text: string;
 }
@@ -1504,6 +1582,7 @@ export interface OfferView {
 export interface OpenExample {
   request?: number;
   document?: string;
+  id?: string;
   type: "open_example";
   name: string;
   arguments?: Record<string, string>;
@@ -1513,6 +1592,7 @@ export interface OpenExample {
 export interface OpenFromWire {
   request?: number;
   document?: string;
+  id?: string;
   type: "open_from_wire";
   topic?: string;
   node?: string;
@@ -1523,6 +1603,7 @@ export interface OpenFromWire {
 export interface OpenLink {
   request?: number;
   document?: string;
+  id?: string;
   type: "open_link";
   link: string;
 }
@@ -1531,6 +1612,7 @@ export interface OpenLink {
 export interface OpenPath {
   request?: number;
   document?: string;
+  id?: string;
   type: "open_path";
   path: string;
   arguments?: Record<string, string>;
@@ -1540,6 +1622,7 @@ export interface OpenPath {
 export interface OpenRecent {
   request?: number;
   document?: string;
+  id?: string;
   type: "open_recent";
   path: string;
 }
@@ -1768,6 +1851,7 @@ export interface Poses {
 export interface PressKey {
   request?: number;
   document?: string;
+  id?: string;
   type: "press_key";
   demo: string;
   pressed: "up" | "down" | "left" | "right" | "g" | "t" | "r" | "e" | "d" | "c" | "v" | "b" | "f" | "q";
@@ -1849,6 +1933,7 @@ export interface Publications {
 export interface Publish {
   request?: number;
   document?: string;
+  id?: string;
   type: "publish";
   name: string;
   message_type: string;
@@ -1863,6 +1948,7 @@ export interface Publish {
 export interface PublishJoints {
   request?: number;
   document?: string;
+  id?: string;
   type: "publish_joints";
   running: boolean;
 }
@@ -1871,6 +1957,7 @@ export interface PublishJoints {
 export interface PublishRobot {
   request?: number;
   document?: string;
+  id?: string;
   type: "publish_robot";
   running: boolean;
 }
@@ -1879,6 +1966,7 @@ export interface PublishRobot {
 export interface RandomizeJoints {
   request?: number;
   document?: string;
+  id?: string;
   type: "randomize_joints";
 }
 
@@ -1886,6 +1974,7 @@ export interface RandomizeJoints {
 export interface ReadValues {
   request?: number;
   document?: string;
+  id?: string;
   type: "read_values";
   name: string;
   place?: number;
@@ -1912,6 +2001,7 @@ export interface RecentEntry {
 export interface Redo {
   request?: number;
   document?: string;
+  id?: string;
   type: "redo";
 }
 
@@ -1950,6 +2040,7 @@ export interface Refused {
 export interface Reload {
   request?: number;
   document?: string;
+  id?: string;
   type: "reload";
 }
 
@@ -1965,6 +2056,7 @@ export interface Remark {
 export interface RemoveDisplay {
   request?: number;
   document?: string;
+  id?: string;
   type: "remove_display";
   display: string;
 }
@@ -1977,6 +2069,7 @@ export interface RemoveDisplay {
 export interface Rename {
   request?: number;
   document?: string;
+  id?: string;
   file: string;
   offset: number;
   type: "rename";
@@ -1988,6 +2081,7 @@ export interface Rename {
 export interface RenamePose {
   request?: number;
   document?: string;
+  id?: string;
   type: "rename_pose";
   name: string;
   new_name: string;
@@ -1997,6 +2091,7 @@ export interface RenamePose {
 export interface RenameVariant {
   request?: number;
   document?: string;
+  id?: string;
   type: "rename_variant";
   name: string;
   new_name: string;
@@ -2023,6 +2118,7 @@ export interface RenamingAnswer {
 export interface ReplaceTexts {
   request?: number;
   document?: string;
+  id?: string;
   text: string;
   match_case?: boolean;
   whole_word?: boolean;
@@ -2049,6 +2145,7 @@ export interface Replacement {
 export interface ResetSite {
   request?: number;
   document?: string;
+  id?: string;
   type: "reset_site";
   site: string;
 }
@@ -2061,6 +2158,7 @@ export interface ResetSite {
 export interface ResolveCollisions {
   request?: number;
   document?: string;
+  id?: string;
   type: "resolve_collisions";
   file: string;
   keep: "mine" | "theirs";
@@ -2089,6 +2187,7 @@ export interface RobotState {
 export interface Save {
   request?: number;
   document?: string;
+  id?: string;
   type: "save";
   files?: string[] | null;
 }
@@ -2097,6 +2196,7 @@ export interface Save {
 export interface SaveAs {
   request?: number;
   document?: string;
+  id?: string;
   type: "save_as";
   name: string;
   folder?: string;
@@ -2107,6 +2207,7 @@ export interface SaveAs {
 export interface SaveCopy {
   request?: number;
   document?: string;
+  id?: string;
   type: "save_copy";
   file: string;
   path: string;
@@ -2116,6 +2217,7 @@ export interface SaveCopy {
 export interface SavePose {
   request?: number;
   document?: string;
+  id?: string;
   type: "save_pose";
   name: string;
   replace?: boolean;
@@ -2125,6 +2227,7 @@ export interface SavePose {
 export interface SaveVariant {
   request?: number;
   document?: string;
+  id?: string;
   type: "save_variant";
   name: string;
   note?: string;
@@ -2140,6 +2243,7 @@ export interface Saved {
 export interface SendGoal {
   request?: number;
   document?: string;
+  id?: string;
   type: "send_goal";
   name: string;
   action_type: string;
@@ -2158,6 +2262,7 @@ export interface Services {
 export interface SetArgument {
   request?: number;
   document?: string;
+  id?: string;
   type: "set_argument";
   name: string;
   value: string | null;
@@ -2167,6 +2272,7 @@ export interface SetArgument {
 export interface SetArguments {
   request?: number;
   document?: string;
+  id?: string;
   type: "set_arguments";
   values: Record<string, string | null>;
 }
@@ -2175,6 +2281,7 @@ export interface SetArguments {
 export interface SetDisplay {
   request?: number;
   document?: string;
+  id?: string;
   type: "set_display";
   display: "grid" | "robot" | "ghost";
   name: string;
@@ -2185,6 +2292,7 @@ export interface SetDisplay {
 export interface SetDisplayProperty {
   request?: number;
   document?: string;
+  id?: string;
   type: "set_display_property";
   display: string;
   name: string;
@@ -2195,6 +2303,7 @@ export interface SetDisplayProperty {
 export interface SetDisplayTopic {
   request?: number;
   document?: string;
+  id?: string;
   type: "set_display_topic";
   display: string;
   topic: string;
@@ -2207,6 +2316,7 @@ export interface SetDisplayTopic {
 export interface SetFixedFrame {
   request?: number;
   document?: string;
+  id?: string;
   type: "set_fixed_frame";
   frame: string;
 }
@@ -2215,6 +2325,7 @@ export interface SetFixedFrame {
 export interface SetJointSource {
   request?: number;
   document?: string;
+  id?: string;
   type: "set_joint_source";
   source: "sliders" | "animation" | "joint_states" | "tf";
 }
@@ -2223,6 +2334,7 @@ export interface SetJointSource {
 export interface SetJoints {
   request?: number;
   document?: string;
+  id?: string;
   type: "set_joints";
   positions: Record<string, number>;
 }
@@ -2231,6 +2343,7 @@ export interface SetJoints {
 export interface SetParameter {
   request?: number;
   document?: string;
+  id?: string;
   type: "set_parameter";
   node: string;
   name: string;
@@ -2285,6 +2398,7 @@ export interface Sites {
 export interface StartDemo {
   request?: number;
   document?: string;
+  id?: string;
   type: "start_demo";
   demo: string;
 }
@@ -2293,6 +2407,7 @@ export interface StartDemo {
 export interface StopDemo {
   request?: number;
   document?: string;
+  id?: string;
   type: "stop_demo";
   demo: string;
 }
@@ -2301,6 +2416,7 @@ export interface StopDemo {
 export interface StopPublishing {
   request?: number;
   document?: string;
+  id?: string;
   type: "stop_publishing";
   deed?: number;
 }
@@ -2312,6 +2428,7 @@ export type SubjectKind = "property" | "arg" | "parameter" | "block" | "macro" |
 export interface SwitchDisplays {
   request?: number;
   document?: string;
+  id?: string;
   type: "switch_displays";
   display?: string;
   group?: string;
@@ -2469,6 +2586,7 @@ export interface TransitionView {
 export interface Undo {
   request?: number;
   document?: string;
+  id?: string;
   type: "undo";
 }
 
@@ -2476,6 +2594,7 @@ export interface Undo {
 export interface UndoTo {
   request?: number;
   document?: string;
+  id?: string;
   type: "undo_to";
   position: number;
   of: number;
@@ -2485,6 +2604,7 @@ export interface UndoTo {
 export interface UpdateVariant {
   request?: number;
   document?: string;
+  id?: string;
   type: "update_variant";
   name: string;
 }
@@ -2564,6 +2684,7 @@ export interface VolumeView {
 export interface Watch {
   request?: number;
   document?: string;
+  id?: string;
   type: "watch";
 }
 
@@ -2639,216 +2760,217 @@ export interface WireState {
 export interface ZeroJoints {
   request?: number;
   document?: string;
+  id?: string;
   type: "zero_joints";
 }
 
 export type Command =
-  | Watch
-  | OpenPath
-  | CloseDocument
-  | ListFolder
-  | EditSite
-  | ResetSite
-  | ApplyFix
-  | MendAll
-  | SetArgument
-  | Undo
-  | Redo
-  | UndoTo
-  | GetChanges
-  | SaveCopy
-  | DiscardRestored
-  | ForgetWork
-  | Save
-  | Reload
-  | GetCollisions
-  | ResolveCollisions
-  | GetArguments
-  | SetArguments
-  | GetLink
-  | OpenLink
-  | SetJoints
-  | ZeroJoints
-  | RandomizeJoints
-  | AnimateJoints
-  | SetDisplay
-  | ChoosePackage
-  | GetUrdf
-  | GetUrdfChanges
-  | ApplyPose
-  | SavePose
-  | RenamePose
-  | DeletePose
-  | GetRenaming
-  | Rename
-  | FindTexts
-  | ReplaceTexts
-  | ConnectWire
-  | ExamineWire
-  | DisconnectWire
-  | SetJointSource
-  | PublishRobot
-  | PublishJoints
-  | FindWireRobots
-  | OpenFromWire
   | AddDisplay
-  | RemoveDisplay
-  | DuplicateDisplay
-  | ArrangeDisplay
-  | SwitchDisplays
-  | SetDisplayTopic
-  | SetDisplayProperty
-  | SetFixedFrame
-  | GetDisplayKinds
-  | GetTopics
-  | GetTf
-  | FollowFrame
-  | GetText
-  | GetOrigin
-  | GetEffects
-  | GetFrames
-  | GetMasses
-  | EditText
-  | GetOutline
-  | LookUp
-  | GetReferences
-  | Complete
-  | SaveVariant
-  | ApplyVariant
-  | UpdateVariant
-  | RenameVariant
-  | DeleteVariant
-  | CompareVariants
-  | GetInterface
-  | ListInterfaces
   | AddInterfaces
-  | GetLog
-  | GetGraph
-  | GetNode
-  | GetManaged
-  | ChangeState
-  | GetDiagnostics
-  | GetTopicRates
-  | ListTopics
-  | GetTopicEnds
-  | GetServices
-  | GetActions
-  | ReadValues
-  | FollowDeeds
+  | AnimateJoints
+  | ApplyFix
+  | ApplyPose
+  | ApplyVariant
+  | ArrangeDisplay
   | CallService
   | CancelCall
-  | SendGoal
   | CancelGoal
+  | ChangeState
+  | ChoosePackage
+  | CloseDocument
+  | CompareVariants
+  | Complete
+  | ConnectWire
+  | DeletePose
+  | DeleteVariant
+  | DiscardRestored
+  | DisconnectWire
+  | Drive
+  | DumpParameters
+  | DuplicateDisplay
+  | EditSite
+  | EditText
+  | ExamineWire
+  | FindTexts
+  | FindWireRobots
+  | FollowDeeds
+  | FollowFrame
+  | FollowParameters
+  | ForgetRecent
+  | ForgetWork
+  | GetActions
+  | GetArguments
+  | GetChanges
+  | GetCollisions
+  | GetDemoCode
+  | GetDemoOutput
+  | GetDemos
+  | GetDiagnostics
+  | GetDisplayKinds
+  | GetEffects
+  | GetFrames
   | GetGoalStatuses
-  | Publish
-  | StopPublishing
+  | GetGraph
+  | GetInterface
+  | GetLessons
+  | GetLink
+  | GetLog
+  | GetManaged
+  | GetMasses
+  | GetNode
+  | GetOrigin
+  | GetOutline
   | GetParameterNodes
   | GetParameters
-  | SetParameter
-  | DumpParameters
-  | LoadParameters
-  | FollowParameters
-  | Drive
-  | GetLessons
-  | GetDemos
-  | GetDemoOutput
-  | GetDemoCode
-  | StartDemo
-  | StopDemo
-  | PressKey
-  | ListRecent
-  | OpenRecent
-  | ForgetRecent
+  | GetReferences
+  | GetRenaming
+  | GetServices
+  | GetText
+  | GetTf
+  | GetTopicEnds
+  | GetTopicRates
+  | GetTopics
+  | GetUrdf
+  | GetUrdfChanges
   | ListExamples
-  | OpenExample
+  | ListFolder
+  | ListInterfaces
   | ListPlaces
+  | ListRecent
+  | ListTopics
+  | LoadParameters
+  | LookUp
+  | MendAll
   | NewRobot
   | NewUntitled
-  | SaveAs;
+  | OpenExample
+  | OpenFromWire
+  | OpenLink
+  | OpenPath
+  | OpenRecent
+  | PressKey
+  | Publish
+  | PublishJoints
+  | PublishRobot
+  | RandomizeJoints
+  | ReadValues
+  | Redo
+  | Reload
+  | RemoveDisplay
+  | Rename
+  | RenamePose
+  | RenameVariant
+  | ReplaceTexts
+  | ResetSite
+  | ResolveCollisions
+  | Save
+  | SaveAs
+  | SaveCopy
+  | SavePose
+  | SaveVariant
+  | SendGoal
+  | SetArgument
+  | SetArguments
+  | SetDisplay
+  | SetDisplayProperty
+  | SetDisplayTopic
+  | SetFixedFrame
+  | SetJointSource
+  | SetJoints
+  | SetParameter
+  | StartDemo
+  | StopDemo
+  | StopPublishing
+  | SwitchDisplays
+  | Undo
+  | UndoTo
+  | UpdateVariant
+  | Watch
+  | ZeroJoints;
 
 export type Event =
-  | Hello
-  | Done
-  | Refused
-  | Documents
-  | DocumentState
-  | RobotState
-  | JointPositions
-  | Sites
-  | Problems
-  | History
-  | Displays
-  | Progress
-  | Built
-  | Folder
-  | Opened
-  | Urdf
-  | UrdfChanges
-  | Poses
-  | RenamingAnswer
-  | TextsFound
-  | WireState
-  | WireFeed
-  | WireRobots
-  | WireReport
-  | DisplayKinds
-  | LiveDisplays
-  | DisplayStates
-  | Topics
-  | TfFrames
-  | FrameFollowed
-  | Text
-  | TextsChanged
-  | OutlineAnswer
-  | MeaningAnswer
-  | ReferencesAnswer
-  | CompletionsAnswer
-  | DiskMerged
-  | Collisions
+  | Actions
   | Arguments
-  | Link
-  | LinkOpened
-  | Saved
+  | Begun
+  | Built
+  | Calls
   | Changes
-  | Restored
-  | LeftWork
-  | Origin
-  | Effects
-  | Frames
-  | Masses
-  | Variants
-  | VariantApplied
-  | VariantSaved
+  | Collisions
   | Comparison
+  | CompletionsAnswer
+  | DemoCode
+  | DemoOutput
+  | Demos
+  | DiagnosticsAnswer
+  | DiskMerged
+  | DisplayKinds
+  | DisplayStates
+  | Displays
+  | DocumentState
+  | Documents
+  | Done
+  | Effects
+  | Examples
+  | Folder
+  | FrameFollowed
+  | Frames
+  | GoalStatuses
+  | Goals
+  | Gone
+  | GraphAnswer
+  | Hello
+  | History
   | InterfaceAnswer
   | InterfacesAnswer
   | InterfacesAdded
+  | JointPositions
+  | LeftWork
+  | Lessons
+  | Link
+  | LinkOpened
+  | LiveDisplays
   | LogAnswer
-  | GraphAnswer
-  | NodeAnswer
   | ManagedNodes
-  | DiagnosticsAnswer
-  | TopicRates
-  | TopicTable
-  | TopicEnds
-  | Services
-  | Actions
-  | ValuesRead
-  | Begun
-  | Calls
-  | Goals
-  | GoalStatuses
-  | Publications
+  | Masses
+  | MeaningAnswer
+  | NodeAnswer
+  | Opened
+  | Origin
+  | OutlineAnswer
+  | ParameterDump
   | ParameterNodes
   | Parameters
-  | ParameterDump
-  | ParametersLoaded
   | ParametersChanged
-  | Lessons
-  | Demos
-  | DemoOutput
-  | DemoCode
-  | Recent
-  | Examples
+  | ParametersLoaded
   | Places
-  | Gone;
+  | Poses
+  | Problems
+  | Progress
+  | Publications
+  | Recent
+  | ReferencesAnswer
+  | Refused
+  | RenamingAnswer
+  | Restored
+  | RobotState
+  | Saved
+  | Services
+  | Sites
+  | Text
+  | TextsChanged
+  | TextsFound
+  | TfFrames
+  | TopicEnds
+  | TopicRates
+  | TopicTable
+  | Topics
+  | Urdf
+  | UrdfChanges
+  | ValuesRead
+  | VariantApplied
+  | VariantSaved
+  | Variants
+  | WireFeed
+  | WireReport
+  | WireRobots
+  | WireState;

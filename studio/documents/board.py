@@ -4,17 +4,20 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from studio import protocol as m
 from studio.documents.checks.findings import Findings
 from studio.documents.site_book import SiteBook
 from studio.documents.views import RobotViews
+from studio.protocol.documents import DocumentState, Progress
+from studio.protocol.edits import History, Problems
 from studio.protocol.listeners import Audience, Listener, tell
+from studio.protocol.robot import Displays, JointPositions, RobotState
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from studio.documents.document import Document
     from studio.problems import Problem
+    from studio.protocol import Event
 
 
 class Board:
@@ -26,8 +29,8 @@ class Board:
         self._document = document
         self._findings = Findings()
         self._views = RobotViews()
-        self._robot_told: m.RobotState | None = None
-        self._joints_told: m.JointPositions | None = None
+        self._robot_told: RobotState | None = None
+        self._joints_told: JointPositions | None = None
 
     @property
     def found(self) -> tuple[Problem, ...]:
@@ -88,10 +91,10 @@ class Board:
         """Tell how far long work is."""
         label = {"meshes": "Loading meshes", "expand": "Reading the description"}[task]
         self.audience.tell(
-            m.Progress.model_validate({"task": task, "label": label, "done": done, "total": total})
+            Progress.model_validate({"task": task, "label": label, "done": done, "total": total})
         )
 
-    def _snapshot(self) -> Iterable[m.Event]:
+    def _snapshot(self) -> Iterable[Event]:
         yield self._state()
         if self._document.expansion:
             yield self._views.state(self._document.model)
@@ -106,12 +109,12 @@ class Board:
         yield from self._document.live.events()
         yield from self._document.drafts.events()
 
-    def _state(self) -> m.DocumentState:
+    def _state(self) -> DocumentState:
         document = self._document
         expansion, location = document.expansion, document.location
         files = expansion.files if expansion else (document.path,)
         served = location.served
-        return m.DocumentState(
+        return DocumentState(
             id=document.id,
             title=document.title,
             path=document.path,
@@ -125,27 +128,27 @@ class Board:
             phase=document.phase,
         )
 
-    def _joints(self) -> m.JointPositions:
+    def _joints(self) -> JointPositions:
         document = self._document
-        return m.JointPositions(
+        return JointPositions(
             positions=document.model.joints.by_name(), animating=document.motion.swinging
         )
 
-    def _history(self) -> m.History:
+    def _history(self) -> History:
         sources = self._document.sources
-        return m.History(
+        return History(
             undo=sources.undo_labels,
             redo=sources.redo_labels,
             unsaved_files=sources.unsaved_files,
             unsaved_count=sources.unsaved_count,
         )
 
-    def _displays(self) -> m.Displays:
-        return m.Displays(displays=self._document.scene.displays())
+    def _displays(self) -> Displays:
+        return Displays(displays=self._document.scene.displays())
 
-    def _problems(self) -> m.Problems:
+    def _problems(self) -> Problems:
         document = self._document
-        return m.Problems(
+        return Problems(
             problems=self._findings.all(),
             showing_last_good=document.failed and document.expansion is not None,
         )

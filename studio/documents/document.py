@@ -39,7 +39,8 @@ from studio.errors import CommandError
 from studio.live.connection.feed import FeedDesk
 from studio.live.connection.opened_types import take_types
 from studio.live.displays.live_desk import LiveDesk
-from studio.protocol import Built, Saved
+from studio.protocol.edits import Built
+from studio.protocol.files import Saved
 from studio.scene import DocumentScene
 from studio.settings import LOOPBACK_HOSTS
 
@@ -50,8 +51,8 @@ if TYPE_CHECKING:
     from studio.description.values import Edit
     from studio.documents.services import Services
     from studio.packages.workspace import Location
-    from studio.protocol import EditText
     from studio.protocol.listeners import Listener
+    from studio.protocol.texts import EditText
 
 AnyReply = TypeVar("AnyReply")
 

@@ -8,30 +8,51 @@ import os
 import re
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
-from studio import protocol as m
-from studio.documents.dispatch import carry_out
+from studio.documents.commands import COMMANDS as DOCUMENT_COMMANDS
 from studio.documents.document import Document
 from studio.documents.keeping.left_work import LeftWorkDesk
 from studio.documents.keeping.sharing import found_again, link_to, read_link
 from studio.documents.launching import form_at, form_of
+from studio.documents.library import COMMANDS as LIBRARY_COMMANDS
 from studio.documents.library import Library
 from studio.documents.services import Services
 from studio.documents.upload_desk import UploadDesk
 from studio.errors import CommandError, OutsideRootsError, UnknownDocumentError
 from studio.live.connection.rejoining import Rejoining
-from studio.live.connection.robots import EngineWireCommand, WireRobotDesk
+from studio.live.connection.robots import COMMANDS as ROBOT_COMMANDS
+from studio.live.connection.robots import WireRobotDesk
+from studio.live.panels.desk import COMMANDS as ROS_COMMANDS
 from studio.live.panels.desk import BridgeDesk
 from studio.packages.listing import list_folder
 from studio.packages.roots import ServedRoots
 from studio.packages.workspace import Location, open_location
+from studio.protocol.at_most_once import AtMostOnce
+from studio.protocol.commands import Answer, CommandRates, Commands, Scope
+from studio.protocol.documents import (
+    CloseDocument,
+    DocumentEntry,
+    Documents,
+    Done,
+    Folder,
+    FolderEntry,
+    Gone,
+    ListFolder,
+    Opened,
+    OpenPath,
+    Watch,
+)
+from studio.protocol.keeping import ForgetWork
+from studio.protocol.launching import Arguments, GetArguments
 from studio.protocol.listeners import Audience, tell
+from studio.protocol.sharing import GetLink, Link, LinkOpened, OpenLink
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from studio.packages.workspace import Progress
+    from studio.protocol import Command
     from studio.protocol.listeners import Listener
     from studio.settings import Settings
 
@@ -45,6 +66,7 @@ class Engine:
         self.documents: dict[str, Document] = {}
         self.default_document: str | None = None
         self._settings = settings
+        self._once, self._rates = AtMostOnce(), CommandRates()
         self._services = Services(settings)
         self._lobby = Audience()
         self._watching: dict[Listener, Document] = {}
@@ -52,12 +74,12 @@ class Engine:
         self.uploads = UploadDesk(settings.data_folder, self)
         wire = self._services.wire
         self._rejoining = Rejoining(wire, settings.data_folder)
-        self._bridge = BridgeDesk(wire)
-        self.hearing = self._bridge.hearing
-        self._wire_robots = WireRobotDesk(wire, settings.data_folder, self, self._bridge)
+        self.bridge = BridgeDesk(wire)
+        self.hearing = self.bridge.hearing
+        self.wire_robots = WireRobotDesk(wire, settings.data_folder, self, self.bridge)
         self.served = ServedRoots((self.library.robots_folder,))
         """What can be listed and opened out of the page."""
-        self._left_work = LeftWorkDesk(self, settings.data_folder)
+        self.left_work = LeftWorkDesk(self, settings.data_folder)
 
     async def start(self) -> None:
         """Warm the workers in the background; pages are served meanwhile."""
@@ -70,7 +92,7 @@ class Engine:
     async def close(self) -> None:
         """Close all documents and end all workers."""
         await self._rejoining.close()
-        await asyncio.gather(self._left_work.close(), self._bridge.close())
+        await asyncio.gather(self.left_work.close(), self.bridge.close())
         documents, self.documents = tuple(self.documents.values()), {}
         await asyncio.gather(*(document.close() for document in documents), self._services.close())
 
@@ -78,16 +100,16 @@ class Engine:
         """A control lane was opened: tell it what is open."""
         self._lobby.add(listener)
         tell(listener, self._list())
-        self._left_work.attach(listener)
+        self.left_work.attach(listener)
         self._services.wire.attach(listener)
-        self._bridge.attach(listener)
+        self.bridge.attach(listener)
 
     def detach(self, listener: Listener) -> None:
         """A control lane was closed."""
         self._lobby.remove(listener)
-        self._left_work.detach(listener)
+        self.left_work.detach(listener)
         self._services.wire.detach(listener)
-        self._bridge.detach(listener)
+        self.bridge.detach(listener)
         if document := self._watching.pop(listener, None):
             document.board.audience.remove(listener)
 
@@ -102,49 +124,22 @@ class Engine:
         except KeyError:
             raise UnknownDocumentError(name) from None
 
-    async def execute(self, command: m.Command, listener: Listener) -> None:
-        """Carry out one command and answer it; whether the role may was decided at the door.
+    async def execute(self, command: Command, asker: Listener) -> None:
+        """Carry out one command and answer it; whether the asker may was decided at the door.
 
         Raises:
             StudioError: It cannot be done.
         """
-        match command:
-            case m.Watch():
-                self._watch(self.document(command.document), listener)
-            case m.CloseDocument():
-                await self._close(self.document(command.document), discard=command.discard)
-            case m.ForgetWork():
-                await self._left_work.forget(command.path)
-            case _:
-                if (answer := await self._answer(command, listener)) is not None:
-                    tell(listener, answer)
-        tell(listener, m.Done(request=command.request))
+        if (answer := await self._once.run(command, asker, self._carry_out)) is not None:
+            tell(asker, answer)
+        tell(asker, Done(request=command.request))
 
-    async def _answer(self, command: m.Command, listener: Listener) -> m.Event | None:
-        """Carry out what the asker alone is answered, or what is a document's own."""
-        answer: m.Event | None = None
-        match command:
-            case m.OpenPath():
-                name = await self._open_served(command)
-                answer = m.Opened(request=command.request, document=name)
-            case m.GetArguments():
-                answer = await self._launch_form(command)
-            case m.GetLink():
-                document = self.document(command.document)
-                answer = link_to(document.sources, document.location, command.request)
-            case m.OpenLink():
-                answer = await self._open_link(command)
-            case m.ListFolder():
-                answer = await self._list_folder(command)
-            case _ if isinstance(command, EngineWireCommand):
-                answer = await self._wire_robots.carry_out(command)
-            case _ if isinstance(command, m.LibraryCommand):
-                answer = await self.library.carry_out(command)
-            case _ if isinstance(command, m.BridgeCommand):
-                answer = await self._bridge.carry_out(command, listener)
-            case _:
-                await carry_out(self.document(command.document), command, listener)
-        return answer
+    async def _carry_out(self, command: Command, asker: Listener) -> Answer:
+        entry = COMMANDS[type(command)]
+        self._rates.spend(asker.person, entry)
+        if entry.needs_router:
+            self.bridge.check_router()
+        return await COMMANDS.carry_out(self, command, asker)
 
     async def open_path(
         self, path: Path, arguments: dict[str, str], progress: Progress | None = None
@@ -179,9 +174,13 @@ class Engine:
 
     async def close_saved(self, document: Document) -> None:
         """Close a document whose text was saved elsewhere."""
-        await self._close(document, discard=True)
+        await self.close_document(document, discard=True)
 
-    async def _open_served(self, command: m.OpenPath) -> str:
+    async def open_served(self, command: OpenPath) -> Opened:
+        """Open a path for the page."""
+        return Opened(request=command.request, document=await self._open_served(command))
+
+    async def _open_served(self, command: OpenPath) -> str:
         """Open out of the page: nothing is served then that was not before, but a zip's folder."""
         try:
             path = self.served.resolve(Path(command.path))
@@ -191,22 +190,22 @@ class Engine:
             return await self.open_at(Path(command.path), command.arguments, None)
         return self._open(await self._locate(path, within=self.served), command.arguments)
 
-    async def _launch_form(self, command: m.GetArguments) -> m.Arguments:
+    async def launch_form(self, command: GetArguments) -> Arguments:
         """The form of an open document, or of a file below the served folders."""
         if not command.path:
             return await form_of(self.document(command.document), command.request)
         path = self.served.resolve(Path(command.path))
         return await form_at(await self._locate(path, within=self.served), command.request)
 
-    async def _open_link(self, command: m.OpenLink) -> m.LinkOpened:
+    async def open_link(self, command: OpenLink) -> LinkOpened:
         """Open what a link holds by the ordinary way, then make its edits."""
         shared = read_link(command.link)
         locations = [one.location for one in self.documents.values()]
         path = found_again(shared.entry, self.served, locations)
-        opening = m.OpenPath(path=str(path), arguments=shared.arguments)
+        opening = OpenPath(path=str(path), arguments=shared.arguments)
         name = await self._open_served(opening)
         left_out = await self.document(name).take_shared(shared.files)
-        return m.LinkOpened(request=command.request, document=name, left_out=left_out)
+        return LinkOpened(request=command.request, document=name, left_out=left_out)
 
     async def _locate(
         self, path: Path, progress: Progress | None = None, within: ServedRoots | None = None
@@ -237,19 +236,25 @@ class Engine:
         names = [base, *(f"{base}-{number}" for number in range(2, _DOCUMENT_LIMIT + 2))]
         return next(name for name in names if name not in self.documents)
 
-    def _watch(self, document: Document, listener: Listener) -> None:
+    def watch(self, document: Document, listener: Listener) -> None:
+        """Let somebody hear one document, and no other."""
         if before := self._watching.pop(listener, None):
             before.board.audience.remove(listener)
         self._watching[listener] = document
         document.board.attach(listener)
 
-    async def _close(self, document: Document, *, discard: bool) -> None:
+    async def close_document(self, document: Document, *, discard: bool) -> None:
+        """Close one document.
+
+        Raises:
+            CommandError: It has unsaved edits, which are not to be discarded.
+        """
         if document.has_unsaved and not discard:
             raise CommandError(f"{document.title} has unsaved edits: save or discard them first.")
         del self.documents[document.id]
         if self.default_document == document.id:
             self.default_document = next(iter(self.documents), None)
-        document.board.audience.tell(m.Gone(document=document.id))
+        document.board.audience.tell(Gone(document=document.id))
         document.drafts.forget()
         self._watching = {who: one for who, one in self._watching.items() if one is not document}
         await document.close()
@@ -257,26 +262,51 @@ class Engine:
         # Its parts know each other. The garbage of several documents would stall the loop longer.
         asyncio.get_running_loop().call_soon(gc.collect)
 
-    async def _list_folder(self, command: m.ListFolder) -> m.Folder:
+    async def list_folder(self, command: ListFolder) -> Folder:
+        """What a served folder holds."""
         listed = await asyncio.to_thread(list_folder, command.path, self.served)
-        return m.Folder(
+        return Folder(
             request=command.request,
             path=listed.path,
             parent=listed.parent,
             entries=tuple(
-                m.FolderEntry.model_validate(entry, from_attributes=True)
-                for entry in listed.entries
+                FolderEntry.model_validate(entry, from_attributes=True) for entry in listed.entries
             ),
         )
 
-    def _list(self) -> m.Documents:
-        return m.Documents(
+    def _list(self) -> Documents:
+        return Documents(
             documents=tuple(
-                m.DocumentEntry(id=one.id, title=one.title, path=one.path, unsaved=one.has_unsaved)
+                DocumentEntry(id=one.id, title=one.title, path=one.path, unsaved=one.has_unsaved)
                 for one in self.documents.values()
             )
         )
 
     def _tell_list(self) -> None:
         self._lobby.tell(self._list())
-        self._left_work.doubt()
+        self.left_work.doubt()
+
+
+def _link_to(engine: Engine, command: GetLink) -> Link:
+    document = engine.document(command.document)
+    return link_to(document.sources, document.location, command.request)
+
+
+COMMANDS: Final = Commands[Engine](Scope.STUDIO)
+"""Every command of the studio."""
+COMMANDS.viewer(Watch, lambda engine, c, who: engine.watch(engine.document(c.document), who))
+COMMANDS.presenter(OpenPath, lambda engine, c, _: engine.open_served(c))
+COMMANDS.presenter(
+    CloseDocument,
+    lambda engine, c, _: engine.close_document(engine.document(c.document), discard=c.discard),
+    scope=Scope.DOCUMENT,
+)
+COMMANDS.presenter(ListFolder, lambda engine, c, _: engine.list_folder(c))
+COMMANDS.presenter(GetArguments, lambda engine, c, _: engine.launch_form(c))
+COMMANDS.presenter(GetLink, lambda engine, c, _: _link_to(engine, c), scope=Scope.DOCUMENT)
+COMMANDS.presenter(OpenLink, lambda engine, c, _: engine.open_link(c))
+COMMANDS.presenter(ForgetWork, lambda engine, c, _: engine.left_work.forget(c.path))
+COMMANDS.include(LIBRARY_COMMANDS, lambda engine, _: engine.library)
+COMMANDS.include(ROBOT_COMMANDS, lambda engine, _: engine.wire_robots)
+COMMANDS.include(ROS_COMMANDS, lambda engine, _: engine.bridge)
+COMMANDS.include(DOCUMENT_COMMANDS, lambda engine, c: engine.document(c.document))

@@ -5,9 +5,8 @@ from __future__ import annotations
 import asyncio
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import TYPE_CHECKING, Final, Literal, Protocol
+from typing import TYPE_CHECKING, Final, Literal, Protocol, TypeAlias
 
-from studio import protocol as m
 from studio.errors import (
     CommandError,
     NotMadeError,
@@ -24,6 +23,24 @@ from studio.packages.untitled import drop_untitled, new_untitled
 from studio.packages.working_copy import FOLDER as EXAMPLES
 from studio.packages.working_copy import working_copy
 from studio.packages.workspace import UPLOADS
+from studio.protocol.commands import Commands, Scope
+from studio.protocol.documents import Opened
+from studio.protocol.opening import (
+    ExampleEntry,
+    Examples,
+    ForgetRecent,
+    ListExamples,
+    ListPlaces,
+    ListRecent,
+    NewRobot,
+    NewUntitled,
+    OpenExample,
+    OpenRecent,
+    Places,
+    Recent,
+    RecentEntry,
+    SaveAs,
+)
 from studio.settings import LOOPBACK_HOSTS, repository_or_wheel
 
 if TYPE_CHECKING:
@@ -31,6 +48,9 @@ if TYPE_CHECKING:
 
     from studio.documents.document import Document
     from studio.settings import Settings
+
+
+_Opening: TypeAlias = OpenRecent | OpenExample | NewRobot | NewUntitled | SaveAs
 
 
 class Opener(Protocol):
@@ -82,25 +102,31 @@ class Library:
         """Where new robots go; served and writable, though it may not be there yet."""
         return self._data_folder / ROBOTS
 
-    async def carry_out(self, command: m.LibraryCommand) -> m.Event:
-        """Carry out one command and give its answer.
+    async def recent(self, command: ListRecent | ForgetRecent) -> Recent:
+        """The recent files, newest first."""
+        if isinstance(command, ForgetRecent):
+            self._recent.forget(command.path)
+        files = await asyncio.to_thread(self._recent_entries)
+        return Recent(request=command.request, files=files)
+
+    async def open(self, command: _Opening) -> Opened:
+        """Open what the command names, or make it first.
 
         Raises:
-            StudioError: It cannot be done.
+            StudioError: It is not there, or cannot be made.
         """
         match command:
-            case m.ListRecent():
-                return await self._list_recent(command.request)
-            case m.ForgetRecent():
-                self._recent.forget(command.path)
-                return await self._list_recent(command.request)
-            case m.ListExamples():
-                return self._list_examples(command.request)
-            case m.ListPlaces():
-                return self._list_places(command.request)
-            case _:
-                document = await self._open(command)
-                return m.Opened(request=command.request, document=document)
+            case OpenRecent():
+                document = await self._open_recent(command.path)
+            case OpenExample():
+                document = await self._open_example(command)
+            case NewRobot():
+                document = await self._open_new_robot(command)
+            case NewUntitled():
+                document = await self._open_untitled(command)
+            case SaveAs():
+                document = await self._save_as(command)
+        return Opened(request=command.request, document=document)
 
     def note(self, document: Document) -> None:
         """A document was opened: it is the newest of the recent files."""
@@ -113,30 +139,23 @@ class Library:
         known = self._recent.find(path)
         return known is not None and self._may_open(known)
 
-    async def _open(
-        self,
-        command: m.OpenRecent | m.OpenExample | m.NewRobot | m.NewUntitled | m.SaveAs,
-    ) -> str:
-        match command:
-            case m.OpenRecent():
-                return await self._open_recent(command.path)
-            case m.OpenExample():
-                if all(one.package != command.name for one in examples(self._models)):
-                    raise CommandError(f'There is no example "{command.name}": choose another.')
-                copy = await asyncio.to_thread(
-                    working_copy, self._models, self._data_folder, command.name, fresh=False
-                )
-                return await self._opener.open_at(copy, command.arguments, None)
-            case m.NewRobot():
-                text = template_text(command.template, robot_of(command.name))
-                folder = self._place(command.folder)
-                file = await asyncio.to_thread(make_package, folder, command.name, text)
-                return await self._open_new(file, self._opener.served)
-            case m.NewUntitled():
-                file = await asyncio.to_thread(new_untitled, self._data_folder, command.text)
-                return await self._open_new(file, None)
-            case m.SaveAs():
-                return await self._save_as(command)
+    async def _open_example(self, command: OpenExample) -> str:
+        if all(one.package != command.name for one in examples(self._models)):
+            raise CommandError(f'There is no example "{command.name}": choose another.')
+        copy = await asyncio.to_thread(
+            working_copy, self._models, self._data_folder, command.name, fresh=False
+        )
+        return await self._opener.open_at(copy, command.arguments, None)
+
+    async def _open_new_robot(self, command: NewRobot) -> str:
+        text = template_text(command.template, robot_of(command.name))
+        folder = self._place(command.folder)
+        file = await asyncio.to_thread(make_package, folder, command.name, text)
+        return await self._opener.open_at(file, {}, self._opener.served)
+
+    async def _open_untitled(self, command: NewUntitled) -> str:
+        file = await asyncio.to_thread(new_untitled, self._data_folder, command.text)
+        return await self._opener.open_at(file, {}, None)
 
     async def _open_recent(self, path: str) -> str:
         known = self._recent.find(path)
@@ -148,10 +167,7 @@ class Library:
             return document.id
         return await self._opener.open_at(Path(path), known.arguments, None)
 
-    async def _open_new(self, path: Path, within: ServedRoots | None) -> str:
-        return await self._opener.open_at(path, {}, within)
-
-    async def _save_as(self, command: m.SaveAs) -> str:
+    async def _save_as(self, command: SaveAs) -> str:
         document = self._opener.document(command.document)
         if len(document.files_read) > 1:
             raise CommandError(
@@ -184,13 +200,9 @@ class Library:
             raise NotMadeError(str(place), "it may only be read: choose another folder.")
         return place
 
-    async def _list_recent(self, request: int) -> m.Recent:
-        files = await asyncio.to_thread(self._recent_entries)
-        return m.Recent(request=request, files=files)
-
-    def _recent_entries(self) -> tuple[m.RecentEntry, ...]:
+    def _recent_entries(self) -> tuple[RecentEntry, ...]:
         return tuple(
-            m.RecentEntry(
+            RecentEntry(
                 path=one.path,
                 title=one.title,
                 time_s=one.time_s,
@@ -212,14 +224,16 @@ class Library:
                 return origin
         return "file"
 
-    def _list_examples(self, request: int) -> m.Examples:
+    def examples(self, command: ListExamples) -> Examples:
+        """The robots that come with the studio."""
         found = (
-            m.ExampleEntry(name=one.package, robot=one.robot, text=one.text)
+            ExampleEntry(name=one.package, robot=one.robot, text=one.text)
             for one in examples(self._models)
         )
-        return m.Examples(request=request, examples=tuple(found))
+        return Examples(request=command.request, examples=tuple(found))
 
-    def _list_places(self, request: int) -> m.Places:
+    def places(self, command: ListPlaces) -> Places:
+        """Folders where a new robot may go."""
         apart = (EXAMPLES, UPLOADS, UNTITLED)
         served = [
             str(one)
@@ -227,7 +241,7 @@ class Library:
             if is_folder(one) and not any(is_below(one, self._data_folder / name) for name in apart)
         ]
         folders = dict.fromkeys((str(self.robots_folder), *served))
-        return m.Places(request=request, folders=tuple(folders))
+        return Places(request=command.request, folders=tuple(folders))
 
 
 _ORIGINS: Final[dict[str, Literal["example", "upload", "untitled"]]] = {
@@ -235,3 +249,15 @@ _ORIGINS: Final[dict[str, Literal["example", "upload", "untitled"]]] = {
     UPLOADS: "upload",
     UNTITLED: "untitled",
 }
+
+
+COMMANDS: Final = Commands[Library](Scope.STUDIO)
+COMMANDS.presenter(ListRecent, lambda library, c, _: library.recent(c))
+COMMANDS.presenter(ForgetRecent, lambda library, c, _: library.recent(c))
+COMMANDS.presenter(ListExamples, lambda library, c, _: library.examples(c))
+COMMANDS.presenter(ListPlaces, lambda library, c, _: library.places(c))
+COMMANDS.presenter(OpenRecent, lambda library, c, _: library.open(c))
+COMMANDS.presenter(OpenExample, lambda library, c, _: library.open(c))
+COMMANDS.presenter(NewRobot, lambda library, c, _: library.open(c))
+COMMANDS.presenter(NewUntitled, lambda library, c, _: library.open(c))
+COMMANDS.presenter(SaveAs, lambda library, c, _: library.open(c))

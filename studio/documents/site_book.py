@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from studio.description.values import SiteKind
 from studio.documents.views import site_view
 from studio.errors import EditError
-from studio.protocol import Sites, SiteView
+from studio.protocol.edits import Sites, SiteView
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from studio.protocol import JointView, LinkView, RobotState, SiteView
+from studio.protocol.edits import SiteView
+from studio.protocol.robot import JointView, LinkView, RobotState
 from studio.robot.values import JointType, Mesh
 
 if TYPE_CHECKING:

@@ -7,7 +7,7 @@ from typing import Annotated, Literal, TypeAlias
 from pydantic import Field, StringConstraints
 
 from studio.protocol.interfaces import NAME_MAX
-from studio.protocol.message import CommandMessage, Message
+from studio.protocol.message import Command, Event, Message
 
 TEXT_MAX = 400_000
 Name: TypeAlias = Annotated[str, StringConstraints(min_length=1, max_length=NAME_MAX)]
@@ -18,19 +18,19 @@ PlainJson: TypeAlias = str
 bits, stands in it as a text."""
 
 
-class GetServices(CommandMessage):
+class GetServices(Command):
     """Ask which services somebody serves."""
 
     type: Literal["get_services"] = "get_services"
 
 
-class GetActions(CommandMessage):
+class GetActions(Command):
     """Ask which actions somebody serves."""
 
     type: Literal["get_actions"] = "get_actions"
 
 
-class ReadValues(CommandMessage):
+class ReadValues(Command):
     """Read YAML as values of a type; refused with the field that does not take its value."""
 
     type: Literal["read_values"] = "read_values"
@@ -41,7 +41,7 @@ class ReadValues(CommandMessage):
     text: Yaml
 
 
-class FollowDeeds(CommandMessage):
+class FollowDeeds(Command):
     """Be told what runs and ran of a kind, for any page, from now on; or no more."""
 
     type: Literal["follow_deeds"] = "follow_deeds"
@@ -49,7 +49,7 @@ class FollowDeeds(CommandMessage):
     following: bool = True
 
 
-class CallService(CommandMessage):
+class CallService(Command):
     """Call a service; what becomes of it is told to those who follow calls."""
 
     type: Literal["call_service"] = "call_service"
@@ -59,7 +59,7 @@ class CallService(CommandMessage):
     timeout_s: float = Field(default=10.0, gt=0, le=3600)
 
 
-class CancelCall(CommandMessage):
+class CancelCall(Command):
     """Wait for the answer of a call no longer."""
 
     type: Literal["cancel_call"] = "cancel_call"
@@ -75,7 +75,7 @@ class OfferView(Message):
     """Full names of those that serve it."""
 
 
-class Services(Message):
+class Services(Event):
     """Answer to `get_services`."""
 
     type: Literal["services"] = "services"
@@ -83,7 +83,7 @@ class Services(Message):
     services: tuple[OfferView, ...]
 
 
-class Actions(Message):
+class Actions(Event):
     """Answer to `get_actions`."""
 
     type: Literal["actions"] = "actions"
@@ -91,7 +91,7 @@ class Actions(Message):
     actions: tuple[OfferView, ...]
 
 
-class ValuesRead(Message):
+class ValuesRead(Event):
     """Answer to `read_values`: only what the text names; `now` and `auto` stay as they are."""
 
     type: Literal["values_read"] = "values_read"
@@ -99,7 +99,7 @@ class ValuesRead(Message):
     values: PlainJson
 
 
-class Begun(Message):
+class Begun(Event):
     """Answer to what begins a deed: the number by which it is told and ended."""
 
     type: Literal["begun"] = "begun"
@@ -126,15 +126,9 @@ class CallView(Message):
     """Why there is none, in a sentence."""
 
 
-class Calls(Message):
+class Calls(Event):
     """Calls, the oldest first; all that are kept, or those that changed."""
 
     type: Literal["calls"] = "calls"
     whole: bool
     deeds: tuple[CallView, ...]
-
-
-CallCommand: TypeAlias = (
-    GetServices | GetActions | ReadValues | FollowDeeds | CallService | CancelCall
-)
-CallEvent: TypeAlias = Services | Actions | ValuesRead | Begun | Calls

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Literal, TypeAlias
+from typing import Literal
 
-from studio.protocol.message import CommandMessage, Message
+from studio.protocol.message import Command, Event, Message
 
 
-class GetDiagnostics(CommandMessage):
+class GetDiagnostics(Command):
     """Ask how all parts are; they are heard from the first such question on."""
 
     type: Literal["get_diagnostics"] = "get_diagnostics"
@@ -33,7 +33,7 @@ class DiagnosticView(Message):
     """Since it said so."""
 
 
-class DiagnosticsAnswer(Message):
+class DiagnosticsAnswer(Event):
     """Answer to `get_diagnostics`."""
 
     type: Literal["diagnostics"] = "diagnostics"
@@ -43,7 +43,3 @@ class DiagnosticsAnswer(Message):
     """In the order of their names."""
     more: int
     """Parts for which there was no room."""
-
-
-DiagnosticsCommand: TypeAlias = GetDiagnostics
-DiagnosticsEvent: TypeAlias = DiagnosticsAnswer

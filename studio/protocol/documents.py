@@ -6,16 +6,16 @@ from typing import Literal
 
 from pydantic import Field
 
-from studio.protocol.message import ArgumentName, CommandMessage, Message
+from studio.protocol.message import ArgumentName, Command, Event, Message
 
 
-class Watch(CommandMessage):
+class Watch(Command):
     """Show me this document: its whole state now, then every change."""
 
     type: Literal["watch"] = "watch"
 
 
-class OpenPath(CommandMessage):
+class OpenPath(Command):
     """Open a file, package folder, workspace folder or zip below the served roots."""
 
     type: Literal["open_path"] = "open_path"
@@ -23,21 +23,21 @@ class OpenPath(CommandMessage):
     arguments: dict[ArgumentName, str] = Field(default_factory=dict)
 
 
-class CloseDocument(CommandMessage):
+class CloseDocument(Command):
     """Close a document; refused while it has unsaved edits unless `discard`."""
 
     type: Literal["close_document"] = "close_document"
     discard: bool = False
 
 
-class ListFolder(CommandMessage):
+class ListFolder(Command):
     """What a served folder holds; an empty path lists the served roots."""
 
     type: Literal["list_folder"] = "list_folder"
     path: str = ""
 
 
-class ChoosePackage(CommandMessage):
+class ChoosePackage(Command):
     """Use this folder for a package that was not found; remembered for the workspace."""
 
     type: Literal["choose_package"] = "choose_package"
@@ -45,7 +45,7 @@ class ChoosePackage(CommandMessage):
     folder: str
 
 
-class Hello(Message):
+class Hello(Event):
     """First on every control lane: who you are here."""
 
     type: Literal["hello"] = "hello"
@@ -55,14 +55,14 @@ class Hello(Message):
     """Changes when the server was restarted."""
 
 
-class Done(Message):
+class Done(Event):
     """The command was carried out."""
 
     type: Literal["done"] = "done"
     request: int
 
 
-class Refused(Message):
+class Refused(Event):
     """The command was not carried out, and why; `kind` is the error's class name."""
 
     type: Literal["refused"] = "refused"
@@ -80,14 +80,14 @@ class DocumentEntry(Message):
     unsaved: bool
 
 
-class Documents(Message):
+class Documents(Event):
     """All open documents."""
 
     type: Literal["documents"] = "documents"
     documents: tuple[DocumentEntry, ...]
 
 
-class DocumentState(Message):
+class DocumentState(Event):
     """What a document is: its entry file, arguments, and how it was evaluated."""
 
     type: Literal["document"] = "document"
@@ -108,7 +108,7 @@ class DocumentState(Message):
     """`failed`: never expanded so far; after the first good run it stays `ready`."""
 
 
-class Progress(Message):
+class Progress(Event):
     """Long work of the document; `total` 0 when not known; done == total ends it."""
 
     type: Literal["progress"] = "progress"
@@ -128,7 +128,7 @@ class FolderEntry(Message):
     reason: str = ""
 
 
-class Folder(Message):
+class Folder(Event):
     """Answer to `list_folder`."""
 
     type: Literal["folder"] = "folder"
@@ -138,7 +138,7 @@ class Folder(Message):
     entries: tuple[FolderEntry, ...]
 
 
-class Opened(Message):
+class Opened(Event):
     """Answer to `open_path`: go to `/d/<document>`."""
 
     type: Literal["opened"] = "opened"
@@ -146,7 +146,7 @@ class Opened(Message):
     document: str
 
 
-class Gone(Message):
+class Gone(Event):
     """The document was closed."""
 
     type: Literal["gone"] = "gone"

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Literal, TypeAlias
+from typing import Literal
 
 from studio.protocol.calls import Name
-from studio.protocol.message import CommandMessage
+from studio.protocol.message import Command
 
 
-class Drive(CommandMessage):
+class Drive(Command):
     """Drive so fast until told otherwise, or until nothing is told for half a second.
 
     What comes next for the topic takes its place; who falls silent, or leaves, stands still.
@@ -24,6 +24,3 @@ class Drive(CommandMessage):
     """m/s, to the left."""
     yaw: float = 0.0
     """rad/s, anticlockwise."""
-
-
-DriveCommand: TypeAlias = Drive

@@ -8,10 +8,10 @@ from pydantic import Field
 
 from studio.description.values import SiteKind, Widget
 from studio.problems import Problem
-from studio.protocol.message import CommandMessage, Message
+from studio.protocol.message import Command, Event, Message
 
 
-class EditSite(CommandMessage):
+class EditSite(Command):
     """Write a new text at a site. All edits of one `gesture` are one undo step."""
 
     type: Literal["edit_site"] = "edit_site"
@@ -20,20 +20,20 @@ class EditSite(CommandMessage):
     gesture: str = ""
 
 
-class ResetSite(CommandMessage):
+class ResetSite(Command):
     """Put a site back to what the file on disk says."""
 
     type: Literal["reset_site"] = "reset_site"
     site: str
 
 
-class Undo(CommandMessage):
+class Undo(Command):
     """Take back the last step."""
 
     type: Literal["undo"] = "undo"
 
 
-class Redo(CommandMessage):
+class Redo(Command):
     """Do again what was taken back."""
 
     type: Literal["redo"] = "redo"
@@ -61,7 +61,7 @@ class SiteView(Message):
     """For an arg: the value passed from outside, which wins over the default."""
 
 
-class Sites(Message):
+class Sites(Event):
     """The changed sites, and the order of all when it changed (sites not in it are gone)."""
 
     type: Literal["sites"] = "sites"
@@ -69,7 +69,7 @@ class Sites(Message):
     changed: tuple[SiteView, ...]
 
 
-class Problems(Message):
+class Problems(Event):
     """All problems of the document now. `showing_last_good`: the view is older than the text."""
 
     type: Literal["problems"] = "problems"
@@ -77,7 +77,7 @@ class Problems(Message):
     showing_last_good: bool
 
 
-class History(Message):
+class History(Event):
     """The undo list, newest last, and what is unsaved."""
 
     type: Literal["history"] = "history"
@@ -87,7 +87,7 @@ class History(Message):
     unsaved_count: int
 
 
-class Built(Message):
+class Built(Event):
     """A run ended: how long it took from the edit to the scene."""
 
     type: Literal["built"] = "built"

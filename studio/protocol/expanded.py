@@ -5,16 +5,16 @@ from __future__ import annotations
 from typing import Literal
 
 from studio.protocol.diff_lines import DiffLineView
-from studio.protocol.message import CommandMessage, Message
+from studio.protocol.message import Command, Event
 
 
-class GetUrdfChanges(CommandMessage):
+class GetUrdfChanges(Command):
     """What of the URDF is otherwise than the files on disk make it, opened as the document was."""
 
     type: Literal["get_urdf_changes"] = "get_urdf_changes"
 
 
-class UrdfChanges(Message):
+class UrdfChanges(Event):
     """Answer to `get_urdf_changes`: stretches of lines with a few around each."""
 
     type: Literal["urdf_changes"] = "urdf_changes"

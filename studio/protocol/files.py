@@ -6,10 +6,10 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from studio.protocol.message import CommandMessage, Message
+from studio.protocol.message import Command, Event, Message
 
 
-class Save(CommandMessage):
+class Save(Command):
     """Write the edited bytes of these changed files of the document, or of all."""
 
     type: Literal["save"] = "save"
@@ -18,20 +18,20 @@ class Save(CommandMessage):
     )
 
 
-class Reload(CommandMessage):
+class Reload(Command):
     """Read all files of the document from disk again; unsaved edits are given up."""
 
     type: Literal["reload"] = "reload"
 
 
-class GetCollisions(CommandMessage):
+class GetCollisions(Command):
     """Where a file's unsaved edits collide with what another program wrote."""
 
     type: Literal["get_collisions"] = "get_collisions"
     file: str = Field(max_length=4096)
 
 
-class ResolveCollisions(CommandMessage):
+class ResolveCollisions(Command):
     """Take a file's changes on disk; where they collide with unsaved edits, one side's.
 
     `each` chooses place by place for the first ones, `keep` for those beyond them.
@@ -45,7 +45,7 @@ class ResolveCollisions(CommandMessage):
     """Of the `collisions` that were looked at; refused when they are others now."""
 
 
-class DiskMerged(Message):
+class DiskMerged(Event):
     """Another program wrote a file; its changes are taken, and so many edits are kept unsaved."""
 
     type: Literal["disk_merged"] = "disk_merged"
@@ -62,7 +62,7 @@ class CollisionView(Message):
     theirs: str
 
 
-class Collisions(Message):
+class Collisions(Event):
     """Answer to `get_collisions`: the first of `count` places."""
 
     type: Literal["collisions"] = "collisions"
@@ -74,7 +74,7 @@ class Collisions(Message):
     """Changes with what collides."""
 
 
-class Saved(Message):
+class Saved(Event):
     """These files were written."""
 
     type: Literal["saved"] = "saved"

@@ -8,7 +8,7 @@ from pydantic import Field
 
 from studio.protocol.calls import Name, PlainJson, Yaml
 from studio.protocol.logs import LogLine
-from studio.protocol.message import CommandMessage, Message
+from studio.protocol.message import Command, Event, Message
 
 GoalState: TypeAlias = Literal[
     "sending",
@@ -24,7 +24,7 @@ GoalState: TypeAlias = Literal[
 """`rejected`: its server did not take it; `failed`: it is not known what became of it."""
 
 
-class SendGoal(CommandMessage):
+class SendGoal(Command):
     """Send a goal; what becomes of it is told to those who follow goals."""
 
     type: Literal["send_goal"] = "send_goal"
@@ -35,14 +35,14 @@ class SendGoal(CommandMessage):
     """For the server to take or refuse it; the goal itself may take as long as it likes."""
 
 
-class CancelGoal(CommandMessage):
+class CancelGoal(Command):
     """Ask that a goal end; refused when its server says no."""
 
     type: Literal["cancel_goal"] = "cancel_goal"
     deed: int
 
 
-class GetGoalStatuses(CommandMessage):
+class GetGoalStatuses(Command):
     """Ask how all goals of an action stand, those of others too."""
 
     type: Literal["get_goal_statuses"] = "get_goal_statuses"
@@ -83,7 +83,7 @@ class GoalView(Message):
     """What a server that aborted or rejected it logged last as a warning or an error meanwhile."""
 
 
-class Goals(Message):
+class Goals(Event):
     """Goals, the oldest first; all that are kept, or those that changed."""
 
     type: Literal["goals"] = "goals"
@@ -102,14 +102,10 @@ class GoalStatusView(Message):
     is_ours: bool
 
 
-class GoalStatuses(Message):
+class GoalStatuses(Event):
     """Answer to `get_goal_statuses`, the newest first."""
 
     type: Literal["goal_statuses"] = "goal_statuses"
     request: int
     name: str
     goals: tuple[GoalStatusView, ...]
-
-
-GoalCommand: TypeAlias = SendGoal | CancelGoal | GetGoalStatuses
-GoalEvent: TypeAlias = Goals | GoalStatuses

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Literal, TypeAlias
+from typing import Literal
 
 from pydantic import Field
 
-from studio.protocol.message import CommandMessage, Message
+from studio.protocol.message import Command, Event, Message
 
 NODES_MAX = 1_000
 LINKS_MAX = 4_000
 
 
-class GetGraph(CommandMessage):
+class GetGraph(Command):
     """Ask who is there, unless that is known already."""
 
     type: Literal["get_graph"] = "get_graph"
@@ -44,7 +44,7 @@ class GraphLinkView(Message):
     """Its name says that it is nobody's business."""
 
 
-class GraphAnswer(Message):
+class GraphAnswer(Event):
     """Answer to `get_graph`."""
 
     type: Literal["graph"] = "graph"
@@ -59,7 +59,7 @@ class GraphAnswer(Message):
     """Nodes and links for which there was no room."""
 
 
-class GetNode(CommandMessage):
+class GetNode(Command):
     """Ask what a node has."""
 
     type: Literal["get_node"] = "get_node"
@@ -73,7 +73,7 @@ class EndView(Message):
     type: str
 
 
-class NodeAnswer(Message):
+class NodeAnswer(Event):
     """Answer to `get_node`: what it has, grouped as `ros2 node info` does."""
 
     type: Literal["node"] = "node"
@@ -87,7 +87,3 @@ class NodeAnswer(Message):
     service_clients: tuple[EndView, ...]
     action_servers: tuple[EndView, ...]
     action_clients: tuple[EndView, ...]
-
-
-GraphCommand: TypeAlias = GetGraph | GetNode
-GraphEvent: TypeAlias = GraphAnswer | NodeAnswer

@@ -4,19 +4,19 @@ from __future__ import annotations
 
 from typing import Literal, TypeAlias
 
-from studio.protocol.message import CommandMessage, Message
+from studio.protocol.message import Command, Event, Message
 
 _Three: TypeAlias = tuple[float, float, float]
 _Six: TypeAlias = tuple[float, float, float, float, float, float]
 
 
-class GetFrames(CommandMessage):
+class GetFrames(Command):
     """Where the joints of the last good robot stand; links follow from that and the positions."""
 
     type: Literal["get_frames"] = "get_frames"
 
 
-class Frames(Message):
+class Frames(Event):
     """Answer to `get_frames`, true of the robot now: ask again when something was built.
 
     By joint the frame of the joint in its parent link: x, y, z in m, then roll, pitch, yaw in rad.
@@ -29,7 +29,7 @@ class Frames(Message):
     origins: dict[str, _Six]
 
 
-class GetMasses(CommandMessage):
+class GetMasses(Command):
     """What the links of the last good robot weigh, and what room their shapes take."""
 
     type: Literal["get_masses"] = "get_masses"
@@ -58,7 +58,7 @@ class LinkMassView(Message):
     collision: VolumeView | None
 
 
-class Masses(Message):
+class Masses(Event):
     """Answer to `get_masses`, true of the robot now: ask again when something was built."""
 
     type: Literal["masses"] = "masses"

@@ -6,14 +6,14 @@ from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Field
 
-from studio.protocol.message import CommandMessage, Message
+from studio.protocol.message import Command, Event, Message
 
 Value: TypeAlias = bool | int | float | str
 NAME_MAX = 300
 TEXT_MAX = 500_000
 
 
-class GetInterface(CommandMessage):
+class GetInterface(Command):
     """Ask what a type is made of, down to its numbers and texts."""
 
     type: Literal["get_interface"] = "get_interface"
@@ -56,7 +56,7 @@ class MessageView(Message):
     comment: str
 
 
-class InterfaceAnswer(Message):
+class InterfaceAnswer(Event):
     """Answer to `get_interface`."""
 
     type: Literal["interface"] = "interface"
@@ -73,7 +73,7 @@ class InterfaceAnswer(Message):
     """As it was written; empty where only the distribution has it, and no node told it."""
 
 
-class ListInterfaces(CommandMessage):
+class ListInterfaces(Command):
     """Ask which types are known."""
 
     type: Literal["list_interfaces"] = "list_interfaces"
@@ -90,7 +90,7 @@ class InterfaceFaultView(Message):
     """What is wrong and what to write, half a sentence."""
 
 
-class InterfacesAnswer(Message):
+class InterfacesAnswer(Event):
     """Answer to `list_interfaces`: full names in order."""
 
     type: Literal["interfaces"] = "interfaces"
@@ -103,7 +103,7 @@ class InterfacesAnswer(Message):
     """Of a user's texts that define no type."""
 
 
-class AddInterfaces(CommandMessage):
+class AddInterfaces(Command):
     """Take up texts of types, usable at once; what needs others may come first.
 
     Of several, those that break a rule are left out and named; one alone is refused.
@@ -129,7 +129,7 @@ class AddedInterface(Message):
     """What it needs yet, in a sentence."""
 
 
-class InterfacesAdded(Message):
+class InterfacesAdded(Event):
     """Answer to `add_interfaces`."""
 
     type: Literal["interfaces_added"] = "interfaces_added"
@@ -137,7 +137,3 @@ class InterfacesAdded(Message):
     types: tuple[AddedInterface, ...]
     faults: tuple[InterfaceFaultView, ...]
     """Of texts that were left out."""
-
-
-InterfaceCommand: TypeAlias = GetInterface | ListInterfaces | AddInterfaces
-InterfaceEvent: TypeAlias = InterfaceAnswer | InterfacesAnswer | InterfacesAdded

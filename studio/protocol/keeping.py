@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Literal, TypeAlias
+from typing import Literal
 
 from pydantic import Field
 
 from studio.protocol.diff_lines import DiffLineView
-from studio.protocol.message import CommandMessage, Message
+from studio.protocol.message import Command, Event, Message
 
 
-class UndoTo(CommandMessage):
+class UndoTo(Command):
     """Undo, or redo, until this many steps are done; refused when the list is no longer `of`."""
 
     type: Literal["undo_to"] = "undo_to"
@@ -19,7 +19,7 @@ class UndoTo(CommandMessage):
     """How many steps there are in all, done and undone, where the wish was made."""
 
 
-class GetChanges(CommandMessage):
+class GetChanges(Command):
     """What saving would change, file by file."""
 
     type: Literal["get_changes"] = "get_changes"
@@ -38,7 +38,7 @@ class FileChanges(Message):
     """Why it cannot be saved, a sentence; empty: it can."""
 
 
-class Changes(Message):
+class Changes(Event):
     """Answer to `get_changes`."""
 
     type: Literal["changes"] = "changes"
@@ -48,7 +48,7 @@ class Changes(Message):
     """A folder that copies can be saved in; empty: there is none."""
 
 
-class SaveCopy(CommandMessage):
+class SaveCopy(Command):
     """Write a file's edited text to a path below the opened folders at which nothing is yet."""
 
     type: Literal["save_copy"] = "save_copy"
@@ -56,13 +56,13 @@ class SaveCopy(CommandMessage):
     path: str = Field(max_length=4096)
 
 
-class DiscardRestored(CommandMessage):
+class DiscardRestored(Command):
     """Give up what was restored at the opening; undo brings it back."""
 
     type: Literal["discard_restored"] = "discard_restored"
 
 
-class ForgetWork(CommandMessage):
+class ForgetWork(Command):
     """Give up the unsaved work on a file that is not open."""
 
     type: Literal["forget_work"] = "forget_work"
@@ -77,21 +77,17 @@ class LeftWorkEntry(Message):
     at: str
 
 
-class LeftWork(Message):
+class LeftWork(Event):
     """Files below the served folders that are not open, and have unsaved work of an earlier run."""
 
     type: Literal["left_work"] = "left_work"
     entries: tuple[LeftWorkEntry, ...]
 
 
-class Restored(Message):
+class Restored(Event):
     """Edits of an earlier run were brought back; `at` empty: that is no longer worth a word."""
 
     type: Literal["restored"] = "restored"
     at: str
     """When they were kept: UTC, as ISO 8601."""
     files: tuple[str, ...]
-
-
-KeepingCommand: TypeAlias = UndoTo | GetChanges | SaveCopy | DiscardRestored | ForgetWork
-KeepingEvent: TypeAlias = Changes | Restored | LeftWork

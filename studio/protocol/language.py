@@ -11,10 +11,10 @@ from typing import Literal
 from pydantic import Field
 
 from studio.description.language.questions import Completions, Meaning, Outline, References
-from studio.protocol.message import OFFSET_LIMIT, CommandMessage, Message
+from studio.protocol.message import OFFSET_LIMIT, Command, Event
 
 
-class OutlineAnswer(Message):
+class OutlineAnswer(Event):
     """Answer to `get_outline`."""
 
     type: Literal["outline"] = "outline"
@@ -22,7 +22,7 @@ class OutlineAnswer(Message):
     outline: Outline
 
 
-class MeaningAnswer(Message):
+class MeaningAnswer(Event):
     """Answer to `look_up`; None: nothing that is known stands there."""
 
     type: Literal["meaning"] = "meaning"
@@ -30,7 +30,7 @@ class MeaningAnswer(Message):
     meaning: Meaning | None
 
 
-class ReferencesAnswer(Message):
+class ReferencesAnswer(Event):
     """Answer to `get_references`."""
 
     type: Literal["references"] = "references"
@@ -38,7 +38,7 @@ class ReferencesAnswer(Message):
     references: References
 
 
-class CompletionsAnswer(Message):
+class CompletionsAnswer(Event):
     """Answer to `complete`."""
 
     type: Literal["completions"] = "completions"
@@ -46,7 +46,7 @@ class CompletionsAnswer(Message):
     completions: Completions
 
 
-class PlaceCommand(CommandMessage):
+class PlaceCommand(Command):
     """A question about a place of a file's text, as `get_text` and `texts_changed` tell it.
 
     `offset` counts UTF-16 code units from 0: no byte order mark, every line break one LF.
@@ -74,7 +74,7 @@ class Complete(PlaceCommand):
     type: Literal["complete"] = "complete"
 
 
-class GetOutline(CommandMessage):
+class GetOutline(Command):
     """What the files of the robot hold: includes, macros, properties, args."""
 
     type: Literal["get_outline"] = "get_outline"

@@ -7,10 +7,10 @@ from typing import Literal
 from pydantic import Field
 
 from studio.description.values import Widget
-from studio.protocol.message import ArgumentName, CommandMessage, Message
+from studio.protocol.message import ArgumentName, Command, Event, Message
 
 
-class SetArgument(CommandMessage):
+class SetArgument(Command):
     """Pass an argument as `name:=value` on the command line would; None takes it back."""
 
     type: Literal["set_argument"] = "set_argument"
@@ -18,14 +18,14 @@ class SetArgument(CommandMessage):
     value: str | None
 
 
-class GetArguments(CommandMessage):
+class GetArguments(Command):
     """What a robot can be launched with: the open document's, or that of a file not yet open."""
 
     type: Literal["get_arguments"] = "get_arguments"
     path: str = Field(default="", max_length=4096)
 
 
-class SetArguments(CommandMessage):
+class SetArguments(Command):
     """Pass several arguments at once, as one run and one undo step; None takes one back."""
 
     type: Literal["set_arguments"] = "set_arguments"
@@ -49,7 +49,7 @@ class ArgumentView(Message):
     """Its value names a file."""
 
 
-class Arguments(Message):
+class Arguments(Event):
     """Answer to `get_arguments`; `missing`: those without which it cannot be shown."""
 
     type: Literal["arguments"] = "arguments"

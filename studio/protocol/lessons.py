@@ -6,7 +6,7 @@ from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Field
 
-from studio.protocol.message import CommandMessage, Message
+from studio.protocol.message import Command, Event, Message
 
 DemoName: TypeAlias = Annotated[str, Field(max_length=100)]
 """As `studio demos` lists it."""
@@ -16,7 +16,7 @@ Key: TypeAlias = Literal[
 """That a demo is driven by."""
 
 
-class GetLessons(CommandMessage):
+class GetLessons(Command):
     """Ask which demos there are."""
 
     type: Literal["get_lessons"] = "get_lessons"
@@ -33,7 +33,7 @@ class LessonView(Message):
     """It is driven by `press_key`."""
 
 
-class Lessons(Message):
+class Lessons(Event):
     """Answer to `get_lessons`: in the order in which they are taught, chapter by chapter."""
 
     type: Literal["lessons"] = "lessons"
@@ -41,7 +41,7 @@ class Lessons(Message):
     lessons: tuple[LessonView, ...]
 
 
-class GetDemos(CommandMessage):
+class GetDemos(Command):
     """Ask which demos run."""
 
     type: Literal["get_demos"] = "get_demos"
@@ -61,7 +61,7 @@ class DemoView(Message):
     """The last line that it printed, once it has ended."""
 
 
-class Demos(Message):
+class Demos(Event):
     """Answer to `get_demos`."""
 
     type: Literal["demos"] = "demos"
@@ -72,7 +72,7 @@ class Demos(Message):
     """Demos whose node is there, though nobody started it from a page."""
 
 
-class GetDemoOutput(CommandMessage):
+class GetDemoOutput(Command):
     """Ask what a demo printed, in its last run."""
 
     type: Literal["get_demo_output"] = "get_demo_output"
@@ -83,7 +83,7 @@ class GetDemoOutput(CommandMessage):
     """Lines up to this one are known."""
 
 
-class DemoOutput(Message):
+class DemoOutput(Event):
     """Answer to `get_demo_output`."""
 
     type: Literal["demo_output"] = "demo_output"
@@ -95,7 +95,7 @@ class DemoOutput(Message):
     """Number of the last of them; the first of a run is 1."""
 
 
-class GetDemoCode(CommandMessage):
+class GetDemoCode(Command):
     """Ask for the source code of a demo."""
 
     type: Literal["get_demo_code"] = "get_demo_code"
@@ -110,7 +110,7 @@ class CodeFile(Message):
     text: str
 
 
-class DemoCode(Message):
+class DemoCode(Event):
     """Answer to `get_demo_code`: the file that is run first, then those of its own package."""
 
     type: Literal["demo_code"] = "demo_code"
@@ -118,29 +118,23 @@ class DemoCode(Message):
     files: tuple[CodeFile, ...]
 
 
-class StartDemo(CommandMessage):
+class StartDemo(Command):
     """Start a demo as a process of its own, in the system that the studio is connected with."""
 
     type: Literal["start_demo"] = "start_demo"
     demo: DemoName
 
 
-class StopDemo(CommandMessage):
+class StopDemo(Command):
     """End a demo that was started from a page; done when it has ended."""
 
     type: Literal["stop_demo"] = "stop_demo"
     demo: DemoName
 
 
-class PressKey(CommandMessage):
+class PressKey(Command):
     """Press a key of a demo that is driven by keys."""
 
     type: Literal["press_key"] = "press_key"
     demo: DemoName
     pressed: Key
-
-
-LessonCommand: TypeAlias = (
-    GetLessons | GetDemos | GetDemoOutput | GetDemoCode | StartDemo | StopDemo | PressKey
-)
-LessonEvent: TypeAlias = Lessons | Demos | DemoOutput | DemoCode

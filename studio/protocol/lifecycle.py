@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Literal, TypeAlias
+from typing import Literal
 
 from pydantic import Field
 
-from studio.protocol.message import CommandMessage, Message
+from studio.protocol.message import Command, Event, Message
 
 MANAGED_MAX = 100
 
 
-class GetManaged(CommandMessage):
+class GetManaged(Command):
     """Ask in which state the managed nodes are; each of them is asked."""
 
     type: Literal["get_managed"] = "get_managed"
@@ -38,7 +38,7 @@ class ManagedNodeView(Message):
     """Why its state is not known, in a sentence."""
 
 
-class ManagedNodes(Message):
+class ManagedNodes(Event):
     """Answer to `get_managed`."""
 
     type: Literal["managed_nodes"] = "managed_nodes"
@@ -48,13 +48,9 @@ class ManagedNodes(Message):
     """Managed nodes that were not asked, for there are too many."""
 
 
-class ChangeState(CommandMessage):
+class ChangeState(Command):
     """Have a managed node take a transition; done when it has, refused with what became of it."""
 
     type: Literal["change_state"] = "change_state"
     node: str = Field(max_length=300)
     transition: int = Field(ge=0, le=255)
-
-
-LifecycleCommand: TypeAlias = GetManaged | ChangeState
-LifecycleEvent: TypeAlias = ManagedNodes

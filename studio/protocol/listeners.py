@@ -12,7 +12,7 @@ _Told = TypeVar("_Told", bound="Event")
 
 
 class Listener(Protocol):
-    """The sending end of one control lane."""
+    """The sending end of one control lane, and whose it is."""
 
     role: Role
     person: str

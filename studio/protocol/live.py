@@ -6,7 +6,7 @@ from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Field, StringConstraints
 
-from studio.protocol.message import CommandMessage, Message
+from studio.protocol.message import Command, Event, Message
 
 RosName: TypeAlias = Annotated[str, StringConstraints(max_length=300, pattern=r"^[^\x00]*$")]
 """Of a topic, a frame or a property with its link; what it may be is checked where it is used."""
@@ -15,7 +15,7 @@ DisplayId: TypeAlias = Annotated[str, StringConstraints(max_length=20)]
 PropertyValue: TypeAlias = bool | int | float | str
 
 
-class AddDisplay(CommandMessage):
+class AddDisplay(Command):
     """Add a display; with a topic, it listens with what fits the topic's publishers."""
 
     type: Literal["add_display"] = "add_display"
@@ -23,21 +23,21 @@ class AddDisplay(CommandMessage):
     topic: RosName = ""
 
 
-class RemoveDisplay(CommandMessage):
+class RemoveDisplay(Command):
     """Remove a display."""
 
     type: Literal["remove_display"] = "remove_display"
     display: DisplayId
 
 
-class DuplicateDisplay(CommandMessage):
+class DuplicateDisplay(Command):
     """Add one with the same settings, below it."""
 
     type: Literal["duplicate_display"] = "duplicate_display"
     display: DisplayId
 
 
-class ArrangeDisplay(CommandMessage):
+class ArrangeDisplay(Command):
     """Give a display another name, group or place; what is None stays."""
 
     type: Literal["arrange_display"] = "arrange_display"
@@ -48,7 +48,7 @@ class ArrangeDisplay(CommandMessage):
     """The display that it comes to stand before; empty: at the end."""
 
 
-class SwitchDisplays(CommandMessage):
+class SwitchDisplays(Command):
     """Show or hide displays: one, or all of a group."""
 
     type: Literal["switch_displays"] = "switch_displays"
@@ -58,7 +58,7 @@ class SwitchDisplays(CommandMessage):
     enabled: bool
 
 
-class SetDisplayTopic(CommandMessage):
+class SetDisplayTopic(Command):
     """Listen to another topic, or in another way; None chooses by the topic's publishers."""
 
     type: Literal["set_display_topic"] = "set_display_topic"
@@ -69,7 +69,7 @@ class SetDisplayTopic(CommandMessage):
     depth: int | None = Field(default=None, ge=1, le=10_000)
 
 
-class SetDisplayProperty(CommandMessage):
+class SetDisplayProperty(Command):
     """Change a property of a display, by RViz's name."""
 
     type: Literal["set_display_property"] = "set_display_property"
@@ -78,26 +78,26 @@ class SetDisplayProperty(CommandMessage):
     value: PropertyValue
 
 
-class SetFixedFrame(CommandMessage):
+class SetFixedFrame(Command):
     """Draw everything in this frame; empty: in that of the robot's root link."""
 
     type: Literal["set_fixed_frame"] = "set_fixed_frame"
     frame: RosName
 
 
-class GetDisplayKinds(CommandMessage):
+class GetDisplayKinds(Command):
     """Which displays there are."""
 
     type: Literal["get_display_kinds"] = "get_display_kinds"
 
 
-class GetTopics(CommandMessage):
+class GetTopics(Command):
     """Which topics there are, and which display shows each."""
 
     type: Literal["get_topics"] = "get_topics"
 
 
-class GetTf(CommandMessage):
+class GetTf(Command):
     """Which frames there are; and where one of them is in another, if both are named."""
 
     type: Literal["get_tf"] = "get_tf"
@@ -107,18 +107,11 @@ class GetTf(CommandMessage):
     """Of all frames nothing is told: then it may be asked many times a second."""
 
 
-class FollowFrame(CommandMessage):
+class FollowFrame(Command):
     """Have a frame that is no link stand in the scene for some seconds, for a camera to go with."""
 
     type: Literal["follow_frame"] = "follow_frame"
     frame: RosName
-
-
-LiveCommand: TypeAlias = (
-    AddDisplay | RemoveDisplay | DuplicateDisplay | ArrangeDisplay | SwitchDisplays
-    | SetDisplayTopic | SetDisplayProperty | SetFixedFrame | GetDisplayKinds | GetTopics | GetTf
-    | FollowFrame
-)  # fmt: skip
 
 
 class DisplayKindView(Message):
@@ -131,7 +124,7 @@ class DisplayKindView(Message):
     properties: tuple[PropertyView, ...]
 
 
-class DisplayKinds(Message):
+class DisplayKinds(Event):
     """Answer to `get_display_kinds`."""
 
     type: Literal["display_kinds"] = "display_kinds"
@@ -182,7 +175,7 @@ class DisplayView(Message):
     """What can be set beside what its kind has, as namespaces of markers that came."""
 
 
-class LiveDisplays(Message):
+class LiveDisplays(Event):
     """All displays of a document, in their order, and the frame they are drawn in."""
 
     type: Literal["live_displays"] = "live_displays"
@@ -221,7 +214,7 @@ class DisplayState(Message):
     remarks: tuple[Remark, ...]
 
 
-class DisplayStates(Message):
+class DisplayStates(Event):
     """How all displays fare; told when it changes, at most twice a second."""
 
     type: Literal["display_states"] = "display_states"
@@ -241,7 +234,7 @@ class TopicView(Message):
     """Of the display that shows it; empty: none does."""
 
 
-class Topics(Message):
+class Topics(Event):
     """Answer to `get_topics`."""
 
     type: Literal["topics"] = "topics"
@@ -272,7 +265,7 @@ class TfPose(Message):
     """Frames on the way from the one that it is seen from, both ends with it."""
 
 
-class TfFrames(Message):
+class TfFrames(Event):
     """Answer to `get_tf`."""
 
     type: Literal["tf_frames"] = "tf_frames"
@@ -289,15 +282,10 @@ class TfFrames(Message):
     """Why there is no pose, in a sentence."""
 
 
-class FrameFollowed(Message):
+class FrameFollowed(Event):
     """Answer to `follow_frame`."""
 
     type: Literal["frame_followed"] = "frame_followed"
     request: int
     trouble: str
     """Why it is not known where the frame is, in a sentence; empty: it is."""
-
-
-LiveEvent: TypeAlias = (
-    DisplayKinds | LiveDisplays | DisplayStates | Topics | TfFrames | FrameFollowed
-)

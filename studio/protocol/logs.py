@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Literal, TypeAlias
+from typing import Literal
 
 from pydantic import Field
 
-from studio.protocol.message import CommandMessage, Message
+from studio.protocol.message import Command, Event, Message
 
 LINES_MAX = 2_000
 """Of one answer."""
 
 
-class GetLog(CommandMessage):
+class GetLog(Command):
     """Ask for what was said after a line; the log is heard from the first such question on."""
 
     type: Literal["get_log"] = "get_log"
@@ -37,7 +37,7 @@ class LogLine(Message):
     line: int
 
 
-class LogAnswer(Message):
+class LogAnswer(Event):
     """Answer to `get_log`: the oldest lines after that one, and how many there are in all."""
 
     type: Literal["log"] = "log"
@@ -49,7 +49,3 @@ class LogAnswer(Message):
     """Number of the oldest line that is kept; what was before it is gone."""
     last: int
     """Number of the newest line; 0: none came."""
-
-
-LogCommand: TypeAlias = GetLog
-LogEvent: TypeAlias = LogAnswer

@@ -6,10 +6,10 @@ from typing import Literal
 
 from pydantic import Field
 
-from studio.protocol.message import CommandMessage
+from studio.protocol.message import Command
 
 
-class ApplyFix(CommandMessage):
+class ApplyFix(Command):
     """Make the edits of a problem's fix as one undo step; refused when it is no longer found.
 
     The three say which problem is meant, as `problems` told it.
@@ -21,7 +21,7 @@ class ApplyFix(CommandMessage):
     label: str = Field(max_length=1000)
 
 
-class MendAll(CommandMessage):
+class MendAll(Command):
     """Make the edits of every error's and every warning's fix as one undo step.
 
     Of two that want the same place, the first one's; notes (severity `info`) are left as they are.

@@ -1,10 +1,13 @@
-"""The base of every message between page and studio: frozen, and nothing unknown in it."""
+"""The bases of all messages between page and studio: frozen, and nothing unknown in them."""
 
 from __future__ import annotations
 
-from typing import Annotated, Final, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Any, Final, TypeAlias, TypeVar, Union
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, StringConstraints
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, StringConstraints, TypeAdapter
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
 
 
 class Message(BaseModel):
@@ -29,10 +32,42 @@ ArgumentName: TypeAlias = Annotated[
 """Of an `xacro:arg`: what can be passed as `name:=value`, and written down in a file."""
 
 
-class CommandMessage(Message, allow_inf_nan=False):
-    """What every command carries."""
+class Command(Message, allow_inf_nan=False):
+    """What a browser asks for; each has a `type` of its own."""
 
     request: int = 0
     """Chosen by the browser; the answer repeats it."""
     document: str = ""
     """Id of the open document; empty for commands that need none."""
+    id: Annotated[str, StringConstraints(max_length=64)] = ""
+    """Chosen by the browser: commands with the same one, of the same person, run once."""
+
+
+class Event(Message):
+    """What the studio says; each has a `type` of its own."""
+
+
+_Kind = TypeVar("_Kind", bound=Command | Event)
+
+
+def type_of(kind: type[Command | Event]) -> str:
+    """The `type` that all messages of one kind carry."""
+    return kind.model_fields["type"].default
+
+
+def adapter_of(kinds: Iterable[type[_Kind]]) -> TypeAdapter[_Kind]:
+    """Parses messages of these kinds, told apart by their `type`."""
+    union: Any = Union[tuple(sorted(kinds, key=type_of))]  # noqa: UP007 - a tuple of run time
+    told_apart: Any = Annotated[union, Field(discriminator="type")]
+    return TypeAdapter(told_apart)
+
+
+def all_events() -> set[type[Event]]:
+    """Every kind of event that was defined."""
+    return {kind for kind in _below(Event) if "type" in kind.model_fields}
+
+
+def _below(kind: type[Event]) -> Iterator[type[Event]]:
+    for one in kind.__subclasses__():
+        yield one
+        yield from _below(one)

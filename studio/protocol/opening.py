@@ -2,40 +2,40 @@
 
 from __future__ import annotations
 
-from typing import Literal, TypeAlias
+from typing import Literal
 
 from pydantic import Field
 
-from studio.protocol.message import ArgumentName, CommandMessage, Message
+from studio.protocol.message import ArgumentName, Command, Event, Message
 
 
-class ListRecent(CommandMessage):
+class ListRecent(Command):
     """The files that were opened last."""
 
     type: Literal["list_recent"] = "list_recent"
 
 
-class OpenRecent(CommandMessage):
+class OpenRecent(Command):
     """Open a file of that list again, with the arguments that it had."""
 
     type: Literal["open_recent"] = "open_recent"
     path: str = Field(max_length=4096)
 
 
-class ForgetRecent(CommandMessage):
+class ForgetRecent(Command):
     """Take a file out of that list; the file stays."""
 
     type: Literal["forget_recent"] = "forget_recent"
     path: str = Field(max_length=4096)
 
 
-class ListExamples(CommandMessage):
+class ListExamples(Command):
     """The models that the studio ships."""
 
     type: Literal["list_examples"] = "list_examples"
 
 
-class OpenExample(CommandMessage):
+class OpenExample(Command):
     """Open the working copy of a shipped model."""
 
     type: Literal["open_example"] = "open_example"
@@ -44,13 +44,13 @@ class OpenExample(CommandMessage):
     """That the model is opened with."""
 
 
-class ListPlaces(CommandMessage):
+class ListPlaces(Command):
     """The folders in which something new can be made."""
 
     type: Literal["list_places"] = "list_places"
 
 
-class NewRobot(CommandMessage):
+class NewRobot(Command):
     """Make a package `folder/name` out of a template, and open its robot."""
 
     type: Literal["new_robot"] = "new_robot"
@@ -60,14 +60,14 @@ class NewRobot(CommandMessage):
     """Empty: that of the data folder."""
 
 
-class NewUntitled(CommandMessage):
+class NewUntitled(Command):
     """Open a text that has no file yet."""
 
     type: Literal["new_untitled"] = "new_untitled"
     text: str
 
 
-class SaveAs(CommandMessage):
+class SaveAs(Command):
     """Write the document's robot to a new place, and go on there."""
 
     type: Literal["save_as"] = "save_as"
@@ -76,20 +76,6 @@ class SaveAs(CommandMessage):
     """Empty: that of the data folder."""
     as_package: bool = True
     """With package.xml, launch/ and README.md around it."""
-
-
-LibraryCommand: TypeAlias = (
-    ListRecent
-    | OpenRecent
-    | ForgetRecent
-    | ListExamples
-    | OpenExample
-    | ListPlaces
-    | NewRobot
-    | NewUntitled
-    | SaveAs
-)
-"""What the engine's library carries out."""
 
 
 class RecentEntry(Message):
@@ -103,7 +89,7 @@ class RecentEntry(Message):
     is_there: bool
 
 
-class Recent(Message):
+class Recent(Event):
     """Answer to `list_recent` and `forget_recent`: newest first."""
 
     type: Literal["recent"] = "recent"
@@ -119,7 +105,7 @@ class ExampleEntry(Message):
     text: str
 
 
-class Examples(Message):
+class Examples(Event):
     """Answer to `list_examples`."""
 
     type: Literal["examples"] = "examples"
@@ -127,7 +113,7 @@ class Examples(Message):
     examples: tuple[ExampleEntry, ...]
 
 
-class Places(Message):
+class Places(Event):
     """Answer to `list_places`: the data folder's own first."""
 
     type: Literal["places"] = "places"

@@ -8,10 +8,10 @@ from pydantic import Field
 
 from studio.description.origins.origin_values import Aspect, PartOrigin
 from studio.problems import Place
-from studio.protocol.message import CommandMessage, Message
+from studio.protocol.message import Command, Event, Message
 
 
-class Origin(Message):
+class Origin(Event):
     """Answer to `get_origin`, true of the last good run: ask again when something was built."""
 
     type: Literal["origin"] = "origin"
@@ -27,7 +27,7 @@ class PartEffect(Message):
     aspects: tuple[Aspect, ...]
 
 
-class Effects(Message):
+class Effects(Event):
     """Answer to `get_effects`, true of the last good run; without parts the text shapes nothing."""
 
     type: Literal["effects"] = "effects"
@@ -52,14 +52,14 @@ class Effects(Message):
     """There is more than is told."""
 
 
-class GetOrigin(CommandMessage):
+class GetOrigin(Command):
     """Where a part of the last good run comes from; `part` is `link:<name>`, `joint:<name>` ..."""
 
     type: Literal["get_origin"] = "get_origin"
     part: str = Field(max_length=4096)
 
 
-class GetEffects(CommandMessage):
+class GetEffects(Command):
     """What a site shapes in the robot of the last good run."""
 
     type: Literal["get_effects"] = "get_effects"

@@ -2,29 +2,29 @@
 
 from __future__ import annotations
 
-from typing import Literal, TypeAlias
+from typing import Literal
 
 from pydantic import Field
 
 from studio.protocol.calls import Name, PlainJson, Yaml
 from studio.protocol.interfaces import NAME_MAX
-from studio.protocol.message import CommandMessage, Message
+from studio.protocol.message import Command, Event, Message
 
 
-class GetParameterNodes(CommandMessage):
+class GetParameterNodes(Command):
     """Ask which nodes have parameters."""
 
     type: Literal["get_parameter_nodes"] = "get_parameter_nodes"
 
 
-class GetParameters(CommandMessage):
+class GetParameters(Command):
     """Ask for all parameters of a node, with what it says of them."""
 
     type: Literal["get_parameters"] = "get_parameters"
     node: Name
 
 
-class SetParameter(CommandMessage):
+class SetParameter(Command):
     """Have a node set a parameter; refused with its reason when it does not."""
 
     type: Literal["set_parameter"] = "set_parameter"
@@ -36,14 +36,14 @@ class SetParameter(CommandMessage):
     """As it is told; empty: what the text looks like."""
 
 
-class DumpParameters(CommandMessage):
+class DumpParameters(Command):
     """Ask for all parameters of a node as a file of them."""
 
     type: Literal["dump_parameters"] = "dump_parameters"
     node: Name
 
 
-class LoadParameters(CommandMessage):
+class LoadParameters(Command):
     """Have a node set what a file says of it, one after another."""
 
     type: Literal["load_parameters"] = "load_parameters"
@@ -51,7 +51,7 @@ class LoadParameters(CommandMessage):
     text: Yaml
 
 
-class FollowParameters(CommandMessage):
+class FollowParameters(Command):
     """Be told when parameters of a node change."""
 
     type: Literal["follow_parameters"] = "follow_parameters"
@@ -59,7 +59,7 @@ class FollowParameters(CommandMessage):
     """Empty: of none any more."""
 
 
-class ParameterNodes(Message):
+class ParameterNodes(Event):
     """Answer to `get_parameter_nodes`: full names, in order."""
 
     type: Literal["parameter_nodes"] = "parameter_nodes"
@@ -83,7 +83,7 @@ class ParameterView(Message):
     """0: any value of the range."""
 
 
-class Parameters(Message):
+class Parameters(Event):
     """Answer to `get_parameters`, in the order of the alphabet."""
 
     type: Literal["parameters"] = "parameters"
@@ -92,7 +92,7 @@ class Parameters(Message):
     parameters: tuple[ParameterView, ...]
 
 
-class ParameterDump(Message):
+class ParameterDump(Event):
     """Answer to `dump_parameters`."""
 
     type: Literal["parameter_dump"] = "parameter_dump"
@@ -108,7 +108,7 @@ class ParameterRefusal(Message):
     reason: str
 
 
-class ParametersLoaded(Message):
+class ParametersLoaded(Event):
     """Answer to `load_parameters`."""
 
     type: Literal["parameters_loaded"] = "parameters_loaded"
@@ -119,7 +119,7 @@ class ParametersLoaded(Message):
     refused: tuple[ParameterRefusal, ...]
 
 
-class ParametersChanged(Message):
+class ParametersChanged(Event):
     """Parameters of a node that is followed have new values."""
 
     type: Literal["parameters_changed"] = "parameters_changed"
@@ -127,16 +127,3 @@ class ParametersChanged(Message):
     parameters: tuple[ParameterView, ...]
     """With their values alone."""
     gone: tuple[str, ...]
-
-
-ParameterCommand: TypeAlias = (
-    GetParameterNodes
-    | GetParameters
-    | SetParameter
-    | DumpParameters
-    | LoadParameters
-    | FollowParameters
-)
-ParameterMessage: TypeAlias = (
-    ParameterNodes | Parameters | ParameterDump | ParametersLoaded | ParametersChanged
-)

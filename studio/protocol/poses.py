@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Literal, TypeAlias
+from typing import Literal
 
 from pydantic import Field
 
-from studio.protocol.message import CommandMessage, Message
+from studio.protocol.message import Command, Event, Message
 
 
 class PoseView(Message):
@@ -30,7 +30,7 @@ class PoseView(Message):
     """Joints whose limits do not let them go so far; the first ones."""
 
 
-class Poses(Message):
+class Poses(Event):
     """All named poses that fit the robot."""
 
     type: Literal["poses"] = "poses"
@@ -43,7 +43,7 @@ class Poses(Message):
     """What is wrong with that file, in a sentence."""
 
 
-class ApplyPose(CommandMessage):
+class ApplyPose(Command):
     """Move the joints to a named pose; joints that it does not name stay."""
 
     type: Literal["apply_pose"] = "apply_pose"
@@ -52,7 +52,7 @@ class ApplyPose(CommandMessage):
     """Of the way there; 0: at once."""
 
 
-class SavePose(CommandMessage):
+class SavePose(Command):
     """Keep where the joints are under a name; with `replace` also under one that there is."""
 
     type: Literal["save_pose"] = "save_pose"
@@ -60,7 +60,7 @@ class SavePose(CommandMessage):
     replace: bool = False
 
 
-class RenamePose(CommandMessage):
+class RenamePose(Command):
     """Give one's own pose another name."""
 
     type: Literal["rename_pose"] = "rename_pose"
@@ -68,11 +68,8 @@ class RenamePose(CommandMessage):
     new_name: str = Field(max_length=100)
 
 
-class DeletePose(CommandMessage):
+class DeletePose(Command):
     """Forget one's own pose; the joints stay where they are."""
 
     type: Literal["delete_pose"] = "delete_pose"
     name: str = Field(max_length=100)
-
-
-PoseCommand: TypeAlias = ApplyPose | SavePose | RenamePose | DeletePose

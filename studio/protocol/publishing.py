@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Literal, TypeAlias
+from typing import Literal
 
 from pydantic import Field
 
 from studio.protocol.calls import Name, Yaml
-from studio.protocol.message import CommandMessage, Message
+from studio.protocol.message import Command, Event, Message
 
 RATE_MAX_HZ = 1000.0
 
 
-class Publish(CommandMessage):
+class Publish(Command):
     """Publish a message; how it fares is told to those who follow publications."""
 
     type: Literal["publish"] = "publish"
@@ -27,7 +27,7 @@ class Publish(CommandMessage):
     depth: int = Field(default=10, ge=1, le=10_000)
 
 
-class StopPublishing(CommandMessage):
+class StopPublishing(Command):
     """Publish it no more; those of that number, or all."""
 
     type: Literal["stop_publishing"] = "stop_publishing"
@@ -55,13 +55,9 @@ class PublicationView(Message):
     trouble: str
 
 
-class Publications(Message):
+class Publications(Event):
     """Publications, the oldest first; all that are kept, or those that changed."""
 
     type: Literal["publications"] = "publications"
     whole: bool
     deeds: tuple[PublicationView, ...]
-
-
-PublishCommand: TypeAlias = Publish | StopPublishing
-PublishEvent: TypeAlias = Publications

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Literal, TypeAlias
+from typing import Literal
 
 from pydantic import Field
 
 from studio.description.language.questions import SubjectKind, TextPlace
 from studio.protocol.language import PlaceCommand
-from studio.protocol.message import CommandMessage, Message
+from studio.protocol.message import Command, Event, Message
 
 
 class GetRenaming(PlaceCommand):
@@ -39,7 +39,7 @@ class FoundText(Message):
     """The run came by; else it is told from the text alone."""
 
 
-class RenamingAnswer(Message):
+class RenamingAnswer(Event):
     """Answer to `get_renaming`: the first of `count` places, in `files` files."""
 
     type: Literal["renaming"] = "renaming"
@@ -52,7 +52,7 @@ class RenamingAnswer(Message):
     files: int
 
 
-class WordsCommand(CommandMessage):
+class WordsCommand(Command):
     """Something about words in the files of the robot; they are plain words, no pattern."""
 
     text: str = Field(min_length=1, max_length=1000)
@@ -66,7 +66,7 @@ class FindTexts(WordsCommand):
     type: Literal["find_texts"] = "find_texts"
 
 
-class TextsFound(Message):
+class TextsFound(Event):
     """Answer to `find_texts`: the first of `count` places, in `files` files."""
 
     type: Literal["texts_found"] = "texts_found"
@@ -85,7 +85,3 @@ class ReplaceTexts(WordsCommand):
     type: Literal["replace_texts"] = "replace_texts"
     replacement: str = Field(max_length=1000)
     count: int = Field(ge=1, le=1 << 20)
-
-
-RewritingCommand: TypeAlias = GetRenaming | Rename | FindTexts | ReplaceTexts
-RewritingEvent: TypeAlias = RenamingAnswer | TextsFound

@@ -4,36 +4,36 @@ from __future__ import annotations
 
 from typing import Literal
 
-from studio.protocol.message import CommandMessage, Message
+from studio.protocol.message import Command, Event, Message
 
 
-class SetJoints(CommandMessage):
+class SetJoints(Command):
     """Move joints: positions by name, rad or m; clamped to the limits, mimics follow."""
 
     type: Literal["set_joints"] = "set_joints"
     positions: dict[str, float]
 
 
-class ZeroJoints(CommandMessage):
+class ZeroJoints(Command):
     """All joints to zero, or to the nearest position within their limits."""
 
     type: Literal["zero_joints"] = "zero_joints"
 
 
-class RandomizeJoints(CommandMessage):
+class RandomizeJoints(Command):
     """All joints to random positions within their limits."""
 
     type: Literal["randomize_joints"] = "randomize_joints"
 
 
-class AnimateJoints(CommandMessage):
+class AnimateJoints(Command):
     """Swing the joints through their limits, or stop."""
 
     type: Literal["animate_joints"] = "animate_joints"
     running: bool
 
 
-class SetDisplay(CommandMessage):
+class SetDisplay(Command):
     """Change one setting of a shared display, e.g. `robot`, `collision`, True."""
 
     type: Literal["set_display"] = "set_display"
@@ -73,7 +73,7 @@ class JointView(Message):
     line: int
 
 
-class RobotState(Message):
+class RobotState(Event):
     """The robot's tree. `revision` counts structural changes; joint frames carry it."""
 
     type: Literal["robot"] = "robot"
@@ -84,7 +84,7 @@ class RobotState(Message):
     joints: tuple[JointView, ...]
 
 
-class JointPositions(Message):
+class JointPositions(Event):
     """Positions of all movable joints by name, after a command; streams are binary frames."""
 
     type: Literal["joints"] = "joints"
@@ -92,7 +92,7 @@ class JointPositions(Message):
     animating: bool
 
 
-class Displays(Message):
+class Displays(Event):
     """The shared display settings: display, then setting, then value."""
 
     type: Literal["displays"] = "displays"

@@ -1,7 +1,8 @@
-"""Who somebody is in the studio; what a role may do is decided at the door (`web.access`)."""
+"""Who somebody is in the studio; what a role may do is in the commands' permissions."""
 
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import Protocol
 
 
 class Role(StrEnum):
@@ -9,6 +10,20 @@ class Role(StrEnum):
 
     PRESENTER = "presenter"
     VIEWER = "viewer"
+
+
+class Person(Protocol):
+    """Somebody with a role; `person` is the same for all of one browser, or of one token."""
+
+    @property
+    def role(self) -> Role:
+        """What they may do."""
+        ...
+
+    @property
+    def person(self) -> str:
+        """Who they are."""
+        ...
 
 
 @dataclass(frozen=True, slots=True)

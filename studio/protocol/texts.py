@@ -6,10 +6,10 @@ from typing import Literal
 
 from pydantic import Field
 
-from studio.protocol.message import OFFSET_LIMIT, CommandMessage, Message
+from studio.protocol.message import OFFSET_LIMIT, Command, Event, Message
 
 
-class GetText(CommandMessage):
+class GetText(Command):
     """The text of a file as it is edited; `texts_changed` tells from then on what happens to it."""
 
     type: Literal["get_text"] = "get_text"
@@ -28,7 +28,7 @@ class TextChange(Message):
     text: str = Field(max_length=4_194_304)
 
 
-class EditText(CommandMessage):
+class EditText(Command):
     """Type into a file's text; refused when its version is no longer this one.
 
     The changes are in order, none overlapping, each with offsets in the text before all of them.
@@ -44,7 +44,7 @@ class EditText(CommandMessage):
     origin: str = Field(default="", max_length=100)
 
 
-class Text(Message):
+class Text(Event):
     """Answer to `get_text`: the text at a version, as `TextChange` describes texts."""
 
     type: Literal["text"] = "text"
@@ -59,7 +59,7 @@ class Text(Message):
     """Why it may not be edited, a sentence; empty: it may."""
 
 
-class TextsChanged(Message):
+class TextsChanged(Event):
     """A text that somebody asked for changed, by whatever way; it now has this version."""
 
     type: Literal["texts_changed"] = "texts_changed"
@@ -70,13 +70,13 @@ class TextsChanged(Message):
     """Of the `edit_text` that did it; empty: it was none."""
 
 
-class GetUrdf(CommandMessage):
+class GetUrdf(Command):
     """The expanded URDF of the last good run."""
 
     type: Literal["get_urdf"] = "get_urdf"
 
 
-class Urdf(Message):
+class Urdf(Event):
     """Answer to `get_urdf`."""
 
     type: Literal["urdf"] = "urdf"

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, TypeAlias
+from typing import Annotated, Literal
 
 from pydantic import Field
 
 from studio.protocol.live import RosName
-from studio.protocol.message import CommandMessage, Message
+from studio.protocol.message import Command, Event, Message
 
 
-class GetTopicRates(CommandMessage):
+class GetTopicRates(Command):
     """How topics come; they are heard for some seconds from now on, so ask again every second."""
 
     type: Literal["get_topic_rates"] = "get_topic_rates"
@@ -31,13 +31,9 @@ class TopicRate(Message):
     """`waiting`: nothing came, but that is not for long; `latched`: it speaks once, and did."""
 
 
-class TopicRates(Message):
+class TopicRates(Event):
     """Answer to `get_topic_rates`: those that somebody publishes, and for which there is room."""
 
     type: Literal["topic_rates"] = "topic_rates"
     request: int
     rates: tuple[TopicRate, ...]
-
-
-RatesCommand: TypeAlias = GetTopicRates
-RatesEvent: TypeAlias = TopicRates

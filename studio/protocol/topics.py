@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Literal, TypeAlias
+from typing import Literal
 
 from studio.protocol.live import RosName
-from studio.protocol.message import CommandMessage, Message
+from studio.protocol.message import Command, Event, Message
 
 
-class ListTopics(CommandMessage):
+class ListTopics(Command):
     """Ask which topics anybody publishes or subscribes to."""
 
     type: Literal["list_topics"] = "list_topics"
 
 
-class GetTopicEnds(CommandMessage):
+class GetTopicEnds(Command):
     """Ask who publishes a topic and who subscribes to it, how, and what keeps them apart."""
 
     type: Literal["get_topic_ends"] = "get_topic_ends"
@@ -33,7 +33,7 @@ class TopicRow(Message):
     """Of the display that shows it; empty: none does."""
 
 
-class TopicTable(Message):
+class TopicTable(Event):
     """Answer to `list_topics`."""
 
     type: Literal["topic_table"] = "topic_table"
@@ -70,7 +70,7 @@ class Misfit(Message):
     """On Zenoh the messages come all the same; other types or hashes keep them apart there, too."""
 
 
-class TopicEnds(Message):
+class TopicEnds(Event):
     """Answer to `get_topic_ends`."""
 
     type: Literal["topic_ends"] = "topic_ends"
@@ -78,7 +78,3 @@ class TopicEnds(Message):
     publishers: tuple[TopicEnd, ...]
     subscribers: tuple[TopicEnd, ...]
     misfits: tuple[Misfit, ...]
-
-
-TopicsCommand: TypeAlias = ListTopics | GetTopicEnds
-TopicsEvent: TypeAlias = TopicTable | TopicEnds

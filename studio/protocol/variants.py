@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Final, Literal, TypeAlias
+from typing import Final, Literal
 
 from pydantic import Field
 
 from studio.description.values import SiteKind
-from studio.protocol.message import CommandMessage, Message
+from studio.protocol.message import Command, Event, Message
 
 TEXT_SHOWN: Final = 200
 """Letters of a text that lists show."""
@@ -44,7 +44,7 @@ class VariantView(Message):
     texts: tuple[VariantText, ...]
 
 
-class Variants(Message):
+class Variants(Event):
     """All variants. `active` is empty for the robot as in its files."""
 
     type: Literal["variants"] = "variants"
@@ -60,7 +60,7 @@ class Variants(Message):
     """What is wrong with the file, in a sentence."""
 
 
-class VariantApplied(Message):
+class VariantApplied(Event):
     """Answer to `apply_variant`; `left_out` says what found no place."""
 
     type: Literal["variant_applied"] = "variant_applied"
@@ -68,7 +68,7 @@ class VariantApplied(Message):
     left_out: tuple[str, ...]
 
 
-class VariantSaved(Message):
+class VariantSaved(Event):
     """Answer to `save_variant` and `update_variant`: what of the robot no variant can hold."""
 
     type: Literal["variant_saved"] = "variant_saved"
@@ -105,7 +105,7 @@ class DifferenceView(Message):
     """Of `one`; None where that is 0."""
 
 
-class Comparison(Message):
+class Comparison(Event):
     """How two states differ. `sides` None: none are compared."""
 
     type: Literal["comparison"] = "comparison"
@@ -122,7 +122,7 @@ class Comparison(Message):
     """What the ghost shows."""
 
 
-class SaveVariant(CommandMessage):
+class SaveVariant(Command):
     """Keep the present arguments and values as a new variant."""
 
     type: Literal["save_variant"] = "save_variant"
@@ -130,21 +130,21 @@ class SaveVariant(CommandMessage):
     note: str = Field(default="", max_length=2000)
 
 
-class ApplyVariant(CommandMessage):
+class ApplyVariant(Command):
     """Make the robot a variant, in one undo step; an empty name makes it as its files say."""
 
     type: Literal["apply_variant"] = "apply_variant"
     name: str = Field(max_length=100)
 
 
-class UpdateVariant(CommandMessage):
+class UpdateVariant(Command):
     """Keep the present arguments and values in a variant that there is."""
 
     type: Literal["update_variant"] = "update_variant"
     name: str = Field(max_length=100)
 
 
-class RenameVariant(CommandMessage):
+class RenameVariant(Command):
     """Give a variant another name and note."""
 
     type: Literal["rename_variant"] = "rename_variant"
@@ -153,21 +153,15 @@ class RenameVariant(CommandMessage):
     note: str = Field(default="", max_length=2000)
 
 
-class DeleteVariant(CommandMessage):
+class DeleteVariant(Command):
     """Forget a variant; the robot stays as it is."""
 
     type: Literal["delete_variant"] = "delete_variant"
     name: str = Field(max_length=100)
 
 
-class CompareVariants(CommandMessage):
+class CompareVariants(Command):
     """Compare two states for everybody from now on, and follow them; None ends it."""
 
     type: Literal["compare_variants"] = "compare_variants"
     sides: tuple[Side, Side] | None = None
-
-
-VariantCommand: TypeAlias = (
-    SaveVariant | ApplyVariant | UpdateVariant | RenameVariant | DeleteVariant | CompareVariants
-)
-VariantEvent: TypeAlias = Variants | VariantApplied | VariantSaved | Comparison

@@ -6,7 +6,7 @@ from typing import Literal, TypeAlias
 
 from pydantic import Field
 
-from studio.protocol.message import CommandMessage, Message
+from studio.protocol.message import Command, Event, Message
 
 JointSource: TypeAlias = Literal["sliders", "animation", "joint_states", "tf"]
 """Who moves the joints: one of these at a time."""
@@ -15,7 +15,7 @@ JointSource: TypeAlias = Literal["sliders", "animation", "joint_states", "tf"]
 Distro: TypeAlias = Literal["", "humble", "jazzy", "kilted"]
 
 
-class WirePlace(CommandMessage):
+class WirePlace(Command):
     """Where a ROS 2 system is looked for, and what it speaks; what is left out stays as it is."""
 
     address: str = Field(default="", max_length=300)
@@ -39,40 +39,40 @@ class ExamineWire(WirePlace):
     type: Literal["examine_wire"] = "examine_wire"
 
 
-class DisconnectWire(CommandMessage):
+class DisconnectWire(Command):
     """Leave the ROS 2 system: all that went out or came in for any document ends before."""
 
     type: Literal["disconnect_wire"] = "disconnect_wire"
 
 
-class SetJointSource(CommandMessage):
+class SetJointSource(Command):
     """Choose who moves the joints."""
 
     type: Literal["set_joint_source"] = "set_joint_source"
     source: JointSource
 
 
-class PublishRobot(CommandMessage):
+class PublishRobot(Command):
     """Publish `/robot_description` and TF as robot_state_publisher does, or stop."""
 
     type: Literal["publish_robot"] = "publish_robot"
     running: bool
 
 
-class PublishJoints(CommandMessage):
+class PublishJoints(Command):
     """Publish `/joint_states` as joint_state_publisher does, or stop."""
 
     type: Literal["publish_joints"] = "publish_joints"
     running: bool
 
 
-class FindWireRobots(CommandMessage):
+class FindWireRobots(Command):
     """Look which robot descriptions there are on the wire."""
 
     type: Literal["find_wire_robots"] = "find_wire_robots"
 
 
-class OpenFromWire(CommandMessage):
+class OpenFromWire(Command):
     """Open a robot whose description comes from a topic, or from a parameter of a node."""
 
     type: Literal["open_from_wire"] = "open_from_wire"
@@ -82,19 +82,7 @@ class OpenFromWire(CommandMessage):
     parameter: str = Field(default="robot_description", max_length=300)
 
 
-WireCommand: TypeAlias = (
-    ConnectWire
-    | ExamineWire
-    | DisconnectWire
-    | SetJointSource
-    | PublishRobot
-    | PublishJoints
-    | FindWireRobots
-    | OpenFromWire
-)
-
-
-class WireState(Message):
+class WireState(Event):
     """How the studio is connected with a ROS 2 system; told to every page."""
 
     type: Literal["wire_state"] = "wire_state"
@@ -114,7 +102,7 @@ class WireState(Message):
     """Why it failed, in a sentence."""
 
 
-class WireFeed(Message):
+class WireFeed(Event):
     """What of a document's robot comes from the wire, and what goes there."""
 
     type: Literal["wire_feed"] = "wire_feed"
@@ -138,7 +126,7 @@ class WireFeed(Message):
     """What is wrong with it, in a sentence."""
 
 
-class WireRobots(Message):
+class WireRobots(Event):
     """Answer to `find_wire_robots`: topics with a robot description, the usual one first."""
 
     type: Literal["wire_robots"] = "wire_robots"
@@ -172,7 +160,7 @@ class DomainView(Message):
     nodes: int
 
 
-class WireReport(Message):
+class WireReport(Event):
     """Answer to `examine_wire`: what there is, and if nobody can be met there, why."""
 
     type: Literal["wire_report"] = "wire_report"
@@ -194,6 +182,3 @@ class WireReport(Message):
     """Of another form than here; the first ones."""
     unseen: int
     """Processes that publish in the domain, while none of their nodes is seen."""
-
-
-WireEvent: TypeAlias = WireState | WireFeed | WireRobots | WireReport

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from studio.protocol import EVENTS, Event
 from studio.server.commands import answer
+from studio.server.schema import EVENT_ADAPTER
 
 if TYPE_CHECKING:
+    from studio.protocol import Event
     from studio.protocol.roles import Visitor
     from studio.server.surface import OpenDocuments
 
@@ -23,7 +24,7 @@ class Answers:
         """Keep one event."""
         del key
         if not binary:
-            self.events.append(EVENTS.validate_json(data))
+            self.events.append(EVENT_ADAPTER.validate_json(data))
 
     async def collect(self, engine: OpenDocuments, text: bytes) -> list[Event]:
         """Carry out one command and give what came of it."""

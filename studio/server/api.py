@@ -9,10 +9,12 @@ from pydantic import BaseModel
 
 import studio
 from studio.errors import CommandError
-from studio.protocol import Documents, Event, GetUrdf, Refused, Urdf
+from studio.protocol import Event
+from studio.protocol.commands import COMMAND_LIMIT_BYTES
+from studio.protocol.documents import Documents, Refused
 from studio.protocol.roles import Role, Visitor
+from studio.protocol.texts import GetUrdf, Urdf
 from studio.server.answers import Answers
-from studio.server.commands import COMMAND_LIMIT_BYTES
 from studio.server.schema import COMMAND_BODY
 from studio.server.surface import OpenDocuments
 

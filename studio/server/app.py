@@ -12,7 +12,7 @@ from starlette.websockets import WebSocket
 
 import studio
 from studio.errors import AccessError, CommandError, StudioError, UnknownDocumentError
-from studio.server.access import PUBLIC_ROUTES, ROUTE_DEEDS, demand
+from studio.server.access import PUBLIC_ROUTES, ROUTES, demand
 from studio.server.api import Api
 from studio.server.assets import Assets
 from studio.server.credentials import Credentials
@@ -79,7 +79,9 @@ def check_role(connection: HTTPConnection) -> None:
     """
     path = connection.scope["route"].path
     if path not in PUBLIC_ROUTES:
-        demand(connection.scope["state"]["role"], ROUTE_DEEDS.get(path, "unknown route"))
+        name = ROUTES[path].name if path in ROUTES else "unknown route"
+        document = connection.path_params.get("document", "")
+        demand(connection.scope["state"]["visitor"], name, document)
 
 
 async def _say(connection: Request | WebSocket, error: Exception) -> Response:

@@ -8,16 +8,21 @@ from typing import TYPE_CHECKING, Final
 
 from pydantic import BaseModel, ValidationError
 
+from studio.documents.engine import COMMANDS
 from studio.errors import CommandError, StudioError
-from studio.protocol import COMMANDS, Command, Refused
+from studio.protocol.commands import COMMAND_LIMIT_BYTES
+from studio.protocol.documents import Refused
 from studio.protocol.listeners import tell
+from studio.protocol.message import adapter_of, type_of
 from studio.server.access import demand
 
 if TYPE_CHECKING:
+    from studio.protocol import Command
     from studio.protocol.listeners import Listener
     from studio.server.surface import OpenDocuments
 
-COMMAND_LIMIT_BYTES: Final = 1 << 20
+COMMAND_ADAPTER: Final = adapter_of(COMMANDS.messages)
+"""Parses every command."""
 _REASON_LIMIT = 300
 _LOG = logging.getLogger(__name__)
 
@@ -37,9 +42,14 @@ def parse_command(text: bytes) -> Command:
     if len(text) > COMMAND_LIMIT_BYTES:
         raise CommandError(f"A command of more than {COMMAND_LIMIT_BYTES} bytes is not read.")
     try:
-        return COMMANDS.validate_json(text)
+        command = COMMAND_ADAPTER.validate_json(text)
     except ValidationError as error:
         raise CommandError(malformed("command", error)) from None
+    bytes_max = COMMANDS[type(command)].limits.bytes_max
+    if len(text) > bytes_max:
+        name = type_of(type(command)).replace("_", " ").capitalize()
+        raise CommandError(f"{name} of more than {bytes_max} bytes is not taken.")
+    return command
 
 
 def malformed(what: str, error: ValidationError) -> str:
@@ -63,7 +73,7 @@ async def answer(engine: OpenDocuments, listener: Listener, text: bytes) -> None
     """Carry out one command; whatever is wrong with it becomes an answer."""
     try:
         command = parse_command(text)
-        demand(listener.role, command.type)
+        demand(listener, type_of(type(command)), command.document)
         await engine.execute(command, listener)
     except StudioError as error:
         tell(

@@ -10,7 +10,7 @@ from studio.server.commands import answer
 from studio.server.lane import FrameTransport, binary_frame, text_frame
 
 if TYPE_CHECKING:
-    from studio.protocol import Hello
+    from studio.protocol.documents import Hello
     from studio.protocol.roles import Visitor
     from studio.server.lane import Lane
     from studio.server.surface import OpenDocuments

@@ -72,7 +72,7 @@ class Guard:
             answer = self._exchange(scope, headers, host, role)
             if answer is not None:
                 return answer, visitor
-        scope.setdefault("state", {}).update(role=role, visitor=visitor)
+        scope.setdefault("state", {}).update(visitor=visitor)
         return None if role else _stranger(scope, headers), visitor
 
     def _host(self, headers: Headers) -> Authority | None:

@@ -8,13 +8,16 @@ from fastapi.openapi.utils import get_openapi
 from pydantic import TypeAdapter
 
 import studio
-from studio.protocol import COMMANDS, EVENTS
+from studio.protocol.message import adapter_of, all_events
+from studio.server.commands import COMMAND_ADAPTER
 
 if TYPE_CHECKING:
     from starlette.routing import BaseRoute
 
 Schema = dict[str, Any]
 
+EVENT_ADAPTER: Final = adapter_of(all_events())
+"""Parses every event."""
 _REFERENCE: Final = "#/components/schemas/{model}"
 COMMAND_BODY: Final[Schema] = {
     "requestBody": {
@@ -28,7 +31,7 @@ COMMAND_BODY: Final[Schema] = {
 def wire_schemas() -> dict[str, Schema]:
     """Schema by name: every command, every event, what they hold, `Command` and `Event`."""
     kinds, whole = TypeAdapter.json_schemas(
-        [("Command", "validation", COMMANDS), ("Event", "serialization", EVENTS)],
+        [("Command", "validation", COMMAND_ADAPTER), ("Event", "serialization", EVENT_ADAPTER)],
         ref_template=_REFERENCE,
     )
     schemas: dict[str, Schema] = dict(whole["$defs"])

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Final, Protocol
 
 import uvicorn
 
-from studio.server.commands import COMMAND_LIMIT_BYTES
+from studio.protocol.commands import COMMAND_LIMIT_BYTES
 from studio.server.crowd import CrowdedState
 from studio.server.http_protocol import StudioConnection
 from studio.server.protocol import StudioSocket

@@ -9,7 +9,7 @@ from starlette.responses import HTMLResponse, RedirectResponse, Response
 from starlette.websockets import WebSocket
 
 import studio
-from studio.protocol import Hello
+from studio.protocol.documents import Hello
 from studio.scene import viser_page, viser_page_gzipped
 from studio.server.assets import Asset, Assets
 from studio.server.bulk_lane import BulkAnswer, BulkKeys
@@ -124,7 +124,7 @@ class Site:
     async def scene(self, document: str, websocket: WebSocket) -> None:
         """The 3D lane of one document."""
         scene = self._engine.document(document).scene
-        await serve_scene(websocket, scene, websocket.scope["state"]["role"])
+        await serve_scene(websocket, scene, websocket.scope["state"]["visitor"], document)
 
 
 def takes_gzip(request: Request) -> bool:

@@ -12,7 +12,8 @@ from xml.sax.saxutils import quoteattr
 
 import pytest
 
-from studio import protocol as m
+from studio.protocol.files import Save
+from studio.protocol.robot import SetJoints
 from studio.server.exports import disposition
 from tests.support.open_documents import engine, opened
 from tests.support.packages import write_package
@@ -64,11 +65,11 @@ def test_a_robot_of_awkward_names_is_drawn_moved_edited_and_saved(entry: Path, t
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, entry)
             assert list(document.model.robot.links) == ["base", *NAMES]
-            wish = m.SetJoints(document=document.id, positions=dict.fromkeys(NAMES, 0.5))
+            wish = SetJoints(document=document.id, positions=dict.fromkeys(NAMES, 0.5))
             await made.execute(wish, ear)
             assert document.model.joints.by_name() == dict.fromkeys(NAMES, 0.5)
             await document.edit_site(ear.site("größe")["id"], "0.3", "")
-            await made.execute(m.Save(document=document.id), ear)
+            await made.execute(Save(document=document.id), ear)
             assert entry.read_text() == robot().replace('"0.2"', '"0.3"')
 
     asyncio.run(run())

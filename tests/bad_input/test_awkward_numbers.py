@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from pydantic import TypeAdapter, ValidationError
 
-from studio import protocol as m
+from studio.protocol import Command
 from tests.support.open_documents import Ear, engine, opened
 from tests.support.packages import write_package
 
@@ -88,6 +88,6 @@ def test_written_in_the_source_it_is_told_at_its_line(text: str, mast: Path, tmp
 @pytest.mark.parametrize("number", ["NaN", "1e999", "-Infinity", '"0x10"', "null"])
 def test_a_joint_is_not_sent_there(number: str):
     wish = f'{{"type": "set_joints", "document": "d", "positions": {{"turn": {number}}}}}'
-    adapter: TypeAdapter[Any] = TypeAdapter(m.Command)
+    adapter: TypeAdapter[Any] = TypeAdapter(Command)
     with pytest.raises(ValidationError):
         adapter.validate_json(wish)

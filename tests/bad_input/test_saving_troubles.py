@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from studio import protocol as m
 from studio.errors import NotSavedError
+from studio.protocol.files import Save
+from studio.protocol.mending import ApplyFix
 from studio.protocol.rewriting import Rename
 from tests.support.open_documents import engine, opened, until
 from tests.support.permissions import open_folder, unprivileged
@@ -64,12 +65,12 @@ def test_a_disk_without_room_keeps_the_file_and_the_edits_and_takes_them_later(
             document, ear = await opened(made, arm)
             await document.edit_site(ear.site("reach")["id"], "0.5", "")
             with no_room_for(64), pytest.raises(NotSavedError, match=r"arm\.urdf\.xacro.*large"):
-                await made.execute(m.Save(document=document.id), ear)
+                await made.execute(Save(document=document.id), ear)
             assert arm.read_text() == ARM
             assert [one.name for one in arm.parent.iterdir()] == [arm.name]
             assert document.has_unsaved
             await document.edit_site(ear.site("reach")["id"], "0.6", "")
-            await made.execute(m.Save(document=document.id), ear)
+            await made.execute(Save(document=document.id), ear)
             assert arm.read_text() == ARM.replace("0.4", "0.6")
 
     asyncio.run(run())
@@ -104,10 +105,10 @@ def test_a_file_and_a_folder_of_somebody_else_are_left_alone_in_a_sentence(tmp_p
                 document, ear = await opened(made, path)
                 await document.edit_site(ear.site("reach")["id"], "0.5", "")
                 with unprivileged(), pytest.raises(NotSavedError, match="read-only"):
-                    await made.execute(m.Save(document=document.id), ear)
+                    await made.execute(Save(document=document.id), ear)
                 path.chmod(0o666)
                 with unprivileged(), pytest.raises(NotSavedError, match="its folder is read-only"):
-                    await made.execute(m.Save(document=document.id), ear)
+                    await made.execute(Save(document=document.id), ear)
                 assert path.read_text() == ARM
                 assert document.has_unsaved
 
@@ -122,7 +123,7 @@ def test_a_symlinked_file_is_edited_and_saved_where_it_lies(arm: Path, tmp_path:
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, link)
             await document.edit_site(ear.site("reach")["id"], "0.5", "")
-            await made.execute(m.Save(document=document.id), ear)
+            await made.execute(Save(document=document.id), ear)
             assert link.is_symlink()
             assert arm.read_text() == ARM.replace("0.4", "0.5")
             assert not document.has_unsaved
@@ -152,14 +153,14 @@ def test_only_the_changed_bytes_of_a_file_with_crlf_and_a_mark_are_written(
 
             await until(lambda: mendable() != [])
             (problem,) = mendable()
-            fix = m.ApplyFix(
+            fix = ApplyFix(
                 document=document.id,
                 code=problem["code"],
                 sentence=problem["sentence"],
                 label=problem["fix"]["label"],
             )
             await made.execute(fix, ear)
-            await made.execute(m.Save(document=document.id), ear)
+            await made.execute(Save(document=document.id), ear)
             expected = awkward.replace(b"0.4", b"0.55").replace(b"reach", b"height")
             assert arm.read_bytes() == expected.replace(b'"bse"', b'"base"')
 

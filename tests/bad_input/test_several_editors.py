@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio import protocol as m
 from studio.errors import UnknownDocumentError
+from studio.protocol.documents import CloseDocument
+from studio.protocol.edits import EditSite
 from tests.support.open_documents import Ear, engine, opened
 
 if TYPE_CHECKING:
@@ -41,7 +42,7 @@ def test_of_two_who_turn_one_property_at_once_the_last_counts_and_both_see_it(
             site = one.site("reach")["id"]
             wishes = [
                 made.execute(
-                    m.EditSite(document=document.id, site=site, text=f"0.{n}", gesture=whose), ear
+                    EditSite(document=document.id, site=site, text=f"0.{n}", gesture=whose), ear
                 )
                 for n in range(1, 9)
                 for whose, ear in (("one", one), ("other", other))
@@ -80,10 +81,10 @@ def test_an_edit_of_a_model_that_was_closed_is_answered_and_changes_nothing(
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, arm)
-            late = m.EditSite(document=document.id, site=ear.site("reach")["id"], text="9")
+            late = EditSite(document=document.id, site=ear.site("reach")["id"], text="9")
             running = asyncio.ensure_future(made.execute(late, ear))
             await asyncio.sleep(0)
-            await made.execute(m.CloseDocument(document=document.id, discard=True), ear)
+            await made.execute(CloseDocument(document=document.id, discard=True), ear)
             await asyncio.gather(running, return_exceptions=True)
             with pytest.raises(UnknownDocumentError, match="open"):
                 await made.execute(late, ear)

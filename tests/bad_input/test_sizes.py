@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio import protocol as m
 from studio.errors import UploadError
+from studio.protocol.language import GetOutline
 from tests.support.large_robots import robot_of_includes, robot_of_links
 from tests.support.open_documents import engine, opened
 
@@ -83,7 +83,7 @@ def test_a_thousand_includes_are_read_listed_and_edited(tmp_path: Path):
             document, ear = await opened(made, path)
             assert len(document.model.robot.links) == 1_001
             assert len(document.sources.files) == 1_001
-            await made.execute(m.GetOutline(document=document.id), ear)
+            await made.execute(GetOutline(document=document.id), ear)
             assert len(ear.last("outline")["outline"]["files"]) == 1_001
             await document.edit_site(ear.site("size_999")["id"], "0.7", "")
             assert document.sources.unsaved_files == (str(path.parent / "parts/part_999.xacro"),)

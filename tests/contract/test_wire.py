@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, get_args
+from typing import TYPE_CHECKING
 
 import pytest
 
-from studio.protocol import COMMANDS, EVENTS, Command, Event
-from studio.server.schema import openapi, wire_schemas
+from studio.documents.engine import COMMANDS
+from studio.protocol.message import all_events
+from studio.server.commands import COMMAND_ADAPTER
+from studio.server.schema import EVENT_ADAPTER, openapi, wire_schemas
 from studio.server.wire_types import target, wire_types
 
 if TYPE_CHECKING:
     from pydantic import BaseModel
 
 KINDS: list[type[BaseModel]] = [
-    *get_args(get_args(Command)[0]),
-    *get_args(get_args(Event)[0]),
+    *COMMANDS.messages,
+    *sorted(all_events(), key=lambda kind: kind.__name__),
 ]
 
 
@@ -40,12 +42,12 @@ def test_openapi_holds_the_same_schemas():
     held = openapi([])["components"]["schemas"]
     assert held == wire_schemas()
     assert held["Command"]["discriminator"]["propertyName"] == "type"
-    assert len(held["Command"]["oneOf"]) == len(get_args(get_args(Command)[0]))
-    assert len(held["Event"]["oneOf"]) == len(get_args(get_args(Event)[0]))
+    assert len(held["Command"]["oneOf"]) == len(COMMANDS.messages)
+    assert len(held["Event"]["oneOf"]) == len(all_events())
 
 
 def test_no_two_kinds_share_a_type():
-    for adapter in (COMMANDS, EVENTS):
+    for adapter in (COMMAND_ADAPTER, EVENT_ADAPTER):
         mapping = adapter.json_schema()["discriminator"]["mapping"]
         assert len(set(mapping.values())) == len(mapping)
 

@@ -12,7 +12,7 @@ import pytest
 from studio.displays.catalogue import DISPLAYS
 from studio.displays.drawing import Points
 from studio.nodes.demos.rover.room import clearance_m
-from studio.protocol import live as v
+from studio.protocol.live import AddDisplay, GetTf, SetDisplayProperty, SetFixedFrame
 from studio.ros.messages import message
 from tests.support.demos import heard, node_at, running_demo
 from tests.support.display_samples import BASE, SAMPLES
@@ -45,7 +45,7 @@ TOPICS = {
 
 
 async def add(one: Studio, kind: str, topic: str = "") -> str:
-    await one.do(v.AddDisplay(kind=kind, topic=topic))
+    await one.do(AddDisplay(kind=kind, topic=topic))
     return one.ear.last("live_displays")["displays"][-1]["id"]
 
 
@@ -82,7 +82,7 @@ def test_v1_each_display_draws_its_topic_of_the_moving_graph(endpoint: str, tmp_
     async def run() -> None:
         async with studio(endpoint, tmp_path) as one:
             displays = {kind: await add(one, kind, topic) for kind, topic in TOPICS.items()}
-            await one.do(v.SetFixedFrame(frame="map"))
+            await one.do(SetFixedFrame(frame="map"))
             await all_drawn(one, displays)
 
     with running_demo(endpoint, "rover"):
@@ -93,7 +93,7 @@ def test_v1_every_display_draws_its_sample_that_a_node_tells(endpoint: str, tmp_
     async def run() -> None:
         async with studio(endpoint, tmp_path) as one:
             displays = {sample.name: await show(one, sample) for sample in samples}
-            await one.do(v.SetFixedFrame(frame=BASE))
+            await one.do(SetFixedFrame(frame=BASE))
             await all_drawn(one, displays)
 
     samples = {one.kind: one for one in reversed(SAMPLES)}.values()
@@ -105,7 +105,7 @@ def test_v1_every_display_draws_its_sample_that_a_node_tells(endpoint: str, tmp_
 async def show(one: Studio, sample: Sample) -> str:
     display = await add(one, sample.kind, sample.topic)
     for name, value in sample.values.items():
-        await one.do(v.SetDisplayProperty(display=display, name=name, value=value))
+        await one.do(SetDisplayProperty(display=display, name=name, value=value))
     return display
 
 
@@ -123,7 +123,7 @@ def test_v1_the_scan_lies_on_the_walls_of_the_room_while_the_rover_is_driven(
     async def run(cart: Any) -> None:  # noqa: ANN401
         async with studio(endpoint, tmp_path) as one:
             scan = await add(one, "LaserScan", "/scan")
-            await one.do(v.SetFixedFrame(frame="map"))
+            await one.do(SetFixedFrame(frame="map"))
             await until(lambda: shapes_of(one, scan) > 0)
             before = await place(one)
             command = message("geometry_msgs/msg/Twist")()
@@ -139,7 +139,7 @@ def test_v1_the_scan_lies_on_the_walls_of_the_room_while_the_rover_is_driven(
                 seen += 1
 
     async def place(one: Studio) -> list[float]:
-        await one.do(v.GetTf(frame="base_footprint", seen_from="map"))
+        await one.do(GetTf(frame="base_footprint", seen_from="map"))
         pose = one.ear.last("tf_frames")["pose"]
         return pose["xyz"]
 
@@ -153,16 +153,16 @@ def test_v1_r2d2_goes_round_in_odom_as_it_publishes_and_stands_still_in_axis(
 ):
     async def run(told: list[Any]) -> None:
         async with studio(endpoint, tmp_path) as one:
-            await one.do(v.SetFixedFrame(frame="odom"))
+            await one.do(SetFixedFrame(frame="odom"))
             places: set[tuple[float, ...]] = set()
             while len(places) < 5:
-                await one.do(v.GetTf(frame="axis", seen_from="odom"))
+                await one.do(GetTf(frame="axis", seen_from="odom"))
                 if pose := one.ear.last("tf_frames")["pose"]:
                     await until(lambda pose=pose: is_published(pose, told))
                     places.add(tuple(pose["xyz"]))
                 await asyncio.sleep(0.05)
-            await one.do(v.SetFixedFrame(frame="axis"))
-            await one.do(v.GetTf(frame="axis", seen_from="axis"))
+            await one.do(SetFixedFrame(frame="axis"))
+            await one.do(GetTf(frame="axis", seen_from="axis"))
             assert one.ear.last("tf_frames")["pose"]["xyz"] == [0.0, 0.0, 0.0]
 
     with running_demo(endpoint, "state_publisher"), node_at(endpoint) as tester:

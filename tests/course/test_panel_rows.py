@@ -28,7 +28,7 @@ from tests.support.wire import running_router
 if TYPE_CHECKING:
     from collections.abc import Generator
 
-    from studio.protocol import BridgeCommand
+    from studio.protocol import Command
 
 pytestmark = [pytest.mark.network, pytest.mark.timeout(120)]
 SONG = "radio_station_interfaces/action/ChooseSong"
@@ -43,7 +43,7 @@ def router() -> Generator[str]:
         yield endpoint
 
 
-async def offered(page: Bridged, command: BridgeCommand, name: str) -> None:
+async def offered(page: Bridged, command: Command, name: str) -> None:
     """Wait until a service, an action or a node is listed."""
 
     async def names() -> list[str]:

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio import protocol as m
 from studio.errors import CommandError, OutsideRootsError, StaleEditError
-from studio.protocol import GetText
+from studio.protocol.documents import CloseDocument, Watch
+from studio.protocol.texts import GetText
 from tests.support.loop_watch import calls_here
 from tests.support.open_documents import Ear, engine, opened, until
 from tests.support.packages import write_package
@@ -312,9 +312,9 @@ def test_the_memory_of_a_closed_document_is_given_back_at_once(tmp_path: Path):
             made.attach(ear)
             name = await made.open_path(file, {})
             await made.document(name).opened()
-            await made.execute(m.Watch(document=name), ear)
+            await made.execute(Watch(document=name), ear)
             left = weakref.ref(made.document(name))
-            await made.execute(m.CloseDocument(document=name), ear)
+            await made.execute(CloseDocument(document=name), ear)
             await until(lambda: left() is None)
 
     gc.disable()

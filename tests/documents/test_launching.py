@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio import protocol as m
 from studio.errors import CommandError, OutsideRootsError
+from studio.protocol.launching import Arguments, GetArguments, SetArguments
 from tests.support.open_documents import Ear, engine, opened
 from tests.support.packages import write_package
 
@@ -32,10 +32,10 @@ def mast(tmp_path: Path) -> Path:
     return write_package(tmp_path / "mast_description", files=files) / "mast.urdf.xacro"
 
 
-async def form(made: Engine, document: str = "", path: str = "") -> m.Arguments:
+async def form(made: Engine, document: str = "", path: str = "") -> Arguments:
     ear = Ear()
-    await made.execute(m.GetArguments(document=document, path=path), ear)
-    return m.Arguments.model_validate(ear.last("arguments"))
+    await made.execute(GetArguments(document=document, path=path), ear)
+    return Arguments.model_validate(ear.last("arguments"))
 
 
 def test_what_is_missing_is_asked_for_and_all_is_passed_in_one_step(mast: Path, tmp_path: Path):
@@ -48,7 +48,7 @@ def test_what_is_missing_is_asked_for_and_all_is_passed_in_one_step(mast: Path, 
             assert told.missing == ("side",)
             assert [one.name for one in told.arguments] == ["side", "reach"]
             await made.execute(
-                m.SetArguments(document=document.id, values={"side": "left", "reach": "2"}), ear
+                SetArguments(document=document.id, values={"side": "left", "reach": "2"}), ear
             )
             assert list(document.model.robot.links) == ["left_base"]
             assert document.sources.undo_labels == ("Arguments",)

@@ -8,7 +8,8 @@ from typing import Any
 import pytest
 from pydantic import ValidationError
 
-from studio.protocol import COMMANDS
+from studio.protocol.message import type_of
+from studio.server.commands import COMMAND_ADAPTER
 
 LOOK_UP = {"type": "look_up", "file": "/r.xacro"}
 EDIT = {"type": "edit_text", "file": "/r.xacro"}
@@ -27,13 +28,13 @@ def naming(name: str) -> list[dict[str, Any]]:
 
 @pytest.mark.parametrize("command", [one for name in GOOD_NAMES for one in naming(name)])
 def test_any_name_of_an_argument_is_taken(command: dict[str, Any]):
-    assert COMMANDS.validate_json(json.dumps(command)).type == command["type"]
+    assert type_of(type(COMMAND_ADAPTER.validate_json(json.dumps(command)))) == command["type"]
 
 
 @pytest.mark.parametrize("command", [one for name in BAD_NAMES for one in naming(name)])
 def test_what_no_argument_is_called_is_refused(command: dict[str, Any]):
     with pytest.raises(ValidationError):
-        COMMANDS.validate_json(json.dumps(command))
+        COMMAND_ADAPTER.validate_json(json.dumps(command))
 
 
 @pytest.mark.parametrize(
@@ -48,4 +49,4 @@ def test_what_no_argument_is_called_is_refused(command: dict[str, Any]):
 )
 def test_a_place_that_no_text_has_is_refused(command: dict[str, Any]):
     with pytest.raises(ValidationError, match=r"(less|greater) than or equal"):
-        COMMANDS.validate_json(json.dumps(command))
+        COMMAND_ADAPTER.validate_json(json.dumps(command))

@@ -1,20 +1,21 @@
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, get_args
+from typing import TYPE_CHECKING
 
 import pytest
 from viser import _messages as viser_messages  # pyright: ignore[reportPrivateUsage]
 
+from studio.documents.engine import COMMANDS as REGISTRY
 from studio.errors import NotAllowedError
-from studio.protocol import Command
-from studio.protocol.roles import Role
+from studio.protocol.roles import Role, Visitor
 from studio.scene import VIEWER_MESSAGES
-from studio.server.access import PUBLIC_ROUTES, ROUTE_DEEDS, demand, may
+from studio.server.access import PUBLIC_ROUTES, ROUTES, demand, may
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-COMMANDS = sorted(kind.model_fields["type"].default for kind in get_args(get_args(Command)[0]))
+COMMANDS = sorted(entry.permission.name for entry in REGISTRY)
+PRESENTER, VIEWER = Visitor(Role.PRESENTER), Visitor(Role.VIEWER)
 VIEWER_COMMANDS = {
     *("get_managed", "get_diagnostics"),
     *("get_lessons", "get_demos", "get_demo_output", "get_demo_code"),
@@ -58,31 +59,31 @@ def all_viser_messages() -> Iterator[str]:
 
 @pytest.mark.parametrize("command", COMMANDS)
 def test_the_presenter_may_every_command_and_a_viewer_only_look(command: str):
-    assert may(Role.PRESENTER, command)
-    assert may(Role.VIEWER, command) == (command in VIEWER_COMMANDS)
+    assert may(PRESENTER, command)
+    assert may(VIEWER, command) == (command in VIEWER_COMMANDS)
     assert not may(None, command)
 
 
 @pytest.mark.parametrize("message", sorted(set(all_viser_messages())))
 def test_of_visers_messages_a_viewer_sends_the_camera_and_nobody_opens_a_tunnel(message: str):
-    assert may(Role.PRESENTER, f"viser:{message}") == (message in CLIENT_MESSAGES)
-    assert may(Role.VIEWER, f"viser:{message}") == (message in VIEWER_MESSAGES)
+    assert may(PRESENTER, f"viser:{message}") == (message in CLIENT_MESSAGES)
+    assert may(VIEWER, f"viser:{message}") == (message in VIEWER_MESSAGES)
 
 
 def test_the_table_names_no_message_that_viser_does_not_have():
     assert set(all_viser_messages()) >= CLIENT_MESSAGES
 
 
-@pytest.mark.parametrize("deed", ["", "unknown route", "Save", "save ", "viser:", "viser:save"])
-def test_what_the_table_does_not_name_nobody_may(deed: str):
-    assert not any(may(role, deed) for role in Role)
+@pytest.mark.parametrize("name", ["", "unknown route", "Save", "save ", "viser:", "viser:save"])
+def test_what_the_table_does_not_name_nobody_may(name: str):
+    assert not any(may(Visitor(role), name) for role in Role)
 
 
 def test_a_refusal_says_who_may_not_do_what():
     with pytest.raises(NotAllowedError, match="A viewer may not edit site: ask the presenter"):
-        demand(Role.VIEWER, "edit_site")
-    demand(Role.PRESENTER, "edit_site")
+        demand(VIEWER, "edit_site")
+    demand(PRESENTER, "edit_site")
 
 
-def test_public_routes_are_no_deeds():
-    assert not PUBLIC_ROUTES & ROUTE_DEEDS.keys()
+def test_a_public_route_needs_no_permission():
+    assert not PUBLIC_ROUTES & ROUTES.keys()

@@ -1,16 +1,16 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, get_args
+from typing import TYPE_CHECKING
 
 import pytest
 from fastapi import FastAPI
 from websockets.exceptions import InvalidStatus
 
-from studio.protocol import Command
-from studio.protocol.roles import Role
+from studio.documents.engine import COMMANDS
+from studio.protocol.roles import Role, Visitor
 from studio.scene import SUBPROTOCOL
-from studio.server.access import PUBLIC_ROUTES, ROUTE_DEEDS, may
+from studio.server.access import PUBLIC_ROUTES, ROUTES, may
 from studio.server.api import Api
 from studio.server.assets import Assets
 from studio.server.credentials import Credentials
@@ -42,7 +42,7 @@ def test_every_route_is_in_the_table_and_the_table_names_no_other(assets_folder:
     app.include_router(Uploads(engine).router())
     app.include_router(LogOut(Credentials(None, b"")).router())
     found = {path for route in app.routes for path in _paths(route)}
-    assert found | {"/api/openapi.json"} == ROUTE_DEEDS.keys() | PUBLIC_ROUTES
+    assert found | {"/api/openapi.json"} == ROUTES.keys() | PUBLIC_ROUTES
 
 
 def _paths(route: object) -> set[str]:
@@ -51,12 +51,12 @@ def _paths(route: object) -> set[str]:
     return {getattr(one, "path", "") for one in (router.routes if router else [route])}
 
 
-@pytest.mark.parametrize("path", sorted(ROUTE_DEEDS.keys() - SOCKETS - POSTS - STREAMS))
+@pytest.mark.parametrize("path", sorted(ROUTES.keys() - SOCKETS - POSTS - STREAMS))
 def test_every_route_answers_each_role_as_the_table_says(web: RunningWeb, path: str):
     for role in Role:
         with web.client(role) as client:
             answer = client.get(path.format(document="small"))
-            assert (answer.status_code < 400) == may(role, ROUTE_DEEDS[path])
+            assert (answer.status_code < 400) == may(Visitor(role), ROUTES[path].name)
     with web.client() as client:
         assert client.get(path.format(document="small")).status_code == 403
 
@@ -64,7 +64,7 @@ def test_every_route_answers_each_role_as_the_table_says(web: RunningWeb, path: 
 @pytest.mark.parametrize("path", sorted(SOCKETS))
 def test_every_websocket_opens_for_each_role_as_the_table_says(web: RunningWeb, path: str):
     for role in Role:
-        assert may(role, ROUTE_DEEDS[path])
+        assert may(Visitor(role), ROUTES[path].name)
         address = path.format(document="small")
         with web.websocket(address, role, subprotocols=(SUBPROTOCOL,)) as lane:
             assert lane.response is not None
@@ -104,18 +104,18 @@ FIELDS: dict[str, object] = {
 """A value for each field that a command needs."""
 
 
-@pytest.mark.parametrize("kind", get_args(get_args(Command)[0]))
+@pytest.mark.parametrize("kind", COMMANDS.messages)
 def test_every_command_by_rest_is_asked_of_the_same_table(web: RunningWeb, kind: type[BaseModel]):
-    command = {name: FIELDS[name] for name in kind.model_fields.keys() & FIELDS.keys()}
-    deed: str = kind.model_fields["type"].default
-    command |= {"type": deed, "document": "small"}
+    command = {field: FIELDS[field] for field in kind.model_fields.keys() & FIELDS.keys()}
+    name: str = kind.model_fields["type"].default
+    command |= {"type": name, "document": "small"}
     web.engine.go_on.set()
     for role in Role:
         with web.client(role) as client:
             answer = client.post("/api/commands", content=json.dumps(command))
             refused_by_table = answer.json().get("kind") == "NotAllowedError"
             assert answer.status_code != 422, answer.text
-            assert refused_by_table == (not may(role, deed))
+            assert refused_by_table == (not may(Visitor(role), name))
             assert (answer.status_code == 403) == refused_by_table
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio.protocol import COMMANDS
+from studio.server.commands import COMMAND_ADAPTER
 from tests.support.command_fuzzer import CommandFuzzer
 from tests.support.command_sweep import sweep
 from tests.support.loop_watch import Stall, stalls
@@ -32,7 +32,7 @@ def test_the_fuzzer_makes_commands_of_every_kind_and_most_can_be_read():
     readable = 0
     for one in commands:
         try:
-            COMMANDS.validate_python(one)
+            COMMAND_ADAPTER.validate_python(one)
         except ValueError:
             continue
         readable += 1

@@ -9,12 +9,13 @@ from studio.live.connection.desk import WireDesk
 from studio.live.panels.desk import BridgeDesk
 from studio.protocol.calls import FollowDeeds
 from studio.settings import WireChoice
+from tests.support.asked import ask_ros
 from tests.support.open_documents import Ear, until
 
 if TYPE_CHECKING:
     from collections.abc import AsyncGenerator
 
-    from studio.protocol import BridgeCommand
+    from studio.protocol import Command
 
 
 class Bridged:
@@ -23,9 +24,9 @@ class Bridged:
     def __init__(self, desk: BridgeDesk, ear: Ear) -> None:
         self.desk, self.ear = desk, ear
 
-    async def do(self, command: BridgeCommand) -> Any:  # noqa: ANN401 - the answer
+    async def do(self, command: Command) -> Any:  # noqa: ANN401 - the answer
         """Ask, and give the answer."""
-        return await self.desk.carry_out(command, self.ear)
+        return await ask_ros(self.desk, command, self.ear)
 
     def deed(self, kind: str, number: int) -> dict[str, Any]:
         """A deed as it was told last; empty before."""
@@ -38,7 +39,7 @@ class Bridged:
         await until(lambda: self.deed(kind, number).get("state") in states)
         return self.deed(kind, number)
 
-    async def begin(self, command: BridgeCommand) -> int:
+    async def begin(self, command: Command) -> int:
         """Begin a deed; gives its number."""
         return cast("int", (await self.do(command)).deed)
 
@@ -51,7 +52,7 @@ async def bridged(endpoint: str) -> AsyncGenerator[Bridged]:
     try:
         await wire.link()
         for kind in get_args(FollowDeeds.model_fields["deeds"].annotation):
-            await desk.carry_out(FollowDeeds(deeds=kind), ear)
+            await ask_ros(desk, FollowDeeds(deeds=kind), ear)
         yield Bridged(desk, ear)
     finally:
         await desk.close()

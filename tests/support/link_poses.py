@@ -15,15 +15,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from studio import protocol as m
-from studio.documents.dispatch import carry_out
+from studio.protocol.inspection import GetFrames, GetMasses
 from studio.protocol.roles import Role
 from studio.robot.inertia import total
+from tests.support.asked import ask_document
 from tests.support.open_documents import Ear, engine, opened
 from tests.support.yourdfpy_poses import poses_by_yourdfpy
 
 if TYPE_CHECKING:
     from studio.documents.document import Document
+    from studio.protocol import Command
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 FILE = REPOSITORY / "tests" / "support" / "link-poses.json"
@@ -42,19 +43,19 @@ async def link_poses(data_folder: Path) -> dict[str, Any]:
         return {
             "links": [{"name": link["name"]} for link in told["links"]],
             "joints": [{key: joint[key] for key in _JOINT} for joint in told["joints"]],
-            "origins": (await _answer(document, m.GetFrames()))["origins"],
+            "origins": (await _answer(document, GetFrames()))["origins"],
             "positions": by_name,
             "poses": await _poses(document, by_name),
-            "masses": (await _answer(document, m.GetMasses()))["links"],
+            "masses": (await _answer(document, GetMasses()))["links"],
             "centre": total(
                 document.model.robot, document.model.kinematics, positions
             ).centre_m.tolist(),
         }
 
 
-async def _answer(document: Document, command: m.Command) -> dict[str, Any]:
+async def _answer(document: Document, command: Command) -> dict[str, Any]:
     ear = Ear(Role.VIEWER)
-    await carry_out(document, command, ear)
+    await ask_document(document, command, ear)
     return ear.events[0]
 
 

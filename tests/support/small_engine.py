@@ -10,24 +10,13 @@ from starlette.requests import ClientDisconnect
 from studio.documents.keeping.exports import Download
 from studio.errors import ExportError, SaveConflictError, UnknownDocumentError, UploadError
 from studio.live.panels.hearing_frames import Tick, chunk_of
-from studio.protocol import (
-    AnimateJoints,
-    CloseDocument,
-    Command,
-    DocumentEntry,
-    Documents,
-    Done,
-    GetUrdf,
-    RandomizeJoints,
-    Redo,
-    Reload,
-    Save,
-    Undo,
-    Urdf,
-    ZeroJoints,
-)
+from studio.protocol.documents import CloseDocument, DocumentEntry, Documents, Done
+from studio.protocol.edits import Redo, Undo
+from studio.protocol.files import Reload, Save
 from studio.protocol.hearing import Hear, NotHeard
 from studio.protocol.listeners import tell
+from studio.protocol.robot import AnimateJoints, RandomizeJoints, ZeroJoints
+from studio.protocol.texts import GetUrdf, Urdf
 from studio.ros.attachment import Attachment
 from studio.ros.node.inbox import RawSample
 from studio.scene.connection import SUBPROTOCOL
@@ -37,6 +26,7 @@ if TYPE_CHECKING:
 
     from studio.documents.keeping.exports import MeshNames
     from studio.live.panels.hearing import Hearer
+    from studio.protocol import Command
     from studio.protocol.hearing import Wish
     from studio.protocol.listeners import Listener
     from studio.scene import Connection

@@ -6,7 +6,8 @@ from contextlib import asynccontextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from studio import protocol as m
+from studio.protocol.edits import EditSite
+from studio.protocol.variants import ApplyVariant, CompareVariants, Side
 from tests.support.open_documents import Ear, engine, opened, until
 from tests.support.packages import write_package
 
@@ -15,6 +16,7 @@ if TYPE_CHECKING:
 
     from studio.documents.document import Document
     from studio.documents.engine import Engine
+    from studio.protocol import Command
 
 MAST = """<robot name="mast" xmlns:xacro="http://www.ros.org/wiki/xacro">
   <xacro:arg name="gripper" default="false"/>
@@ -55,18 +57,18 @@ class Desk:
     def __init__(self, made: Engine, document: Document, ear: Ear) -> None:
         self.made, self.document, self.ear = made, document, ear
 
-    async def ask(self, command: m.Command) -> None:
+    async def ask(self, command: Command) -> None:
         """Carry out one command of the document."""
         with_id = command.model_copy(update={"document": self.document.id})
         await self.made.execute(with_id, self.ear)
 
     async def edit(self, name: str, text: str) -> None:
         """Write at the site whose name ends so."""
-        await self.ask(m.EditSite(site=self.ear.site(name)["id"], text=text))
+        await self.ask(EditSite(site=self.ear.site(name)["id"], text=text))
 
     async def apply(self, name: str) -> list[str]:
         """Switch to a variant; what found no place."""
-        await self.ask(m.ApplyVariant(name=name))
+        await self.ask(ApplyVariant(name=name))
         return self.ear.last("variant_applied")["left_out"]
 
     async def is_told(self, active: str, *, modified: bool = False) -> None:
@@ -78,11 +80,11 @@ class Desk:
 
         await until(told)
 
-    async def compared(self, *sides: m.Side) -> dict[str, Any]:
+    async def compared(self, *sides: Side) -> dict[str, Any]:
         """Compare two states; what is told when both are worked out."""
         one, other = sides
         before = len(self.ear.events)
-        await self.ask(m.CompareVariants(sides=(one, other)))
+        await self.ask(CompareVariants(sides=(one, other)))
         wanted = [side.model_dump() for side in sides]
 
         def told() -> bool:

@@ -16,7 +16,8 @@ from studio.protocol.keeping import Changes, FileChanges
 
 if TYPE_CHECKING:
     from studio.documents.document import Document
-    from studio.protocol import GetChanges, ResolveCollisions, SaveCopy
+    from studio.protocol.files import ResolveCollisions
+    from studio.protocol.keeping import GetChanges, SaveCopy
 
 
 class SaveDesk:

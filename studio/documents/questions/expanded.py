@@ -10,8 +10,8 @@ from studio.description.editing.line_diff import LineDiff
 from studio.description.values import Expansion, OpenRequest
 from studio.documents.questions.urdf_lines import PartLines, difference, part_lines
 from studio.errors import CommandError
-from studio.protocol import expanded as m
 from studio.protocol.diff_lines import hunk_views
+from studio.protocol.expanded import GetUrdfChanges, UrdfChanges
 from studio.protocol.texts import Urdf
 
 if TYPE_CHECKING:
@@ -54,7 +54,7 @@ class ExpandedDesk:
         """
         return Urdf(request=command.request, text=await self._document.urdf())
 
-    async def changes(self, command: m.GetUrdfChanges) -> m.UrdfChanges:
+    async def changes(self, command: GetUrdfChanges) -> UrdfChanges:
         """What differs now.
 
         Raises:
@@ -110,8 +110,8 @@ def _compare(
     return difference(before, part_lines(root, parts))
 
 
-def _told(request: int, found: LineDiff, fault: str = "") -> m.UrdfChanges:
-    return m.UrdfChanges(
+def _told(request: int, found: LineDiff, fault: str = "") -> UrdfChanges:
+    return UrdfChanges(
         request=request,
         added=found.added,
         removed=found.removed,

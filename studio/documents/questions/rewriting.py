@@ -12,7 +12,16 @@ from studio.description.values import Edit
 from studio.documents.questions.text_search import Matches, Words, matches_in, replacements_in
 from studio.documents.questions.texts import TEXT_LIMIT_BYTES
 from studio.errors import CommandError, EditError, PackageError, ReadOnlyTextError, StaleTextError
-from studio.protocol import rewriting as r
+from studio.protocol.rewriting import (
+    FindTexts,
+    FoundText,
+    GetRenaming,
+    Rename,
+    RenamingAnswer,
+    ReplaceTexts,
+    TextsFound,
+    WordsCommand,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -32,7 +41,7 @@ class RewritingDesk:
         self._document = document
         self._steps = count(1)
 
-    async def renaming(self, command: r.GetRenaming, asker: Listener) -> r.RenamingAnswer:
+    async def renaming(self, command: GetRenaming, asker: Listener) -> RenamingAnswer:
         """What a renaming would change.
 
         Raises:
@@ -40,10 +49,10 @@ class RewritingDesk:
         """
         found = await self._ask(command, asker)
         places = [
-            r.FoundText(place=one.place, line=one.line, in_run=one.in_run)
+            FoundText(place=one.place, line=one.line, in_run=one.in_run)
             for one in found.places[:PLACES_SHOWN]
         ]
-        return r.RenamingAnswer(
+        return RenamingAnswer(
             request=command.request,
             kind=found.kind,
             old=found.old,
@@ -53,7 +62,7 @@ class RewritingDesk:
             files=len({one.place.file for one in found.places}),
         )
 
-    async def rename(self, command: r.Rename, asker: Listener) -> None:
+    async def rename(self, command: Rename, asker: Listener) -> None:
         """Rename what stands at a place, and show what that does.
 
         Raises:
@@ -72,13 +81,13 @@ class RewritingDesk:
         edits = [Edit(p.place.file, p.start, p.end, name) for p in reversed(renaming.places)]
         await self._write(edits, f"Rename {renaming.old} → {renaming.new}", renaming)
 
-    async def find(self, command: r.FindTexts, asker: Listener) -> r.TextsFound:
+    async def find(self, command: FindTexts, asker: Listener) -> TextsFound:
         """Where words stand in the files of the robot."""
         texts = self._texts(asker)
         found = await asyncio.to_thread(matches_in, texts, _words(command), PLACES_SHOWN)
         return _texts_found(command.request, found)
 
-    async def replace(self, command: r.ReplaceTexts, asker: Listener) -> None:
+    async def replace(self, command: ReplaceTexts, asker: Listener) -> None:
         """Replace words in the files of the robot, and show what that does.
 
         Raises:
@@ -100,7 +109,7 @@ class RewritingDesk:
             raise CommandError("The texts have changed since: look at the places again.")
         await self._write(edits, f"Replace {_short(command.text)} → {_short(command.replacement)}")
 
-    async def _ask(self, command: r.GetRenaming | r.Rename, asker: Listener) -> Renaming:
+    async def _ask(self, command: GetRenaming | Rename, asker: Listener) -> Renaming:
         file, text = self._document.texts.bytes_of(command.file, asker.role)
         query = RenamingQuery(file, text, command.offset, command.name)
         return await self._document.ask(query, Renaming, asker)
@@ -141,16 +150,16 @@ class RewritingDesk:
                 raise EditError(f"{file} would grow too large: write less.")
 
 
-def _words(command: r.WordsCommand) -> Words:
+def _words(command: WordsCommand) -> Words:
     return Words(command.text, command.match_case, command.whole_word)
 
 
-def _texts_found(request: int, found: Matches) -> r.TextsFound:
+def _texts_found(request: int, found: Matches) -> TextsFound:
     places = [
-        r.FoundText(place=one.place, line=one.line, line_column=one.line_column)
+        FoundText(place=one.place, line=one.line, line_column=one.line_column)
         for one in found.shown
     ]
-    return r.TextsFound(request=request, places=tuple(places), count=found.count, files=found.files)
+    return TextsFound(request=request, places=tuple(places), count=found.count, files=found.files)
 
 
 def _short(text: str) -> str:

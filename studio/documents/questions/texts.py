@@ -6,11 +6,11 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from studio import protocol as m
 from studio.description.editing.editor_text import EditorText
 from studio.description.editing.text_changes import Piece, changes_between, patched
 from studio.errors import CommandError, EditError, ReadOnlyTextError, StaleTextError
 from studio.protocol.roles import Role
+from studio.protocol.texts import EditText, GetText, Text, TextChange, TextsChanged
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -43,10 +43,10 @@ class TextDesk:
     def __init__(self, document: Document) -> None:
         self._document = document
         self._told: dict[str, _Told] = {}
-        self._typed: dict[str, m.EditText] = {}
+        self._typed: dict[str, EditText] = {}
         """What was typed and is not told yet."""
 
-    def answer(self, command: m.GetText, role: Role) -> m.Text:
+    def answer(self, command: GetText, role: Role) -> Text:
         """A file's text; its changes are told from now on.
 
         Raises:
@@ -57,7 +57,7 @@ class TextDesk:
         self.follow()
         told = self._told.get(file) or self._first(file)
         saved = self._document.sources.saved(file)
-        return m.Text(
+        return Text(
             request=command.request,
             file=file,
             version=told.version,
@@ -80,7 +80,7 @@ class TextDesk:
             raise CommandError(f"{file} is larger than {_LIMIT_MB} MB: open it in another editor.")
         return name, data
 
-    def edit(self, command: m.EditText) -> tuple[Edit, ...]:
+    def edit(self, command: EditText) -> tuple[Edit, ...]:
         """Type into a text; what was done to the sources, in order. `follow` tells it.
 
         Raises:
@@ -126,7 +126,7 @@ class TextDesk:
         told = self._told[file] = _Told(1, EditorText(sources.text(file)))
         return told
 
-    def _tell_typed(self, file: str, command: m.EditText) -> None:
+    def _tell_typed(self, file: str, command: EditText) -> None:
         """Tell the typed changes as they came, then what the file's bytes made of them beyond.
 
         A changed encoding declaration makes other letters of bytes that nobody touched.
@@ -144,19 +144,17 @@ class TextDesk:
 
     def _tell_new(self, file: str, old: str, new: EditorText) -> None:
         changes = [
-            m.TextChange(
+            TextChange(
                 start=_units(old[: piece.start]), end=_units(old[: piece.end]), text=piece.text
             )
             for piece in changes_between(old, new.text)
         ]
         self._tell(file, new, changes, "")
 
-    def _tell(
-        self, file: str, new: EditorText, changes: Iterable[m.TextChange], origin: str
-    ) -> None:
+    def _tell(self, file: str, new: EditorText, changes: Iterable[TextChange], origin: str) -> None:
         told = self._told[file]
         self._told[file] = replace(told, version=told.version + 1, text=new)
-        event = m.TextsChanged(
+        event = TextsChanged(
             file=file, version=told.version + 1, changes=tuple(changes), origin=origin
         )
         self._document.board.audience.tell(event)
@@ -178,7 +176,7 @@ class TextDesk:
         return self._document.location.served.may_write(Path(file))
 
 
-def _edits(file: str, text: EditorText, changes: Sequence[m.TextChange]) -> tuple[Edit, ...]:
+def _edits(file: str, text: EditorText, changes: Sequence[TextChange]) -> tuple[Edit, ...]:
     """The edits one after the other, the last place first: so each one's offsets hold."""
     at = 0
     for change in changes:

@@ -6,7 +6,6 @@ import asyncio
 from dataclasses import replace
 from typing import TYPE_CHECKING, Final
 
-from studio import protocol as m
 from studio.description.editing.sources import Change
 from studio.description.editing.variants_file import VARIANT_LIMIT, read_variants, write_variants
 from studio.documents.keeping.shelf import Shelf, ShelfKind
@@ -16,7 +15,19 @@ from studio.documents.states.recipes import Recipe, RecipeBook
 from studio.documents.watching import FileWatch
 from studio.errors import CommandError
 from studio.protocol.listeners import LastTold
-from studio.protocol.variants import shown
+from studio.protocol.variants import (
+    ApplyVariant,
+    RenameVariant,
+    SaveVariant,
+    Side,
+    UpdateVariant,
+    VariantApplied,
+    Variants,
+    VariantSaved,
+    VariantText,
+    VariantView,
+    shown,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
@@ -25,6 +36,7 @@ if TYPE_CHECKING:
     from studio.description.values import Edit
     from studio.documents.document import Document
     from studio.documents.services import Services
+    from studio.protocol import Event
 
 _FIRST_S: Final = 0.02
 """The edit that gave cause goes out first."""
@@ -54,12 +66,12 @@ class VariantDesk:
         )
         self._active, self._modified = "", False
         self._steps = 0
-        self._told = LastTold[m.Variants](document.board.audience)
+        self._told = LastTold[Variants](document.board.audience)
         self._watch = FileWatch(self._changed_on_disk)
         self._watch.watch({str(self._shelf.path)})
         self._lookout = Lookout(self._look, first_s=_FIRST_S, pause_s=_PAUSE_S)
 
-    def events(self) -> Iterable[m.Event]:
+    def events(self) -> Iterable[Event]:
         """What a newcomer is told."""
         yield self._list()
         yield self._comparison.told
@@ -73,7 +85,7 @@ class VariantDesk:
         await self._lookout.close()
         await asyncio.gather(self._watch.close(), self._comparison.close())
 
-    async def save(self, command: m.SaveVariant | m.UpdateVariant) -> m.VariantSaved:
+    async def save(self, command: SaveVariant | UpdateVariant) -> VariantSaved:
         """Keep the present state, as a new variant or in one that there is.
 
         Raises:
@@ -83,7 +95,7 @@ class VariantDesk:
         """
         await self._book.read()
         present = self._book.present()
-        if isinstance(command, m.SaveVariant):
+        if isinstance(command, SaveVariant):
             name = self._shelf.free_name(command.name)
             if len(self._shelf.items) >= VARIANT_LIMIT:
                 raise CommandError(f"There are {VARIANT_LIMIT} variants: delete one first.")
@@ -99,9 +111,9 @@ class VariantDesk:
             f"{file} has unsaved edits beside its values; a variant does not hold them."
             for file in present.edited_otherwise
         )
-        return m.VariantSaved(request=command.request, left_out=left_out)
+        return VariantSaved(request=command.request, left_out=left_out)
 
-    async def apply(self, command: m.ApplyVariant) -> m.VariantApplied:
+    async def apply(self, command: ApplyVariant) -> VariantApplied:
         """Make the robot a variant, or what its files say, as one step of the undo list.
 
         Raises:
@@ -122,9 +134,9 @@ class VariantDesk:
             await self._document.follow(change)
         await self._look_up()
         self._tell()
-        return m.VariantApplied(request=command.request, left_out=left_out)
+        return VariantApplied(request=command.request, left_out=left_out)
 
-    def rename(self, command: m.RenameVariant) -> None:
+    def rename(self, command: RenameVariant) -> None:
         """Give a variant another name and note; errors as for `save`."""
         known = self._shelf.find(command.name)
         name = known.name
@@ -144,7 +156,7 @@ class VariantDesk:
             self._active = ""
         self._tell()
 
-    def compare(self, sides: tuple[m.Side, m.Side] | None) -> None:
+    def compare(self, sides: tuple[Side, Side] | None) -> None:
         """Compare two states from now on, or none.
 
         Raises:
@@ -196,7 +208,7 @@ class VariantDesk:
         await self._book.read(self._shelf.items)
         return self._book.present()
 
-    def _recipe_of(self, side: m.Side) -> Recipe | None:
+    def _recipe_of(self, side: Side) -> Recipe | None:
         if side.kind == "saved":
             return self._book.saved()
         known = next((one for one in self._shelf.items if one.name == side.name), None)
@@ -224,9 +236,9 @@ class VariantDesk:
         if now is not None:
             self._active = now
 
-    def _list(self) -> m.Variants:
+    def _list(self) -> Variants:
         shelf = self._shelf
-        return m.Variants(
+        return Variants(
             variants=tuple(map(_view, shelf.items)),
             active=self._active,
             modified=self._modified,
@@ -239,9 +251,9 @@ class VariantDesk:
         self._told.tell(self._list())
 
 
-def _view(variant: Variant) -> m.VariantView:
+def _view(variant: Variant) -> VariantView:
     texts = list(variant.texts.items())[:_TEXTS_SHOWN]
-    return m.VariantView(
+    return VariantView(
         name=variant.name,
         note=variant.note,
         arguments={
@@ -249,7 +261,7 @@ def _view(variant: Variant) -> m.VariantView:
             for name, value in variant.arguments.items()
         },
         texts=tuple(
-            m.VariantText(file=name.file, name=shown(str(name)), text=shown(text))
+            VariantText(file=name.file, name=shown(str(name)), text=shown(text))
             for name, text in texts
         ),
     )

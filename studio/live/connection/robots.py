@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import asyncio
 from functools import partial
-from typing import TYPE_CHECKING, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Final, Protocol
 
-from studio import protocol as m
 from studio.documents.library import Opener
 from studio.errors import CommandError
 from studio.live.connection.plan import chosen_wire
 from studio.packages.from_wire import choose_packages, keep_description
+from studio.protocol.commands import Commands, Scope
+from studio.protocol.documents import Opened
 from studio.protocol.wire import (
     ConnectWire,
     DisconnectWire,
@@ -30,9 +31,6 @@ if TYPE_CHECKING:
     from studio.live.connection.hearing import DescriptionIn
     from studio.packages.index import PackageIndex
 
-EngineWireCommand: TypeAlias = (
-    ConnectWire | ExamineWire | DisconnectWire | FindWireRobots | OpenFromWire
-)
 _FIRST_PATIENCE_S = 5.0
 """For a description that is latched: it comes at once, or nobody tells one."""
 
@@ -63,35 +61,28 @@ class WireRobotDesk:
         self._wire, self._data_folder, self._opener = wire, data_folder, opener
         self._bridge = bridge
 
-    async def carry_out(self, command: EngineWireCommand) -> m.Event | None:
-        """Carry out one command and give its answer, if it has one.
+    async def connect(self, command: ConnectWire) -> None:
+        """Join the ROS system, or another one than now.
 
         Raises:
-            StudioError: It cannot be done.
+            StudioError: There is no router, or it cannot be reached.
         """
-        match command:
-            case ConnectWire():
-                await self._connect(command)
-                return None
-            case ExamineWire():
-                return await asyncio.to_thread(self._examine, command)
-            case DisconnectWire():
-                await self._disconnect()
-                return None
-            case FindWireRobots():
-                link = await self._wire.link()
-                topics, nodes = await asyncio.to_thread(link.find_robots)
-                return WireRobots(request=command.request, topics=topics, nodes=nodes)
-            case OpenFromWire():
-                return m.Opened(request=command.request, document=await self._open(command))
-
-    async def _connect(self, command: ConnectWire) -> None:
         chosen = chosen_wire(self._wire.choice, command)
         if chosen != self._wire.choice:
             # First, so that whoever asks for a connection meanwhile gets the new one.
             self._wire.choose(chosen)
-            await self._disconnect()
+            await self.disconnect()
         await self._wire.link()
+
+    async def examine(self, command: ExamineWire) -> WireReport:
+        """What there is at a place."""
+        return await asyncio.to_thread(self._examine, command)
+
+    async def find(self, command: FindWireRobots) -> WireRobots:
+        """Where robots are described: topics, and parameters of nodes."""
+        link = await self._wire.link()
+        topics, nodes = await asyncio.to_thread(link.find_robots)
+        return WireRobots(request=command.request, topics=topics, nodes=nodes)
 
     def _examine(self, command: ExamineWire) -> WireReport:
         from studio.live.connection.report import examine  # noqa: PLC0415 - imports zenoh
@@ -100,7 +91,8 @@ class WireRobotDesk:
         own = () if link is None else (link.zid,)
         return examine(chosen_wire(self._wire.choice, command), own, command.request)
 
-    async def _disconnect(self) -> None:
+    async def disconnect(self) -> None:
+        """Leave the ROS system; all that goes out or comes in for a document ends before."""
         await self._let_go()
         await self._wire.disconnect()
         await self._let_go()  # of what was switched on with it meanwhile
@@ -110,7 +102,12 @@ class WireRobotDesk:
         parts: list[LetsGo] = [part for one in documents for part in (one.feed, one.live)]
         await asyncio.gather(*(part.let_go() for part in (*parts, self._bridge)))
 
-    async def _open(self, command: OpenFromWire) -> str:
+    async def open(self, command: OpenFromWire) -> Opened:
+        """Open a robot that is described there, and let its joints follow.
+
+        Raises:
+            StudioError: It is not described, or cannot be opened.
+        """
         link = await self._wire.link()
         description = await asyncio.to_thread(link.hear_description, command)
         try:
@@ -121,7 +118,7 @@ class WireRobotDesk:
         feed = self._opener.document(name).feed
         await feed.describe(description, self._data_folder)
         await feed.choose("joint_states")
-        return name
+        return Opened(request=command.request, document=name)
 
     async def _open_first(self, description: DescriptionIn) -> str:
         text = await asyncio.to_thread(description.first, _FIRST_PATIENCE_S)
@@ -139,3 +136,11 @@ def _keep(data_folder: Path, source: str, text: str, indexes: list[PackageIndex]
     file = keep_description(data_folder, source, text)
     choose_packages(data_folder, file, text, indexes)
     return file
+
+
+COMMANDS: Final = Commands[WireRobotDesk](Scope.ROS)
+COMMANDS.presenter(ConnectWire, lambda robots, c, _: robots.connect(c))
+COMMANDS.presenter(ExamineWire, lambda robots, c, _: robots.examine(c))
+COMMANDS.presenter(DisconnectWire, lambda robots, _, __: robots.disconnect())
+COMMANDS.presenter(FindWireRobots, lambda robots, c, _: robots.find(c))
+COMMANDS.presenter(OpenFromWire, lambda robots, c, _: robots.open(c))

@@ -11,8 +11,27 @@ from typing import TYPE_CHECKING, Final
 from studio.errors import CommandError, StudioError
 from studio.live.displays.display_file import DisplayFile, KeptDisplays
 from studio.live.displays.display_list import DisplayList, Listening
-from studio.protocol import live as m
 from studio.protocol.listeners import LastTold
+from studio.protocol.live import (
+    AddDisplay,
+    ArrangeDisplay,
+    DisplayKinds,
+    DisplayStates,
+    DuplicateDisplay,
+    FollowFrame,
+    FrameFollowed,
+    GetDisplayKinds,
+    GetTf,
+    GetTopics,
+    LiveDisplays,
+    RemoveDisplay,
+    SetDisplayProperty,
+    SetDisplayTopic,
+    SetFixedFrame,
+    SwitchDisplays,
+    TfFrames,
+    Topics,
+)
 from studio.protocol.roles import Visitor
 
 if TYPE_CHECKING:
@@ -26,6 +45,7 @@ if TYPE_CHECKING:
     from studio.live.displays.drawing_room import DrawingRoom, Meshes
     from studio.live.displays.placing import Shown
     from studio.live.displays.robot_models import RobotModels
+    from studio.protocol import Event
     from studio.protocol.listeners import Listener
 
 _TICK_S: Final = 1 / 30
@@ -66,8 +86,8 @@ class LiveDesk:
         self._fault = ""
         self._looked_s = 0.0
         self._asked_until_s = 0.0
-        self._states = LastTold[m.DisplayStates](document.board.audience)
-        self._settings = LastTold[m.LiveDisplays](document.board.audience)
+        self._states = LastTold[DisplayStates](document.board.audience)
+        self._settings = LastTold[LiveDisplays](document.board.audience)
         self._closed = False
 
     @property
@@ -101,7 +121,7 @@ class LiveDesk:
             self._list.remove(added.id)
             _log.warning("The display %s was left out: %s", spec.name, error)
 
-    def events(self) -> Iterable[m.LiveEvent]:
+    def events(self) -> Iterable[Event]:
         """What a newcomer is told; with somebody there, it is drawn again."""
         self._seen_s = time.monotonic()
         self._go_on()
@@ -109,7 +129,7 @@ class LiveDesk:
         if self._states.event is not None:
             yield self._states.event
 
-    async def add(self, command: m.AddDisplay) -> None:
+    async def add(self, command: AddDisplay) -> None:
         """Add a display; with a topic, the connection is made if there is none."""
         topic = _full_name(command.topic) or _first_topic(command.kind)
         spec = self._list.add(command.kind, topic)
@@ -122,7 +142,7 @@ class LiveDesk:
         if spec.topic:
             await self._connect()
 
-    async def remove(self, command: m.RemoveDisplay) -> None:
+    async def remove(self, command: RemoveDisplay) -> None:
         """Take a display away."""
         self._list.remove(command.display)
         running = self._room.close(command.display)
@@ -130,12 +150,12 @@ class LiveDesk:
         if running is not None:
             await asyncio.to_thread(running.close)
 
-    def duplicate(self, command: m.DuplicateDisplay) -> None:
+    def duplicate(self, command: DuplicateDisplay) -> None:
         """Add one like another."""
         self._room.open(self._list.duplicate(command.display))
         self._changed()
 
-    def arrange(self, command: m.ArrangeDisplay) -> None:
+    def arrange(self, command: ArrangeDisplay) -> None:
         """Name, group or move one."""
         spec = self._list.get(command.display)
         name = spec.name if command.name is None else command.name.strip()
@@ -146,7 +166,7 @@ class LiveDesk:
             self._list.move(spec.id, command.before)
         self._change(replace(spec, name=name, group=group))
 
-    def switch(self, command: m.SwitchDisplays) -> None:
+    def switch(self, command: SwitchDisplays) -> None:
         """Show or hide one, or a group as a whole."""
         if command.display:
             self._change(replace(self._list.get(command.display), enabled=command.enabled))
@@ -154,7 +174,7 @@ class LiveDesk:
             self._list.switch_group(command.group, shown=command.enabled)
             self._changed()
 
-    async def set_topic(self, command: m.SetDisplayTopic) -> None:
+    async def set_topic(self, command: SetDisplayTopic) -> None:
         """Listen to another topic, or otherwise."""
         before = self._list.get(command.display)
         listening = Listening(command.reliable, command.latched, command.depth)
@@ -169,14 +189,14 @@ class LiveDesk:
         if spec.topic:
             await self._connect()
 
-    def set_property(self, command: m.SetDisplayProperty) -> None:
+    def set_property(self, command: SetDisplayProperty) -> None:
         """Change a property."""
         spec = self._list.get(command.display)
         value = self._room.get(spec.id).set(command.name, command.value)
         values: dict[str, Value] = {**spec.values, command.name: value}
         self._change(replace(spec, values=values))
 
-    async def fix(self, command: m.SetFixedFrame) -> None:
+    async def fix(self, command: SetFixedFrame) -> None:
         """Draw everything in another frame."""
         frame, frames = command.frame.strip().removeprefix("/"), self._room.frames
         frames.chosen = frame
@@ -189,23 +209,23 @@ class LiveDesk:
         """What is shown of a display, and where its parts are in the fixed frame."""
         return self._room.get(display).placing.shown
 
-    def kinds(self, command: m.GetDisplayKinds) -> m.DisplayKinds:
+    def kinds(self, command: GetDisplayKinds) -> DisplayKinds:
         """Which displays there are."""
         from studio.live.displays.catalogue_views import kind_views  # noqa: PLC0415 - imports all
 
-        return m.DisplayKinds(request=command.request, kinds=kind_views())
+        return DisplayKinds(request=command.request, kinds=kind_views())
 
-    async def topics(self, command: m.GetTopics) -> m.Topics:
+    async def topics(self, command: GetTopics) -> Topics:
         """Which topics there are; none without a connection."""
         link = self._wire.current
         if link is None:
-            return m.Topics(request=command.request, topics=())
+            return Topics(request=command.request, topics=())
         from studio.live.displays.topic_views import topic_views  # noqa: PLC0415 - imports all
 
         found = await asyncio.to_thread(topic_views, link)
-        return m.Topics(request=command.request, topics=found)
+        return Topics(request=command.request, topics=found)
 
-    async def tf(self, command: m.GetTf) -> m.TfFrames:
+    async def tf(self, command: GetTf) -> TfFrames:
         """Which frames there are, and where one is in another; TF is heard from now on."""
         is_first = not self._is_on
         self._asked_until_s = time.monotonic() + _ASKED_FOR_S
@@ -219,13 +239,13 @@ class LiveDesk:
         # Thousands of frames in words take a while, and the loop has other work.
         return await asyncio.to_thread(frames.answer, command, frames.fixed)
 
-    def follow(self, command: m.FollowFrame, who: Listener) -> m.FrameFollowed:
+    def follow(self, command: FollowFrame, who: Listener) -> FrameFollowed:
         """Have a frame stand in the scene, for a camera to go with it; TF is heard from now on."""
         self._asked_until_s = time.monotonic() + _ASKED_FOR_S
         self._go_on()
         frame = command.frame.strip().removeprefix("/")
         trouble = self._room.follow(frame, time.time_ns(), Visitor(who.role, who.person))
-        return m.FrameFollowed(request=command.request, trouble=trouble)
+        return FrameFollowed(request=command.request, trouble=trouble)
 
     async def let_go(self) -> None:
         """Let go of the connection; displays stay, and listen again when there is one."""
@@ -363,8 +383,8 @@ class LiveDesk:
         """Tell how all are set, if that is news: how they listen changes with who publishes."""
         self._settings.tell(self._displays())
 
-    def _displays(self) -> m.LiveDisplays:
-        return m.LiveDisplays(
+    def _displays(self) -> LiveDisplays:
+        return LiveDisplays(
             displays=tuple(self._room.view(spec) for spec in self._list),
             groups_off=self._list.groups_off,
             fixed_frame=self._fixed_frame,

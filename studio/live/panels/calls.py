@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 from studio.live.panels.ledger import Ledger
 from studio.live.panels.running import Outcome, Running
 from studio.protocol.calls import Begun, Calls, CallService, CallView, CancelCall
+from studio.protocol.commands import Commands, Scope
 
 if TYPE_CHECKING:
     from studio.live.connection.desk import WireDesk
@@ -108,3 +109,7 @@ _STATES: Final[dict[str, _State]] = {
     "failed": "failed",
     "cancelled": "cancelled",
 }
+
+COMMANDS: Final = Commands[CallDesk](Scope.ROS)
+COMMANDS.presenter(CallService, lambda one, c, _: one.begin(c), needs_router=True)
+COMMANDS.presenter(CancelCall, lambda one, c, _: one.cancel(c))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from studio.live.panels.calls import CallDesk
 from studio.live.panels.goal_statuses import GoalStatusDesk
@@ -11,12 +11,13 @@ from studio.live.panels.goals import GoalDesk
 from studio.live.panels.offers import OfferDesk
 from studio.live.panels.parameters import ParameterDesk
 from studio.live.panels.publishing import PublishDesk
+from studio.protocol.calls import FollowDeeds
+from studio.protocol.commands import Commands, Scope
 
 if TYPE_CHECKING:
     from studio.live.connection.desk import WireDesk
     from studio.live.panels.interfaces import InterfaceDesk
     from studio.live.panels.logs import LogDesk
-    from studio.protocol.calls import FollowDeeds
     from studio.protocol.listeners import Listener
 
 
@@ -68,3 +69,7 @@ class DeedDesk:
         await self.let_go()
         parts = (self.calls, self.goals, self.publishing, self.parameters)
         await asyncio.gather(*(one.close() for one in parts))
+
+
+COMMANDS: Final = Commands[DeedDesk](Scope.ROS)
+COMMANDS.viewer(FollowDeeds, lambda one, c, who: one.follow(c, who))

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
 from studio.live.panels.heard_topic import HeardTopic
+from studio.protocol.commands import Commands, Scope
 from studio.protocol.diagnostics import (
     DiagnosticsAnswer,
     DiagnosticValue,
@@ -103,3 +104,7 @@ def _view(status: MessageValue) -> DiagnosticView:
         ),
         age_s=0.0,
     )
+
+
+COMMANDS: Final = Commands[DiagnosticsDesk](Scope.ROS)
+COMMANDS.viewer(GetDiagnostics, lambda one, c, _: one.diagnostics(c))

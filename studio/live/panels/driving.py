@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING, Final
 
 from studio.errors import CommandError
 from studio.live.panels.running import outcome_of
+from studio.protocol.commands import Commands, Scope
+from studio.protocol.driving import Drive
 
 if TYPE_CHECKING:
     from studio.live.connection.desk import WireDesk
     from studio.live.panels.driving_work import Wheel
-    from studio.protocol.driving import Drive
     from studio.protocol.listeners import Listener
 
 _SILENCE_S: Final = 0.5
@@ -119,3 +120,7 @@ class DriveDesk:
 
         if not wheel.is_reached:
             await came_true(lambda: self._leaves or wheel.is_heard, _ROUTER_PATIENCE_S)
+
+
+COMMANDS: Final = Commands[DriveDesk](Scope.ROS)
+COMMANDS.presenter(Drive, lambda one, c, who: one.drive(c, who), needs_router=True)

@@ -7,6 +7,7 @@ import time
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
+from studio.protocol.commands import Commands, Scope
 from studio.protocol.goals import GetGoalStatuses, GoalStatuses, GoalStatusView
 
 if TYPE_CHECKING:
@@ -99,3 +100,7 @@ def _views(newest: Any, own: frozenset[str]) -> tuple[GoalStatusView, ...]:  # n
         for one in newest.status_list
     ]
     return tuple(sorted(found, key=lambda one: -one.stamp_s)[:_SHOWN])
+
+
+COMMANDS: Final = Commands[GoalStatusDesk](Scope.ROS)
+COMMANDS.viewer(GetGoalStatuses, lambda one, c, _: one.statuses(c))

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Final
 from studio.live.panels.ledger import Ledger
 from studio.live.panels.running import Outcome, Running
 from studio.protocol.calls import Begun
+from studio.protocol.commands import Commands, Scope
 from studio.protocol.goals import CancelGoal, FeedbackView, Goals, GoalState, GoalView, SendGoal
 
 if TYPE_CHECKING:
@@ -235,3 +236,8 @@ def _ended(name: str) -> GoalState:
             return name
         case _:
             return "failed"
+
+
+COMMANDS: Final = Commands[GoalDesk](Scope.ROS)
+COMMANDS.presenter(SendGoal, lambda one, c, _: one.begin(c), needs_router=True)
+COMMANDS.presenter(CancelGoal, lambda one, c, _: one.cancel(c), needs_router=True)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import asyncio
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Final, Literal
 
+from studio.protocol.commands import Commands, Scope
 from studio.protocol.graph import (
     LINKS_MAX,
     NODES_MAX,
@@ -152,3 +153,8 @@ def _node_answer(
         action_servers=ends("action_servers"),
         action_clients=ends("action_clients"),
     )
+
+
+COMMANDS: Final = Commands[GraphDesk](Scope.ROS)
+COMMANDS.viewer(GetGraph, lambda one, c, _: one.graph(c))
+COMMANDS.viewer(GetNode, lambda one, c, _: one.node(c))

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final, Literal, cast
 
 from studio.errors import UnknownTypeError
 from studio.live.panels.type_learning import TypeLearner
+from studio.protocol.commands import Commands, Scope
 from studio.protocol.interfaces import (
     AddedInterface,
     AddInterfaces,
@@ -188,3 +189,9 @@ def _constant_view(constant: Constant) -> ConstantView:
     return ConstantView(
         name=constant.name, base=constant.base, value=constant.value, comment=constant.comment
     )
+
+
+COMMANDS: Final = Commands[InterfaceDesk](Scope.ROS)
+COMMANDS.viewer(GetInterface, lambda one, c, _: one.interface(c))
+COMMANDS.viewer(ListInterfaces, lambda one, c, _: one.names(c))
+COMMANDS.presenter(AddInterfaces, lambda one, c, _: one.add(c))

@@ -11,22 +11,28 @@ from studio.live.panels.demo_run import DemoRun
 from studio.nodes.demos.chapters import CHAPTERS, LESSONS, Lesson
 from studio.nodes.demos.code import code_of
 from studio.nodes.demos.starting import environment_for
-from studio.protocol.lessons import CodeFile, DemoCode, DemoOutput, Demos, Lessons, LessonView
+from studio.protocol.commands import Commands, Scope
+from studio.protocol.lessons import (
+    CodeFile,
+    DemoCode,
+    DemoOutput,
+    Demos,
+    GetDemoCode,
+    GetDemoOutput,
+    GetDemos,
+    GetLessons,
+    Lessons,
+    LessonView,
+    PressKey,
+    StartDemo,
+    StopDemo,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from studio.live.connection.desk import WireDesk
     from studio.live.connection.link import WireLink
-    from studio.protocol.lessons import (
-        GetDemoCode,
-        GetDemoOutput,
-        GetDemos,
-        GetLessons,
-        PressKey,
-        StartDemo,
-        StopDemo,
-    )
 
 RUNNING_MAX: Final = 10
 """Each is a process of some 80 MB."""
@@ -188,3 +194,13 @@ def _sessions_by_node(link: WireLink) -> dict[str, frozenset[str]]:
     for node in link.graph.nodes():
         found.setdefault(node.path, set()).add(node.zid)
     return {path: frozenset(zids) for path, zids in found.items()}
+
+
+COMMANDS: Final = Commands[LessonDesk](Scope.ROS)
+COMMANDS.viewer(GetLessons, lambda one, c, _: one.lessons(c))
+COMMANDS.viewer(GetDemos, lambda one, c, _: one.demos(c))
+COMMANDS.viewer(GetDemoOutput, lambda one, c, _: one.output(c))
+COMMANDS.viewer(GetDemoCode, lambda one, c, _: one.code(c))
+COMMANDS.presenter(StartDemo, lambda one, c, _: one.start(c))
+COMMANDS.presenter(StopDemo, lambda one, c, _: one.stop(c))
+COMMANDS.presenter(PressKey, lambda one, c, _: one.press(c))

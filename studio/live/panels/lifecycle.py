@@ -7,6 +7,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, Any, Final
 
 from studio.errors import CommandError, StudioError, WireError
+from studio.protocol.commands import Commands, Scope
 from studio.protocol.lifecycle import (
     MANAGED_MAX,
     ChangeState,
@@ -157,3 +158,8 @@ def _change(link: WireLink, command: ChangeState) -> None:
     raise CommandError(
         f"{command.node} did not take that transition and is in {now}: its log says why."
     )
+
+
+COMMANDS: Final = Commands[LifecycleDesk](Scope.ROS)
+COMMANDS.viewer(GetManaged, lambda one, c, _: one.managed(c))
+COMMANDS.presenter(ChangeState, lambda one, c, _: one.change(c), needs_router=True)

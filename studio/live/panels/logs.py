@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from studio.live.panels.heard_topic import HeardTopic
 from studio.live.panels.log_ring import LogRing
+from studio.protocol.commands import Commands, Scope
 from studio.protocol.logs import GetLog, LogAnswer
 from studio.ros.names import logger_name
 
@@ -54,3 +55,7 @@ class LogDesk:
 
         qos = qos_profile_rosout_default
         return link.subscribe("rcl_interfaces/msg/Log", ROSOUT, self._ring.take, qos)
+
+
+COMMANDS: Final = Commands[LogDesk](Scope.ROS)
+COMMANDS.viewer(GetLog, lambda one, c, _: one.log(c))

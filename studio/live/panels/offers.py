@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import time
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from studio.errors import CommandError
 from studio.protocol.calls import (
@@ -16,6 +16,7 @@ from studio.protocol.calls import (
     Services,
     ValuesRead,
 )
+from studio.protocol.commands import Commands, Scope
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -89,3 +90,9 @@ def _offers(
         )
         for name, types in found
     )
+
+
+COMMANDS: Final = Commands[OfferDesk](Scope.ROS)
+COMMANDS.viewer(GetServices, lambda one, c, _: one.services(c))
+COMMANDS.viewer(GetActions, lambda one, c, _: one.actions(c))
+COMMANDS.viewer(ReadValues, lambda one, c, _: one.read(c))

@@ -7,6 +7,7 @@ from collections import OrderedDict
 from typing import TYPE_CHECKING, Final
 
 from studio.documents.lookout import Lookout
+from studio.protocol.commands import Commands, Scope
 from studio.protocol.listeners import tell
 from studio.protocol.parameters import (
     DumpParameters,
@@ -201,3 +202,12 @@ def _close(remotes: tuple[RemoteParameters, ...], end: Callable[[], None] | None
         one.close()
     if end is not None:
         end()
+
+
+COMMANDS: Final = Commands[ParameterDesk](Scope.ROS)
+COMMANDS.viewer(GetParameterNodes, lambda one, c, _: one.nodes(c))
+COMMANDS.viewer(GetParameters, lambda one, c, _: one.parameters(c), needs_router=True)
+COMMANDS.presenter(SetParameter, lambda one, c, _: one.set(c), needs_router=True)
+COMMANDS.viewer(DumpParameters, lambda one, c, _: one.dump(c), needs_router=True)
+COMMANDS.presenter(LoadParameters, lambda one, c, _: one.load(c), needs_router=True)
+COMMANDS.viewer(FollowParameters, lambda one, c, who: one.follow(c, who))

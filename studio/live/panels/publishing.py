@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 from studio.live.panels.ledger import Ledger
 from studio.live.panels.running import Outcome, Running
 from studio.protocol.calls import Begun
+from studio.protocol.commands import Commands, Scope
 from studio.protocol.publishing import Publications, PublicationView, Publish, StopPublishing
 from studio.protocol.roles import Role
 
@@ -168,3 +169,8 @@ class PublishDesk:
         await asyncio.to_thread(saying.close)
         publication.state, publication.trouble = _STATES[outcome.kind], outcome.trouble
         self.ledger.changed(publication)
+
+
+COMMANDS: Final = Commands[PublishDesk](Scope.ROS)
+COMMANDS.presenter(Publish, lambda one, c, _: one.begin(c), needs_router=True)
+COMMANDS.presenter(StopPublishing, lambda one, c, _: one.stop(c))

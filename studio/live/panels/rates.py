@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import asyncio
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
+from studio.protocol.commands import Commands, Scope
 from studio.protocol.topic_rates import GetTopicRates, TopicRate, TopicRates
 from studio.ros.qos import DurabilityPolicy
 
@@ -52,3 +53,7 @@ def _state(flow: Flow, *, is_latched: bool) -> _State:
     if flow.is_silent:
         return "latched" if is_latched else "silent"
     return "waiting" if flow.age_s is None else "live"
+
+
+COMMANDS: Final = Commands[RateDesk](Scope.ROS)
+COMMANDS.viewer(GetTopicRates, lambda one, c, _: one.rates(c))

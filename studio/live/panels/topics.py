@@ -6,6 +6,7 @@ import asyncio
 from typing import TYPE_CHECKING, Final
 
 from studio.live.connection.topic_kinds import carried_types, kind_for
+from studio.protocol.commands import Commands, Scope
 from studio.protocol.topics import (
     GetTopicEnds,
     ListTopics,
@@ -143,3 +144,8 @@ def _why_deaf(publisher: GraphEndpoint, subscriber: GraphEndpoint) -> list[str]:
             "distributions or versions of its package"
         ]
     return []
+
+
+COMMANDS: Final = Commands[TopicDesk](Scope.ROS)
+COMMANDS.viewer(ListTopics, lambda one, c, _: one.table(c))
+COMMANDS.viewer(GetTopicEnds, lambda one, c, _: one.ends(c))

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio import protocol as m
-from studio.documents.dispatch import carry_out
 from studio.errors import CommandError, ReadOnlyTextError, StaleTextError
 from studio.problems import Fix, Problem, Replacement, Severity
+from studio.protocol.mending import ApplyFix
+from tests.support.asked import ask_document
 from tests.support.open_documents import engine, opened
 
 if TYPE_CHECKING:
@@ -58,8 +58,8 @@ def test_a_fix_is_one_step_that_bears_its_label(cart: Path, tmp_path: Path):
             assert problem.fix is not None
             fix = Fix("Rename it", "edit", edits=(*problem.fix.edits, more))
             document.board.find("test", [Problem(problem.severity, "odd", "A sentence.", fix=fix)])
-            command = m.ApplyFix(code="odd", sentence="A sentence.", label="Rename it")
-            await carry_out(document, command, ear)
+            command = ApplyFix(code="odd", sentence="A sentence.", label="Rename it")
+            await ask_document(document, command, ear)
             assert list(document.model.robot.links) == ["base", "front"]
             assert ear.last("history")["undo"] == ["Rename it"]
             await document.undo()

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio import protocol as m
 from studio.errors import EditError, SaveConflictError
+from studio.protocol.files import GetCollisions, ResolveCollisions
 from tests.support.open_documents import Ear, engine, opened, until
 from tests.support.packages import write_package
 
@@ -117,7 +117,7 @@ def test_a_collision_is_shown_overwrites_nothing_and_is_chosen(
             with pytest.raises(SaveConflictError):
                 await document.save()
             assert (mast.read_text(), tip_of(document)) == (theirs, [0.1, 2.0, 0.5])
-            told = document.disk.answer(m.GetCollisions(file=str(mast)))
+            told = document.disk.answer(GetCollisions(file=str(mast)))
             (place,) = told.places
             assert (place.line, told.count) == (3, 1)
             assert ('"0.4"' in place.base, '"0.5"' in place.mine, '"0.9"' in place.theirs) == (
@@ -125,14 +125,14 @@ def test_a_collision_is_shown_overwrites_nothing_and_is_chosen(
                 True,
                 True,
             )
-            side = m.ResolveCollisions.model_validate({"file": str(mast), "keep": keep}).keep
-            await document.saving.resolve(m.ResolveCollisions(file=str(mast), keep=side))
+            side = ResolveCollisions.model_validate({"file": str(mast), "keep": keep}).keep
+            await document.saving.resolve(ResolveCollisions(file=str(mast), keep=side))
             assert tip_of(document) == [0.3, 2.0, reach]
             assert "changed-on-disk" not in codes(ear)
             await document.save()
             assert f'value="{reach}"' in mast.read_text()
             with pytest.raises(EditError):
-                await document.saving.resolve(m.ResolveCollisions(file=str(mast), keep=side))
+                await document.saving.resolve(ResolveCollisions(file=str(mast), keep=side))
 
     asyncio.run(run())
 

@@ -10,9 +10,12 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio import protocol as m
 from studio.errors import OutsideRootsError
+from studio.protocol.documents import CloseDocument
+from studio.protocol.files import ResolveCollisions
+from studio.protocol.keeping import DiscardRestored, ForgetWork, UndoTo
 from studio.protocol.roles import Role
+from studio.protocol.texts import EditText, GetText, TextChange
 from tests.support.open_documents import Ear, engine, opened, until
 from tests.support.packages import write_package
 
@@ -71,7 +74,7 @@ def test_edits_arguments_and_both_sides_of_the_undo_list_come_back(mast: Path, t
             assert ear.last("history")["undo"] == ["reach 0.4 → 0.5", "side (empty) → right"]
             await document.redo()
             assert tip_of(document) == [0.2, 0, 0.5]
-            await made.execute(m.UndoTo(document=document.id, position=0, of=3), ear)
+            await made.execute(UndoTo(document=document.id, position=0, of=3), ear)
             assert tip_of(document) == [0.1, 0, 0.4]
             assert document.sources.text(str(mast)) == MAST.encode()
             assert ear.last("restored")["at"] == ""
@@ -85,7 +88,7 @@ def test_where_unsaved_work_gives_no_robot_the_saved_one_is_drawn_and_the_error_
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, mast)
-            read = m.GetText(document=document.id, file=str(mast))
+            read = GetText(document=document.id, file=str(mast))
             for old, new in (
                 ("<link", "<!-- longer than before --><link"),
                 ("${reach}", "${nonsense}"),
@@ -93,8 +96,8 @@ def test_where_unsaved_work_gives_no_robot_the_saved_one_is_drawn_and_the_error_
                 await made.execute(read, ear)
                 text = ear.last("text")
                 at = text["text"].index(old)
-                change = m.TextChange(start=at, end=at + len(old), text=new)
-                edit = m.EditText(
+                change = TextChange(start=at, end=at + len(old), text=new)
+                edit = EditText(
                     document=document.id, file=str(mast), version=text["version"], changes=(change,)
                 )
                 await made.execute(edit, ear)
@@ -150,7 +153,7 @@ def test_where_the_arguments_of_unsaved_work_give_no_robot_the_saved_one_is_draw
             long.write_text(TOOL.format("longer"))
             await document.edit_site(ear.site("reach")["id"], "0.6", "")
             assert list(document.model.robot.links) == ["longer"]
-            await made.execute(m.DiscardRestored(document=document.id), ear)
+            await made.execute(DiscardRestored(document=document.id), ear)
             assert list(document.model.robot.links) == ["short"]
             assert (document.sources.arguments, document.failed) == ({}, False)
 
@@ -182,7 +185,7 @@ def test_where_both_changed_one_place_somebody_chooses(mast: Path, tmp_path: Pat
             assert tip_of(document) == [0.1, 0, 0.5]
             codes = [one["code"] for one in ear.last("problems")["problems"]]
             assert codes == ["changed-on-disk"]
-            choice = m.ResolveCollisions(document=document.id, file=str(mast), keep="theirs")
+            choice = ResolveCollisions(document=document.id, file=str(mast), keep="theirs")
             await made.execute(choice, ear)
             assert tip_of(document) == [0.1, 0, 0.9]
 
@@ -194,7 +197,7 @@ def test_what_was_restored_is_discarded_and_undo_brings_it_back(mast: Path, tmp_
         await work(mast, tmp_path / "data")
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, mast)
-            await made.execute(m.DiscardRestored(document=document.id), ear)
+            await made.execute(DiscardRestored(document=document.id), ear)
             assert (tip_of(document), document.has_unsaved) == ([0.1, 0, 0.4], False)
             assert (document.sources.arguments, ear.last("restored")["at"]) == ({}, "")
             await document.undo()
@@ -209,7 +212,7 @@ def test_a_document_closed_by_its_user_leaves_nothing(mast: Path, tmp_path: Path
             document, ear = await opened(made, mast)
             await document.edit_site(ear.site("reach")["id"], "0.5", "")
             await until(lambda: any((tmp_path / "data/drafts").glob("*.json")))
-            await made.execute(m.CloseDocument(document=document.id, discard=True), ear)
+            await made.execute(CloseDocument(document=document.id, discard=True), ear)
             document, _ = await opened(made, mast)
             assert (tip_of(document), document.sources.undo_labels) == ([0.1, 0, 0.4], ())
 
@@ -346,7 +349,7 @@ async def work_is_given_up(other: Path, mast: Path, data: Path) -> None:
         made.attach(presenter)
         await opened(made, other)
         await until(lambda: any(one["type"] == "left_work" for one in presenter.events))
-        await made.execute(m.ForgetWork(path=str(mast)), presenter)
+        await made.execute(ForgetWork(path=str(mast)), presenter)
         assert presenter.last("left_work")["entries"] == []
         document, _ = await opened(made, mast)
         assert not document.has_unsaved
@@ -362,7 +365,7 @@ def test_work_on_files_that_are_not_served_is_nobodys_business(mast: Path, tmp_p
             made.attach(presenter)
             await opened(made, elsewhere / "e.urdf")
             with pytest.raises(OutsideRootsError):
-                await made.execute(m.ForgetWork(path=str(mast)), presenter)
+                await made.execute(ForgetWork(path=str(mast)), presenter)
             assert all(one["type"] != "left_work" for one in presenter.events)
 
     asyncio.run(run())

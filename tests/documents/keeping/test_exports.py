@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio import protocol as m
 from studio.errors import CommandError
+from studio.protocol.texts import GetUrdf
 from tests.support.open_documents import engine, opened
 from tests.support.packages import write_package
 from tests.support.yourdfpy_poses import loaded_by_yourdfpy
@@ -159,6 +159,6 @@ def test_the_page_holds_the_robot_as_it_is_posed(arm: Path, tmp_path: Path):
             assert "<title>arm</title>" in text
             assert "default-src 'none'" in text
             assert "__VISER_EMBED_DATA__" in text
-            await made.execute(m.GetUrdf(document=document.id), ear)  # the view lives on
+            await made.execute(GetUrdf(document=document.id), ear)  # the view lives on
 
     asyncio.run(run())

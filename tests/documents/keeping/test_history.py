@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio import protocol as m
 from studio.errors import CommandError
+from studio.protocol.keeping import UndoTo
 from tests.support.open_documents import Ear, engine, opened
 from tests.support.packages import write_package
 
@@ -55,7 +55,7 @@ def test_every_step_is_a_place_to_go_to(tmp_path: Path):
             document, ear = await opened(made, entry)
             states = await with_steps(document, ear)
             for at in (0, 4, 2, 3, 1, 1, 4):
-                await made.execute(m.UndoTo(document=document.id, position=at, of=4), ear)
+                await made.execute(UndoTo(document=document.id, position=at, of=4), ear)
                 link = document.model.assembly.part("link:base")
                 assert link is not None
                 now = document.sources.text(str(entry)), document.sources.arguments, link.xml
@@ -74,7 +74,7 @@ def test_a_step_of_another_list_is_refused(position: int, of: int, tmp_path: Pat
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, entry)
             states = await with_steps(document, ear)
-            wish = m.UndoTo(document=document.id, position=position, of=of)
+            wish = UndoTo(document=document.id, position=position, of=of)
             with pytest.raises(CommandError, match="choose the step again"):
                 await made.execute(wish, ear)
             assert document.sources.text(str(entry)) == states[-1][0]

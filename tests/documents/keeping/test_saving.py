@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio import protocol as m
 from studio.errors import CommandError, NotSavedError, OutsideRootsError, StudioError
+from studio.protocol.files import GetCollisions, ResolveCollisions, Save
+from studio.protocol.keeping import GetChanges, SaveCopy
+from studio.protocol.texts import EditText, GetText, TextChange
 from tests.support.open_documents import Ear, engine, opened
 from tests.support.packages import write_package
 
@@ -42,7 +44,7 @@ def test_the_changes_are_counted_and_only_the_chosen_file_is_written(mast: Path,
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, mast)
             await edited(document, ear)
-            await made.execute(m.GetChanges(document=document.id), ear)
+            await made.execute(GetChanges(document=document.id), ear)
             told = {one["file"]: one for one in ear.last("changes")["files"]}
             assert set(told) == {str(mast), str(mast.with_name("c.yaml"))}
             first = told[str(mast)]
@@ -52,7 +54,7 @@ def test_the_changes_are_counted_and_only_the_chosen_file_is_written(mast: Path,
                 '<xacro:property name="reach" value="0.4"/>',
                 '<xacro:property name="reach" value="0.5"/>',
             ]
-            await made.execute(m.Save(document=document.id, files=(str(mast),)), ear)
+            await made.execute(Save(document=document.id, files=(str(mast),)), ear)
             assert mast.read_text() == MAST.replace("0.4", "0.5")
             assert mast.with_name("c.yaml").read_text() == "y: 2.0\n"
             assert document.sources.unsaved_files == (str(mast.with_name("c.yaml")),)
@@ -68,7 +70,7 @@ def test_a_file_that_may_only_be_read_says_so_before_and_is_saved_as_a_copy(
             document, ear = await opened(made, mast)
             await edited(document, ear)
             mast.chmod(0o444)
-            await made.execute(m.GetChanges(document=document.id), ear)
+            await made.execute(GetChanges(document=document.id), ear)
             told = ear.last("changes")
             (hindrance,) = (one["hindrance"] for one in told["files"] if one["hindrance"])
             assert "read-only" in hindrance
@@ -77,7 +79,7 @@ def test_a_file_that_may_only_be_read_says_so_before_and_is_saved_as_a_copy(
                 await document.save()
             assert document.has_unsaved
             copy = mast.with_name("copy.urdf.xacro")
-            wish = m.SaveCopy(document=document.id, file=str(mast), path=str(copy))
+            wish = SaveCopy(document=document.id, file=str(mast), path=str(copy))
             await made.execute(wish, ear)
             assert copy.read_text() == MAST.replace("0.4", "0.5")
             assert document.has_unsaved
@@ -99,7 +101,7 @@ def test_a_copy_goes_nowhere_else(
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, mast)
-            wish = m.SaveCopy(document=document.id, file=str(mast), path=str(tmp_path / path))
+            wish = SaveCopy(document=document.id, file=str(mast), path=str(tmp_path / path))
             with pytest.raises(error, match=words):
                 await made.execute(wish, ear)
             assert mast.with_name("c.yaml").read_text() == "y: 2.0\n"
@@ -115,7 +117,7 @@ def test_a_folder_that_vanished_loses_nothing(mast: Path, tmp_path: Path):
             document, ear = await opened(made, mast)
             await edited(document, ear)
             mast.parent.rename(tmp_path / "elsewhere")
-            await made.execute(m.GetChanges(document=document.id), ear)
+            await made.execute(GetChanges(document=document.id), ear)
             assert all("deleted" in one["hindrance"] for one in ear.last("changes")["files"])
             with pytest.raises(NotSavedError, match="put it back or save a copy"):
                 await document.save()
@@ -134,23 +136,23 @@ def test_each_collision_is_chosen_by_itself(mast: Path, tmp_path: Path):
                 '<robot name="r">\n<link name="a"/>\n<!-- 1 -->\n<link name="b"/>\n</robot>'
             )
             document, ear = await opened(made, two)
-            read = m.GetText(document=document.id, file=str(two))
+            read = GetText(document=document.id, file=str(two))
             await made.execute(read, ear)
             text = ear.last("text")["text"]
             for old, new in (('"a"', '"mine_a"'), ('"b"', '"mine_b"')):
                 at = text.index(old)
-                change = m.TextChange(start=at, end=at + 3, text=new)
+                change = TextChange(start=at, end=at + 3, text=new)
                 version = document.texts.answer(read, ear.role).version
-                edit = m.EditText(
+                edit = EditText(
                     document=document.id, file=str(two), version=version, changes=(change,)
                 )
                 await made.execute(edit, ear)
                 text = text.replace(old, new)
             two.write_text(two.read_text().replace('"a"', '"a2"').replace('"b"', '"b2"'))
             document.sources.refresh(str(two))
-            await made.execute(m.GetCollisions(document=document.id, file=str(two)), ear)
+            await made.execute(GetCollisions(document=document.id, file=str(two)), ear)
             state = ear.last("collisions")["state"]
-            choice = m.ResolveCollisions(
+            choice = ResolveCollisions(
                 document=document.id,
                 file=str(two),
                 keep="mine",

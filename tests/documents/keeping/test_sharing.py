@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from studio import protocol as m
 from studio.documents.keeping.sharing import read_link
 from studio.errors import CommandError
+from studio.protocol.sharing import GetLink, Link, OpenLink
 from tests.support.open_documents import Ear, engine, opened
 from tests.support.packages import write_package
 
@@ -48,15 +48,15 @@ def packed(value: Any) -> str:  # noqa: ANN401 - whatever a stranger may put the
     return "1" + base64.urlsafe_b64encode(data).decode().rstrip("=")
 
 
-async def link_of(made: Engine, name: str) -> m.Link:
+async def link_of(made: Engine, name: str) -> Link:
     ear = Ear()
-    await made.execute(m.GetLink(document=name), ear)
-    return m.Link.model_validate(ear.last("link"))
+    await made.execute(GetLink(document=name), ear)
+    return Link.model_validate(ear.last("link"))
 
 
 async def follow(made: Engine, text: str) -> tuple[str, tuple[str, ...]]:
     ear = Ear()
-    await made.execute(m.OpenLink(link=text), ear)
+    await made.execute(OpenLink(link=text), ear)
     told = ear.last("link_opened")
     return told["document"], tuple(told["left_out"])
 

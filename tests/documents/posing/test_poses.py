@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from studio import protocol as m
 from studio.errors import CommandError, PosesFileError
+from studio.protocol.launching import SetArgument
 from studio.protocol.poses import ApplyPose, DeletePose, RenamePose, SavePose
+from studio.protocol.robot import SetJoints, ZeroJoints
 from tests.support.open_documents import Ear, engine, opened, until
 from tests.support.packages import write_package
 
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
 
     from studio.documents.document import Document
     from studio.documents.engine import Engine
+    from studio.protocol import Command
 
 
 ARM = """<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
@@ -62,7 +64,7 @@ class Desk:
     def __init__(self, made: Engine, document: Document, ear: Ear) -> None:
         self.made, self.document, self.ear = made, document, ear
 
-    async def ask(self, command: m.Command) -> None:
+    async def ask(self, command: Command) -> None:
         with_id = command.model_copy(update={"document": self.document.id})
         await self.made.execute(with_id, self.ear)
 
@@ -123,7 +125,7 @@ def test_an_srdf_is_given_the_arguments_of_the_robot(tmp_path: Path):
     async def run() -> None:
         async with desk(write_arm(tmp_path / "src"), tmp_path / "data") as arm:
             await until(lambda: arm.names == [("srdf", "folded")])
-            await arm.ask(m.SetArgument(name="prefix", value="left_"))
+            await arm.ask(SetArgument(name="prefix", value="left_"))
             await until(lambda: "left_elbow" in arm.pose("folded")["positions"])
 
     asyncio.run(run())
@@ -199,13 +201,13 @@ def test_a_pose_is_kept_renamed_replaced_and_deleted_beside_the_robot(tmp_path: 
     async def run() -> None:
         entry = write_arm(tmp_path / "src")
         async with desk(entry, tmp_path / "data") as arm:
-            await arm.ask(m.SetJoints(positions={"shoulder": 0.5, "elbow": -1.0}))
+            await arm.ask(SetJoints(positions={"shoulder": 0.5, "elbow": -1.0}))
             await arm.ask(SavePose(name=" Reach "))
             assert arm.pose("Reach")["positions"] == {"shoulder": 0.5, "elbow": -1.0}
             file = entry.with_name("arm.poses.yaml")
             assert arm.told["path"] == str(file)
             await arm.ask(RenamePose(name="Reach", new_name="High"))
-            await arm.ask(m.ZeroJoints())
+            await arm.ask(ZeroJoints())
             await arm.ask(SavePose(name="High", replace=True))
             assert (
                 "  - name: High\n    joints:\n      shoulder: 0\n      elbow: 0\n"
@@ -286,10 +288,10 @@ def test_who_moves_a_joint_ends_the_way_to_a_pose(tmp_path: Path):
             await until(lambda: arm.names == [("srdf", "folded")])
             await arm.ask(ApplyPose(key=arm.pose("folded")["key"], duration_s=5.0))
             await until(lambda: arm.positions["shoulder"] < 0)
-            await arm.ask(m.SetJoints(positions={"shoulder": 0.75}))
+            await arm.ask(SetJoints(positions={"shoulder": 0.75}))
             stood = arm.positions
             frames = len(arm.ear.frames)
-            await arm.ask(m.SetJoints(positions={"elbow": stood["elbow"]}))
+            await arm.ask(SetJoints(positions={"elbow": stood["elbow"]}))
             assert arm.positions == stood
             assert len(arm.ear.frames) == frames + 1
 

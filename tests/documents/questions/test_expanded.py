@@ -5,10 +5,10 @@ from __future__ import annotations
 import asyncio
 from typing import TYPE_CHECKING, Any
 
-from studio import protocol as m
-from studio.documents.dispatch import carry_out
 from studio.protocol.expanded import GetUrdfChanges
 from studio.protocol.roles import Role
+from studio.protocol.texts import EditText, GetText, GetUrdf, TextChange
+from tests.support.asked import ask_document
 from tests.support.loop_watch import calls_here
 from tests.support.open_documents import Ear, engine, opened
 
@@ -30,7 +30,7 @@ ROBOT = """<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">
 
 async def changes(document: Document) -> dict[str, Any]:
     ear = Ear()
-    await carry_out(document, GetUrdfChanges(request=4), ear)
+    await ask_document(document, GetUrdfChanges(request=4), ear)
     return ear.events[-1]
 
 
@@ -99,9 +99,9 @@ def test_files_on_disk_that_do_not_run_are_said(tmp_path: Path):
 
 
 def type_edit(document: Document, file: Path, start: int, end: int) -> Any:  # noqa: ANN401
-    told = document.texts.answer(m.GetText(file=str(file)), Role.PRESENTER)
-    change = m.TextChange(start=start, end=end, text="1")
-    return m.EditText(file=str(file), version=told.version, changes=(change,))
+    told = document.texts.answer(GetText(file=str(file)), Role.PRESENTER)
+    change = TextChange(start=start, end=end, text="1")
+    return EditText(file=str(file), version=told.version, changes=(change,))
 
 
 def test_the_urdf_is_written_off_the_event_loop(tmp_path: Path):
@@ -114,9 +114,9 @@ def test_the_urdf_is_written_off_the_event_loop(tmp_path: Path):
             document, _ = await opened(made, file)
             ear = Ear()
             with calls_here() as calls:
-                await carry_out(document, m.GetUrdf(request=1), ear)
+                await ask_document(document, GetUrdf(request=1), ear)
             assert '<link name="base">' in ear.last("urdf")["text"]
-            assert calls["carry_out"]
+            assert calls["Commands.carry_out"]
             assert not calls["urdf_text"]
 
     asyncio.run(run())

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from studio import protocol as m
-from studio.documents.dispatch import carry_out
+from studio.protocol.edits import EditSite
+from studio.protocol.inspection import GetFrames, GetMasses
 from studio.protocol.roles import Role
+from tests.support.asked import ask_document
 from tests.support.descriptions import robot, write
 from tests.support.link_poses import FILE, link_poses
 from tests.support.open_documents import Ear, engine, opened
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from studio.documents.document import Document
+    from studio.protocol import Command
 
 
 TETRAHEDRON = """v 0 0 0
@@ -47,10 +49,10 @@ BODY = """
 """
 
 
-async def asked(document: Document, command: m.Command) -> dict[str, Any]:
+async def asked(document: Document, command: Command) -> dict[str, Any]:
     """What one who only looks is told."""
     ear = Ear(Role.VIEWER)
-    await carry_out(document, command, ear)
+    await ask_document(document, command, ear)
     (event,) = ear.events
     return event
 
@@ -62,7 +64,7 @@ def test_the_frames_of_all_joints_are_told_and_follow_an_edit(tmp_path: Path):
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, file)
-            told = await asked(document, m.GetFrames(request=3))
+            told = await asked(document, GetFrames(request=3))
             assert told["request"] == 3
             assert told["revision"] == ear.last("robot")["revision"]
             assert told["origins"] == {
@@ -70,8 +72,8 @@ def test_the_frames_of_all_joints_are_told_and_follow_an_edit(tmp_path: Path):
                 "hold": [0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
             }
             site = ear.site("height")["id"]
-            await carry_out(document, m.EditSite(site=site, text="0.75"), ear)
-            again = await asked(document, m.GetFrames())
+            await ask_document(document, EditSite(site=site, text="0.75"), ear)
+            again = await asked(document, GetFrames())
             assert again["origins"]["turn"][2] == 0.75
 
     asyncio.run(run())
@@ -84,7 +86,7 @@ def test_links_with_a_mass_are_told_with_the_room_of_their_shapes(tmp_path: Path
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, _ = await opened(made, file)
-            base, arm = (await asked(document, m.GetMasses()))["links"]
+            base, arm = (await asked(document, GetMasses()))["links"]
             assert base["link"] == "base"
             assert (base["mass_kg"], base["centre_m"]) == (2.0, [0.0, 0.0, 0.1])
             assert base["moments_kg_m2"] == pytest.approx([0.1, 0.2, 0.3])
@@ -105,8 +107,8 @@ def test_a_robot_without_masses_and_one_that_was_never_read_have_none(tmp_path: 
         async with engine(tmp_path / "data") as made:
             for file in (bare, broken):
                 document, _ = await opened(made, file)
-                assert (await asked(document, m.GetMasses()))["links"] == []
-                assert (await asked(document, m.GetFrames()))["origins"] == {}
+                assert (await asked(document, GetMasses()))["links"] == []
+                assert (await asked(document, GetFrames()))["origins"] == {}
 
     asyncio.run(run())
 

@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from studio import protocol as m
-from studio.documents.dispatch import carry_out
 from studio.errors import CommandError, OutsideRootsError
+from studio.protocol.language import Complete, GetOutline, GetReferences, LookUp
 from studio.protocol.roles import Role
+from studio.protocol.texts import EditText, GetText, TextChange
+from tests.support.asked import ask_document
 from tests.support.open_documents import Ear, engine, opened
 from tests.support.packages import write_package
 
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from studio.documents.document import Document
+    from studio.protocol import Command
 
 
 MAST = """<?xml version="1.0"?>
@@ -52,10 +54,10 @@ def offset(text: str, words: str) -> int:
     return len(text[:index].encode("utf-16-le")) // 2
 
 
-async def asked(document: Document, command: m.Command, role: Role = Role.PRESENTER) -> Any:  # noqa: ANN401
+async def asked(document: Document, command: Command, role: Role = Role.PRESENTER) -> Any:  # noqa: ANN401
     """The answer to one command."""
     ear = Ear(role)
-    await carry_out(document, command, ear)
+    await ask_document(document, command, ear)
     return ear.events[-1]
 
 
@@ -63,7 +65,7 @@ def test_a_word_is_looked_up_in_the_editors_own_count(tmp_path: Path, mast: Path
     async def story() -> None:
         async with engine(tmp_path / "data") as made:
             document, _ = await opened(made, mast)
-            command = m.LookUp(file=str(mast), offset=offset(MAST, "${re|ach}"), request=7)
+            command = LookUp(file=str(mast), offset=offset(MAST, "${re|ach}"), request=7)
             answer = await asked(document, command)
             assert (answer["type"], answer["request"]) == ("meaning", 7)
             meaning = answer["meaning"]
@@ -84,10 +86,10 @@ def test_a_definition_lies_in_the_included_file(tmp_path: Path, mast: Path):
     async def story() -> None:
         async with engine(tmp_path / "data") as made:
             document, _ = await opened(made, mast)
-            command = m.LookUp(file=str(mast), offset=offset(MAST, "<xacro:po|le"))
+            command = LookUp(file=str(mast), offset=offset(MAST, "<xacro:po|le"))
             (place,) = (await asked(document, command))["meaning"]["places"]
             assert (place["file"], place["line"]) == (str(mast.parent / "parts.xacro"), 2)
-            references = m.GetReferences(
+            references = GetReferences(
                 file=place["file"], offset=offset(PARTS, 'name="po|le" params')
             )
             found = (await asked(document, references))["references"]
@@ -102,14 +104,14 @@ def test_what_was_typed_a_moment_ago_is_completed_before_its_run_has_ended(
     async def story() -> None:
         async with engine(tmp_path / "data") as made:
             document, _ = await opened(made, mast)
-            text = document.texts.answer(m.GetText(file=str(mast)), Role.PRESENTER)
+            text = document.texts.answer(GetText(file=str(mast)), Role.PRESENTER)
             typed = '<xacro:property name="new_one" value="1"/><link name="${new'
             at = offset(MAST, "|</robot>")
-            change = m.TextChange(start=at, end=at, text=typed)
-            edit = m.EditText(file=str(mast), version=text.version, changes=(change,))
+            change = TextChange(start=at, end=at, text=typed)
+            edit = EditText(file=str(mast), version=text.version, changes=(change,))
             editing = asyncio.create_task(document.edit_text(edit))
             await asyncio.sleep(0)
-            command = m.Complete(file=str(mast), offset=at + len(typed))
+            command = Complete(file=str(mast), offset=at + len(typed))
             completions = (await asked(document, command))["completions"]
             assert [one["label"] for one in completions["items"]] == ["new_one"]
             assert completions["start"] == at + typed.index("${new") + 2
@@ -125,12 +127,12 @@ def test_the_outline_is_told_to_viewers_and_files_of_the_robot_are_explained_to_
     async def story() -> None:
         async with engine(tmp_path / "data") as made:
             document, _ = await opened(made, mast)
-            answer = await asked(document, m.GetOutline(), Role.VIEWER)
+            answer = await asked(document, GetOutline(), Role.VIEWER)
             assert [one["name"] for one in answer["outline"]["macros"]] == ["pole"]
             at = offset(PARTS, "${si|ze}")
-            known = m.LookUp(file=str(mast.parent / "parts.xacro"), offset=at)
+            known = LookUp(file=str(mast.parent / "parts.xacro"), offset=at)
             assert (await asked(document, known, Role.VIEWER))["meaning"]["values"] == ["0.4"]
-            other = m.LookUp(file=str(mast.parent / "other.xacro"), offset=at)
+            other = LookUp(file=str(mast.parent / "other.xacro"), offset=at)
             assert (await asked(document, other))["meaning"]["kind"] == "parameter"
             with pytest.raises(CommandError, match="no file of this document"):
                 await asked(document, other, Role.VIEWER)
@@ -144,7 +146,7 @@ def test_no_file_outside_the_folders_is_asked_about(tmp_path: Path, mast: Path):
         outside.write_text(PARTS)
         async with engine(tmp_path / "data") as made:
             document, _ = await opened(made, mast)
-            for kind in (m.LookUp, m.GetReferences, m.Complete):
+            for kind in (LookUp, GetReferences, Complete):
                 with pytest.raises(OutsideRootsError):
                     await asked(document, kind(file=str(outside), offset=0))
 
@@ -156,6 +158,6 @@ def test_an_offset_beyond_the_text_is_refused(tmp_path: Path, mast: Path):
         async with engine(tmp_path / "data") as made:
             document, _ = await opened(made, mast)
             with pytest.raises(CommandError, match="no place"):
-                await asked(document, m.LookUp(file=str(mast), offset=10_000))
+                await asked(document, LookUp(file=str(mast), offset=10_000))
 
     asyncio.run(story())

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from studio import protocol as m
-from studio.documents.dispatch import carry_out
 from studio.errors import CommandError
+from studio.protocol.origins import GetEffects, GetOrigin
 from studio.protocol.roles import Role
+from tests.support.asked import ask_document
 from tests.support.descriptions import robot, write
 from tests.support.open_documents import Ear, engine, opened
 
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from studio.documents.document import Document
+    from studio.protocol import Command
 
 
 BODY = """
@@ -40,16 +41,16 @@ BODY = """
 """
 
 
-async def asked(document: Document, command: m.Command, role: Role = Role.VIEWER) -> dict[str, Any]:
+async def asked(document: Document, command: Command, role: Role = Role.VIEWER) -> dict[str, Any]:
     """What the asker alone hears."""
     ear = Ear(role)
-    await carry_out(document, command, ear)
+    await ask_document(document, command, ear)
     (event,) = ear.events
     return event
 
 
 async def effects(document: Document, ear: Ear, name: str) -> dict[str, Any]:
-    return await asked(document, m.GetEffects(request=7, site=ear.site(name)["id"]))
+    return await asked(document, GetEffects(request=7, site=ear.site(name)["id"]))
 
 
 def test_who_lights_up_is_known_from_the_robot(tmp_path: Path):
@@ -83,7 +84,7 @@ def test_an_origin_holds_while_the_text_is_broken_and_follows_the_next_good_run(
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, file)
-            ask = m.GetOrigin(request=1, part="joint:turn")
+            ask = GetOrigin(request=1, part="joint:turn")
             reach = ear.site("reach")["id"]
 
             async def height() -> str:
@@ -97,6 +98,6 @@ def test_an_origin_holds_while_the_text_is_broken_and_follows_the_next_good_run(
             await document.edit_site(reach, "0.5", "")
             assert await height() == "0 0 0.5"
             with pytest.raises(CommandError, match="joint:gone"):
-                await asked(document, m.GetOrigin(part="joint:gone"))
+                await asked(document, GetOrigin(part="joint:gone"))
 
     asyncio.run(run())

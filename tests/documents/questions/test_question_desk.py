@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio import protocol as m
 from studio.description.language.questions import CompletionQuery, Completions, OutlineQuery
 from studio.description.origins.origin_values import PartOrigin, SiteEffectsQuery
 from studio.description.values import NoReply
-from studio.documents.dispatch import carry_out
 from studio.errors import SupersededError
+from studio.protocol.edits import EditSite
+from studio.protocol.origins import GetOrigin
 from studio.protocol.roles import Role
+from tests.support.asked import ask_document
 from tests.support.descriptions import write
 from tests.support.loop_story import ORIGIN, SOURCE, NotedWorker, loop_story
 from tests.support.open_documents import Ear, engine, opened
@@ -174,11 +175,11 @@ def test_a_viewers_question_waits_until_the_presenters_drag_rests(
             site, viewer = ear.site("m")["id"], Ear(Role.VIEWER)
 
             async def drag(text: str) -> None:
-                await carry_out(document, m.EditSite(site=site, text=text, gesture="g"), ear)
+                await ask_document(document, EditSite(site=site, text=text, gesture="g"), ear)
 
             await drag("2")
             asking = asyncio.ensure_future(
-                carry_out(document, m.GetOrigin(part="link:left"), viewer)
+                ask_document(document, GetOrigin(part="link:left"), viewer)
             )
             for text in ("3", "4", "5"):
                 await drag(text)

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from studio.documents.dispatch import carry_out
 from studio.errors import CommandError, EditError, ReadOnlyTextError
-from studio.protocol import rewriting as r
+from studio.protocol.rewriting import FindTexts, GetRenaming, Rename, ReplaceTexts
 from studio.protocol.roles import Role
+from tests.support.asked import ask_document
 from tests.support.open_documents import Ear, engine, opened
 from tests.support.packages import write_package
 
@@ -56,7 +56,7 @@ def told(tmp_path: Path, story: Callable[[Document, Path, Path], Awaitable[None]
 async def asked(document: Document, command: Command, role: Role = Role.PRESENTER) -> Any:  # noqa: ANN401
     """What the asker was told."""
     ear = Ear(role)
-    await carry_out(document, command, ear)
+    await ask_document(document, command, ear)
     return ear.events[-1] if ear.events else None
 
 
@@ -67,11 +67,11 @@ def text(document: Document, file: Path) -> str:
 def test_a_property_is_renamed_in_two_files_as_one_step(tmp_path: Path):
     async def story(document: Document, mast: Path, parts: Path) -> None:
         place: dict[str, Any] = {"file": str(mast), "offset": MAST.index("reach")}
-        answer = await asked(document, r.GetRenaming(**place, name="span", request=3))
+        answer = await asked(document, GetRenaming(**place, name="span", request=3))
         assert (answer["type"], answer["request"]) == ("renaming", 3)
         assert (answer["count"], answer["files"], answer["kind"]) == (3, 2, "property")
         urdf = await document.urdf()
-        await asked(document, r.Rename(**place, name="span", count=3))
+        await asked(document, Rename(**place, name="span", count=3))
         assert text(document, mast) == MAST.replace("reach", "span")
         assert text(document, parts) == PARTS.replace("reach", "span")
         assert (await document.urdf()) == urdf
@@ -88,7 +88,7 @@ def test_an_arg_that_was_passed_is_passed_under_its_new_name(tmp_path: Path):
         await document.history.pass_arguments({"high": "5"})
         urdf = await document.urdf()
         place: dict[str, Any] = {"file": str(mast), "offset": MAST.index("high")}
-        await asked(document, r.Rename(**place, name="tall", count=2))
+        await asked(document, Rename(**place, name="tall", count=2))
         assert document.sources.arguments == {"tall": "5"}
         assert (await document.urdf()) == urdf
         assert len(document.sources.undo_labels) == 2
@@ -103,9 +103,9 @@ def test_a_renaming_is_refused_with_other_places_or_none(tmp_path: Path):
     async def story(document: Document, mast: Path, _parts: Path) -> None:
         place: dict[str, Any] = {"file": str(mast), "offset": MAST.index("reach")}
         with pytest.raises(CommandError, match="changed since"):
-            await asked(document, r.Rename(**place, name="span", count=2))
+            await asked(document, Rename(**place, name="span", count=2))
         with pytest.raises(CommandError, match="is no name"):
-            await asked(document, r.GetRenaming(**place, name="a-b"))
+            await asked(document, GetRenaming(**place, name="a-b"))
         assert text(document, mast) == MAST
 
     told(tmp_path, story)
@@ -113,7 +113,7 @@ def test_a_renaming_is_refused_with_other_places_or_none(tmp_path: Path):
 
 def test_words_are_found_in_the_files_of_the_robot_alone(tmp_path: Path):
     async def story(document: Document, mast: Path, parts: Path) -> None:
-        answer = await asked(document, r.FindTexts(text="REACH"), Role.VIEWER)
+        answer = await asked(document, FindTexts(text="REACH"), Role.VIEWER)
         found = [(one["place"]["file"], one["place"]["line"]) for one in answer["places"]]
         assert found == [(str(mast), 4), (str(mast), 5), (str(parts), 4)]
         assert (answer["count"], answer["files"]) == (3, 2)
@@ -123,7 +123,7 @@ def test_words_are_found_in_the_files_of_the_robot_alone(tmp_path: Path):
 
 def test_words_are_replaced_as_one_step(tmp_path: Path):
     async def story(document: Document, mast: Path, parts: Path) -> None:
-        command = r.ReplaceTexts(text="reach", replacement="r1", count=3, match_case=True)
+        command = ReplaceTexts(text="reach", replacement="r1", count=3, match_case=True)
         await asked(document, command)
         assert text(document, mast) == MAST.replace("reach", "r1")
         assert text(document, parts) == PARTS.replace("reach", "r1")
@@ -140,10 +140,10 @@ def test_a_text_does_not_grow_without_end(tmp_path: Path):
     async def story(document: Document, mast: Path, _parts: Path) -> None:
         for _ in range(2):
             count = text(document, mast).count("e") + text(document, _parts).count("e")
-            command = r.ReplaceTexts(text="e", replacement="e" * 30, count=count, match_case=True)
+            command = ReplaceTexts(text="e", replacement="e" * 30, count=count, match_case=True)
             await asked(document, command)
         count = sum(text(document, file).count("e") for file in (mast, _parts))
-        command = r.ReplaceTexts(text="e", replacement="e" * 1000, count=count, match_case=True)
+        command = ReplaceTexts(text="e", replacement="e" * 1000, count=count, match_case=True)
         with pytest.raises((CommandError, EditError), match=r"too large|more than"):
             await asked(document, command)
 
@@ -161,7 +161,7 @@ def test_where_the_studio_may_only_read_nothing_is_written(tmp_path: Path):
             document, _ = await opened(made, mast)
             place: dict[str, Any] = {"file": str(mast), "offset": mast.read_text().index("reach")}
             with pytest.raises(ReadOnlyTextError):
-                await asked(document, r.Rename(**place, name="span", count=3))
+                await asked(document, Rename(**place, name="span", count=3))
             assert not document.sources.undo_labels
 
     asyncio.run(run())
@@ -169,6 +169,6 @@ def test_where_the_studio_may_only_read_nothing_is_written(tmp_path: Path):
 
 def test_commands_of_an_impossible_size_are_refused_at_the_door():
     with pytest.raises(ValueError, match="at most"):
-        r.FindTexts(text="x" * 2000)
+        FindTexts(text="x" * 2000)
     with pytest.raises(ValueError, match="at least"):
-        r.FindTexts(text="")
+        FindTexts(text="")

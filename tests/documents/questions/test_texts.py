@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from studio import protocol as m
-from studio.documents.dispatch import carry_out
 from studio.documents.questions.texts import TEXT_LIMIT_BYTES
 from studio.errors import (
     CommandError,
@@ -19,6 +17,8 @@ from studio.errors import (
     StaleTextError,
 )
 from studio.protocol.roles import Role
+from studio.protocol.texts import EditText, GetText, TextChange
+from tests.support.asked import ask_document
 from tests.support.open_documents import Ear, engine, opened, until
 from tests.support.packages import write_package
 
@@ -57,7 +57,7 @@ class Tab:
     def __init__(self, document: Document, file: Path, role: Role = Role.PRESENTER) -> None:
         self.document, self.file, self.ear = document, str(file), Ear(role)
         document.board.attach(self.ear)
-        told = document.texts.answer(m.GetText(file=self.file), role)
+        told = document.texts.answer(GetText(file=self.file), role)
         self.text, self.version, self.read_only = told.text, told.version, told.read_only
 
     def follow(self) -> str:
@@ -70,18 +70,18 @@ class Tab:
                 self.text = _with(self.text, event["changes"])
         return self.text
 
-    def change(self, old: str, new: str) -> m.TextChange:
+    def change(self, old: str, new: str) -> TextChange:
         """The change that puts `new` where `old` stands for the first time."""
         start = _units(self.text[: self.text.index(old)])
-        return m.TextChange(start=start, end=start + _units(old), text=new)
+        return TextChange(start=start, end=start + _units(old), text=new)
 
-    async def type(self, *changes: m.TextChange, gesture: str = "", origin: str = "") -> None:
+    async def type(self, *changes: TextChange, gesture: str = "", origin: str = "") -> None:
         """Send changes of the text as it stands here."""
         self.follow()
-        command = m.EditText(
+        command = EditText(
             file=self.file, version=self.version, changes=changes, gesture=gesture, origin=origin
         )
-        await carry_out(self.document, command, self.ear)
+        await ask_document(self.document, command, self.ear)
         self.follow()
 
 
@@ -113,7 +113,7 @@ def test_typing_moves_the_robot_touches_only_its_bytes_and_is_one_step(mast: Pat
             await tab.type(tab.change('0."', '0.5"'), gesture="g", origin="here")
             assert height_of(document) == pytest.approx(0.5)
             assert tab.ear.last("texts_changed")["origin"] == "here"
-            late = document.texts.answer(m.GetText(file=tab.file), Role.PRESENTER)
+            late = document.texts.answer(GetText(file=tab.file), Role.PRESENTER)
             assert (late.text, late.saved) == (MAST.replace("0.4", "0.5"), MAST)
             assert document.sources.text(str(mast)) == AWKWARD.replace(b'"0.4"', b'"0.5"')
             assert tab.ear.last("history")["undo"] == ["Edit mast.urdf.xacro"]
@@ -164,7 +164,7 @@ def test_an_edit_of_a_text_that_has_changed_since_is_refused(mast: Path, tmp_pat
             one, two = Tab(document, mast), Tab(document, mast)
             seen = two.change('"0.1"', '"0.3"')
             await one.type(one.change('"0.4"', '"0.123"'))
-            stale = m.EditText(file=two.file, version=two.version, changes=(seen,))
+            stale = EditText(file=two.file, version=two.version, changes=(seen,))
             with pytest.raises(StaleTextError, match="was changed meanwhile"):
                 await document.edit_text(stale)
             assert two.follow() == one.text
@@ -229,10 +229,10 @@ def test_letters_that_come_during_a_run_all_count(mast: Path, tmp_path: Path):
             tasks = [
                 asyncio.ensure_future(
                     document.edit_text(
-                        m.EditText(
+                        EditText(
                             file=tab.file,
                             version=tab.version + number,
-                            changes=(m.TextChange(start=start + 3, end=start + 3, text="1"),),
+                            changes=(TextChange(start=start + 3, end=start + 3, text="1"),),
                             gesture="g",
                         )
                     )
@@ -292,11 +292,11 @@ def test_texts_that_are_none_or_not_ours_are_refused_in_words(mast: Path, tmp_pa
                 ("mast.urdf.xacro", CommandError, "is no whole path"),
             ]:
                 with pytest.raises(error, match=words):
-                    document.texts.answer(m.GetText(file=str(file)), Role.PRESENTER)
+                    document.texts.answer(GetText(file=str(file)), Role.PRESENTER)
             with pytest.raises(CommandError, match="is no file of this document"):
-                document.texts.answer(m.GetText(file=str(mesh)), Role.VIEWER)
-            never_asked = m.EditText(
-                file=str(mast), version=1, changes=(m.TextChange(start=0, end=0, text="x"),)
+                document.texts.answer(GetText(file=str(mesh)), Role.VIEWER)
+            never_asked = EditText(
+                file=str(mast), version=1, changes=(TextChange(start=0, end=0, text="x"),)
             )
             with pytest.raises(StaleTextError):
                 await document.edit_text(never_asked)
@@ -310,7 +310,7 @@ def test_a_text_cannot_be_made_larger_than_an_editor_holds(mast: Path, tmp_path:
             document, _ = await opened(made, mast)
             tab = Tab(document, mast)
             with pytest.raises(EditError, match="would grow beyond 4 MB"):
-                await tab.type(m.TextChange(start=0, end=0, text=" " * TEXT_LIMIT_BYTES))
+                await tab.type(TextChange(start=0, end=0, text=" " * TEXT_LIMIT_BYTES))
             assert document.sources.text(str(mast)) == AWKWARD
 
     asyncio.run(run())
@@ -324,7 +324,7 @@ def test_changes_that_fit_no_text_change_nothing(
         async with engine(tmp_path / "data") as made:
             document, _ = await opened(made, mast)
             tab = Tab(document, mast)
-            changes = [m.TextChange(start=start, end=end, text="x") for start, end in places]
+            changes = [TextChange(start=start, end=end, text="x") for start, end in places]
             with pytest.raises(EditError):
                 await tab.type(*changes)
             assert document.sources.text(str(mast)) == AWKWARD

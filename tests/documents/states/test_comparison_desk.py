@@ -7,9 +7,17 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from studio import protocol as m
 from studio.errors import CommandError
-from studio.protocol.variants import Side
+from studio.protocol.files import Save
+from studio.protocol.launching import SetArgument
+from studio.protocol.robot import SetDisplay, SetJoints
+from studio.protocol.variants import (
+    CompareVariants,
+    DeleteVariant,
+    RenameVariant,
+    SaveVariant,
+    Side,
+)
 from tests.support.open_documents import until
 from tests.support.variant_desk import Desk, desk, write_mast
 from tests.support.viser_frames import joined
@@ -38,9 +46,9 @@ def row(told: dict[str, Any], part: str, what: str) -> tuple[Any, Any]:
 def test_a_variant_with_a_gripper_has_links_and_joints_more(mast: Path, tmp_path: Path):
     async def run() -> None:
         async with desk(mast, tmp_path / "data") as at:
-            await at.ask(m.SetArgument(name="gripper", value="true"))
+            await at.ask(SetArgument(name="gripper", value="true"))
             await at.edit("reach", "0.5")
-            await at.ask(m.SaveVariant(name="Gripper"))
+            await at.ask(SaveVariant(name="Gripper"))
             await at.apply("")
             pid = at.document.worker_pid
             told = await at.compared(PRESENT, variant("Gripper"))
@@ -71,7 +79,7 @@ def test_the_table_follows_the_present_robot_and_the_disk(mast: Path, tmp_path: 
             assert row(told, "joint:turn", "origin.z") == (0.4, 0.5)
             await at.edit("reach", "0.6")
             await until(lambda: 0.6 in [one["other"] for one in at.ear.last("comparison")["rows"]])
-            await at.ask(m.Save())
+            await at.ask(Save())
             await until(lambda: at.ear.last("comparison")["rows"] == [])
             mast.write_text(mast.read_text().replace('name="mast"', 'name="boom"'))
             mast.with_name("gripper.xacro").write_text("<robot/>")
@@ -103,9 +111,9 @@ def test_sides_must_differ_and_be_there(mast: Path, tmp_path: Path):
     async def run() -> None:
         async with desk(mast, tmp_path / "data") as at:
             with pytest.raises(CommandError, match="same"):
-                await at.ask(m.CompareVariants(sides=(SAVED, SAVED)))
+                await at.ask(CompareVariants(sides=(SAVED, SAVED)))
             with pytest.raises(CommandError, match="no variant"):
-                await at.ask(m.CompareVariants(sides=(SAVED, variant("x"))))
+                await at.ask(CompareVariants(sides=(SAVED, variant("x"))))
 
     asyncio.run(run())
 
@@ -114,14 +122,14 @@ def test_a_comparison_goes_with_its_variant_and_knows_its_new_name(mast: Path, t
     async def run() -> None:
         async with desk(mast, tmp_path / "data") as at:
             await at.edit("reach", "0.5")
-            await at.ask(m.SaveVariant(name="A"))
+            await at.ask(SaveVariant(name="A"))
             await at.apply("")
             await at.compared(PRESENT, variant("A"))
-            await at.ask(m.RenameVariant(name="A", new_name="B"))
+            await at.ask(RenameVariant(name="A", new_name="B"))
             sides = [PRESENT.model_dump(), variant("B").model_dump()]
             await until(lambda: at.ear.last("comparison")["sides"] == sides)
             assert not any(one["busy"] for one in at.ear.events[-3:] if "busy" in one)
-            await at.ask(m.DeleteVariant(name="B"))
+            await at.ask(DeleteVariant(name="B"))
             await until(lambda: at.ear.last("comparison")["sides"] is None)
 
     asyncio.run(run())
@@ -130,19 +138,19 @@ def test_a_comparison_goes_with_its_variant_and_knows_its_new_name(mast: Path, t
 def test_the_ghost_shows_the_other_robot_and_follows_the_joints(mast: Path, tmp_path: Path):
     async def run() -> None:
         async with desk(mast, tmp_path / "data") as at:
-            await at.ask(m.SetArgument(name="gripper", value="true"))
+            await at.ask(SetArgument(name="gripper", value="true"))
             told = await at.compared(PRESENT, SAVED)
             assert told["ghost"] is None
-            await at.ask(m.SetDisplay(display="ghost", name="visible", value=True))
+            await at.ask(SetDisplay(display="ghost", name="visible", value=True))
             await until(lambda: at.ear.last("comparison")["ghost"] == SAVED.model_dump())
             ghost = at.document.scene.ghost
             assert ghost.links == {"base", "tip"}
             peer, _ = await joined(at.document.scene)
-            await at.ask(m.SetJoints(positions={"turn": 0.3}))
+            await at.ask(SetJoints(positions={"turn": 0.3}))
             turned = [one for one in peer.read() if one["type"] == "SetOrientationMessage"]
             assert {one["name"] for one in turned} == {"/robot/tip", "/robot/gripper", "/ghost/tip"}
             assert len({tuple(one["wxyz"]) for one in turned}) == 1
-            await at.ask(m.CompareVariants())
+            await at.ask(CompareVariants())
             await until(lambda: ghost.links == set())
 
     asyncio.run(run())
@@ -164,11 +172,11 @@ def test_over_the_robot_only_what_differs_is_drawn(mast: Path, tmp_path: Path):
         async with desk(mast, tmp_path / "data", gripper="true") as at:
             await at.edit("jaw", "0.5")
             await at.compared(PRESENT, SAVED)
-            await at.ask(m.SetDisplay(display="ghost", name="visible", value=True))
+            await at.ask(SetDisplay(display="ghost", name="visible", value=True))
             await is_shown(at, {"gripper"})
             await at.edit("reach", "0.6")
             await is_shown(at, {"tip", "gripper"})
-            await at.ask(m.SetDisplay(display="ghost", name="beside", value=True))
+            await at.ask(SetDisplay(display="ghost", name="beside", value=True))
             await is_shown(at, {"base", "tip", "gripper"})
 
     asyncio.run(run())
@@ -180,7 +188,7 @@ def test_beside_it_stands_clear_of_the_robot(mast: Path, tmp_path: Path):
             await at.edit("jaw", "0.5")
             await at.compared(PRESENT, SAVED)
             for name in ("beside", "visible"):
-                await at.ask(m.SetDisplay(display="ghost", name=name, value=True))
+                await at.ask(SetDisplay(display="ghost", name=name, value=True))
             await until(lambda: at.ear.last("comparison")["ghost"] is not None)
             _, sent = await joined(at.document.scene)
             places = [one for one in sent if one.get("name") == "/ghost" and "position" in one]
@@ -200,7 +208,7 @@ def test_a_ur10e_is_longer_heavier_and_slower_than_a_ur5e(corpus: Path, tmp_path
 
     async def run() -> None:
         async with desk(entry, tmp_path / "data", ur_type="ur5e", name="ur") as at:
-            await at.ask(m.SetArgument(name="ur_type", value="ur10e"))
+            await at.ask(SetArgument(name="ur_type", value="ur10e"))
             told = await at.compared(SAVED, PRESENT)
             assert ("ur_type", "ur5e", "ur10e") in [
                 (one["name"], one["one"], one["other"]) for one in told["inputs"]

@@ -6,7 +6,7 @@ import asyncio
 import shutil
 from typing import TYPE_CHECKING
 
-from studio import protocol as m
+from studio.protocol.variants import SaveVariant, UpdateVariant
 from tests.support.loop_watch import calls_here
 from tests.support.packages import write_package
 from tests.support.variant_desk import desk
@@ -42,7 +42,7 @@ def test_a_file_goes_by_its_place_beside_the_entry_or_by_its_package(tmp_path: P
         async with desk(write(here), tmp_path / "data") as at:
             await at.edit("part", "3")
             await at.edit("side", "2")
-            await at.ask(m.SaveVariant(name="Tall"))
+            await at.ask(SaveVariant(name="Tall"))
             told = at.ear.last("variants")["variants"][0]["texts"]
             assert [(one["file"], one["text"]) for one in told] == [
                 ("common/sizes.xacro", "2"),
@@ -65,10 +65,10 @@ def test_texts_are_read_off_the_event_loop(tmp_path: Path):
         async with desk(write(tmp_path / "src"), tmp_path / "data") as at:
             with calls_here() as calls:
                 await at.edit("part", "3")
-                await at.ask(m.SaveVariant(name="Tall"))
+                await at.ask(SaveVariant(name="Tall"))
                 await at.is_told("Tall")
                 await at.edit("side", "2")
-                await at.ask(m.UpdateVariant(name="Tall"))
+                await at.ask(UpdateVariant(name="Tall"))
                 assert await at.apply("") == []
                 assert await at.apply("Tall") == []
                 await at.is_told("Tall")

@@ -7,8 +7,18 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio import protocol as m
 from studio.errors import CommandError, VariantsFileError
+from studio.protocol.documents import OpenPath
+from studio.protocol.edits import Redo, Undo
+from studio.protocol.launching import SetArgument, SetArguments
+from studio.protocol.texts import EditText, GetText, TextChange
+from studio.protocol.variants import (
+    ApplyVariant,
+    DeleteVariant,
+    RenameVariant,
+    SaveVariant,
+    UpdateVariant,
+)
 from tests.support.open_documents import Ear, engine, opened, until
 from tests.support.packages import write_package
 from tests.support.variant_desk import MAST, Desk, desk, write_mast
@@ -28,9 +38,9 @@ def test_a_variant_is_saved_left_and_come_back_to_in_one_step(mast: Path, tmp_pa
             await at.is_told("")
             await at.edit("reach", "0.9")
             await at.edit("upper", "2.5")
-            await at.ask(m.SetArgument(name="gripper", value="true"))
+            await at.ask(SetArgument(name="gripper", value="true"))
             await at.is_told("", modified=True)
-            await at.ask(m.SaveVariant(name=" Long ", note="reaches far"))
+            await at.ask(SaveVariant(name=" Long ", note="reaches far"))
             await at.is_told("Long")
             assert at.file == mast.with_name("mast.variants.yaml")
             steps = len(at.document.sources.undo_labels)
@@ -48,10 +58,10 @@ def test_a_variant_is_saved_left_and_come_back_to_in_one_step(mast: Path, tmp_pa
             assert at.document.model.robot.joints["turn"].limit.upper == 2.5  # pyright: ignore[reportOptionalMemberAccess]
             assert len(at.document.sources.undo_labels) == steps + 2
 
-            await at.ask(m.Undo())
+            await at.ask(Undo())
             await at.is_told("")
             assert at.tip_m == 0.4
-            await at.ask(m.Redo())
+            await at.ask(Redo())
             await at.is_told("Long")
             assert mast.read_text() == MAST
 
@@ -62,8 +72,8 @@ def test_what_is_told_of_a_variant_can_be_read(mast: Path, tmp_path: Path):
     async def run() -> None:
         async with desk(mast, tmp_path / "data", side="right") as at:
             await at.edit("upper", "2")
-            await at.ask(m.SetArguments(values={"side": None, "gripper": "1"}))
-            await at.ask(m.SaveVariant(name="One"))
+            await at.ask(SetArguments(values={"side": None, "gripper": "1"}))
+            await at.ask(SaveVariant(name="One"))
             (told,) = at.ear.last("variants")["variants"]
             assert told["arguments"] == {"gripper": "1", "side": None}
             assert told["texts"] == [{"file": "limits.yaml", "name": "upper", "text": "2"}]
@@ -79,7 +89,7 @@ def test_a_variant_reaches_into_a_file_that_the_last_run_did_not_read(mast: Path
     async def run() -> None:
         async with desk(mast, tmp_path / "data", gripper="true") as at:
             await at.edit("jaw", "0.08")
-            await at.ask(m.SaveVariant(name="Wide"))
+            await at.ask(SaveVariant(name="Wide"))
         async with desk(mast, tmp_path / "data") as at:
             assert "gripper" not in at.document.model.robot.links
             await at.apply("Wide")
@@ -92,7 +102,7 @@ def test_a_variant_reaches_into_a_file_that_the_last_run_did_not_read(mast: Path
 def test_a_variant_holds_what_the_robot_was_opened_with(mast: Path, tmp_path: Path):
     async def run() -> None:
         async with desk(mast, tmp_path / "data", side="right") as at:
-            await at.ask(m.SaveVariant(name="Right"))
+            await at.ask(SaveVariant(name="Right"))
         async with desk(mast, tmp_path / "data") as at:
             await at.apply("Right")
             assert at.document.sources.arguments == {"side": "right"}
@@ -113,7 +123,7 @@ def test_a_variant_by_hand_is_told_as_soon_as_it_is_written(mast: Path, tmp_path
             at.file.write_text("variants: [")
             await until(lambda: bool(at.ear.last("variants")["trouble"]))
             with pytest.raises(VariantsFileError):
-                await at.ask(m.DeleteVariant(name="By hand"))
+                await at.ask(DeleteVariant(name="By hand"))
             at.file.unlink()
             await until(lambda: at.ear.last("variants")["variants"] == [])
 
@@ -163,13 +173,13 @@ def test_a_variant_whose_robot_does_not_run_leaves_the_last_good_one(mast: Path,
 def test_edits_beside_values_are_told_kept_and_given_up_for_the_file(mast: Path, tmp_path: Path):
     async def run() -> None:
         async with desk(mast, tmp_path / "data") as at:
-            await at.ask(m.GetText(file=str(mast)))
+            await at.ask(GetText(file=str(mast)))
             text = at.ear.last("text")
             end = text["text"].index("</robot>")
-            new = m.TextChange(start=end, end=end, text='<link name="new"/>')
-            await at.ask(m.EditText(file=str(mast), version=text["version"], changes=(new,)))
+            new = TextChange(start=end, end=end, text='<link name="new"/>')
+            await at.ask(EditText(file=str(mast), version=text["version"], changes=(new,)))
             await at.edit("reach", "0.5")
-            await at.ask(m.SaveVariant(name="Half"))
+            await at.ask(SaveVariant(name="Half"))
             (sentence,) = at.ear.last("variant_saved")["left_out"]
             assert sentence.startswith(f"{mast} has unsaved edits beside its values")
             await at.edit("reach", "0.6")
@@ -187,23 +197,23 @@ def test_variants_are_updated_renamed_and_deleted(mast: Path, tmp_path: Path):
     async def run() -> None:
         async with desk(mast, tmp_path / "data") as at:
             await at.edit("reach", "0.5")
-            await at.ask(m.SaveVariant(name="A"))
+            await at.ask(SaveVariant(name="A"))
             await at.edit("reach", "0.6")
             await at.is_told("A", modified=True)
-            await at.ask(m.UpdateVariant(name="A"))
+            await at.ask(UpdateVariant(name="A"))
             await at.is_told("A")
-            await at.ask(m.SaveVariant(name="B"))
-            await at.ask(m.RenameVariant(name="B", new_name="C", note="new"))
+            await at.ask(SaveVariant(name="B"))
+            await at.ask(RenameVariant(name="B", new_name="C", note="new"))
             await at.is_told("C")
             with pytest.raises(CommandError, match="already"):
-                await at.ask(m.RenameVariant(name="C", new_name="A"))
+                await at.ask(RenameVariant(name="C", new_name="A"))
             with pytest.raises(CommandError, match="already"):
-                await at.ask(m.SaveVariant(name="A "))
+                await at.ask(SaveVariant(name="A "))
             with pytest.raises(CommandError, match="needs a name"):
-                await at.ask(m.SaveVariant(name=" \n"))
+                await at.ask(SaveVariant(name=" \n"))
             with pytest.raises(CommandError, match="no variant"):
-                await at.ask(m.ApplyVariant(name="B"))
-            await at.ask(m.DeleteVariant(name="C"))
+                await at.ask(ApplyVariant(name="B"))
+            await at.ask(DeleteVariant(name="C"))
             told = at.ear.last("variants")
             assert [(one["name"], one["texts"][0]["text"]) for one in told["variants"]] == [
                 ("A", "0.6")
@@ -219,13 +229,13 @@ def test_variants_of_a_folder_that_is_only_read_last_for_the_session(mast: Path,
             beside = write_package(tmp_path / "src/b_description", files={"b.urdf": "<robot/>"})
             await opened(made, beside / "b.urdf")
             ear = Ear()
-            await made.execute(m.OpenPath(path=str(mast)), ear)
+            await made.execute(OpenPath(path=str(mast)), ear)
             document = made.document(ear.last("opened")["document"])
             await document.opened()
             at = Desk(made, document, ear)
             document.board.attach(ear)
             await at.edit("reach", "0.5")
-            await at.ask(m.SaveVariant(name="A"))
+            await at.ask(SaveVariant(name="A"))
             told = ear.last("variants")
             assert (len(told["variants"]), told["only_here"] != "") == (1, True)
             assert not at.file.exists()

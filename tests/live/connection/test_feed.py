@@ -9,9 +9,11 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from studio import protocol as m
 from studio.errors import CommandError
 from studio.nodes.robot_state_publisher import LATCHED
+from studio.protocol.documents import CloseDocument
+from studio.protocol.edits import EditSite
+from studio.protocol.robot import AnimateJoints, SetJoints, ZeroJoints
 from studio.protocol.wire import PublishJoints, PublishRobot, SetJointSource
 from studio.ros.messages import message
 from tests.support.demos import RunningDemo, call, heard, running
@@ -112,7 +114,7 @@ def test_d9_a_joint_that_is_moved_is_told_in_joint_states_and_tf(
         async with studio(endpoint, tmp_path) as one:
             await one.do(PublishJoints(running=True))
             await one.do(PublishRobot(running=True))
-            await one.do(m.SetJoints(positions={"shoulder": 0.6}))
+            await one.do(SetJoints(positions={"shoulder": 0.6}))
             await until(lambda: bool(states) and states[-1].position.tolist() == [0.6])
             half = math.sin(0.3)
             await until(
@@ -140,7 +142,7 @@ def test_while_somebody_drags_the_description_goes_out_twice_a_second_and_at_the
             await until(lambda: bool(came))
             site = one.ear.site("reach")["id"]
             for step in range(60):
-                await one.do(m.EditSite(site=site, text=f"0.{step + 10}", gesture="drag"))
+                await one.do(EditSite(site=site, text=f"0.{step + 10}", gesture="drag"))
                 await asyncio.sleep(1 / 60)
             await until(lambda: "0.69" in came[-1][1])
         # Not each gap: a busy machine is late with one of them and in time with the next.
@@ -160,13 +162,13 @@ def test_the_joints_follow_a_robot_that_runs_and_nobody_else_meanwhile(
             assert one.ear.last("wire_feed")["source_state"] == "waiting"
             await until(lambda: one.position("shoulder") == pytest.approx(-0.25) or tell(-0.25))
             await until(lambda: one.ear.last("wire_feed")["source_state"] == "live")
-            for command in (m.SetJoints(positions={"shoulder": 1.0}), m.ZeroJoints()):
+            for command in (SetJoints(positions={"shoulder": 1.0}), ZeroJoints()):
                 with pytest.raises(CommandError, match="choose the sliders"):
                     await one.do(command)
             with pytest.raises(CommandError, match="follow /"):
-                await one.do(m.AnimateJoints(running=True))
+                await one.do(AnimateJoints(running=True))
             await one.do(SetJointSource(source="sliders"))
-            await one.do(m.SetJoints(positions={"shoulder": 1.0}))
+            await one.do(SetJoints(positions={"shoulder": 1.0}))
             tell(-0.25)
             assert one.position("shoulder") == 1.0
 
@@ -252,7 +254,7 @@ def test_a_document_that_is_closed_while_it_connects_leaves_nothing_on(
         async with studio(endpoint, tmp_path) as one:
             switched = asyncio.create_task(one.document.feed.publish_robot(running=True))
             await until(lambda: one.ear.last("wire_state")["state"] != "off")
-            await one.engine.execute(m.CloseDocument(document=one.document.id), one.ear)
+            await one.engine.execute(CloseDocument(document=one.document.id), one.ear)
             await switched
             await until(lambda: not tester.get_publishers_info_by_topic("/robot_description"))
 
@@ -276,7 +278,7 @@ def test_two_open_robots_do_not_publish_at_once(endpoint: str, tmp_path: Path):
                 await second.feed.publish_robot(running=True)
             await one.do(PublishRobot(running=False))
             await second.feed.publish_robot(running=True)
-            await one.engine.execute(m.CloseDocument(document=second.id), one.ear)
+            await one.engine.execute(CloseDocument(document=second.id), one.ear)
             await one.do(PublishRobot(running=True))
             assert one.ear.last("wire_feed")["publishes_robot"]
 

@@ -10,7 +10,7 @@ import pytest
 
 from studio.live.connection.desk import WireDesk
 from studio.live.connection.rejoining import FILE, KeptConnection, Rejoining, place_of
-from studio.protocol import live as v
+from studio.protocol.live import AddDisplay
 from studio.protocol.wire import ConnectWire, DisconnectWire
 from studio.settings import WireChoice
 from tests.support.open_documents import until
@@ -57,7 +57,7 @@ def test_a_studio_that_was_connected_is_connected_again(endpoint: str, tmp_path:
 def test_its_displays_listen_again(endpoint: str, tmp_path: Path):
     async def run() -> None:
         async with studio(endpoint, tmp_path) as one:
-            await one.do(v.AddDisplay(kind="Path", topic="/plan"))
+            await one.do(AddDisplay(kind="Path", topic="/plan"))
         async with studio(endpoint, tmp_path) as one:
             await until(lambda: reasons(one) == ["no_publisher"])
 
@@ -67,7 +67,7 @@ def test_its_displays_listen_again(endpoint: str, tmp_path: Path):
 def test_one_that_was_disconnected_stays_so_and_says_what_mends_it(endpoint: str, tmp_path: Path):
     async def run() -> None:
         async with studio(endpoint, tmp_path) as one:
-            await one.do(v.AddDisplay(kind="Path", topic="/plan"))
+            await one.do(AddDisplay(kind="Path", topic="/plan"))
             await one.do(DisconnectWire())
         async with studio(endpoint, tmp_path) as one:
             await until(lambda: reasons(one) == ["not_connected"])

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio import protocol as m
 from studio.errors import CommandError, NoRouterError, NotServedError, WireSettingsError
 from studio.nodes.robot_state_publisher import LATCHED
+from studio.protocol.robot import SetJoints
 from studio.protocol.wire import (
     ConnectWire,
     DisconnectWire,
@@ -119,7 +119,7 @@ def test_who_disconnects_ends_what_goes_out_and_comes_in_and_may_connect_again(
             feed = one.ear.last("wire_feed")
             assert (feed["publishes_robot"], feed["publishes_joints"]) == (False, False)
             assert feed["source"] == "sliders"
-            await one.do(m.SetJoints(positions={"shoulder": 0.25}))
+            await one.do(SetJoints(positions={"shoulder": 0.25}))
             await until(lambda: tester.get_node_names() == ["tester"])
             await one.do(DisconnectWire())
             await one.do(PublishRobot(running=True))

@@ -10,7 +10,17 @@ import pytest
 
 from studio.errors import CommandError, DisplayError
 from studio.live.displays import live_desk
-from studio.protocol import live as v
+from studio.protocol.live import (
+    AddDisplay,
+    ArrangeDisplay,
+    DuplicateDisplay,
+    GetTf,
+    GetTopics,
+    RemoveDisplay,
+    SetDisplayProperty,
+    SetFixedFrame,
+    SwitchDisplays,
+)
 from studio.protocol.wire import ConnectWire, DisconnectWire
 from studio.ros.messages import message
 from studio.ros.types.library import TypeLibrary
@@ -101,7 +111,7 @@ async def draws(one: Studio, expected: bool) -> None:
 
 async def aim(one: Studio, poses: Publisher, pose: Any) -> None:  # noqa: ANN401
     """Show a pose's topic, and tell the pose once it is heard."""
-    await one.do(v.AddDisplay(kind="Pose", topic=poses.topic_name))
+    await one.do(AddDisplay(kind="Pose", topic=poses.topic_name))
     await until(lambda: bool(poses.get_subscription_count()))
     poses.publish(pose)
 
@@ -113,8 +123,8 @@ def test_a_pose_of_others_stands_where_their_transforms_put_its_frame_at_its_sta
         poses = tester.create_publisher(message(POSE), "/goal", 10)
         tf = tester.create_publisher(message(TF), "/tf", 100)
         async with studio(endpoint, tmp_path) as one:
-            await one.do(v.AddDisplay(kind="Pose", topic="/goal"))
-            await one.do(v.SetFixedFrame(frame="odom"))
+            await one.do(AddDisplay(kind="Pose", topic="/goal"))
+            await one.do(SetFixedFrame(frame="odom"))
             assert listed(one)[0]["topic"] == "/goal"
             await until(
                 lambda: bool(poses.get_subscription_count() and tf.get_subscription_count())
@@ -125,7 +135,7 @@ def test_a_pose_of_others_stands_where_their_transforms_put_its_frame_at_its_sta
                 tf.publish(transform("odom", "cart", 10.0 * second, NOW_S + second))
             await is_at(one, [10.0, 0.0, 0.0])
             await until(lambda: said(one) == ["ok"] or said(one) == [""])
-            await one.do(v.SetFixedFrame(frame="cart"))
+            await one.do(SetFixedFrame(frame="cart"))
             await is_at(one, [0.0, 0.0, 0.0])
 
     asyncio.run(run())
@@ -152,16 +162,16 @@ def test_the_robot_goes_where_its_root_link_is_in_the_fixed_frame(
     async def run() -> None:
         tf = tester.create_publisher(message(TF), "/tf", 100)
         async with studio(endpoint, tmp_path) as one:
-            await one.do(v.SetFixedFrame(frame="odom"))
+            await one.do(SetFixedFrame(frame="odom"))
             await until(lambda: one.ear.last("display_states")["fixed_frame_trouble"] != "")
             await until(lambda: bool(tf.get_subscription_count()))
             tf.publish(transform("odom", "base", 3.25))
             await until(lambda: one.ear.last("display_states")["fixed_frame_trouble"] == "")
-            await one.do(v.GetTf(frame="base", seen_from="odom"))
+            await one.do(GetTf(frame="base", seen_from="odom"))
             pose = one.ear.last("tf_frames")["pose"]
             assert pose["xyz"] == [3.25, 0.0, 0.0]
             assert pose["chain"] == ["odom", "base"]
-            await one.do(v.GetTf(frame="tip", seen_from="odom"))
+            await one.do(GetTf(frame="tip", seen_from="odom"))
             assert one.ear.last("tf_frames")["pose"]["xyz"] == pytest.approx([3.75, 0.0, 0.0])
             tree = {each["name"]: each for each in one.ear.last("tf_frames")["frames"]}
             assert tree["base"]["publisher"] == tester.get_fully_qualified_name()
@@ -185,7 +195,7 @@ def test_tf_is_heard_as_long_as_somebody_asks_for_frames(
             async with asyncio.timeout(60):
                 while "odom" not in frames:
                     tf.publish(transform("odom", "base", 1.0))
-                    await one.do(v.GetTf())
+                    await one.do(GetTf())
                     frames = [each["name"] for each in one.ear.last("tf_frames")["frames"]]
                     await asyncio.sleep(0.05)
             assert one.ear.last("tf_frames")["fixed"] == "base"
@@ -197,11 +207,11 @@ def test_tf_is_heard_as_long_as_somebody_asks_for_frames(
 def test_frames_of_an_opened_file_are_there_without_ros(tmp_path: Path):
     async def run() -> None:
         async with studio("tcp/127.0.0.1:1", tmp_path) as one:
-            await one.do(v.GetTf(frame="tip", seen_from="upper"))
+            await one.do(GetTf(frame="tip", seen_from="upper"))
             answer = one.ear.last("tf_frames")
             assert answer["pose"]["xyz"] == pytest.approx([0.5, 0.0, 0.0])
             assert [each["name"] for each in answer["frames"]] == ["base", "tip", "upper"]
-            await one.do(v.GetTf(frame="tip", seen_from="moon"))
+            await one.do(GetTf(frame="tip", seen_from="moon"))
             assert '"moon"' in one.ear.last("tf_frames")["trouble"]
 
     asyncio.run(run())
@@ -210,11 +220,11 @@ def test_frames_of_an_opened_file_are_there_without_ros(tmp_path: Path):
 def test_in_a_fixed_frame_that_nobody_tells_of_all_rows_offer_the_same_one(tmp_path: Path):
     async def run() -> None:
         async with studio("tcp/127.0.0.1:1", tmp_path) as one:
-            await one.do(v.AddDisplay(kind="TF"))
-            await one.do(v.AddDisplay(kind="Axes"))
-            axes = v.SetDisplayProperty(display="d2", name="Reference Frame", value="tip")
+            await one.do(AddDisplay(kind="TF"))
+            await one.do(AddDisplay(kind="Axes"))
+            axes = SetDisplayProperty(display="d2", name="Reference Frame", value="tip")
             await one.do(axes)
-            await one.do(v.SetFixedFrame(frame="mop"))
+            await one.do(SetFixedFrame(frame="mop"))
             await until(
                 lambda: (said(one), said(one, 1)) == (["not_connected_frame"], ["no_frame"])
             )
@@ -228,9 +238,9 @@ def test_in_a_fixed_frame_that_nobody_tells_of_all_rows_offer_the_same_one(tmp_p
 def test_without_a_router_a_display_says_so_and_stays(tmp_path: Path):
     async def run() -> None:
         async with studio("tcp/127.0.0.1:1", tmp_path) as one:
-            await one.do(v.AddDisplay(kind="Path", topic="/plan"))
+            await one.do(AddDisplay(kind="Path", topic="/plan"))
             await until(lambda: said(one) == ["not_connected"])
-            await one.do(v.GetTopics())
+            await one.do(GetTopics())
             assert one.ear.last("topics")["topics"] == []
 
     asyncio.run(run())
@@ -242,12 +252,12 @@ def test_topics_are_listed_with_the_display_that_shows_what_is_published(
     async def run() -> None:
         tester.create_publisher(message(POSE), "/aim", 10)
         async with studio(endpoint, tmp_path) as one:
-            await one.do(v.AddDisplay(kind="AccelStamped", topic="/aim"))
+            await one.do(AddDisplay(kind="AccelStamped", topic="/aim"))
             await until(lambda: said(one) == ["other_type"])
             rows: dict[str, Any] = {}
             async with asyncio.timeout(60):
                 while "/aim" not in rows:
-                    await one.do(v.GetTopics())
+                    await one.do(GetTopics())
                     rows = {row["name"]: row for row in one.ear.last("topics")["topics"]}
             assert (rows["/aim"]["kind"], rows["/aim"]["types"]) == ("Pose", [POSE])
 
@@ -260,7 +270,7 @@ def test_a_topic_of_another_type_offers_the_display_that_shows_it(
     async def run() -> None:
         tester.create_publisher(message(POSE), "/other", 10)
         async with studio(endpoint, tmp_path) as one:
-            await one.do(v.AddDisplay(kind="Path", topic="/other"))
+            await one.do(AddDisplay(kind="Path", topic="/other"))
             await until(lambda: said(one) == ["other_type"])
             remark = one.ear.last("display_states")["states"][0]["remarks"][0]
             assert remark["mend"]["command"] == {
@@ -275,27 +285,27 @@ def test_a_topic_of_another_type_offers_the_display_that_shows_it(
 def test_displays_are_set_arranged_copied_and_removed_and_are_there_the_next_time(tmp_path: Path):
     async def run() -> None:
         async with studio("tcp/127.0.0.1:1", tmp_path) as one:
-            await one.do(v.AddDisplay(kind="Path"))
-            await one.do(v.AddDisplay(kind="Range"))
+            await one.do(AddDisplay(kind="Path"))
+            await one.do(AddDisplay(kind="Range"))
             path, cone = (each["id"] for each in listed(one))
-            await one.do(v.SetDisplayProperty(display=path, name="Alpha", value=7))
+            await one.do(SetDisplayProperty(display=path, name="Alpha", value=7))
             assert listed(one)[0]["values"]["Alpha"] == 1.0
-            await one.do(v.ArrangeDisplay(display=path, name="Plan", group="Nav", before=""))
-            await one.do(v.DuplicateDisplay(display=path))
-            await one.do(v.RemoveDisplay(display=cone))
-            await one.do(v.SwitchDisplays(group="Nav", enabled=False))
+            await one.do(ArrangeDisplay(display=path, name="Plan", group="Nav", before=""))
+            await one.do(DuplicateDisplay(display=path))
+            await one.do(RemoveDisplay(display=cone))
+            await one.do(SwitchDisplays(group="Nav", enabled=False))
             assert [(each["name"], each["group"]) for each in listed(one)] == [
                 ("Plan", "Nav"),
                 ("Plan 2", "Nav"),
             ]
             with pytest.raises(DisplayError):
-                await one.do(v.AddDisplay(kind="Moon"))
+                await one.do(AddDisplay(kind="Moon"))
             with pytest.raises(DisplayError):
-                await one.do(v.SetDisplayProperty(display=path, name="Alpha", value="red"))
+                await one.do(SetDisplayProperty(display=path, name="Alpha", value="red"))
             with pytest.raises(CommandError):
-                await one.do(v.RemoveDisplay(display=cone))
+                await one.do(RemoveDisplay(display=cone))
             with pytest.raises(CommandError):
-                await one.do(v.ArrangeDisplay(display=path, name=" "))
+                await one.do(ArrangeDisplay(display=path, name=" "))
             assert len(listed(one)) == 2
         async with studio("tcp/127.0.0.1:1", tmp_path) as again:
             assert [each["name"] for each in listed(again)] == ["Plan", "Plan 2"]
@@ -312,7 +322,7 @@ def test_poses_of_another_form_are_told_of_and_not_drawn(endpoint: str, tmp_path
     async def run(stranger: Node) -> None:
         poses = stranger.create_publisher(types.message(POSE), "/strange_aim", 10)
         async with studio(endpoint, tmp_path) as one:
-            await one.do(v.AddDisplay(kind="Pose", topic=poses.topic_name))
+            await one.do(AddDisplay(kind="Pose", topic=poses.topic_name))
             await until(lambda: said(one) == ["other_hash"])
             with node_at(endpoint, "late") as known:
                 known.create_publisher(message(POSE), poses.topic_name, 10)
@@ -345,8 +355,8 @@ def test_a_topic_without_a_slash_is_the_one_that_has_it_and_no_topic_says_so_alo
     async def run() -> None:
         poses = tester.create_publisher(message(POSE), "/aim3", 10)
         async with studio(endpoint, tmp_path) as one:
-            await one.do(v.AddDisplay(kind="Pose", topic="/no topic"))
-            await one.do(v.AddDisplay(kind="Pose", topic=" aim3 "))
+            await one.do(AddDisplay(kind="Pose", topic="/no topic"))
+            await one.do(AddDisplay(kind="Pose", topic=" aim3 "))
             assert listed(one)[1]["topic"] == "/aim3"
             await until(lambda: said(one) == ["not_heard"])
             await until(lambda: bool(poses.get_subscription_count()))
@@ -362,7 +372,7 @@ def test_while_no_page_is_there_nothing_is_heard(
     async def run() -> None:
         poses = tester.create_publisher(message(POSE), "/aim4", 10)
         async with studio(endpoint, tmp_path) as one:
-            await one.do(v.AddDisplay(kind="Pose", topic="/aim4"))
+            await one.do(AddDisplay(kind="Pose", topic="/aim4"))
             await until(lambda: bool(poses.get_subscription_count()))
             one.document.board.audience.remove(one.ear)
             await until(lambda: poses.get_subscription_count() == 0)
@@ -375,10 +385,10 @@ def test_while_no_page_is_there_nothing_is_heard(
 def test_a_slider_that_is_drawn_along_is_kept_where_it_ended(tmp_path: Path):
     async def run() -> None:
         async with studio("tcp/127.0.0.1:1", tmp_path) as one:
-            await one.do(v.AddDisplay(kind="Path"))
+            await one.do(AddDisplay(kind="Path"))
             path = listed(one)[0]["id"]
             for step in range(100):
-                change = v.SetDisplayProperty(display=path, name="Alpha", value=step / 100)
+                change = SetDisplayProperty(display=path, name="Alpha", value=step / 100)
                 await one.do(change)
         async with studio("tcp/127.0.0.1:1", tmp_path) as again:
             assert listed(again)[0]["values"]["Alpha"] == 0.99

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from studio.nodes.robot_state_publisher import LATCHED, RobotStatePublisher
-from studio.protocol import live as v
+from studio.protocol.live import AddDisplay, RemoveDisplay, SetDisplayProperty, SetFixedFrame
 from studio.ros.messages import message
 from studio.ros.parameters.parameter import Parameter
 from tests.support.meshes import stl
@@ -45,10 +45,10 @@ def told(tester: Node, prefix: str = "") -> dict[str, float]:
 
 async def add(one: Studio, values: dict[str, str] | None = None, topic: str = "") -> str:
     """A RobotModel with these properties; its id."""
-    await one.do(v.AddDisplay(kind="RobotModel", topic=topic))
+    await one.do(AddDisplay(kind="RobotModel", topic=topic))
     display: str = one.ear.last("live_displays")["displays"][-1]["id"]
     for name, value in (values or {}).items():
-        await one.do(v.SetDisplayProperty(display=display, name=name, value=value))
+        await one.do(SetDisplayProperty(display=display, name=name, value=value))
     return display
 
 
@@ -91,13 +91,13 @@ def test_two_robots_of_one_description_stand_where_the_frames_of_their_prefixes_
             first = await add(one, {"TF Prefix": "r1"})
             second = await add(one, {"TF Prefix": "/r2/"})
             assert one.ear.last("live_displays")["displays"][0]["topic"] == "/robot_description"
-            await one.do(v.SetFixedFrame(frame="r1/hull"))
+            await one.do(SetFixedFrame(frame="r1/hull"))
             expected = {"hull": (0.0, 0.0, 0.0), "arm": (0.0, 0.0, 0.5)}
             await until(lambda: poses(one, first) == expected)
             assert f"/live/{first}/arm/link.visual-0" in await nodes(one)
             await until(lambda: len(remarks(one, second)) == 2)
             assert all("r2/" in said and "r1/hull" in said for said in remarks(one, second))
-            await one.do(v.SetFixedFrame(frame="r2/hull"))
+            await one.do(SetFixedFrame(frame="r2/hull"))
             await until(lambda: poses(one, second).get("arm") == (0.0, 0.0, 0.5))
             positions["lift"] = 1.25
             await until(lambda: poses(one, second).get("arm") == (0.0, 0.0, 1.25))
@@ -114,7 +114,7 @@ def test_a_description_that_comes_anew_is_drawn_and_a_broken_one_leaves_the_one_
         out.publish(message(STRING)(data=cart()))
         async with studio(endpoint, tmp_path) as one:
             display = await add(one, topic="/other")
-            await one.do(v.SetFixedFrame(frame="hull"))
+            await one.do(SetFixedFrame(frame="hull"))
             hull, arm = (f"/live/{display}/{link}/link.visual-0" for link in ("hull", "arm"))
             await until(lambda: poses(one, display).get("arm") is not None)
             before = await nodes(one)
@@ -140,7 +140,7 @@ def test_a_description_that_can_be_read_in_part_is_shown_in_part_until_a_good_on
         out.publish(message(STRING)(data=f'<!-- late --><?xml version="1.0"?>{cart()}'))
         async with studio(endpoint, tmp_path) as one:
             display = await add(one, topic="/other")
-            await one.do(v.SetFixedFrame(frame="hull"))
+            await one.do(SetFixedFrame(frame="hull"))
             await until(lambda: poses(one, display).get("arm") is not None)
             await until(lambda: any("can be read" in said for said in remarks(one, display)))
             out.publish(message(STRING)(data=cart()))
@@ -179,7 +179,7 @@ def test_a_description_comes_from_the_parameter_of_a_node_and_follows_it(
                 "Description Parameter": "model",
             }
             display = await add(one, source)
-            await one.do(v.SetFixedFrame(frame="hull"))
+            await one.do(SetFixedFrame(frame="hull"))
             await until(lambda: bool(remarks(one, display)))
             tester.declare_parameter("model", cart())
             await until(lambda: poses(one, display).get("arm") == (0.0, 0.0, 0.5))
@@ -188,7 +188,7 @@ def test_a_description_comes_from_the_parameter_of_a_node_and_follows_it(
             tester.set_parameters([described])
             hull = f"/live/{display}/hull/link.visual-0"
             await is_made(one, hull, "dimensions", [1.0, 1.0, 2.0])
-            await one.do(v.RemoveDisplay(display=display))
+            await one.do(RemoveDisplay(display=display))
 
     asyncio.run(run())
 
@@ -205,7 +205,7 @@ def test_the_robot_of_the_document_and_one_of_a_file_stand_where_their_own_frame
             await until(lambda: len(remarks(one, file)) == 2)
             assert all("hull" in said or "arm" in said for said in remarks(one, file))
             await one.do(
-                v.SetDisplayProperty(display=file, name="Description File", value="/etc/passwd")
+                SetDisplayProperty(display=file, name="Description File", value="/etc/passwd")
             )
             await until(lambda: any("passwd" in said for said in remarks(one, file)))
 

@@ -11,6 +11,7 @@ from pydantic import ValidationError
 from studio.errors import CommandError, StudioError
 from studio.live.panels import driving
 from studio.protocol.driving import Drive
+from tests.support.asked import ask_ros
 from tests.support.bridged import Bridged, bridged
 from tests.support.demos import heard
 from tests.support.open_documents import Ear, until
@@ -89,9 +90,9 @@ def test_one_drives_and_another_waits_until_they_let_go(
         async with bridged(endpoint) as page:
             await page.do(Drive(topic=TOPIC, x=0.5))
             with pytest.raises(CommandError, match=f"Somebody else drives on {TOPIC}"):
-                await page.desk.carry_out(Drive(topic=TOPIC[1:], x=-9.0), second)
+                await ask_ros(page.desk, Drive(topic=TOPIC[1:], x=-9.0), second)
             page.desk.detach(page.ear)
-            await page.desk.carry_out(Drive(topic=TOPIC, x=-1.0), second)
+            await ask_ros(page.desk, Drive(topic=TOPIC, x=-1.0), second)
             await until(lambda: (-1.0, 0.0, 0.0) in speeds(twists))
             assert (-9.0, 0.0, 0.0) not in speeds(twists)
 

@@ -11,19 +11,20 @@ from studio.live.connection.desk import WireDesk
 from studio.live.panels.desk import BridgeDesk
 from studio.protocol.calls import GetActions, GetServices, ReadValues
 from studio.settings import WireChoice
+from tests.support.asked import ask_ros
 from tests.support.open_documents import Ear
 
 if TYPE_CHECKING:
     from typing import Any
 
-    from studio.protocol import BridgeCommand
+    from studio.protocol import Command
 
 TWIST = "geometry_msgs/msg/Twist"
 
 
-def asked(command: BridgeCommand) -> Any:  # noqa: ANN401 - the answer
+def asked(command: Command) -> Any:  # noqa: ANN401 - the answer
     """Ask a studio that has joined nothing."""
-    return asyncio.run(BridgeDesk(WireDesk(WireChoice("off"))).carry_out(command, Ear()))
+    return asyncio.run(ask_ros(BridgeDesk(WireDesk(WireChoice("off"))), command, Ear()))
 
 
 def read(text: str, name: str = TWIST, place: int = 0) -> Any:  # noqa: ANN401 - what was read

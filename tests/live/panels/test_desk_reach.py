@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from studio.errors import RouterGoneError
-from studio.live.panels.reach import NEEDS_ROUTER
+from studio.live.panels.desk import COMMANDS
 from studio.protocol.calls import CallService
 from studio.protocol.driving import Drive
 from studio.protocol.goals import CancelGoal, SendGoal
@@ -146,4 +146,4 @@ def test_a_server_that_ends_amid_a_goal_is_said_to_have_ended(endpoint: str):
 def test_what_nobody_could_hear_of_is_all_that_needs_the_router():
     asking = {"call_service", "send_goal", "cancel_goal", "get_parameters", "dump_parameters"}
     doing = {"set_parameter", "load_parameters", "change_state", "publish", "drive"}
-    assert {one.model_fields["type"].default for one in NEEDS_ROUTER} == asking | doing
+    assert {one.permission.name for one in COMMANDS if one.needs_router} == asking | doing

@@ -1,0 +1,203 @@
+"""The registry of commands: each with who may send it, how large and how often, and what it does.
+
+A room lists its commands beside the code that carries them out, as a web framework lists routes:
+
+    COMMANDS = Commands[Lifecycle](Scope.ROS)
+    COMMANDS.viewer(GetManaged, lambda nodes, c, _: nodes.managed(c))
+    COMMANDS.presenter(ChangeState, lambda nodes, c, _: nodes.change(c), needs_router=True)
+
+`Commands.include` puts the parts of a whole together. The parser of commands, dispatch, access and
+the page's types come from the whole.
+"""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from enum import StrEnum
+from inspect import isawaitable
+from typing import TYPE_CHECKING, Any, Final, Generic, TypeAlias, TypeVar
+
+from studio.errors import CommandError
+from studio.protocol.message import Command, Event, type_of
+from studio.protocol.roles import Role
+
+if TYPE_CHECKING:
+    from collections.abc import Awaitable, Callable, Iterator
+
+    from studio.protocol.listeners import Listener
+
+COMMAND_LIMIT_BYTES: Final = 1 << 20
+"""Of any command's JSON text."""
+
+_RATES_MAX: Final = 10_000
+"""Persons and commands that are counted, before those at rest are forgotten."""
+
+_Command = TypeVar("_Command", bound=Command)
+_Target = TypeVar("_Target")
+_Part = TypeVar("_Part")
+Answer: TypeAlias = Event | None
+"""What the asker alone is sent, if anything, before `done`."""
+Work: TypeAlias = "Callable[[_Target, _Command, Listener], Answer | Awaitable[Answer]]"
+"""Carries a command out; gets what it is for, the command and who asks."""
+
+
+class Scope(StrEnum):
+    """What is concerned, and so who decides about it: today the presenter, for each of them."""
+
+    DOCUMENT = "document"
+    """One open document: its owner."""
+    ROS = "ros"
+    """The ROS system: whoever holds control."""
+    STUDIO = "studio"
+    """The whole studio."""
+
+
+@dataclass(frozen=True, slots=True)
+class Permission:
+    """Who may do one thing: send a command or one of viser's messages, or open a route."""
+
+    name: str
+    role: Role
+    """The least role that may: what a viewer may, a presenter may, too."""
+    scope: Scope = Scope.STUDIO
+
+    def allows(self, role: Role | None) -> bool:
+        """Whether this role may; nobody (None) may do nothing."""
+        return role is not None and (role is self.role or role is Role.PRESENTER)
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """How much of one command is taken."""
+
+    bytes_max: int = COMMAND_LIMIT_BYTES
+    """Of its JSON text."""
+    per_second: float | None = None
+    """How often one person may send it, with bursts of one second's; None: without a limit."""
+
+
+@dataclass(frozen=True, slots=True)
+class CommandEntry(Generic[_Target]):
+    """One command, and what carries it out."""
+
+    permission: Permission
+    message: type[Command]
+    work: Work[_Target, Any]
+    needs_router: bool
+    """Whether it reaches other nodes: it is refused at once while the router is away."""
+    limits: Limits
+
+
+class Commands(Generic[_Target]):
+    """Commands that a part of the studio, or the whole, carries out.
+
+    Args:
+        scope: What they concern, unless one says otherwise.
+    """
+
+    def __init__(self, scope: Scope) -> None:
+        self._scope = scope
+        self._entries: dict[type[Command], CommandEntry[_Target]] = {}
+
+    def __iter__(self) -> Iterator[CommandEntry[_Target]]:
+        return iter(self._entries.values())
+
+    def __getitem__(self, message: type[Command]) -> CommandEntry[_Target]:
+        return self._entries[message]
+
+    @property
+    def messages(self) -> tuple[type[Command], ...]:
+        """The message of each."""
+        return tuple(self._entries)
+
+    def viewer(
+        self,
+        message: type[_Command],
+        work: Work[_Target, _Command],
+        *,
+        needs_router: bool = False,
+        limits: Limits | None = None,
+    ) -> None:
+        """Add a command that everybody may send."""
+        permission = Permission(type_of(message), Role.VIEWER, self._scope)
+        self._put(CommandEntry(permission, message, work, needs_router, limits or Limits()))
+
+    def presenter(
+        self,
+        message: type[_Command],
+        work: Work[_Target, _Command],
+        *,
+        scope: Scope | None = None,
+        needs_router: bool = False,
+        limits: Limits | None = None,
+    ) -> None:
+        """Add a command that the presenter alone may send."""
+        permission = Permission(type_of(message), Role.PRESENTER, scope or self._scope)
+        self._put(CommandEntry(permission, message, work, needs_router, limits or Limits()))
+
+    def include(self, part: Commands[_Part], of: Callable[[_Target, Command], _Part]) -> None:
+        """Add the commands of a part; `of` gives the part that a command is for."""
+        for entry in part:
+            self._put(_within(entry, of))
+
+    async def carry_out(self, target: _Target, command: Command, asker: Listener) -> Answer:
+        """Carry out one command.
+
+        Returns:
+            What the asker alone is answered, if anything.
+
+        Raises:
+            StudioError: It cannot be done.
+        """
+        answer = self._entries[type(command)].work(target, command, asker)
+        return await answer if isawaitable(answer) else answer
+
+    def _put(self, entry: CommandEntry[_Target]) -> None:
+        if entry.message in self._entries:
+            raise ValueError(f"{entry.permission.name} is registered twice")
+        self._entries[entry.message] = entry
+
+
+def _within(
+    entry: CommandEntry[_Part], of: Callable[[_Target, Command], _Part]
+) -> CommandEntry[_Target]:
+    work = entry.work
+
+    def carry_out(target: _Target, command: Command, asker: Listener) -> Answer | Awaitable[Answer]:
+        return work(of(target, command), command, asker)
+
+    return CommandEntry(
+        entry.permission, entry.message, carry_out, entry.needs_router, entry.limits
+    )
+
+
+class CommandRates:
+    """Holds every person to the rates of the commands."""
+
+    def __init__(self) -> None:
+        self._left: dict[tuple[str, str], tuple[float, float]] = {}
+        """By person and command: how many more may come at once, and since when (s)."""
+
+    def spend(self, person: str, entry: CommandEntry[Any]) -> None:
+        """Count one command.
+
+        Raises:
+            CommandError: This person sends it too often.
+        """
+        if (per_second := entry.limits.per_second) is None:
+            return
+        now_s = time.monotonic()
+        key = person, entry.permission.name
+        left, since_s = self._left.get(key, (per_second, now_s))
+        left = min(per_second, left + (now_s - since_s) * per_second)
+        if left < 1:
+            raise CommandError(
+                f"{entry.permission.name.replace('_', ' ').capitalize()} is taken at most "
+                f"{per_second:.0f} times per second: wait a moment."
+            )
+        self._left[key] = left - 1, now_s
+        if len(self._left) > _RATES_MAX:
+            full = [one for one, (_, at_s) in self._left.items() if now_s - at_s > 1]
+            for one in full:
+                del self._left[one]
