@@ -22,15 +22,23 @@ import { measuring } from "../app/state/measuring.js";
 import { dialog, mouseMode, theme } from "../app/state/view.js";
 import { attachViewport, VIEWS, viewport } from "../app/viewport.js";
 import { t } from "../lib/i18n.js";
+import { remember } from "../lib/remembered.js";
 import { Icon, IconButton, MenuButton, ProgressBar } from "../lib/ui.js";
 import { FixedFrame } from "./fixed-frame.js";
 import { MeasureCard } from "./measure-card.js";
 import { TargetFrame } from "./target-frame.js";
 
+/** Whether the 3D view is part of the layout: index.html then has its client fetched at once. */
+const SHOWN = "scene.shown";
+
 export function ScenePanel() {
   const frame = useRef(/** @type {HTMLIFrameElement | null} */ (null));
   const id = documentId.value;
   useEffect(() => (frame.current ? attachViewport(frame.current) : undefined), []);
+  useEffect(() => {
+    remember(SHOWN, true);
+    return () => remember(SHOWN, false);
+  }, []);
   return html`<section class="scene" aria-label=${t("panel.scene")}>
     <iframe ref=${frame} title=${t("panel.scene")} class=${theme.value}
       src=${id ? `/d/${encodeURIComponent(id)}/viser/` : "about:blank"}></iframe>

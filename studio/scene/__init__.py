@@ -3,14 +3,15 @@
 from studio.scene.connection import SUBPROTOCOL, VIEWER_MESSAGES, Connection
 from studio.scene.displays import DISPLAY_DEFAULTS
 from studio.scene.document_scene import DocumentScene
-from studio.scene.page import viser_page, viser_page_gzipped
+from studio.scene.page import CLIENT_PATH, viser_client, viser_page
 
 __all__ = [
+    "CLIENT_PATH",
     "DISPLAY_DEFAULTS",
     "SUBPROTOCOL",
     "VIEWER_MESSAGES",
     "Connection",
     "DocumentScene",
+    "viser_client",
     "viser_page",
-    "viser_page_gzipped",
 ]

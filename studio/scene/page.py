@@ -1,47 +1,97 @@
-"""viser's own page with our script and style in it."""
+"""viser's own page with our script and style in it, and viser's client as a file of its own.
+
+viser's page holds its client, packed with zstd and written as letters. Here the page fetches the
+client instead: a browser keeps it, and the page around can have it fetched early.
+"""
 
 from __future__ import annotations
 
-import gzip
 import html
+import re
 from functools import lru_cache
 from pathlib import Path
+from typing import Final, NamedTuple
 
+import numpy as np
 import viser
 
 from studio.errors import SceneError
 from studio.scene.host import check_version
 
-_HEAD = b"<head>"
+CLIENT_PATH: Final = "viser/client.zst"
+"""Where the page looks for `viser_client`, below the address of the assets."""
+
+_HEAD: Final = "<head>"
+_PACKED: Final = re.compile(r'(?<= data-p=")[^"]{100000,}(?=")')
+_UNPACKED: Final = "const a=de(d.p);"
+_FETCHED: Final = "const a=new Uint8Array(await(await fetch(d.p)).arrayBuffer());"
+_LETTERS: Final = (
+    b"!#$%()*+,-./0123456789:;=?@ABCDEFGHIJKLMNOPQRSTUVWXYZ[\\]^_abcdefghijklmnopqrstuvwxyz{|}~"
+)
+_GROUP: Final = 5
+"""So many letters, of 88 kinds, stand for four bytes."""
 
 
-@lru_cache(maxsize=4)
-def viser_page(assets_prefix: str) -> bytes:
+def viser_page(assets_prefix: str, first: str = "") -> bytes:
     """The page as HTML; send it with `no-store`, for an old one cannot talk to a new server.
 
     Args:
-        assets_prefix: Address below which `frontend_assets` is served, without a slash at the end.
+        assets_prefix: Address below which `frontend_assets` and `CLIENT_PATH` are served, without a
+            slash at the end.
+        first: Markup for the beginning of the head.
 
     Raises:
         SceneError: Another version of viser is installed, or its page is not as we know it.
     """
     check_version()
-    page = (Path(viser.__file__).parent / "client" / "build" / "index.html").read_bytes()
-    if page.count(_HEAD) != 1:
-        raise SceneError("viser's page is not as the 3D view knows it: install viser anew.")
-    return page.replace(_HEAD, _HEAD + _injected(html.escape(assets_prefix)).encode())
-
-
-@lru_cache(maxsize=4)
-def viser_page_gzipped(assets_prefix: str) -> bytes:
-    """`viser_page`, compressed once."""
-    return gzip.compress(viser_page(assets_prefix), mtime=0)
-
-
-def _injected(prefix: str) -> str:
-    """First in the head, so that the script runs before viser's own."""
-    return (
-        f'<link rel="stylesheet" href="{prefix}/viser/studio3d.css">'
+    prefix = html.escape(assets_prefix)
+    # First in the head, so that the script runs before viser's own.
+    ours = (
+        f'{first}<link rel="stylesheet" href="{prefix}/viser/studio3d.css">'
         f'<script src="{prefix}/viser/early.js"></script>'
         f'<script type="module" src="{prefix}/viser/studio3d.js"></script>'
     )
+    before, after = _split().around
+    page = f"{before}{prefix}/{CLIENT_PATH}{after}"
+    return page.replace(_HEAD, _HEAD + ours).encode()
+
+
+def viser_client() -> bytes:
+    """Viser's styles and scripts as its page unpacks them: one zstd frame.
+
+    Raises:
+        SceneError: As for `viser_page`.
+    """
+    check_version()
+    return _split().client
+
+
+class _Split(NamedTuple):
+    """viser's page in parts: its text around the address of the client, and the client."""
+
+    around: tuple[str, str]
+    client: bytes
+
+
+@lru_cache(maxsize=1)
+def _split() -> _Split:
+    page = (Path(viser.__file__).parent / "client" / "build" / "index.html").read_text("utf-8")
+    packed = _PACKED.search(page)
+    if packed is None or page.count(_HEAD) != 1 or page.count(_UNPACKED) != 1:
+        raise SceneError("viser's page is not as the 3D view knows it: install viser anew.")
+    before, after = page[: packed.start()], page[packed.end() :]
+    return _Split((before, after.replace(_UNPACKED, _FETCHED)), _bytes_of(packed[0].encode()))
+
+
+def _bytes_of(letters: bytes) -> bytes:
+    """What viser wrote as letters."""
+    digit_of = np.zeros(256, dtype=np.uint64)
+    digit_of[np.frombuffer(_LETTERS, dtype=np.uint8)] = np.arange(len(_LETTERS))
+    digits = digit_of[np.frombuffer(letters, dtype=np.uint8)]
+    whole = len(digits) // _GROUP * _GROUP
+    places = np.array([88**power for power in range(_GROUP - 1, -1, -1)], dtype=np.uint64)
+    head = (digits[:whole].reshape(-1, _GROUP) @ places).astype(">u4").tobytes()
+    rest = 0
+    for digit in digits[whole:]:
+        rest = rest * 88 + int(digit)
+    return head + rest.to_bytes(max(0, len(digits) - whole - 1), "big")

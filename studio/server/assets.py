@@ -1,13 +1,28 @@
-"""The files of the page: read once, hashed as a tree, compressed once, served as written."""
+"""The files of the page: read once, hashed as a tree, compressed once, served as written.
+
+Two things are added to what is written: a stylesheet holds those that it imports, so that they come
+in one answer, and the page names the modules that its first ones import, so that they come at once.
+"""
 
 from __future__ import annotations
 
 import gzip
 import hashlib
 import os
+import posixpath
+import re
 from dataclasses import dataclass
+from functools import lru_cache
+from html import escape
 from pathlib import Path
-from typing import Final
+from typing import TYPE_CHECKING, Final, Literal
+
+import zstandard
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Mapping
+
+Coding = Literal["zstd", "gzip"]
 
 _TYPES: Final = {
     ".css": "text/css; charset=utf-8",
@@ -24,31 +39,59 @@ _TYPES: Final = {
     ".wasm": "application/wasm",
     ".webp": "image/webp",
     ".woff2": "font/woff2",
+    ".zst": "application/zstd",
 }
 """The suffixes that are served, and as what; of others the page needs none."""
-_COMPRESSED: Final = frozenset({".png", ".webp", ".woff2"})
+_COMPRESSED: Final = frozenset({".png", ".webp", ".woff2", ".zst"})
 _NOT_SERVED: Final = frozenset({"tools", "screenshots", "node_modules"})
 _INDEX: Final = "index.html"
 _WITHOUT_INDEX: Final = (
     "<!doctype html><html lang=en><title>Robot description studio</title>"
     "<p>The page's files are missing from this installation: install it again."
 )
+_PRELOADS: Final = "{{preloads}}"
+_MODULE_OF_INDEX: Final = re.compile(r'\{\{base\}\}([^"]+\.js)"')
+_IMPORT: Final = re.compile(
+    r'^(?:import|export)\s+(?:[\w*{][^;"]*?\sfrom\s+)?"([^"]+)"', re.MULTILINE
+)
+_CSS_IMPORT: Final = re.compile(r'^@import "([^"]+)";\n?', re.MULTILINE)
+_GZIP_LEVEL, _ZSTD_LEVEL = 6, 15
 
 Stamp = tuple[tuple[str, int, int], ...]
 """(path, mtime ns, size) of every file of the tree."""
 
 
-@dataclass(frozen=True, slots=True)
 class Asset:
     """One file as it is sent."""
 
-    content: bytes
-    compressed: bytes | None
-    """gzip, where it is smaller."""
-    type: str
+    def __init__(self, content: bytes, media_type: str, *, compressible: bool = True) -> None:
+        self.content, self.type = content, media_type
+        self._compressible = compressible
+        self._packed: dict[Coding, bytes | None] = {}
+
+    def packed(self, coding: Coding) -> bytes | None:
+        """The content in that coding, made when it is first asked for; None: not smaller."""
+        if not self._compressible:
+            return None
+        if coding not in self._packed:
+            smaller = _PACK[coding](self.content)
+            self._packed[coding] = smaller if len(smaller) < len(self.content) else None
+        return self._packed[coding]
 
 
-@dataclass(frozen=True, slots=True)
+_PACK: Final[Mapping[Coding, Callable[[bytes], bytes]]] = {
+    "zstd": lambda content: zstandard.compress(content, _ZSTD_LEVEL),
+    "gzip": lambda content: gzip.compress(content, _GZIP_LEVEL, mtime=0),
+}
+
+
+def accepted_coding(accept_encoding: str) -> Coding | None:
+    """The best coding that the header of a request names; None: none that we have."""
+    named = {one.partition(";")[0].strip() for one in accept_encoding.split(",")}
+    return "zstd" if "zstd" in named else "gzip" if "gzip" in named else None
+
+
+@dataclass(frozen=True, eq=False)
 class Tree:
     """All files of one state of the folder; `digest` names the state."""
 
@@ -65,8 +108,9 @@ class Tree:
 class Assets:
     """The folder of the page; `current` notices when a developer has changed a file."""
 
-    def __init__(self, folder: Path) -> None:
-        self._folder = folder
+    def __init__(self, folder: Path, more: Mapping[str, bytes] | None = None) -> None:
+        """Of `folder`, and of `more` files by their paths that are made in memory."""
+        self._folder, self._more = folder, more or {}
         self._stamp: Stamp | None = None
         self._tree = Tree("none", {}, _WITHOUT_INDEX)
 
@@ -74,7 +118,7 @@ class Assets:
         """The tree as the folder is now; read anew only when a stamp changed."""
         stamp = _stamp(self._folder)
         if stamp != self._stamp:
-            self._tree, self._stamp = _read(self._folder, stamp), stamp
+            self._tree, self._stamp = _read(self._folder, stamp, self._more), stamp
         return self._tree
 
     def find(self, digest: str, path: str) -> tuple[Asset, bool] | None:
@@ -85,6 +129,34 @@ class Assets:
         if asset is None:
             return None
         return asset, digest == self._tree.digest
+
+
+def imported_modules(files: Mapping[str, Asset], roots: Iterable[str]) -> list[str]:
+    """What the modules import before they run, and what that imports: without them, largest first.
+
+    The largest takes the longest: asked for last, it would keep all others waiting.
+    """
+    named = list(roots)
+    found = dict.fromkeys(named)
+    waiting = named.copy()
+    while waiting:
+        path = waiting.pop()
+        if path not in files:
+            continue
+        for name in _IMPORT.findall(files[path].content.decode()):
+            folder = posixpath.dirname(path) if name.startswith(".") else ""
+            imported = posixpath.normpath(posixpath.join(folder, name))
+            if imported in files and imported not in found:
+                found[imported] = None
+                waiting.append(imported)
+    others = [path for path in found if path not in named]
+    return sorted(others, key=lambda path: -len(files[path].content))
+
+
+@lru_cache(maxsize=8)
+def preload_links(paths: tuple[str, ...], base: str) -> str:
+    """Markup that has a browser fetch these modules at once."""
+    return "".join(f'<link rel="modulepreload" href="{escape(base + path)}">' for path in paths)
 
 
 def _stamp(folder: Path) -> Stamp:
@@ -100,20 +172,33 @@ def _stamp(folder: Path) -> Stamp:
     return tuple(found)
 
 
-def _read(folder: Path, stamp: Stamp) -> Tree:
+def _read(folder: Path, stamp: Stamp, more: Mapping[str, bytes]) -> Tree:
+    contents = {relative: (folder / relative).read_bytes() for relative, _, _ in stamp}
+    contents |= more
     digest = hashlib.sha256()
-    files: dict[str, Asset] = {}
-    for relative, _, _ in stamp:
-        content = (folder / relative).read_bytes()
+    for relative, content in contents.items():
         digest.update(f"{relative}\0{len(content)}\0".encode() + content)
-        files[relative] = _asset(content, Path(relative).suffix)
-    index = files.pop(_INDEX, None)
-    text = index.content.decode() if index else _WITHOUT_INDEX
-    return Tree(digest.hexdigest()[:16], files, text)
+    index = contents.pop(_INDEX, None)
+    files = {path: _asset(path, contents) for path in contents}
+    if index is None:
+        return Tree(digest.hexdigest()[:16], files, _WITHOUT_INDEX)
+    text = index.decode()
+    modules = imported_modules(files, _MODULE_OF_INDEX.findall(text))
+    filled = text.replace(_PRELOADS, preload_links(tuple(modules), "{{base}}"))
+    return Tree(digest.hexdigest()[:16], files, filled)
 
 
-def _asset(content: bytes, suffix: str) -> Asset:
-    compressed = None if suffix in _COMPRESSED else gzip.compress(content, 6, mtime=0)
-    if compressed is not None and len(compressed) >= len(content):
-        compressed = None
-    return Asset(content, compressed, _TYPES[suffix])
+def _asset(path: str, contents: Mapping[str, bytes]) -> Asset:
+    suffix = Path(path).suffix
+    content = _with_imports(path, contents).encode() if suffix == ".css" else contents[path]
+    return Asset(content, _TYPES[suffix], compressible=suffix not in _COMPRESSED)
+
+
+def _with_imports(path: str, contents: Mapping[str, bytes]) -> str:
+    """A stylesheet with those that it imports in the place of each import."""
+
+    def imported(match: re.Match[str]) -> str:
+        other = posixpath.normpath(posixpath.join(posixpath.dirname(path), match[1]))
+        return _with_imports(other, contents) if other in contents else match[0]
+
+    return _CSS_IMPORT.sub(imported, contents[path].decode())

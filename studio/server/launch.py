@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 from studio.documents.engine import Engine
 from studio.errors import SettingsError
 from studio.protocol.roles import Role
+from studio.scene import CLIENT_PATH, viser_client
 from studio.server.app import make_app
 from studio.server.assets import Assets
 from studio.server.browser import Window, has_display
@@ -114,7 +115,7 @@ class _Visit:
         self._settings, self._credentials = settings, credentials
         self._port = port_of(listener)
         bound = (settings.host, self._port)
-        assets = Assets(repository_or_wheel("frontend_assets"))
+        assets = Assets(repository_or_wheel("frontend_assets"), {CLIENT_PATH: viser_client()})
         app = make_app(self._engine, assets, credentials, secrets.token_hex(8), bound)
         self._server = Server(app, self)
         self._server.run(sockets=[listener])

@@ -1,17 +1,25 @@
 """The routes that a browser uses: the page, its files, the 3D view's page, the websockets."""
 
+from functools import lru_cache
 from http import HTTPStatus
 from typing import TYPE_CHECKING, Final
 
 from fastapi import FastAPI
 from starlette.requests import Request
-from starlette.responses import HTMLResponse, RedirectResponse, Response
+from starlette.responses import RedirectResponse, Response
 from starlette.websockets import WebSocket
 
 import studio
 from studio.protocol.documents import Hello
-from studio.scene import viser_page, viser_page_gzipped
-from studio.server.assets import Asset, Assets
+from studio.scene import viser_page
+from studio.server.assets import (
+    Asset,
+    Assets,
+    Tree,
+    accepted_coding,
+    imported_modules,
+    preload_links,
+)
 from studio.server.bulk_lane import BulkAnswer, BulkKeys
 from studio.server.control import ControlLane
 from studio.server.data_lane import DataLane
@@ -27,6 +35,7 @@ if TYPE_CHECKING:
 _FOREVER: Final = "public, max-age=31536000, immutable"
 _ICON: Final = "styles/logo.svg"
 _WORKERS: Final = "workers/"
+_SCENE_SCRIPT: Final = "viser/studio3d.js"
 
 
 class Site:
@@ -80,12 +89,9 @@ class Site:
     async def scene_page(self, document: str, request: Request) -> Response:
         """The page of viser, to be shown inside ours; another version's would not be let in."""
         self._engine.document(document)
-        prefix = self._assets.current().base.rstrip("/")
-        headers = {"content-security-policy": SCENE_POLICY}
-        if not takes_gzip(request):
-            return HTMLResponse(viser_page(prefix), headers=headers)
-        headers |= {"content-encoding": "gzip"}
-        return HTMLResponse(viser_page_gzipped(prefix), headers=headers)
+        answer = _send(_scene_page(self._assets.current()), request, "no-store")
+        answer.headers["content-security-policy"] = SCENE_POLICY
+        return answer
 
     async def asset(self, tree: str, path: str, request: Request) -> Response:
         """One file of the page; only paths that were found below its folder have an answer."""
@@ -127,14 +133,19 @@ class Site:
         await serve_scene(websocket, scene, websocket.scope["state"]["visitor"], document)
 
 
-def takes_gzip(request: Request) -> bool:
-    """Whether the browser unpacks gzip."""
-    return "gzip" in request.headers.get("accept-encoding", "")
+@lru_cache(maxsize=2)
+def _scene_page(tree: Tree) -> Asset:
+    """Viser's page with the modules of ours that it begins with."""
+    modules = imported_modules(tree.files, [_SCENE_SCRIPT])
+    page = viser_page(tree.base.rstrip("/"), preload_links(tuple(modules), tree.base))
+    return Asset(page, "text/html; charset=utf-8")
 
 
 def _send(asset: Asset, request: Request, caching: str) -> Response:
     """The file, compressed where the browser takes it."""
     headers = {"content-type": asset.type, "cache-control": caching, "vary": "accept-encoding"}
-    if asset.compressed is not None and takes_gzip(request):
-        return Response(asset.compressed, headers=headers | {"content-encoding": "gzip"})
-    return Response(asset.content, headers=headers)
+    coding = accepted_coding(request.headers.get("accept-encoding", ""))
+    packed = asset.packed(coding) if coding else None
+    if packed is None:
+        return Response(asset.content, headers=headers)
+    return Response(packed, headers=headers | {"content-encoding": str(coding)})

@@ -44,7 +44,7 @@ _WATCH = """() => {
 """`docked`: the panels stand; `filled`: those in front show the robot."""
 _UNTIL_FILLED = """() => [
   ...performance.getEntriesByType("navigation"), ...performance.getEntriesByType("resource"),
-].filter((one) => one.responseEnd <= window.filled && !one.name.endsWith("/viser/"))
+].filter((one) => one.responseEnd <= window.filled && !/\\/viser\\/(client.zst)?$/.test(one.name))
   .reduce((sum, one) => sum + one.transferSize, 0)"""
 _REST = "() => window.filled && document.querySelector('.cm-line')"
 
@@ -62,7 +62,7 @@ class FirstLoad:
 
 
 class Transfer:
-    """Counts what comes over the wire; `viser` is the page of the 3D view."""
+    """Counts what comes over the wire; `viser` is the page of the 3D view and its client."""
 
     def __init__(self, session: CDPSession) -> None:
         self.own = self.viser = 0
@@ -76,7 +76,7 @@ class Transfer:
 
     def _ended(self, event: dict[str, Any]) -> None:
         size = int(event["encodedDataLength"])
-        if self._urls.get(event["requestId"], "").endswith("/viser/"):
+        if self._urls.get(event["requestId"], "").endswith(("/viser/", "/viser/client.zst")):
             self.viser += size
         else:
             self.own += size

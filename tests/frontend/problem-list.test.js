@@ -121,7 +121,7 @@ const CHECKS = [
   "robot/checks",
   "description/checks",
   "robot/structure.py",
-  "engine/checks/checking.py",
+  "documents/checks/checking.py",
 ];
 const READERS = ["recovery.py", "open_elements.py", "broken_tags.py"];
 

@@ -7,9 +7,10 @@ from http.client import HTTPConnection
 from typing import TYPE_CHECKING
 
 import pytest
+import zstandard
 
 from studio.protocol.roles import Role
-from studio.server.assets import Assets
+from studio.server.assets import Assets, accepted_coding
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -27,14 +28,18 @@ def base_of(web: RunningWeb) -> str:
 
 def test_a_file_is_public_typed_compressed_and_kept_for_ever(web: RunningWeb):
     with web.client() as client:
-        answer = client.get(f"{base_of(web)}app/main.js")
+        path = f"{base_of(web)}app/main.js"
+        answer = client.get(path, headers={"accept-encoding": "gzip"})
         assert answer.status_code == 200
         assert answer.text.startswith("export const answer")
         assert answer.headers["content-type"] == "text/javascript; charset=utf-8"
         assert answer.headers["content-encoding"] == "gzip"
         assert "immutable" in answer.headers["cache-control"]
         assert answer.headers["vary"] == "accept-encoding"
-        plain = client.get(f"{base_of(web)}app/main.js", headers={"accept-encoding": "identity"})
+        smaller = client.get(path, headers={"accept-encoding": "gzip, zstd"})
+        assert smaller.headers["content-encoding"] == "zstd"
+        assert smaller.text == answer.text
+        plain = client.get(path, headers={"accept-encoding": "identity"})
         assert plain.text == answer.text
         assert "content-encoding" not in plain.headers
 
@@ -101,10 +106,79 @@ def test_a_small_file_is_not_made_larger_by_compressing_it(tmp_path: Path):
     (tmp_path / "small.js").write_text("1")
     (tmp_path / "large.js").write_text("1" * 1000)
     files = Assets(tmp_path).current().files
-    assert files["small.js"].compressed is None
-    compressed = files["large.js"].compressed
+    assert files["small.js"].packed("gzip") is None
+    assert files["small.js"].packed("zstd") is None
+    compressed = files["large.js"].packed("gzip")
     assert compressed is not None
     assert gzip.decompress(compressed) == b"1" * 1000
+    compressed = files["large.js"].packed("zstd")
+    assert compressed is not None
+    assert zstandard.decompress(compressed) == b"1" * 1000
+    assert files["large.js"].packed("zstd") is compressed
+
+
+@pytest.mark.parametrize(
+    ("accepted", "coding"),
+    [
+        ("gzip, deflate, br, zstd", "zstd"),
+        ("gzip;q=1.0, identity", "gzip"),
+        ("br", None),
+        ("xgzip", None),
+        ("", None),
+    ],
+)
+def test_a_file_is_packed_as_the_browser_takes_it(accepted: str, coding: str | None):
+    assert accepted_coding(accepted) == coding
+
+
+def write_all(folder: Path, texts: dict[str, str]) -> Assets:
+    for name, text in texts.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(text)
+    return Assets(folder)
+
+
+def test_a_stylesheet_holds_what_it_imports_in_its_place(tmp_path: Path):
+    texts = {
+        "styles/page.css": '/* all */\n@import "a.css";\n@import "../b.css";\n@import "no.css";\n',
+        "styles/a.css": '@import "c.css";\n.a {}\n',
+        "styles/c.css": ".c {}\n",
+        "b.css": ".b {}\n",
+    }
+    files = write_all(tmp_path, texts).current().files
+    page = files["styles/page.css"].content.decode()
+    assert page == '/* all */\n.c {}\n.a {}\n.b {}\n@import "no.css";\n'
+    assert files["b.css"].content == b".b {}\n"
+
+
+def test_the_page_names_all_modules_that_its_own_import_but_not_those_that_come_later(
+    tmp_path: Path,
+):
+    texts = {
+        "index.html": '{{preloads}}<script type="module" src="{{base}}app/main.js"></script>',
+        "app/main.js": (
+            '/** import "../not/this.js" */\nimport { one,\n  two } from "../lib/one.js";\n'
+            'import "vendor/large.js";\nexport * from "./own.js";\nimport("./later.js");\n'
+        ),
+        "lib/one.js": 'import { deep } from "./deep.js";\n',
+        "lib/deep.js": 'import * as one from "./one.js";\n',
+        "vendor/large.js": "0;" * 500,
+        "app/own.js": "export const a = 1;",
+        "app/later.js": "",
+    }
+    tree = write_all(tmp_path, texts).current()
+    named = re.findall(r'<link rel="modulepreload" href="{{base}}([^"]+)">', tree.index)
+    assert named[0] == "vendor/large.js"
+    assert sorted(named) == ["app/own.js", "lib/deep.js", "lib/one.js", "vendor/large.js"]
+
+
+def test_a_file_made_in_memory_is_one_of_the_tree(tmp_path: Path):
+    plain = Assets(tmp_path).current()
+    tree = Assets(tmp_path, {"viser/client.zst": b"packed" * 100}).current()
+    asset = tree.files["viser/client.zst"]
+    assert (asset.content, asset.type) == (b"packed" * 100, "application/zstd")
+    assert asset.packed("gzip") is None
+    assert tree.base != plain.base
 
 
 def test_an_installation_without_the_page_says_so(tmp_path: Path):

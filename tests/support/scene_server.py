@@ -14,7 +14,7 @@ from websockets.exceptions import ConnectionClosed
 from websockets.http11 import Request, Response
 from websockets.protocol import State
 
-from studio.scene import SUBPROTOCOL, DocumentScene, viser_page
+from studio.scene import CLIENT_PATH, SUBPROTOCOL, DocumentScene, viser_client, viser_page
 from studio.settings import repository_or_wheel
 
 if TYPE_CHECKING:
@@ -137,6 +137,8 @@ class SceneServer:
             return None
         if path == "/d/one/viser/":
             return _response("text/html", viser_page("/a"))
+        if path == f"/a/{CLIENT_PATH}":
+            return _response("application/zstd", viser_client())
         file = ASSETS / path.removeprefix("/a/")
         if path.startswith("/a/") and file.is_file():
             kind = mimetypes.guess_type(file.name)[0] or "application/octet-stream"
