@@ -1,8 +1,8 @@
 /** The data lane as panels use it: topics are looked at, or traced as numbers, until they are left. */
 
 /** @import { FromPage } from "../workers/data.js" */
-/** @import { Pictured, PictureAsked, SavedPicture } from "../workers/pictures.js" */
-/** @import { Heard, Looked, Points, ToPage } from "../workers/wishes.js" */
+/** @import { PictureAsked, Pictured, SavedPicture } from "../workers/pictures.js" */
+/** @import { Heard, Looked, Points, ToPage } from "../workers/subscriptions.js" */
 
 import { effect, signal } from "vendor/preact.js";
 import { typeOf, whenTypesChange } from "./message-types.js";
@@ -59,13 +59,13 @@ function take(message) {
   else takeHeard(message);
 }
 
-/** @param {import("../workers/wishes.js").LaneState} message */
+/** @param {import("../workers/subscriptions.js").LaneState} message */
 function takeLane(message) {
   laneOpen.value = message.open;
   dropped.value = message.dropped;
 }
 
-/** @param {import("../workers/wishes.js").State | Looked | Points | Pictured | SavedPicture} message */
+/** @param {import("../workers/subscriptions.js").State | Looked | Points | Pictured | SavedPicture} message */
 function takeHeard(message) {
   const listener = listeners.get(message.wish);
   if (!listener) return;

@@ -1,6 +1,6 @@
 /** What is drawn over time as it comes: one trace for each topic, samples for each number of it. */
 
-/** @import { Heard, Points } from "../workers/wishes.js" */
+/** @import { Heard, Points } from "../workers/subscriptions.js" */
 /** @import { Listening } from "./listening-menu.js" */
 /** @import { Series } from "./state/plot.js" */
 

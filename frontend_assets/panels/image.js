@@ -1,9 +1,9 @@
 /** What a camera sees: the newest image of a topic, its numbers, and a copy of it. */
 
 /** @import { TopicRow } from "../types/wire.d.ts" */
-/** @import { Numbers, Range } from "../lib/image-pixels.js" */
-/** @import { Heard } from "../workers/wishes.js" */
-/** @import { Pictured, PictureAsked } from "../workers/pictures.js" */
+/** @import { Numbers, Range } from "../lib/image-encodings.js" */
+/** @import { Heard } from "../workers/subscriptions.js" */
+/** @import { PictureAsked, Pictured } from "../workers/pictures.js" */
 /** @import { Signal } from "vendor/preact.js" */
 
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";

@@ -1,7 +1,7 @@
 /** What a topic says now, as a tree; who is at its ends, and how it is listened to. */
 
 /** @import { TopicRow } from "../types/wire.d.ts" */
-/** @import { Heard, Looked } from "../workers/wishes.js" */
+/** @import { Heard, Looked } from "../workers/subscriptions.js" */
 
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { laneOpen, lookAt } from "../app/data.js";

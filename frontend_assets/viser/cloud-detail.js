@@ -1,6 +1,7 @@
 /** @import { Door } from "./door.js" */
 /** @import { Message } from "./viser.d.ts" */
-import { isSeen } from "./seen.js";
+
+import { isSeen } from "./extent.js";
 
 /**
  * The data of a cloud as it came: three numbers for each point, and three bytes, or three for all.

@@ -1,7 +1,7 @@
 /** @import { Door } from "./door.js" */
 /** @import { Object3D, Vector3 } from "./viser.d.ts" */
+
 import { boxCorners } from "./robot.js";
-import { isSeen } from "./seen.js";
 
 const ROOT = "/live/";
 /** So many places of one node are looked at, spread over all of them. */
@@ -182,4 +182,15 @@ export function fromHalf(bits) {
   if (exponent === 0x1f) return fraction ? Number.NaN : sign * Number.POSITIVE_INFINITY;
   if (exponent === 0) return sign * fraction * 2 ** -24;
   return sign * (1 + fraction / 1024) * 2 ** (exponent - 15);
+}
+
+/**
+ * Whether an object and all above it are shown.
+ * @param {Object3D | null | undefined} object
+ */
+export function isSeen(object) {
+  if (!object) return false;
+  let above = /** @type {Object3D | null} */ (object);
+  while (above?.visible) above = above.parent;
+  return above === null;
 }

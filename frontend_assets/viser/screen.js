@@ -32,3 +32,87 @@ export function pixelsToLine(place, begin, end) {
   const share = length2 > 0 ? Math.min(Math.max(along / length2, 0), 1) : 0;
   return pixelsBetween(place, [begin[0] + share * wayX, begin[1] + share * wayY]);
 }
+
+/** About as wide as a character is, with room to both sides. */
+const CHARACTER_PX = 8;
+const LINE_PX = 24;
+const SVG = "http://www.w3.org/2000/svg";
+
+/** @typedef {{ places: Place[], kind: "line" | "axis" | "aim" | "chain" }} Line */
+/** @typedef {{ place: Place, kind: "point" | "frame" | "axis" | "aim" | "centre" }} Dot */
+/** @typedef {{ place: Place, text: string, kind: "measure" | "aim" | "centre" }} Label */
+
+/** Lines, dots and words over the picture; they are in nobody's way. */
+export class DrawnLines {
+  #svg = document.createElementNS(SVG, "svg");
+  #labels = document.createElement("div");
+  #drawn = "";
+
+  constructor() {
+    this.#svg.classList.add("studio-lines");
+    this.#svg.setAttribute("aria-hidden", "true");
+    this.#labels.className = "studio-labels";
+  }
+
+  /** Draw these and nothing else. @param {{ lines: Line[], dots: Dot[], labels: Label[] }} all */
+  draw(all) {
+    const wanted = JSON.stringify(all);
+    if (wanted === this.#drawn) return;
+    this.#drawn = wanted;
+    if (!this.#svg.isConnected) document.body.append(this.#svg, this.#labels);
+    this.#svg.replaceChildren(
+      ...all.lines.flatMap((line) => [lineOf(line, "casing"), lineOf(line, line.kind)]),
+      ...all.dots.map(dotOf),
+    );
+    this.#labels.replaceChildren(...apart(all.labels).map(labelOf));
+  }
+}
+
+/** @param {Line} line @param {string} look */
+function lineOf({ places }, look) {
+  const element = document.createElementNS(SVG, "polyline");
+  element.setAttribute("points", places.map((place) => place.map(round).join(",")).join(" "));
+  element.setAttribute("class", look);
+  return element;
+}
+
+/** @param {Dot} dot */
+function dotOf({ place, kind }) {
+  const element = document.createElementNS(SVG, "circle");
+  element.setAttribute("cx", String(round(place[0])));
+  element.setAttribute("cy", String(round(place[1])));
+  element.setAttribute("r", kind === "aim" || kind === "centre" ? "7" : "4");
+  element.setAttribute("class", kind);
+  return element;
+}
+
+/** Words that would cover others go below them. @param {Label[]} labels @returns {Label[]} */
+function apart(labels) {
+  /** @type {Label[]} */
+  const placed = [];
+  for (const label of labels) {
+    const [x, start] = label.place;
+    let y = start;
+    const covers = (/** @type {Label} */ { place, text }) =>
+      Math.abs(place[0] - x) < CHARACTER_PX * Math.max(text.length, label.text.length) &&
+      Math.abs(place[1] - y) < LINE_PX;
+    while (label.kind !== "aim" && placed.some(covers)) y += LINE_PX;
+    placed.push({ ...label, place: [x, y] });
+  }
+  return placed;
+}
+
+/** @param {Label} label */
+function labelOf({ place: [x, y], text, kind }) {
+  const element = document.createElement("output");
+  element.className = `studio-label ${kind}`;
+  element.textContent = text;
+  const isRight = x > innerWidth * 0.6;
+  const beside = isRight ? "translate(calc(-100% - 14px), 14px)" : "translate(14px, 14px)";
+  const away = kind === "aim" ? beside : "translate(-50%, -50%)";
+  element.style.transform = `translate(${round(x)}px, ${round(y)}px) ${away}`;
+  return element;
+}
+
+/** @param {number} value */
+const round = (value) => Math.round(value * 10) / 10;

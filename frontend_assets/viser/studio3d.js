@@ -1,25 +1,19 @@
 /** @import { CameraPose, JointView, RobotState } from "./viser.d.ts" */
-import { Aim } from "./aim.js";
-import { CameraView } from "./camera.js";
-import { ChainLine } from "./chain-line.js";
+
+import { Aim, Measuring } from "./measuring.js";
+import { CameraView, Follow } from "./camera.js";
+import { ChainLine, Marks } from "./marks.js";
 import { CloudDetail } from "./cloud-detail.js";
-import { Door } from "./door.js";
+import { Door, Removed } from "./door.js";
 import { LiveExtent } from "./extent.js";
-import { Follow } from "./follow.js";
-import { forwardKeys } from "./keys.js";
-import { Light } from "./light.js";
+import { Light, Theme } from "./theme.js";
 import { Live } from "./live.js";
-import { Looks } from "./looks.js";
-import { Marks } from "./marks.js";
-import { Measuring } from "./measuring.js";
+import { Looks } from "./link-appearance.js";
 import { pick } from "./picking.js";
 import { Picture } from "./picture.js";
 import { Pointer } from "./pointer.js";
-import { Quality } from "./quality.js";
-import { Removed } from "./removed.js";
+import { Quality, Still } from "./quality.js";
 import { RobotView } from "./robot.js";
-import { Still } from "./still.js";
-import { Theme } from "./theme.js";
 
 /**
  * The 3D view as the page around it uses it: `iframe.contentWindow.studio3d`.
@@ -193,7 +187,7 @@ class Studio3d {
     this.#looks.setLit(changed, moved);
   }
 
-  /** Aim at what is measured; null: nothing is. @param {import("./aim.js").AimMode | null} mode */
+  /** Aim at what is measured; null: nothing is. @param {import("./measuring.js").AimMode | null} mode */
   setMeasuring(mode) {
     this.#measuring.setMode(mode);
   }
@@ -233,3 +227,36 @@ class Studio3d {
 }
 
 window.studio3d = new Studio3d();
+
+/** Keys that viser may have for itself: they turn the camera. */
+const VISERS = new Set(["ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight"]);
+/** With Ctrl or Cmd: what the browser would do with these is never meant here. */
+const OURS = new Set(["s", "z", "y", "k", "o", "m", "f", "enter", ..."123456789"]);
+
+/**
+ * Hand every key to the page around us, as if it had been pressed there.
+ * @param {(detail: { key: string, [field: string]: unknown }) => boolean} tell Answers whether nobody prevented what we do by default.
+ * @param {(event: KeyboardEvent) => void} byDefault
+ */
+function forwardKeys(tell, byDefault) {
+  const forward = (/** @type {KeyboardEvent} */ event) => {
+    if (VISERS.has(event.key) && !withModifier(event)) return;
+    event.stopImmediatePropagation();
+    if (event.type !== "keydown") return;
+    const { key, code, ctrlKey, metaKey, shiftKey, altKey, repeat } = event;
+    if (isOurs(event)) event.preventDefault();
+    if (tell({ key, code, ctrlKey, metaKey, shiftKey, altKey, repeat })) byDefault(event);
+  };
+  window.addEventListener("keydown", forward, { capture: true });
+  window.addEventListener("keyup", forward, { capture: true });
+}
+
+/** @param {KeyboardEvent} event */
+function withModifier(event) {
+  return event.ctrlKey || event.metaKey || event.altKey;
+}
+
+/** @param {KeyboardEvent} event */
+function isOurs({ key, ctrlKey, metaKey }) {
+  return key === "F6" || key === "F1" || ((ctrlKey || metaKey) && OURS.has(key.toLowerCase()));
+}

@@ -6,13 +6,12 @@
 /** @import { MessageView } from "../types/wire.d.ts" */
 /** @import { PictureAsked } from "./pictures.js" */
 /** @import { Came } from "./frames.js" */
-/** @import { Heard, ToPage, Wish } from "./wishes.js" */
+/** @import { Heard, ToPage, Wish } from "./subscriptions.js" */
 
 import { Bulk } from "./bulk.js";
-import { Easel } from "./easel.js";
 import { readFrame } from "./frames.js";
-import { Pictures } from "./pictures.js";
-import { Look, Trace, Types } from "./wishes.js";
+import { Easel, Pictures } from "./pictures.js";
+import { Look, Trace, Types } from "./subscriptions.js";
 
 /**
  * @typedef {{kind: "look", wish: Wish}} StartLook

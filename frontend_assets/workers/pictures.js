@@ -3,17 +3,15 @@
  * that the screen shows. What came between is passed over; nothing queues.
  */
 
-/** @import { Numbers, Range, RawImage } from "../lib/image-pixels.js" */
-/** @import { Sight } from "../lib/image-window.js" */
-/** @import { Easel, Motif } from "./easel.js" */
+/** @import { Ink, Numbers, Range, RawImage } from "../lib/image-encodings.js" */
+/** @import { Sight, Window } from "../lib/image-view.js" */
 /** @import { Came } from "./frames.js" */
-/** @import { ToPage, Types, Wish } from "./wishes.js" */
+/** @import { ToPage, Types, Wish } from "./subscriptions.js" */
+/** @import { View } from "../lib/pan-zoom.js" */
 
-import { checkSize, ImageError, inkOf } from "../lib/image-pixels.js";
-import { rateOf } from "../lib/image-view.js";
-import { fileOf } from "./easel.js";
-import { pixelOf, unpacked } from "./picture-files.js";
-import { readWith } from "./wishes.js";
+import { checkSize, ImageError, inkOf } from "../lib/image-encodings.js";
+import { average, rateOf, viewWithin, wholeOf, windowOf } from "../lib/image-view.js";
+import { readWith } from "./subscriptions.js";
 
 /** @typedef {{key: string, words: Record<string, string | number>}} PictureTrouble a text of the catalogue, and what stands in it */
 /** @typedef {{x: number, y: number}} Pixel column and row */
@@ -253,4 +251,141 @@ function isRaw(value) {
   const numbers = [width, height, step, is_bigendian];
   const areCounts = numbers.every((one) => Number.isInteger(one) && one >= 0);
   return areCounts && typeof encoding === "string" && data instanceof Uint8Array;
+}
+
+/** @typedef {{width: number, height: number, ink: Ink | null, bitmap: ImageBitmap | null}} Motif what is painted: one of the two has its pixels */
+
+/** @typedef {OffscreenCanvasRenderingContext2D} Context */
+
+/** A pixel of the screen covers four of the picture, or more. */
+const SMOOTH_BELOW = 0.5;
+
+/** Where a picture is painted: a canvas of the page that was given to the worker. */
+export class Easel {
+  /** @param {OffscreenCanvas} canvas */
+  constructor(canvas) {
+    this.canvas = canvas;
+    // What is painted comes from the processor: there it is kept.
+    this.context = canvas.getContext("2d", { willReadFrequently: true });
+    /** Both are used again and again. @type {ImageData | null} */
+    this.image = null;
+    this.fine = new Uint32Array(0);
+  }
+
+  /** @param {Sight} sight */
+  fit({ width, height }) {
+    const { canvas } = this;
+    if (canvas.width !== width || canvas.height !== height)
+      Object.assign(canvas, { width, height });
+  }
+
+  /** @param {Motif} motif @param {Sight} sight @param {Range} range */
+  paint(motif, sight, range) {
+    this.fit(sight);
+    const { context } = this;
+    if (!context) return;
+    context.clearRect(0, 0, sight.width, sight.height);
+    const view = viewWithin(motif, sight);
+    if (motif.ink) this.paintView(context, motif, motif.ink, view, range);
+    else if (motif.bitmap) drawBitmap(context, motif.bitmap, view);
+  }
+
+  /** @param {Context} context @param {Motif} motif @param {Ink} ink @param {View} view @param {Range} range */
+  paintView(context, motif, ink, view, range) {
+    // Between two depths is none that was measured.
+    const parts = view.scale <= SMOOTH_BELOW && !ink.numbers ? 2 : 1;
+    this.paintInk(context, ink, windowOf(motif, view, this.canvas, parts), range, parts);
+  }
+
+  /** @param {Context} context @param {Ink} ink @param {Window} window @param {Range} range @param {number} parts of the window for each pixel, across and down */
+  paintInk(context, ink, window, range, parts) {
+    const [width, height] = [window.columns.length / parts, window.rows.length / parts];
+    if (width === 0 || height === 0) return;
+    const image = this.imageOf(width, height);
+    const packed = new Uint32Array(image.data.buffer);
+    if (parts === 1) ink.paint(window, packed, range);
+    else {
+      const fine = this.fineOf(4 * packed.length);
+      ink.paint(window, fine, range);
+      average(fine, packed, width);
+    }
+    context.putImageData(image, window.left, window.top);
+  }
+
+  /** @param {number} width @param {number} height @returns {ImageData} */
+  imageOf(width, height) {
+    const before = this.image;
+    if (before?.width === width && before.height === height) return before;
+    this.image = new ImageData(width, height);
+    return this.image;
+  }
+
+  /** @param {number} length @returns {Uint32Array} */
+  fineOf(length) {
+    if (this.fine.length !== length) this.fine = new Uint32Array(length);
+    return this.fine;
+  }
+}
+
+/** @param {Context} context @param {ImageBitmap} bitmap @param {View} view */
+function drawBitmap(context, bitmap, { x, y, scale }) {
+  context.imageSmoothingEnabled = scale <= SMOOTH_BELOW;
+  context.drawImage(bitmap, x, y, bitmap.width * scale, bitmap.height * scale);
+}
+
+/** @param {Motif} motif @param {Range} range @returns {Promise<Blob>} all of it, as PNG */
+function fileOf(motif, range) {
+  const { width, height, ink, bitmap } = motif;
+  const canvas = new OffscreenCanvas(width, height);
+  const easel = new Easel(canvas);
+  if (easel.context && ink) easel.paintInk(easel.context, ink, wholeOf(motif), range, 1);
+  else if (bitmap) easel.context?.drawImage(bitmap, 0, 0);
+  return canvas.convertToBlob({ type: "image/png" });
+}
+
+const FORMAT_NAME_MAX = 60;
+
+/** @param {{format: string, data: Uint8Array<ArrayBuffer>}} message @returns {Promise<ImageBitmap>} @throws {ImageError} */
+export async function unpacked({ format, data }) {
+  const name = format.slice(0, FORMAT_NAME_MAX);
+  if (format.includes("compressedDepth"))
+    throw new ImageError("image.trouble.depth", { format: name });
+  const size = sizeOfFile(data);
+  if (!size) throw new ImageError("image.trouble.file", { format: name });
+  checkSize(size.width, size.height);
+  const bitmap = await createImageBitmap(new Blob([data])).catch(() => null);
+  if (!bitmap) throw new ImageError("image.trouble.broken", { format: name });
+  return bitmap;
+}
+
+/** @param {ImageBitmap} bitmap @param {number} x @param {number} y @returns {number[]} red, green and blue */
+function pixelOf(bitmap, x, y) {
+  const context = new OffscreenCanvas(1, 1).getContext("2d", { willReadFrequently: true });
+  context?.drawImage(bitmap, x, y, 1, 1, 0, 0, 1, 1);
+  return Array.from(context?.getImageData(0, 0, 1, 1).data.subarray(0, 3) ?? []);
+}
+
+const PNG = [0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a];
+/** Behind these marks of a JPEG is its size; the others of that row are tables. */
+const isFrame = (/** @type {number} */ mark) =>
+  mark >= 0xc0 && mark <= 0xcf && ![0xc4, 0xc8, 0xcc].includes(mark);
+
+/** @param {Uint8Array} bytes @returns {{width: number, height: number} | null} null: it is neither */
+export function sizeOfFile(bytes) {
+  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  if (bytes.length >= 24 && PNG.every((one, n) => bytes[n] === one))
+    return { width: view.getUint32(16), height: view.getUint32(20) };
+  return bytes[0] === 0xff && bytes[1] === 0xd8 ? sizeOfJpeg(view) : null;
+}
+
+/** @param {DataView} view @returns {{width: number, height: number} | null} */
+function sizeOfJpeg(view) {
+  let at = 2;
+  while (at + 9 <= view.byteLength && view.getUint8(at) === 0xff) {
+    const mark = view.getUint8(at + 1);
+    if (isFrame(mark)) return { height: view.getUint16(at + 5), width: view.getUint16(at + 7) };
+    // Marks may be filled up with more of the sign that they begin with.
+    at += mark === 0xff ? 1 : 2 + view.getUint16(at + 2);
+  }
+  return null;
 }

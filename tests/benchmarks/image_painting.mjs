@@ -1,7 +1,7 @@
 /** What it takes to paint a picture of 1920 x 1080: `node image_painting.mjs` gives ms by encoding. */
 
-import { inkOf } from "../../frontend_assets/lib/image-pixels.js";
-import { windowOf } from "../../frontend_assets/lib/image-window.js";
+import { inkOf } from "../../frontend_assets/lib/image-encodings.js";
+import { windowOf } from "../../frontend_assets/lib/image-view.js";
 
 const SIZE = { width: 1920, height: 1080 };
 /** All of it, and a panel among others. */

@@ -1,10 +1,10 @@
+/** @import { MessageView } from "../../frontend_assets/types/wire.d.ts" */
+
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { CdrError, readerOf } from "../../frontend_assets/workers/cdr.js";
-import { wholeText } from "../../frontend_assets/workers/folding.js";
-
-/** @import { MessageView } from "../../frontend_assets/types/wire.d.ts" */
+import { wholeText } from "../../frontend_assets/workers/subscriptions.js";
 
 /** @type {{schemas: Record<string, MessageView[]>, cases: {type: string, little: string, big: string, value: any}[]}} */
 const GOLDEN = JSON.parse(

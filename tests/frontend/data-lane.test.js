@@ -1,11 +1,16 @@
+/** @import { MessageView } from "../../frontend_assets/types/wire.d.ts" */
+
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { folded, hexRows } from "../../frontend_assets/workers/folding.js";
 import { FrameError, readFrame } from "../../frontend_assets/workers/frames.js";
 import { numberAt, stepsOf, valueAt } from "../../frontend_assets/workers/message-paths.js";
-import { SteadyClock, Trace, Types } from "../../frontend_assets/workers/wishes.js";
-
-/** @import { MessageView } from "../../frontend_assets/types/wire.d.ts" */
+import {
+  folded,
+  hexRows,
+  SteadyClock,
+  Trace,
+  Types,
+} from "../../frontend_assets/workers/subscriptions.js";
 
 /** @param {{channel: number, payload: number[], received_ns: bigint, sent_ns: bigint, lost: number}[]} messages */
 function frame(messages, dropped = 0) {

@@ -1,11 +1,11 @@
+/** @import { RawImage } from "../../frontend_assets/lib/image-encodings.js" */
+/** @import { Window } from "../../frontend_assets/lib/image-view.js" */
+
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { inkOf } from "../../frontend_assets/lib/image-pixels.js";
-import { wholeOf, windowOf } from "../../frontend_assets/lib/image-window.js";
+import { inkOf } from "../../frontend_assets/lib/image-encodings.js";
+import { wholeOf, windowOf } from "../../frontend_assets/lib/image-view.js";
 import { noisy, slowPixel } from "./support/images.js";
-
-/** @import { RawImage } from "../../frontend_assets/lib/image-pixels.js" */
-/** @import { Window } from "../../frontend_assets/lib/image-window.js" */
 
 /** Bytes of a pixel. @type {Record<string, number>} */
 const ENCODINGS = {

@@ -1,21 +1,23 @@
+/** @import { Range, RawImage } from "../../frontend_assets/lib/image-encodings.js" */
+
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { sizeOfFile } from "../../frontend_assets/lib/image-file.js";
-import { ImageError, inkOf } from "../../frontend_assets/lib/image-pixels.js";
-import { average } from "../../frontend_assets/lib/image-smoothing.js";
+import { ImageError, inkOf } from "../../frontend_assets/lib/image-encodings.js";
 import {
+  average,
   CLOSEST,
   FARTHEST,
   filling,
   pixelUnder,
   rateOf,
   ratioFor,
+  viewWithin,
+  wholeOf,
+  windowOf,
 } from "../../frontend_assets/lib/image-view.js";
-import { viewWithin, wholeOf, windowOf } from "../../frontend_assets/lib/image-window.js";
 import { zoomed } from "../../frontend_assets/lib/pan-zoom.js";
+import { sizeOfFile } from "../../frontend_assets/workers/pictures.js";
 import { PNG, raw } from "./support/images.js";
-
-/** @import { RawImage, Range } from "../../frontend_assets/lib/image-pixels.js" */
 
 const FROM_BYTES = { low: 0, high: 255 };
 

@@ -1,7 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { isPlain, Live, lookOf } from "../../frontend_assets/viser/live.js";
-import { edgeOf } from "../../frontend_assets/viser/text-picture.js";
+import { edgeOf, isPlain, Live, lookOf } from "../../frontend_assets/viser/live.js";
 
 /** A door with one node, and what Live asked of it. @param {Record<string, object>} nodes */
 function doorOf(nodes) {

@@ -1,12 +1,11 @@
+/** @import { Easel, Pictured } from "../../frontend_assets/workers/pictures.js" */
+/** @import { Came } from "../../frontend_assets/workers/frames.js" */
+
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Pictures } from "../../frontend_assets/workers/pictures.js";
-import { Types } from "../../frontend_assets/workers/wishes.js";
+import { Types } from "../../frontend_assets/workers/subscriptions.js";
 import { PNG, raw } from "./support/images.js";
-
-/** @import { Easel } from "../../frontend_assets/workers/easel.js" */
-/** @import { Came } from "../../frontend_assets/workers/frames.js" */
-/** @import { Pictured } from "../../frontend_assets/workers/pictures.js" */
 
 const WISH = {
   wish: 5,

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Plates } from "../../frontend_assets/viser/plates.js";
+import { Plates } from "../../frontend_assets/viser/theme.js";
 
 /** @param {string} colour */
 const material = (colour) => ({

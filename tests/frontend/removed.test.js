@@ -4,7 +4,7 @@ import { test } from "node:test";
 /** @type {Record<string, object>} */
 const tree = {};
 Object.assign(globalThis, { window: { __viserSceneTree: { getState: () => tree } } });
-const { Removed } = await import("../../frontend_assets/viser/removed.js");
+const { Removed } = await import("../../frontend_assets/viser/door.js");
 
 test("a node that is gone leaves no name behind, one that came again stays", () => {
   /** @type {Record<string, object | null>} */

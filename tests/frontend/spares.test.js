@@ -1,7 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { FrameJoiner } from "../../frontend_assets/workers/bulk.js";
-import { Spares } from "../../frontend_assets/workers/spares.js";
+import { FrameJoiner, Spares } from "../../frontend_assets/workers/bulk.js";
 
 /** @param {number[]} bytes @returns {Uint8Array} a frame as it comes in a stream */
 const sent = (...bytes) => Uint8Array.of(bytes.length, 0, 0, 0, ...bytes);

@@ -1,9 +1,9 @@
+/** @import { MessageView } from "../../frontend_assets/types/wire.d.ts" */
+
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
-import { Look, Trace, Types } from "../../frontend_assets/workers/wishes.js";
-
-/** @import { MessageView } from "../../frontend_assets/types/wire.d.ts" */
+import { Look, Trace, Types } from "../../frontend_assets/workers/subscriptions.js";
 
 /** @type {{schemas: Record<string, MessageView[]>, cases: {type: string, little: string}[]}} */
 const GOLDEN = JSON.parse(

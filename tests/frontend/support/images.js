@@ -1,6 +1,6 @@
 /** Images as a camera sends them, and what they show by a reader that is slow and plain. */
 
-/** @import { RawImage } from "../../../frontend_assets/lib/image-pixels.js" */
+/** @import { RawImage } from "../../../frontend_assets/lib/image-encodings.js" */
 
 /** @param {string} encoding @param {number} width @param {number} height @param {ArrayLike<number>} bytes @param {{step?: number, is_bigendian?: number}} [more] @returns {RawImage} */
 export const raw = (encoding, width, height, bytes, { step = 0, is_bigendian = 0 } = {}) => ({
