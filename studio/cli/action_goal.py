@@ -52,7 +52,7 @@ def add_send_goal(verbs: Verbs) -> None:
 def _run(options: argparse.Namespace) -> int:
     from studio.ros.action.client import ActionClient
     from studio.ros.remote.known_types import known_action
-    from studio.ros.types.plain import from_yaml
+    from studio.ros.types.convert import from_yaml
 
     name = full_name(options.action_name)
     type_name = full_type_name(options.action_type, "action")
@@ -210,6 +210,6 @@ class _ServerLog:
 
 
 def _text(message: MessageValue) -> str:
-    from studio.ros.types.plain import to_yaml
+    from studio.ros.types.convert import to_yaml
 
     return to_yaml(message)

@@ -125,8 +125,8 @@ def _type_name(options: argparse.Namespace) -> str:
 
 
 def _proto(options: argparse.Namespace) -> None:
+    from studio.ros.types.convert import to_yaml
     from studio.ros.types.definitions import messages_of
-    from studio.ros.types.plain import to_yaml
 
     name = _type_name(options)
     library = library_with(options, name)

@@ -12,7 +12,7 @@ from studio.cli.pasted_types import is_pasted, pasted_texts
 from studio.cli.terminal import harmless
 from studio.errors import StudioError
 from studio.ros.names import KINDS
-from studio.ros.types.folders import texts_of_package
+from studio.ros.types.files import texts_of_package
 
 if TYPE_CHECKING:
     import argparse
@@ -51,15 +51,14 @@ def known_types(options: argparse.Namespace, distro: str) -> TypeLibrary:
         SettingsError: What was pasted does not say which types it defines.
         WireSettingsError: What the environment names is not there, or holds no types.
     """
-    from studio.ros.messages.own_types import take_own_types, texts_at
-    from studio.ros.types.folders import InterfaceTexts
+    from studio.ros.types.files import InterfaceTexts, add_own_types, texts_at
     from studio.ros.types.library import TypeLibrary
 
     library = TypeLibrary(distro)
     index = opened_packages(options)
     for name in sorted(index.names):
         _take_package(library, index.best(name, Path.cwd()), name)
-    take_own_types(library)
+    add_own_types(library)
     for path in options.interfaces:
         found = (
             InterfaceTexts(pasted_texts(sys.stdin))
@@ -82,7 +81,7 @@ def environment_with(paths: Sequence[Path]) -> dict[str, str]:
     Raises:
         UnreadableFileError: Nothing is there, or it holds no types.
     """
-    from studio.ros.messages.own_types import VARIABLE, texts_at
+    from studio.ros.types.files import VARIABLE, texts_at
 
     absolute = [path.expanduser().absolute() for path in paths]
     for path in absolute:

@@ -61,14 +61,17 @@ def _class_as_told(actor: Actor, end: GraphEndpoint) -> type[MessageValue]:
     Raises:
         StudioError: It does not tell, or not the truth.
     """
-    from studio.ros.describing import SERVICE_NAME, SERVICE_TYPE
     from studio.ros.remote.waiting import asked
-    from studio.ros.types.descriptions import read_description
+    from studio.ros.types.type_descriptions import (
+        DESCRIPTION_SERVICE,
+        DESCRIPTION_SERVICE_TYPE,
+        read_description,
+    )
 
-    service = f"{end.node.path}/{SERVICE_NAME}"
+    service = f"{end.node.path}/{DESCRIPTION_SERVICE}"
     if not actor.graph.has_server(service):  # asking would wait for it
         raise NotServedError("service", service)
-    client = actor.node.create_client(actor.types.service(SERVICE_TYPE), service)
+    client = actor.node.create_client(actor.types.service(DESCRIPTION_SERVICE_TYPE), service)
     try:
         request = client.srv_type.Request(type_name=end.type_name, type_hash=end.type_hash)
         response = asked(actor.node, client, request)

@@ -179,7 +179,7 @@ def _write(path: Path, text: str) -> None:
 
 
 def _load(remote: ParameterClient, options: argparse.Namespace) -> int:
-    from studio.ros.types.folders import read_text
+    from studio.ros.types.files import read_text
 
     path = options.parameter_file.expanduser()
     results = remote.load(read_text(path), str(path), wildcards=not options.no_use_wildcard)

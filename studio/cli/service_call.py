@@ -46,7 +46,7 @@ def _seconds(text: str) -> float:
 
 def _run(options: argparse.Namespace) -> int:
     from studio.ros.remote.known_types import known_service
-    from studio.ros.types.plain import from_yaml
+    from studio.ros.types.convert import from_yaml
 
     name = full_name(options.service_name)
     type_name = full_type_name(options.service_type, "srv")

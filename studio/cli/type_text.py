@@ -7,7 +7,7 @@ from enum import Enum, auto
 from typing import TYPE_CHECKING
 
 from studio.ros.types.definitions import messages_of
-from studio.ros.types.writing import text_of
+from studio.ros.types.interface_text import text_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

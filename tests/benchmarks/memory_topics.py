@@ -10,7 +10,7 @@ import numpy as np
 
 from studio.displays.catalogue import DISPLAYS
 from studio.ros.messages import message
-from studio.ros.types.plain import from_dict
+from studio.ros.types.convert import from_dict
 from tests.support.demos import node_at
 from tests.support.display_messages import point, pose
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from studio.ros.messages import message
-from studio.ros.types.plain import from_dict
+from studio.ros.types.convert import from_dict
 from tests.support.demos import node_at
 from tests.support.display_messages import point
 from tests.support.server import running_studio

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from studio.ros.messages import message
-from studio.ros.types.plain import from_dict
+from studio.ros.types.convert import from_dict
 from tests.support.demos import call, heard, node_at, running_demo
 from tests.support.panel_pictures import SHOW_PANEL
 from tests.support.server import running_studio

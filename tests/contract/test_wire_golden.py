@@ -16,8 +16,8 @@ from studio.ros.keys import DataKey, parse_key
 from studio.ros.profiles import PROFILES
 from studio.ros.qos import QoSProfile
 from studio.ros.tokens import EndpointKind, EndpointToken, NodeToken, parse_token
+from studio.ros.types.convert import from_dict, to_dict
 from studio.ros.types.library import TypeLibrary
-from studio.ros.types.plain import from_dict, to_dict
 from tests.support.golden_wire import FOLDER, golden_text
 
 Json = dict[str, Any]

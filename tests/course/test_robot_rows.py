@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from studio.ros.client import DurabilityPolicy, Node, QoSProfile, message, qos_profile_sensor_data
-from studio.ros.types.plain import from_yaml
+from studio.ros.types.convert import from_yaml
 from studio.tf.rotations import compose, matrices_from_poses
 from tests.support.demos import call, heard, node_at, running_demo
 from tests.support.wire import wait_until

@@ -9,7 +9,7 @@ import pytest
 
 from studio.ros.action import ActionClient, GoalStatus
 from studio.ros.client import Node, action, message
-from studio.ros.types.plain import from_yaml
+from studio.ros.types.convert import from_yaml
 from tests.support.demos import call, heard, node_at, running_demo
 from tests.support.wire import PATIENCE_S, wait_until
 

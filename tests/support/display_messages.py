@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 from studio.displays.display import Received
 from studio.ros.cdr import Codec
+from studio.ros.types.convert import from_dict
 from studio.ros.types.library import TypeLibrary
-from studio.ros.types.plain import from_dict
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any
 
 from studio.ros.action import ActionServer, GoalResponse
 from studio.ros.client import Context, Node, Parameter
-from studio.ros.describing import START_PARAMETER
 from studio.ros.messages import message, shared_types
 from studio.ros.node.future import Future
 from studio.ros.node.work import ReentrantCallbackGroup
+from studio.ros.types.type_descriptions import DESCRIPTION_SERVICE_PARAMETER
 from tests.support.demos import node_at, running
 from tests.support.goals import FIBONACCI, Held
 from tests.support.wire import open_test_session
@@ -113,7 +113,7 @@ def faulty_robot(endpoint: str) -> Generator[FaultyRobot]:
         open_test_session(endpoint, types=types) as session,
     ):
         context = Context.over(session)
-        tells_nothing = Parameter(START_PARAMETER, value=False)
+        tells_nothing = Parameter(DESCRIPTION_SERVICE_PARAMETER, value=False)
         stranger = Node("stranger", context=context, parameter_overrides=[tells_nothing])
         robot = FaultyRobot(node, stranger)
         with robot.telling():

@@ -17,8 +17,8 @@ from studio.protocol.interfaces import GetInterface
 from studio.ros.cdr import Codec
 from studio.ros.messages import message
 from studio.ros.types.classes import class_of_field, definition_of
+from studio.ros.types.convert import from_dict, to_dict
 from studio.ros.types.definitions import INTEGERS, Shape
-from studio.ros.types.plain import from_dict, to_dict
 from studio.settings import WireChoice
 
 if TYPE_CHECKING:

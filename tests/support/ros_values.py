@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 from hypothesis import strategies as st
 
-from studio.ros.types.arrays import dtype_of
 from studio.ros.types.classes import (
     MessageValue,
     attribute_name,
     class_of_field,
     definition_of,
+    dtype_of,
 )
 from studio.ros.types.definitions import INTEGERS, Field, FieldType, Shape
 

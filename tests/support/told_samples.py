@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from studio.nodes.robot_state_publisher import LATCHED
 from studio.ros.messages import message
-from studio.ros.types.plain import from_dict
+from studio.ros.types.convert import from_dict
 from tests.support.demos import node_at
 from tests.support.display_messages import pose
 from tests.support.display_samples import FRAMES, headed

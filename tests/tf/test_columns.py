@@ -3,8 +3,8 @@ import pytest
 
 from studio.ros.cdr import Codec
 from studio.ros.fast.transforms import TransformCodec
+from studio.ros.types.convert import from_dict
 from studio.ros.types.library import TypeLibrary
-from studio.ros.types.plain import from_dict
 from studio.tf.buffer import TransformBuffer
 from studio.tf.columns import TransformColumns
 

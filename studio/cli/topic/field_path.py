@@ -9,7 +9,7 @@ import numpy as np
 
 from studio.errors import MessageValueError
 from studio.ros.types.classes import MessageValue, attribute_name, definition_of
-from studio.ros.types.plain import WHOLE, Brevity, to_yaml
+from studio.ros.types.convert import WHOLE, Brevity, to_yaml
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -55,7 +55,7 @@ def _again_and_again(
 
 
 def _message(kind: type[MessageValue], text: str, source: str = "") -> MessageValue:
-    from studio.ros.types.plain import from_yaml
+    from studio.ros.types.convert import from_yaml
 
     return from_yaml(kind, text, now_ns=time.time_ns(), source=source)
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from studio.cli.topic.field_path import field_at, field_text
 from studio.ros.types.classes import MessageValue
-from studio.ros.types.plain import Brevity, to_csv, to_yaml
+from studio.ros.types.convert import Brevity, to_csv, to_yaml
 
 if TYPE_CHECKING:
     import argparse

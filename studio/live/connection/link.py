@@ -14,7 +14,7 @@ from studio.live.connection.hearing import STRING, DescriptionIn, JointsIn, Plac
 from studio.live.connection.plan import planned_wire
 from studio.live.connection.telling import JointsOut, RobotOut
 from studio.live.connection.topic_rates import TopicRates
-from studio.ros.messages.shared import types_of
+from studio.ros.messages import types_of
 from studio.ros.node.context import Context
 from studio.ros.node.executor import SingleThreadedExecutor
 from studio.ros.node.node import Node

@@ -33,8 +33,8 @@ def take_types(location: Location, library: TypeLibrary | None = None) -> tuple[
     """
     found: list[Problem] = []
     for name, folder in _packages(location):
-        from studio.ros.messages.shared import shared_types  # noqa: PLC0415 - takes its time
-        from studio.ros.types.folders import texts_of_package  # noqa: PLC0415
+        from studio.ros.messages import shared_types  # noqa: PLC0415 - takes its time
+        from studio.ros.types.files import texts_of_package  # noqa: PLC0415
 
         try:
             # Only what is new: whoever holds a class of a type that is taken again loses it.

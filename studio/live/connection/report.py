@@ -15,7 +15,7 @@ from studio.protocol.wire import DomainView, Verdict, WireReport
 from studio.ros.graph.diagnosis import DistroHashes, foreign_hashes
 from studio.ros.graph.endpoints import GraphEndpoint, GraphNode
 from studio.ros.graph.unseen import unseen_nodes
-from studio.ros.messages.shared import types_of
+from studio.ros.messages import types_of
 from studio.ros.profiles import PROFILES
 from studio.ros.tokens import ADMIN_SPACE, EndpointToken, NodeToken, parse_token
 from studio.ros.wire.door import standing_tokens

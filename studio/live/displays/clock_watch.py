@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Final
 from studio.errors import CdrError
 from studio.ros.cdr import Codec
 from studio.ros.duration import NANOSECONDS
-from studio.ros.messages.shared import shared_types
+from studio.ros.messages import shared_types
 from studio.ros.qos import QoSProfile, ReliabilityPolicy
 
 if TYPE_CHECKING:

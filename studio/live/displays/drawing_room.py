@@ -24,7 +24,7 @@ from studio.protocol.live import (
     PropertyView,
     Remark,
 )
-from studio.ros.messages.shared import shared_types
+from studio.ros.messages import shared_types
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

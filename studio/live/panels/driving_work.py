@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from studio.live.panels.requests import wire_name
 from studio.ros.remote.known_types import known_message
-from studio.ros.types.plain import from_dict
+from studio.ros.types.convert import from_dict
 
 if TYPE_CHECKING:
     from studio.live.connection.link import WireLink

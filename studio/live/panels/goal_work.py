@@ -24,8 +24,7 @@ from studio.ros.action.client import ActionClient
 from studio.ros.action.states import GoalStatus
 from studio.ros.names import full_type_name
 from studio.ros.remote.known_types import known_action
-from studio.ros.types.json_texts import to_json
-from studio.ros.types.plain import from_yaml
+from studio.ros.types.convert import from_yaml, to_json
 
 if TYPE_CHECKING:
     from collections.abc import Callable

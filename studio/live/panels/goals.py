@@ -70,7 +70,7 @@ class Goal:
 
     def view(self, *, is_whole: bool) -> GoalView:
         """As the page is told: with all feedback that is kept, or with what is new."""
-        from studio.ros.types.json_texts import to_json  # noqa: PLC0415 - takes its time
+        from studio.ros.types.convert import to_json  # noqa: PLC0415 - takes its time
 
         kept = [one for one in tuple(self.kept) if is_whole or one[0] > self.told]
         if not is_whole and kept:

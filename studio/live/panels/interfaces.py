@@ -76,7 +76,7 @@ class InterfaceDesk:
 
     def library(self) -> TypeLibrary:
         """Give the types that are known; the first time in a thread, for it takes its time."""
-        from studio.ros.messages.shared import shared_types  # noqa: PLC0415 - takes its time
+        from studio.ros.messages import shared_types  # noqa: PLC0415 - takes its time
 
         link = self._wire.current
         return shared_types() if link is None else link.types
@@ -92,7 +92,7 @@ class InterfaceDesk:
         )
 
     def _add(self, command: AddInterfaces) -> InterfacesAdded:
-        from studio.ros.types.folders import InterfaceTexts  # noqa: PLC0415
+        from studio.ros.types.files import InterfaceTexts  # noqa: PLC0415
 
         library = self.library()
         faults: dict[str, InterfaceTextError] = {}
@@ -129,8 +129,8 @@ class InterfaceDesk:
     def _commented(self, message: Message, library: TypeLibrary) -> Message:
         """Give the same message with the comments that a node told."""
         from studio.ros.types.definitions import messages_of  # noqa: PLC0415
-        from studio.ros.types.learning import owner_of  # noqa: PLC0415
-        from studio.ros.types.parser import parse_interface  # noqa: PLC0415
+        from studio.ros.types.interface_text import parse_interface  # noqa: PLC0415
+        from studio.ros.types.type_descriptions import owner_of  # noqa: PLC0415
 
         owner = owner_of(message.name)
         text = self._texts.get(owner)

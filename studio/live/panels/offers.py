@@ -65,9 +65,8 @@ class OfferDesk:
         return ValuesRead(request=command.request, values=values)
 
     def _read(self, command: ReadValues) -> str:
+        from studio.ros.types.convert import from_yaml, plain_json  # noqa: PLC0415
         from studio.ros.types.definitions import messages_of  # noqa: PLC0415 - take their time
-        from studio.ros.types.json_texts import plain_json  # noqa: PLC0415
-        from studio.ros.types.plain import from_yaml  # noqa: PLC0415
         from studio.ros.types.yaml_texts import read_yaml  # noqa: PLC0415
 
         library = self._interfaces.library()

@@ -15,7 +15,7 @@ from studio.ros.parameters.messages import value_of
 from studio.ros.parameters.parameter import Parameter
 from studio.ros.parameters.values import ParameterType, read_value
 from studio.ros.remote.async_parameters import AsyncParameterClient
-from studio.ros.types.json_texts import plain_json
+from studio.ros.types.convert import plain_json
 from studio.ros.types.yaml_texts import read_yaml
 
 if TYPE_CHECKING:

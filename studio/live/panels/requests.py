@@ -22,8 +22,7 @@ from studio.errors import (
 )
 from studio.ros.names import check_full_name, full_type_name
 from studio.ros.remote.known_types import known_service
-from studio.ros.types.json_texts import to_json
-from studio.ros.types.plain import from_yaml
+from studio.ros.types.convert import from_yaml, to_json
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -14,7 +14,7 @@ from studio.ros.action.names import ActionNames
 from studio.ros.action.qos import FEEDBACK_QOS, ActionQos
 from studio.ros.action.result_wait import ResultWait
 from studio.ros.action.states import GoalStatus
-from studio.ros.node.codecs import check_kind
+from studio.ros.cdr import check_kind
 from studio.ros.node.future import Future
 from studio.ros.node.service_client import SERVICE_TIMEOUT_S
 from studio.ros.qos import (

@@ -6,7 +6,7 @@ import uuid
 from typing import TYPE_CHECKING
 
 from studio.ros.action.cancelling import GOAL_ID_BYTES
-from studio.ros.types.arrays import said
+from studio.ros.types.classes import shown
 
 if TYPE_CHECKING:
     from studio.ros.types.classes import MessageValue
@@ -32,5 +32,5 @@ def goal_id_message(types: TypeLibrary, goal_id: bytes) -> MessageValue:
         ValueError: It has not 16 bytes.
     """
     if len(goal_id) != GOAL_ID_BYTES:
-        raise ValueError(f"a goal has an id of {GOAL_ID_BYTES} bytes, not {said(goal_id)}")
+        raise ValueError(f"a goal has an id of {GOAL_ID_BYTES} bytes, not {shown(goal_id)}")
     return types.message(UUID)(uuid=goal_id)

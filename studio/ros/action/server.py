@@ -23,7 +23,7 @@ from studio.ros.action.qos import FEEDBACK_QOS, ActionQos
 from studio.ros.action.server_goal import ServerGoalHandle
 from studio.ros.action.server_goals import ServerGoals
 from studio.ros.action.states import GoalEvent, GoalStatus, can_follow
-from studio.ros.node.codecs import check_kind
+from studio.ros.cdr import check_kind
 from studio.ros.node.future import Future
 from studio.ros.node.later import Later
 from studio.ros.node.time import stamp_ns

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 
 from studio.errors import AlreadyJoinedError, NotJoinedError
 from studio.ros.graph.graph import Graph
-from studio.ros.messages import shared_types
-from studio.ros.messages.shared import types_of
+from studio.ros.messages import shared_types, types_of
 from studio.ros.node.arguments import RosArguments, parse_arguments
 from studio.ros.node.drain import Drain, Source
 from studio.ros.wire.opening import open_wire

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from studio.ros.describing import START_PARAMETER, serve_descriptions
 from studio.ros.duration import NANOSECONDS
 from studio.ros.node.context import default_context
 from studio.ros.node.events import CountEvent, events_of
@@ -15,7 +15,6 @@ from studio.ros.node.publisher import Publisher
 from studio.ros.node.qos_overrides import overridden
 from studio.ros.node.rate import Rate
 from studio.ros.node.rosout import RosoutPublisher
-from studio.ros.node.same_types import check_same_type
 from studio.ros.node.service import Service
 from studio.ros.node.service_client import SERVICE_TIMEOUT_S, Client
 from studio.ros.node.subscription import Subscription
@@ -29,6 +28,13 @@ from studio.ros.qos import (
     qos_profile_services_default,
 )
 from studio.ros.tokens import EndpointKind
+from studio.ros.types.library import check_same_type
+from studio.ros.types.type_descriptions import (
+    DESCRIPTION_SERVICE,
+    DESCRIPTION_SERVICE_PARAMETER,
+    DESCRIPTION_SERVICE_TYPE,
+    fill_description,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
@@ -36,12 +42,12 @@ if TYPE_CHECKING:
     from studio.ros.event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks
     from studio.ros.node.clock import Clock
     from studio.ros.node.context import Context
-    from studio.ros.node.kinds import ServiceKind
     from studio.ros.node.subscription import MessageCallback
     from studio.ros.node.work import CallbackGroup, Work
     from studio.ros.parameters.parameter import Parameter
     from studio.ros.qos_overriding_options import QoSOverridingOptions
     from studio.ros.types.classes import MessageValue
+    from studio.ros.types.library import ServiceKind
 
 
 class Node(GraphQueries, NodeParameters):
@@ -288,8 +294,15 @@ class Node(GraphQueries, NodeParameters):
         if not self._wire.profile.has_type_hash:
             return
         fixed = self._wire.types.message(DESCRIPTOR)(read_only=True)
-        if self.declare_parameter(START_PARAMETER, value=True, descriptor=fixed).value:
-            serve_descriptions(self, self._wire.types)
+        if self.declare_parameter(
+            DESCRIPTION_SERVICE_PARAMETER, value=True, descriptor=fixed
+        ).value:
+            types = self._wire.types
+            self.create_service(
+                types.service(DESCRIPTION_SERVICE_TYPE),
+                f"~/{DESCRIPTION_SERVICE}",
+                partial(fill_description, types),
+            )
 
     def _follow_sim_time(self, parameters: list[Parameter]) -> None:
         for parameter in parameters:

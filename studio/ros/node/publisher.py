@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from studio.errors import DestroyedError
 from studio.ros.attachment import packed
-from studio.ros.node.codecs import check_kind, codec_of
+from studio.ros.cdr import check_kind, codec_of
 from studio.ros.qos import DEPTH_DEFAULT, DurabilityPolicy, HistoryPolicy, ReliabilityPolicy
 from studio.ros.types.classes import definition_of
 from studio.ros.wire.door import declare_publisher

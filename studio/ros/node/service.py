@@ -15,7 +15,7 @@ import zenoh
 
 from studio.errors import AttachmentError, CdrError
 from studio.ros.attachment import Attachment, packed, unpack
-from studio.ros.node.codecs import check_kind, codec_of
+from studio.ros.cdr import check_kind, codec_of
 from studio.ros.node.logger import get_logger
 from studio.ros.node.work import Work
 from studio.ros.qos import DEPTH_DEFAULT
@@ -26,9 +26,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine
 
     from studio.ros.node.endpoint import Endpoint
-    from studio.ros.node.kinds import ServiceKind
     from studio.ros.node.work import CallbackGroup
     from studio.ros.qos import QoSProfile
+    from studio.ros.types.library import ServiceKind
     from studio.ros.wire.door import Asked, Incoming
 
 _RING = 4_096

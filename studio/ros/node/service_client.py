@@ -22,7 +22,7 @@ from studio.errors import (
     WireError,
 )
 from studio.ros.attachment import packed, unpack
-from studio.ros.node.codecs import check_kind, codec_of
+from studio.ros.cdr import check_kind, codec_of
 from studio.ros.node.future import Future
 from studio.ros.node.work import Work
 from studio.ros.types.classes import definition_of
@@ -32,11 +32,11 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from studio.ros.node.endpoint import Endpoint
-    from studio.ros.node.kinds import ServiceKind
     from studio.ros.node.node import Node
     from studio.ros.node.work import CallbackGroup
     from studio.ros.qos import QoSProfile
     from studio.ros.types.classes import MessageValue
+    from studio.ros.types.library import ServiceKind
     from studio.ros.wire.door import Asking
 
 SERVICE_TIMEOUT_S = 600.0

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Self
 
 from studio.errors import AttachmentError, CdrError
 from studio.ros.attachment import unpack
-from studio.ros.node.codecs import codec_of
+from studio.ros.cdr import codec_of
 from studio.ros.node.future import Future
 from studio.ros.node.inbox import Inbox, RawSample
 from studio.ros.node.info import MessageInfo, info_of, wants_info

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, cast
 from studio.errors import InvalidParameterTypeError, ParameterFileError
 from studio.ros.parameters.parameter import Parameter
 from studio.ros.parameters.values import ParameterType
-from studio.ros.types.arrays import said
+from studio.ros.types.classes import shown
 from studio.ros.types.yaml_texts import read_yaml, write_yaml
 
 if TYPE_CHECKING:
@@ -47,7 +47,7 @@ def read_parameters(
     except ValueError as error:
         raise ParameterFileError(where, str(error)) from None
     if not isinstance(tree, dict):
-        raise ParameterFileError(where, f"names of nodes are expected, not {said(tree)}")
+        raise ParameterFileError(where, f"names of nodes are expected, not {shown(tree)}")
     found: dict[str, Parameter] = {}
     for path, values in _sections(cast("dict[object, object]", tree), "", where):
         if ("*" not in path or wildcards) and _matches(_parts(path), _parts(node)):
@@ -83,7 +83,7 @@ def _sections(tree: dict[object, object], above: str, where: str) -> Iterator[tu
 
 def _flat(values: object, above: str, where: str, level: int) -> Iterator[tuple[str, object]]:
     if not isinstance(values, dict):
-        raise ParameterFileError(where, f"{PARAMETERS_KEY} holds {said(values)}, no parameters")
+        raise ParameterFileError(where, f"{PARAMETERS_KEY} holds {shown(values)}, no parameters")
     if level > LEVELS_MAX:
         raise ParameterFileError(where, f"parameters lie deeper than {LEVELS_MAX} levels")
     for key, value in cast("dict[object, object]", values).items():

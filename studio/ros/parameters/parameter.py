@@ -12,7 +12,7 @@ from studio.ros.parameters.messages import (
     value_of,
 )
 from studio.ros.parameters.values import ParameterType, plain, type_of
-from studio.ros.types.arrays import said
+from studio.ros.types.classes import shown
 
 if TYPE_CHECKING:
     from studio.ros.types.classes import MessageValue
@@ -38,7 +38,7 @@ class Parameter:
         self._value: Any = plain(value)
         self._type = type_of(name, value) if type_ is None else ParameterType(type_)
         if not self._type.check(value):
-            raise InvalidParameterTypeError(name, f"{said(value)} is no {self._type.words}")
+            raise InvalidParameterTypeError(name, f"{shown(value)} is no {self._type.words}")
 
     @property
     def name(self) -> str:

@@ -7,7 +7,7 @@ from enum import IntEnum
 from typing import TYPE_CHECKING, Any, cast
 
 from studio.errors import InvalidParameterTypeError
-from studio.ros.types.arrays import said
+from studio.ros.types.classes import shown
 from studio.ros.types.yaml_texts import read_yaml
 
 if TYPE_CHECKING:
@@ -66,7 +66,7 @@ def type_of(name: str, value: object) -> ParameterType:
         raise InvalidParameterTypeError(name, "whole numbers have at most 64 bits")
     raise InvalidParameterTypeError(
         name,
-        f"{said(value)} is neither true, false, a number, a text nor a list of one kind of these",
+        f"{shown(value)} is neither true, false, a number, a text nor a list of one kind of these",
     )
 
 

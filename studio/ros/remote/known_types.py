@@ -6,9 +6,9 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, TypeVar
 
 from studio.errors import StudioError, UnknownTypeError
-from studio.ros.describing import SERVICE_NAME
 from studio.ros.graph.actions import goal_service
 from studio.ros.remote.type_asking import learn_from, texts_from
+from studio.ros.types.type_descriptions import DESCRIPTION_SERVICE
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -57,7 +57,7 @@ def learn_from_any(node: Node, endpoints: Iterable[GraphEndpoint], say: Say) -> 
     """
     for endpoint in endpoints:
         path = endpoint.node.path
-        if not node.graph.has_server(f"{path}/{SERVICE_NAME}"):  # asking would wait for it
+        if not node.graph.has_server(f"{path}/{DESCRIPTION_SERVICE}"):  # asking would wait for it
             say(f"{path} does not tell what its types are made of.")
             continue
         try:
@@ -71,7 +71,7 @@ def learn_from_any(node: Node, endpoints: Iterable[GraphEndpoint], say: Say) -> 
 def texts_of_any(node: Node, endpoints: Iterable[GraphEndpoint]) -> dict[str, str]:
     """Ask the nodes of endpoints in turn until one tells how its type is written; by name."""
     for endpoint in endpoints:
-        if node.graph.has_server(f"{endpoint.node.path}/{SERVICE_NAME}"):
+        if node.graph.has_server(f"{endpoint.node.path}/{DESCRIPTION_SERVICE}"):
             with suppress(StudioError):
                 return texts_from(node, endpoint)
     return {}

@@ -5,10 +5,16 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from studio.errors import TypeDescriptionError
-from studio.ros.describing import SERVICE_NAME, SERVICE_TYPE
 from studio.ros.profiles import NO_HASH
 from studio.ros.remote.waiting import TIMEOUT_S, asked
-from studio.ros.types.learning import ACTION_QUESTIONS, learn, owner_of, written
+from studio.ros.types.type_descriptions import (
+    ACTION_QUESTIONS,
+    DESCRIPTION_SERVICE,
+    DESCRIPTION_SERVICE_TYPE,
+    learn,
+    matching_sources,
+    owner_of,
+)
 
 if TYPE_CHECKING:
     from studio.ros.graph.endpoints import GraphEndpoint
@@ -38,7 +44,7 @@ def texts_from(node: Node, endpoint: GraphEndpoint, timeout_s: float = TIMEOUT_S
     Raises:
         TypeDescriptionError, NotServedError, NoAnswerError: As `learn_from`.
     """
-    return written(node.wire.types, _told(node, endpoint, timeout_s)[1])
+    return matching_sources(node.wire.types, _told(node, endpoint, timeout_s)[1])
 
 
 def _told(
@@ -49,7 +55,8 @@ def _told(
     if endpoint.type_hash == NO_HASH:
         raise TypeDescriptionError(name, "nodes of Humble do not describe their types")
     client = node.create_client(
-        node.wire.types.service(SERVICE_TYPE), f"{endpoint.node.path}/{SERVICE_NAME}"
+        node.wire.types.service(DESCRIPTION_SERVICE_TYPE),
+        f"{endpoint.node.path}/{DESCRIPTION_SERVICE}",
     )
     descriptions: dict[str, tuple[str, MessageValue]] = {}
     texts: list[MessageValue] = []

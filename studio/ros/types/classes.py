@@ -1,22 +1,42 @@
-"""Classes of message values: one per type, with defaults, constants and keyword constructors."""
+"""Message classes, one for each type: fields, constants, defaults, and checks of what fields hold.
+
+Fields of numbers hold numpy arrays, other array fields hold lists.
+"""
 
 from __future__ import annotations
 
 import keyword
-from operator import attrgetter
+import math
+from collections.abc import Callable, Iterable
+from numbers import Real
+from operator import attrgetter, index
 from typing import TYPE_CHECKING, Any, ClassVar, cast
 
 import numpy as np
 
-from studio.ros.types.arrays import dtype_of, keeper
-from studio.ros.types.definitions import DUMMY_FIELD, Field, Message, Shape
+from studio.errors import MessageValueError
+from studio.ros.types.definitions import (
+    DUMMY_FIELD,
+    FLOATS,
+    INTEGERS,
+    STRINGS,
+    Field,
+    FieldType,
+    Message,
+    Shape,
+)
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from numpy.typing import NDArray
 
-    from studio.ros.types.arrays import Keep
+
+Keep = Callable[[Any], Any]
+_DTYPES = {"bool": np.bool_, "byte": np.uint8, "char": np.uint8}
+_KINDS_TAKEN = {"b": "b", "i": "iu", "u": "iu", "f": "fiu"}
+
 
 _SCALARS: dict[str, object] = {"bool": False, "string": "", "wstring": ""}
+_FLOAT32_MAX = 3.4028235677973366e38
 
 
 class MessageKind(type):
@@ -72,6 +92,19 @@ def attributes_of(value: MessageValue | type[MessageValue]) -> tuple[str, ...]:
 def class_of_field(value: MessageValue | type[MessageValue], field: Field) -> type[MessageValue]:
     """Give the class of the messages that a field holds."""
     return value._parts[field.type.base]  # pyright: ignore[reportPrivateUsage]
+
+
+def parts_of(kind: type[MessageValue]) -> dict[str, type[MessageValue]]:
+    """Collect the classes that one is made of, itself included, by the names of their types."""
+    found = {definition_of(kind).name: kind}
+    waiting = [kind]
+    while waiting:
+        one = waiting.pop()
+        for field in definition_of(one).fields:
+            if field.type.nested and field.type.base not in found:
+                part = found[field.type.base] = class_of_field(one, field)
+                waiting.append(part)
+    return found
 
 
 def attribute_name(field: str) -> str:
@@ -218,3 +251,185 @@ def _said(value: object) -> str:
     if isinstance(value, np.ndarray):
         return repr(value.tolist())
     return repr(cast("Any", value).item() if isinstance(value, np.generic) else value)
+
+
+def check_message(message: MessageValue, where: str = "") -> None:
+    """Walk through a message, however deep.
+
+    Raises:
+        MessageValueError: A field holds what its type does not take; its path is named.
+    """
+    definition = definition_of(message)
+    for field in definition.fields:
+        path = f"{where}.{field.name}" if where else f"{definition.name} {field.name}"
+        value = getattr(message, attribute_name(field.name))
+        if field.type.shape is Shape.SINGLE:
+            _check_value(message, field, value, path)
+            continue
+        check_count(path, field.type, len(value))
+        if not field.type.numeric:
+            for number, item in enumerate(value):
+                _check_value(message, field, item, f"{path}[{number}]")
+
+
+def check_scalar(kind: FieldType, value: object, where: str) -> None:
+    """Check one number, truth value or text.
+
+    Raises:
+        MessageValueError: The type does not take it.
+    """
+    if kind.base in STRINGS:
+        _check_string(kind, value, where)
+    elif kind.base in FLOATS:
+        _check_float(kind, value, where)
+    elif kind.base in INTEGERS:
+        _check_integer(kind, value, where)
+    elif not isinstance(value, bool) and type(value).__name__ not in {"bool", "bool_"}:
+        raise MessageValueError(where, f"{shown(value)} is neither true nor false")
+
+
+def _check_value(message: MessageValue, field: Field, value: object, where: str) -> None:
+    if not field.type.nested:
+        check_scalar(field.type, value, where)
+        return
+    wanted = class_of_field(message, field)
+    if not isinstance(value, MessageValue) or definition_of(value) != definition_of(wanted):
+        raise MessageValueError(where, f"{shown(value)} is no {field.type.base}")
+    check_message(value, where)
+
+
+def _check_string(kind: FieldType, value: object, where: str) -> None:
+    if not isinstance(value, str):
+        raise MessageValueError(where, f"{shown(value)} is no text")
+    if kind.string_bound and len(value) > kind.string_bound:
+        raise MessageValueError(where, f"the text is longer than {kind.string_bound} characters")
+    try:
+        value.encode()
+    except UnicodeEncodeError:
+        raise MessageValueError(where, "the text holds half a letter, no UTF-8") from None
+
+
+def _check_float(kind: FieldType, value: object, where: str) -> None:
+    if not isinstance(value, Real):
+        raise MessageValueError(where, f"{shown(value)} is no number")
+    try:
+        number = float(value)
+    except OverflowError:
+        raise MessageValueError(where, f"{shown(value)} is too large for {kind.base}") from None
+    if kind.base == "float32" and math.isfinite(number) and abs(number) > _FLOAT32_MAX:
+        raise MessageValueError(where, f"{shown(value)} is too large for float32")
+
+
+def _check_integer(kind: FieldType, value: object, where: str) -> None:
+    try:
+        number = index(value)  # pyright: ignore[reportArgumentType]
+    except TypeError:
+        raise MessageValueError(where, f"{shown(value)} is no whole number") from None
+    low, high = INTEGERS[kind.base]
+    if not low <= number <= high:
+        raise MessageValueError(
+            where, f"{shown(value)} does not fit {kind.base}, which goes from {low} to {high}"
+        )
+
+
+def dtype_of(base: str) -> np.dtype[Any]:
+    """Give the numpy type of a numeric base type."""
+    return np.dtype(_DTYPES.get(base, base))
+
+
+def keeper(where: str, kind: FieldType) -> Keep:
+    """Make what turns a given value into the one that an array field keeps.
+
+    It raises MessageValueError, which names `where`, for what does not fit.
+    """
+    return _number_keeper(where, kind) if kind.numeric else _list_keeper(where, kind)
+
+
+def check_count(where: str, kind: FieldType, count: int) -> None:
+    """Refuse a wrong number of values.
+
+    Raises:
+        MessageValueError: An array has another length, or a bounded sequence too many.
+    """
+    if kind.shape is Shape.ARRAY and count != kind.count:
+        raise MessageValueError(where, f"{kind.count} values are needed, {count} were given")
+    if kind.shape is Shape.BOUNDED and count > kind.count:
+        raise MessageValueError(where, f"at most {kind.count} values fit, {count} were given")
+
+
+def _number_keeper(where: str, kind: FieldType) -> Keep:
+    dtype = dtype_of(kind.base)
+    counted = kind.shape is not Shape.SEQUENCE
+    array_type = np.ndarray
+
+    def keep(value: Any) -> NDArray[Any]:  # noqa: ANN401
+        if not (
+            type(value) is array_type
+            and value.dtype == dtype
+            and value.ndim == 1
+            and value.flags.c_contiguous
+        ):
+            value = _as_array(where, kind, value, dtype)
+        if counted:
+            check_count(where, kind, len(value))
+        return value
+
+    return keep
+
+
+def _as_array(where: str, kind: FieldType, value: object, dtype: np.dtype[Any]) -> NDArray[Any]:
+    if isinstance(value, (bytes, bytearray, memoryview)) and dtype.itemsize == 1:
+        return np.frombuffer(cast("bytes", value), dtype=dtype)
+    if isinstance(value, (str, dict, bytes)) or not isinstance(value, Iterable):
+        raise MessageValueError(where, f"{shown(value)} is no list of {kind.base}")
+    found = _given_array(where, kind, cast("Iterable[object]", value))
+    if found.size and (found.ndim != 1 or found.dtype.kind not in _KINDS_TAKEN[dtype.kind]):
+        raise MessageValueError(where, f"{shown(value)} is no list of {kind.base}")
+    if found.ndim != 1:
+        found = found.reshape(-1)
+    _check_range(where, kind, found, dtype)
+    with np.errstate(over="ignore"):
+        return np.ascontiguousarray(found.astype(dtype))
+
+
+def _given_array(where: str, kind: FieldType, value: Iterable[object]) -> NDArray[Any]:
+    try:
+        return np.asarray(cast("Any", value) if isinstance(value, np.ndarray) else list(value))
+    except (ValueError, TypeError, OverflowError):
+        raise MessageValueError(where, f"{shown(value)} is no list of {kind.base}") from None
+
+
+def _check_range(where: str, kind: FieldType, found: NDArray[Any], dtype: np.dtype[Any]) -> None:
+    if not found.size or dtype.kind not in "iu":
+        return
+    limits = np.iinfo(dtype)
+    if int(found.min()) < limits.min or int(found.max()) > limits.max:
+        raise MessageValueError(
+            where, f"{kind.base} goes from {limits.min} to {limits.max}, a value does not fit"
+        )
+
+
+def _list_keeper(where: str, kind: FieldType) -> Keep:
+    counted = kind.shape is not Shape.SEQUENCE
+
+    def keep(value: Any) -> list[object]:  # noqa: ANN401
+        if type(value) is not list:
+            if isinstance(value, (str, bytes, dict)) or not isinstance(value, Iterable):
+                raise MessageValueError(where, f"{shown(value)} is no list of {kind.base}")
+            value = list(cast("Iterable[object]", value))
+        kept = cast("list[object]", value)
+        if counted:
+            check_count(where, kind, len(kept))
+        return kept
+
+    return keep
+
+
+def shown(value: Any) -> str:  # noqa: ANN401  # of any type, known in part or not
+    """Show a value within a sentence, cut where it is long."""
+    try:
+        shown = repr(value)
+    except ValueError:
+        # Python writes no number of more than 4300 digits.
+        return "a number too long to show"
+    return shown if len(shown) <= 60 else f"{shown[:57]}..."

@@ -1,4 +1,4 @@
-"""All types that are known: the distribution's, those that the studio carries, and users' own."""
+"""The type library: all known types of a distribution, of the studio and of the user."""
 
 from __future__ import annotations
 
@@ -6,30 +6,35 @@ import re
 import threading
 from dataclasses import dataclass, field
 from functools import cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
-from studio.errors import InterfaceTextError, RosNameError, UnknownTypeError
+from studio.errors import InterfaceTextError, OtherTypeError, RosNameError, UnknownTypeError
 from studio.interfaces import carried_texts
 from studio.ros.names import split_type_name
-from studio.ros.types.calls import (
-    event_of,
-    feedback_message_of,
-    get_result_of,
-    send_goal_of,
-    whole_of,
-    whole_of_action,
+from studio.ros.types.classes import MessageValue, definition_of, make_class, parts_of
+from studio.ros.types.definitions import (
+    Action,
+    Interface,
+    Message,
+    Service,
+    action_as_message,
+    check_sizes,
+    feedback_message,
+    get_result_service,
+    messages_of,
+    send_goal_service,
+    service_as_message,
+    service_event,
 )
-from studio.ros.types.classes import MessageValue, make_class
-from studio.ros.types.definitions import Action, Interface, Message, Service, messages_of
-from studio.ros.types.hashes import type_hash
-from studio.ros.types.limits import check_sizes
-from studio.ros.types.parser import parse_interface
-from studio.ros.types.stores import MessageStore
+from studio.ros.types.interface_text import parse_interface
+from studio.ros.types.rosbags import MessageStore
+from studio.ros.types.type_hash import type_hash
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
-    from studio.ros.types.folders import InterfaceTexts
+    from studio.ros.types.files import InterfaceTexts
+
 
 # What nodes themselves speak: a text that says otherwise would cut them off from all others.
 _SETTLED = {
@@ -43,6 +48,25 @@ _SETTLED = {
     "unique_identifier_msgs",
 }
 TEXTS_MAX = 20_000
+
+
+class ServiceKind(Protocol):
+    """A service as `studio.ros.messages` gives it: its name, and the classes of its two parts."""
+
+    @property
+    def name(self) -> str:
+        """The full name, `std_srvs/srv/Trigger`."""
+        ...
+
+    @property
+    def Request(self) -> type[MessageValue]:  # noqa: N802  # rclpy's name
+        """The class of requests."""
+        ...
+
+    @property
+    def Response(self) -> type[MessageValue]:  # noqa: N802  # rclpy's name
+        """The class of responses."""
+        ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -336,9 +360,24 @@ class TypeLibrary:
                 continue
 
 
-def _plain(name: str) -> str:
-    """Give a name as it is compared with those that break the rules of names."""
-    return re.sub(r"[^a-z0-9/]", "", name.lower())
+def check_same_type(types: TypeLibrary, kind: type[MessageValue]) -> str:
+    """Give the full name of a class's type.
+
+    Raises:
+        OtherTypeError: The library means something else by the name: the class is another
+            distribution's, or was made before its text changed.
+        UnknownTypeError: The library knows no such type.
+    """
+    name = definition_of(kind).name
+    if types.hash_of(name) != _hash_of_class(kind):
+        raise OtherTypeError(name, types.distro)
+    return name
+
+
+@cache
+def _hash_of_class(kind: type[MessageValue]) -> str:
+    parts = parts_of(kind)
+    return type_hash(definition_of(kind), lambda name: definition_of(parts[name]))
 
 
 def _all_messages(interface: Interface) -> list[Message]:
@@ -346,14 +385,18 @@ def _all_messages(interface: Interface) -> list[Message]:
         case Message():
             return [interface]
         case Service():
-            return [*messages_of(interface), event_of(interface), whole_of(interface)]
+            return [
+                *messages_of(interface),
+                service_event(interface),
+                service_as_message(interface),
+            ]
         case Action():
-            calls = (send_goal_of(interface), get_result_of(interface))
+            calls = (send_goal_service(interface), get_result_service(interface))
             return [
                 *messages_of(interface),
                 *(message for call in calls for message in _all_messages(call)),
-                feedback_message_of(interface),
-                whole_of_action(interface),
+                feedback_message(interface),
+                action_as_message(interface),
             ]
 
 
@@ -376,3 +419,8 @@ def _alike(one: Message, other: Message) -> bool:
     return [(field.name, field.type) for field in one.fields] == [
         (field.name, field.type) for field in other.fields
     ]
+
+
+def _plain(name: str) -> str:
+    """Give a name as it is compared with those that break the rules of names."""
+    return re.sub(r"[^a-z0-9/]", "", name.lower())

@@ -4,8 +4,8 @@ import pytest
 
 from studio.cli.topic.field_path import field_at, field_text
 from studio.errors import MessageValueError
+from studio.ros.types.convert import Brevity, from_dict
 from studio.ros.types.library import TypeLibrary
-from studio.ros.types.plain import Brevity, from_dict
 
 TYPES = TypeLibrary("jazzy")
 STATE = from_dict(

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from studio.cli.topic.filter_expression import filter_of
 from studio.errors import MessageValueError, SettingsError
 from studio.ros.messages import message
-from studio.ros.types.plain import from_yaml
+from studio.ros.types.convert import from_yaml
 
 STATE = from_yaml(
     message("sensor_msgs/msg/JointState"),

@@ -15,6 +15,6 @@ def library(monkeypatch: pytest.MonkeyPatch) -> TypeLibrary:
     def types_of(_: str) -> TypeLibrary:
         return made
 
-    for place in ("studio.ros.messages.shared", "studio.live.connection.link"):
+    for place in ("studio.ros.messages", "studio.live.connection.link"):
         monkeypatch.setattr(f"{place}.types_of", types_of)
     return made

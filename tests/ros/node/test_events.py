@@ -6,6 +6,7 @@ import pytest
 
 from studio.errors import UnsupportedEventTypeError
 from studio.ros.attachment import Attachment
+from studio.ros.cdr import codec_of
 from studio.ros.event_handler import (
     CountInfo,
     MatchedInfo,
@@ -13,7 +14,6 @@ from studio.ros.event_handler import (
     SubscriptionEventCallbacks,
 )
 from studio.ros.messages import message
-from studio.ros.node.codecs import codec_of
 from studio.ros.wire.door import declare_publisher
 from tests.support.node_pair import node_pair, spin_until
 from tests.support.wire import wait_until

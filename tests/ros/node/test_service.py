@@ -10,8 +10,8 @@ import zenoh
 
 from studio.errors import MessageValueError, NotServedError
 from studio.ros.attachment import Attachment, unpack
+from studio.ros.cdr import codec_of
 from studio.ros.messages import service
-from studio.ros.node.codecs import codec_of
 from studio.ros.node.future import Future
 from studio.ros.node.spinning import spinning
 from studio.ros.node.work import ReentrantCallbackGroup

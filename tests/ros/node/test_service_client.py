@@ -15,8 +15,8 @@ from studio.errors import (
     NotServedError,
 )
 from studio.ros.attachment import Attachment
+from studio.ros.cdr import codec_of
 from studio.ros.messages import message, service
-from studio.ros.node.codecs import codec_of
 from studio.ros.node.future import Future
 from studio.ros.node.spinning import spinning
 from studio.ros.node.work import ReentrantCallbackGroup

@@ -7,10 +7,10 @@ import pytest
 
 from studio.errors import TypeDescriptionError
 from studio.ros.action import ActionClient, ActionServer
-from studio.ros.describing import SERVICE_TYPE, fill_description
 from studio.ros.remote import learn_from
 from studio.ros.remote.waiting import asked
 from studio.ros.types.library import TypeLibrary
+from studio.ros.types.type_descriptions import DESCRIPTION_SERVICE_TYPE, fill_description
 from tests.support.demos import node_at
 from tests.support.goals import finished
 from tests.support.wire import running_router, wait_until
@@ -114,7 +114,7 @@ def test_a_node_of_humble_describes_nothing(peers: Peers):
 
 def test_a_node_that_lies_teaches_nothing(peers: Peers):
     node, peer = peers.node, peers.peer
-    kind = peer.wire.types.service(SERVICE_TYPE)
+    kind = peer.wire.types.service(DESCRIPTION_SERVICE_TYPE)
 
     def lie(request: Any, response: Any) -> Any:  # noqa: ANN401
         response = fill_description(peer.wire.types, request, response)

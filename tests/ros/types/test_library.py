@@ -8,7 +8,7 @@ from studio.errors import InterfaceTextError, RosNameError, UnknownTypeError
 from studio.ros.profiles import PROFILES
 from studio.ros.types.classes import definition_of
 from studio.ros.types.definitions import Service
-from studio.ros.types.folders import InterfaceTexts
+from studio.ros.types.files import InterfaceTexts
 from studio.ros.types.library import TypeLibrary
 
 

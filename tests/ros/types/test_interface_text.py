@@ -18,7 +18,7 @@ from studio.ros.types.definitions import (
     Shape,
     messages_of,
 )
-from studio.ros.types.parser import TEXT_BYTES_MAX, parse_interface
+from studio.ros.types.interface_text import TEXT_BYTES_MAX, parse_interface
 
 
 def message(text: str) -> Message:

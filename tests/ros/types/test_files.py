@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.errors import RosNameError, UnreadableFileError
-from studio.ros.types.folders import read_text, texts_of_package
+from studio.ros.types.files import read_text, texts_of_package
+from studio.ros.types.interface_text import TEXT_BYTES_MAX
 from studio.ros.types.library import TypeLibrary
-from studio.ros.types.parser import TEXT_BYTES_MAX
 
 if TYPE_CHECKING:
     from pathlib import Path

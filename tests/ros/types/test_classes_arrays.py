@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from studio.errors import MessageValueError
-from studio.ros.types.arrays import check_count, dtype_of, keeper
+from studio.ros.types.classes import check_count, dtype_of, keeper
 from studio.ros.types.definitions import INTEGERS, FieldType, Shape
 
 

@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.errors import TypeDescriptionError
-from studio.ros.types.learning import described, learn, owner_of, sources
 from studio.ros.types.library import TypeLibrary
+from studio.ros.types.type_descriptions import describe_type, learn, owner_of, type_sources
 
 if TYPE_CHECKING:
     from studio.ros.types.classes import MessageValue
@@ -24,7 +24,7 @@ PEER.add_texts(
 
 
 def asked(name: str) -> dict[str, tuple[str, MessageValue]]:
-    return {name: (PEER.hash_of(name), described(PEER, name))}
+    return {name: (PEER.hash_of(name), describe_type(PEER, name))}
 
 
 def test_a_message_and_what_it_is_made_of_is_learned():
@@ -70,7 +70,7 @@ def test_an_action_is_learned_from_its_three_parts():
 def test_texts_of_the_node_are_kept_where_they_say_the_same():
     library = TypeLibrary("jazzy")
     name = "my_pkg/msg/Outer"
-    learn(library, name, asked(name), sources(PEER, name))
+    learn(library, name, asked(name), type_sources(PEER, name))
     assert library.text_of("my_pkg/msg/Inner") == PEER.text_of("my_pkg/msg/Inner")
     assert library.message("my_pkg/msg/Inner").FIRST == 1
 
@@ -78,7 +78,7 @@ def test_texts_of_the_node_are_kept_where_they_say_the_same():
 @pytest.mark.parametrize("text", ["int32 other\n", "((", "float32[4] values\n", "x" * 2_000_000])
 def test_a_text_that_says_otherwise_is_passed_over(text: str):
     library = TypeLibrary("jazzy")
-    given = sources(PEER, "my_pkg/msg/Inner")
+    given = type_sources(PEER, "my_pkg/msg/Inner")
     given[0].raw_file_contents = text
     learn(library, "my_pkg/msg/Inner", asked("my_pkg/msg/Inner"), given)
     assert library.text_of("my_pkg/msg/Inner") == "float32[3] values\n"
@@ -97,15 +97,15 @@ def test_a_wrong_hash_teaches_nothing():
     library = TypeLibrary("jazzy")
     name = "my_pkg/msg/Inner"
     with pytest.raises(TypeDescriptionError, match="its hash is"):
-        learn(library, name, {name: ("RIHS01_" + "0" * 64, described(PEER, name))})
+        learn(library, name, {name: ("RIHS01_" + "0" * 64, describe_type(PEER, name))})
     assert name not in library.names()
 
 
 def test_sources_are_those_of_all_parts_with_what_they_are():
-    told = {one.type_name: one.encoding for one in sources(PEER, "my_pkg/srv/Ask")}
+    told = {one.type_name: one.encoding for one in type_sources(PEER, "my_pkg/srv/Ask")}
     assert told["my_pkg/srv/Ask"] == "srv"
     assert told["my_pkg/msg/Inner"] == "msg"
-    assert "float64 x" in sources(PEER, "geometry_msgs/msg/Point")[0].raw_file_contents
+    assert "float64 x" in type_sources(PEER, "geometry_msgs/msg/Point")[0].raw_file_contents
 
 
 def test_parts_belong_to_the_text_that_defines_them():

@@ -4,14 +4,14 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio.ros.describing import SERVICE_TYPE, fill_description
 from studio.ros.types.library import TypeLibrary
+from studio.ros.types.type_descriptions import DESCRIPTION_SERVICE_TYPE, fill_description
 
 if TYPE_CHECKING:
     from studio.ros.types.classes import MessageValue
 
 LIBRARY = TypeLibrary("jazzy")
-SERVICE = LIBRARY.service(SERVICE_TYPE)
+SERVICE = LIBRARY.service(DESCRIPTION_SERVICE_TYPE)
 TWIST = "geometry_msgs/msg/Twist"
 
 

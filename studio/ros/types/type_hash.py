@@ -1,4 +1,4 @@
-"""RIHS01: the hash of a type that stands in keys from Iron on, as REP-2016 makes it."""
+"""RIHS01, the hash of a type that is part of keys since Iron, as REP-2016 defines it."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from studio.ros.types.definitions import DUMMY_FIELD, Field, FieldType, Message,
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
 
 # `char` of a .msg is an unsigned byte by the time that it is described.
 TYPE_IDS = {

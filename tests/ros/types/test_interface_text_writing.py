@@ -3,9 +3,8 @@ from __future__ import annotations
 import pytest
 
 from studio.ros.types.definitions import Interface, messages_of
+from studio.ros.types.interface_text import full_text_of, kind_of, parse_interface, text_of
 from studio.ros.types.library import TypeLibrary
-from studio.ros.types.parser import parse_interface
-from studio.ros.types.writing import full_text_of, kind_of, text_of
 
 LIBRARY = TypeLibrary("jazzy")
 

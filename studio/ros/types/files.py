@@ -1,4 +1,4 @@
-"""Interface texts of a package folder, read as they lie there: nothing is built."""
+"""Interface files of a package, of a folder of packages, or of what STUDIO_INTERFACES names."""
 
 from __future__ import annotations
 
@@ -7,16 +7,32 @@ import re
 import stat
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
+from xml.etree import ElementTree
 
-from studio.errors import InterfaceTextError, RosNameError, UnreadableFileError
+from studio.errors import (
+    InterfaceTextError,
+    RosNameError,
+    StudioError,
+    UnreadableFileError,
+    WireSettingsError,
+)
 from studio.ros.names import KINDS, check_package_name, split_type_name
-from studio.ros.types.parser import TEXT_BYTES_MAX
+from studio.ros.types.interface_text import TEXT_BYTES_MAX
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable, Iterator, Mapping
+
+    from studio.ros.types.library import TypeLibrary
+
 
 FILES_MAX = 5_000
+_MANIFEST = "package.xml"
+_PACKAGE_NAME = re.compile(r"[A-Za-z0-9_.-]{1,200}")
+
+
+VARIABLE = "STUDIO_INTERFACES"
+"""Of the environment: paths as PATH has them, whose types every node of the process knows."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,3 +139,93 @@ def _rename(path: Path, error: RosNameError) -> str:
     better = "".join(word[:1].upper() + word[1:] for word in words).lstrip("0123456789")
     mend = f": call it {better[:1].upper()}{better[1:]}{path.suffix}" if better else ""
     return f"its name defines no type, {error.reason}{mend}"
+
+
+def add_own_types(library: TypeLibrary, environment: Mapping[str, str] = os.environ) -> None:
+    """Take up the types that the environment names; why a text is not one, the library says.
+
+    Raises:
+        WireSettingsError: One of the paths is not there, or holds no types.
+    """
+    for path in filter(None, environment.get(VARIABLE, "").split(os.pathsep)):
+        try:
+            library.add_sound_texts(texts_at(Path(path).expanduser().absolute()))
+        except StudioError as error:
+            raise WireSettingsError(f"{VARIABLE}: {error}") from None
+
+
+def texts_at(path: Path) -> InterfaceTexts:
+    """Read the texts at a path.
+
+    Raises:
+        UnreadableFileError: Nothing is there, or it holds no types.
+        RosNameError: A package has a name that none may have.
+    """
+    if path.is_file():
+        folder = next((one for one in _folders_above(path) if (one / _MANIFEST).is_file()), None)
+        return _text_of_file(_name_of(folder) if folder else path.parent.parent.name, path)
+    folders = [path] if _holds_types(path) else [one for one in path.glob("*") if _holds_types(one)]
+    if not folders:
+        raise UnreadableFileError(
+            str(path), "holds no msg, srv or action folder: name a package's folder or one file."
+        )
+    return InterfaceTexts.of_all(
+        texts_of_package(folder, _name_of(folder)) for folder in sorted(folders)
+    )
+
+
+def _holds_types(folder: Path) -> bool:
+    return any((folder / kind).is_dir() for kind in KINDS)
+
+
+def _name_of(folder: Path) -> str:
+    """Return the name in the package.xml, else that of the folder.
+
+    Raises:
+        UnreadableFileError: The package.xml is too large, no regular file, or cannot be read.
+    """
+    manifest = folder / _MANIFEST
+    return (_name_in(read_text(manifest)) if manifest.is_file() else "") or folder.name
+
+
+def _name_in(manifest: str) -> str:
+    """Return the text of `name` in `package`; empty if there is none or it names no package.
+
+    What is broken behind the name does not matter here.
+    """
+    parser: ElementTree.XMLPullParser[ElementTree.Element] = ElementTree.XMLPullParser(
+        ("start", "end")
+    )
+    parser.feed(manifest)
+    path: list[str] = []
+    try:
+        for event, element in cast(
+            "Iterable[tuple[str, ElementTree.Element]]", parser.read_events()
+        ):
+            if event == "start":
+                path.append(element.tag)
+            elif path == ["package", "name"]:
+                name = (element.text or "").strip()
+                return name if _PACKAGE_NAME.fullmatch(name) else ""
+            else:
+                path.pop()
+    except ElementTree.ParseError:
+        return ""
+    return ""
+
+
+def _folders_above(path: Path) -> Iterator[Path]:
+    """Walk up from a file; the home folder and what holds it belong to no package."""
+    home = Path(os.path.realpath(os.path.expanduser("~")))  # noqa: PTH111 - `Path.home` may raise
+    for folder in path.parents:
+        if home.is_relative_to(folder):
+            return
+        yield folder
+
+
+def _text_of_file(package: str, path: Path) -> InterfaceTexts:
+    if path.suffix.removeprefix(".") not in KINDS:
+        raise UnreadableFileError(str(path), "defines no type: name a .msg, .srv or .action file.")
+    found = InterfaceTexts()
+    found.take(package, path)
+    return found

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from studio.ros.types.definitions import INTEGERS, FieldType, Shape
-from studio.ros.types.literals import parse_literal, parse_scalar
+from studio.ros.types.interface_text import parse_literal, parse_scalar
 
 
 @pytest.mark.parametrize(

@@ -1,24 +1,26 @@
-"""Message values as plain dicts and YAML, as `ros2 topic echo` prints and `pub` takes them."""
+"""Messages as plain dicts, YAML, CSV and JSON, as `ros2 topic echo` writes and `pub` reads them."""
 
 from __future__ import annotations
 
 import csv
 import io
+import json
+import math
 from dataclasses import dataclass
 from itertools import islice
-from typing import Any, cast
+from typing import Any, Final, cast
 
 import numpy as np
 
 from studio.errors import MessageValueError
 from studio.ros.duration import NANOSECONDS
-from studio.ros.types.arrays import said
-from studio.ros.types.checking import check_scalar
 from studio.ros.types.classes import (
     MessageValue,
     attribute_name,
+    check_scalar,
     class_of_field,
     definition_of,
+    shown,
 )
 from studio.ros.types.definitions import FLOATS, STRINGS, Field, FieldType, Shape
 from studio.ros.types.yaml_texts import read_yaml, write_yaml
@@ -28,6 +30,12 @@ _HUGE = 2**1000
 _ABBREVIATED = {"float32": "float", "float64": "double", "bool": "boolean", "byte": "octet"}
 _HEADER = "std_msgs/msg/Header"
 _TIME = "builtin_interfaces/msg/Time"
+
+
+_EXACT_MAX: Final = 2**53
+"""From here on numbers of JavaScript leave out whole ones."""
+_LENGTHS: Final = (10_000, 1_000, 100, 10)
+"""Of arrays and texts, tried in turn."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,14 +118,16 @@ class _Reader:
         if definition.name == _HEADER and values == "auto" and self.now_ns is not None:
             values = {"stamp": "now"}
         if not isinstance(values, dict):
-            raise MessageValueError(where, f"{said(values)} is no set of fields")
+            raise MessageValueError(where, f"{shown(values)} is no set of fields")
         fields = {field.name: field for field in definition.fields}
         given: dict[str, object] = {}
         for name, value in cast("dict[object, object]", values).items():
             field = fields.get(name) if isinstance(name, str) else None
             if field is None:
                 known = ", ".join(fields) or "none"
-                raise MessageValueError(where, f"it has no field {said(name)}, its fields: {known}")
+                raise MessageValueError(
+                    where, f"it has no field {shown(name)}, its fields: {known}"
+                )
             given[attribute_name(field.name)] = self._value(
                 kind, field, value, f"{where}.{field.name}"
             )
@@ -127,7 +137,7 @@ class _Reader:
         if field.type.shape is Shape.SINGLE:
             return self._single(kind, field, value, where)
         if isinstance(value, (str, dict)) or not hasattr(value, "__iter__"):
-            raise MessageValueError(where, f"{said(value)} is no list of {field.type.base}")
+            raise MessageValueError(where, f"{shown(value)} is no list of {field.type.base}")
         if field.type.numeric:
             return value
         items = cast("list[object]", value)
@@ -212,3 +222,40 @@ def _leaves(value: object) -> list[object]:
     if isinstance(value, list):
         return [leaf for one in cast("list[object]", value) for leaf in _leaves(one)]
     return [value]
+
+
+def to_json(message: MessageValue, characters_max: int) -> str:
+    """Write a message in about so many characters at most; long arrays and texts end with `...`."""
+    written = ""
+    # Two letters are the least that an item takes: what cannot fit is not even tried.
+    for length in [one for one in _LENGTHS if 2 * one <= characters_max] or _LENGTHS[-1:]:
+        written = plain_json(to_dict(message, Brevity(length_max=length)))
+        if len(written) <= characters_max:
+            break
+    return written
+
+
+def plain_json(value: object) -> str:
+    """Write plain values; large whole numbers, nan, infinities and bytes become texts."""
+    return json.dumps(_readable(value), allow_nan=False, separators=(",", ":"))
+
+
+def _readable(value: object) -> object:
+    if isinstance(value, dict):
+        items = cast("dict[object, object]", value).items()
+        return {str(key): _readable(one) for key, one in items}
+    if isinstance(value, (list, tuple)):
+        return [_readable(one) for one in cast("list[object]", value)]
+    if isinstance(value, bool) or value is None or isinstance(value, str):
+        return value
+    return _number(value)
+
+
+def _number(value: Any) -> object:  # noqa: ANN401 - what YAML makes of a word
+    if isinstance(value, int):
+        return value if abs(value) <= _EXACT_MAX else str(value)
+    if isinstance(value, float):
+        return value if math.isfinite(value) else str(value)
+    if isinstance(value, bytes):
+        return value.decode("latin-1")
+    return str(value)

@@ -1,13 +1,17 @@
-"""Our own reader of .msg, .srv and .action texts; comments are kept for display."""
+"""Reads and writes the texts of .msg, .srv and .action files; comments are kept."""
 
 from __future__ import annotations
 
+import math
 import re
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from studio.errors import InterfaceTextError, RosNameError
 from studio.ros.names import check_package_name, split_type_name
 from studio.ros.types.definitions import (
+    FLOATS,
+    INTEGERS,
     PRIMITIVES,
     STRINGS,
     Action,
@@ -15,12 +19,28 @@ from studio.ros.types.definitions import (
     Field,
     FieldType,
     Interface,
+    Literal,
     Message,
+    Scalar,
     Service,
     Shape,
+    messages_of,
 )
-from studio.ros.types.literals import parse_literal, parse_scalar
-from studio.ros.types.text_mends import is_part_rule, mend_of
+from studio.ros.types.text_hints import hint_for, is_separator
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+
+_INTEGER = re.compile(r"[+-]?(0[xX][0-9a-fA-F]+|0[oO]?[0-7]+|0[bB][01]+|[0-9]+)", re.ASCII)
+_INTEGER_DIGITS_MAX = 70
+_TRUTH = {"true": True, "1": True, "false": False, "0": False}
+# Possessive throughout: nothing is tried twice, however long a hostile text is.
+_QUOTED = re.compile(r'"(?:[^"\\]|\\.)*+"|\'(?:[^\'\\]|\\.)*+\'')
+_ITEM = re.compile(rf"\s*+((?:{_QUOTED.pattern})|[^,\"'\[\]]++)\s*+(,|$)")
+_ESCAPE = re.compile(r"\\(.)")
+_ESCAPES = {"n": "\n", "t": "\t", "r": "\r"}
+
 
 TEXT_BYTES_MAX = 1_000_000
 MEMBERS_MAX = 2_000
@@ -35,6 +55,7 @@ _FIELD_NAME = re.compile(r"(?!.*__)(?!.*_$)[a-z][a-z0-9_]*", re.ASCII)
 # What rosidl asks for; its own pattern takes a time without end on long names.
 _CONSTANT_NAME = re.compile(r"(?!.*__)(?!.*_$)[A-Z][A-Z0-9_]*", re.ASCII)
 _HEADER = "std_msgs/msg/Header"
+_INDENT = "\t"
 
 
 def parse_interface(name: str, text: str) -> Interface:
@@ -81,7 +102,7 @@ def _split(text: str) -> list[list[tuple[int, str]]]:
 def _wrong_parts(name: str, kind: str, parts: list[list[tuple[int, str]]]) -> InterfaceTextError:
     """Say that a text has too many parts, or too few: at the line that was meant to part it."""
     wanted = _PARTS[kind] - 1
-    meant = [(number, line) for part in parts for number, line in part if is_part_rule(line)]
+    meant = [(number, line) for part in parts for number, line in part if is_separator(line)]
     if len(parts) <= wanted and meant:
         number, line = meant[0]
         return InterfaceTextError(
@@ -95,7 +116,7 @@ def _wrong_parts(name: str, kind: str, parts: list[list[tuple[int, str]]]) -> In
     return InterfaceTextError(name, None, f"a .{kind} has {lines} of ---{between}, and here {has}")
 
 
-class _MendedError(ValueError):
+class _HintedError(ValueError):
     """A rule that is broken, with what to do already in the sentence."""
 
 
@@ -152,7 +173,7 @@ class _Draft:
             self.fields.append(_field(found["name"], kind, rest, said))
         first = self.lines.setdefault(found["name"], number)
         if first != number:
-            raise _MendedError(
+            raise _HintedError(
                 f"{found['name']} stands there twice, first in line {first}: rename one of them"
             )
 
@@ -163,16 +184,16 @@ def _message(text_name: str, name: str, lines: list[tuple[int, str]]) -> Message
         try:
             draft.take(number, line)
         except (ValueError, RosNameError) as error:
-            raise InterfaceTextError(text_name, number, _with_mend(error, line)) from None
+            raise InterfaceTextError(text_name, number, _with_hint(error, line)) from None
     draft.take(0, "")
     return Message(name, tuple(draft.fields), tuple(draft.constants), draft.comment)
 
 
-def _with_mend(error: Exception, line: str) -> str:
+def _with_hint(error: Exception, line: str) -> str:
     reason = str(error).rstrip(".")
-    if isinstance(error, _MendedError):
+    if isinstance(error, _HintedError):
         return reason
-    mend = mend_of(_split_comment(line)[0].strip())
+    mend = hint_for(_split_comment(line)[0].strip())
     return f"{reason}: {mend}" if mend else reason
 
 
@@ -259,3 +280,142 @@ def _constant(name: str, kind: FieldType, value: str, comment: str) -> Constant:
     if not value and kind.base not in STRINGS:
         raise ValueError(f"{name} has no value")
     return Constant(name, kind.base, parse_scalar(value, kind), comment)
+
+
+def parse_literal(text: str, kind: FieldType) -> Literal:
+    """Read the default of a field, or one value of a constant.
+
+    Raises:
+        ValueError: It is no value of that type; the message is half a sentence.
+    """
+    if kind.shape is Shape.SINGLE:
+        return parse_scalar(text, kind)
+    items = tuple(parse_scalar(item, kind) for item in _items(text))
+    if kind.shape is Shape.ARRAY and len(items) != kind.count:
+        raise ValueError(f"its default has {len(items)} values instead of {kind.count}")
+    if kind.shape is Shape.BOUNDED and len(items) > kind.count:
+        raise ValueError(f"its default has {len(items)} values, at most {kind.count} fit")
+    return items
+
+
+def parse_scalar(text: str, kind: FieldType) -> Scalar:
+    """Read one value.
+
+    Raises:
+        ValueError: It is no value of that type; the message is half a sentence.
+    """
+    if kind.base in STRINGS:
+        return _string(text, kind)
+    if kind.base == "bool":
+        if text.lower() not in _TRUTH:
+            raise ValueError(f'"{text[:40]}" is neither true nor false')
+        return _TRUTH[text.lower()]
+    if kind.base in FLOATS:
+        return _float(text)
+    if kind.base in INTEGERS:
+        return _integer(text, kind.base)
+    raise ValueError(f"a {kind.base} has no default value")
+
+
+def _string(text: str, kind: FieldType) -> str:
+    if text[:1] in {'"', "'"}:
+        if not _QUOTED.fullmatch(text):
+            raise ValueError(f"the quotes of {text[:40]} do not close")
+        text = _ESCAPE.sub(lambda found: _ESCAPES.get(found[1], found[1]), text[1:-1])
+    if kind.string_bound and len(text) > kind.string_bound:
+        raise ValueError(f'"{text[:40]}" is longer than {kind.string_bound} characters')
+    return text
+
+
+def _float(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        raise ValueError(f'"{text[:40]}" is no number') from None
+    if not math.isfinite(value) or "_" in text:
+        raise ValueError(f'"{text[:40]}" is no number that a text may hold')
+    return value
+
+
+def _integer(text: str, base: str) -> int:
+    found = _INTEGER.fullmatch(text)
+    if not found or len(text) > _INTEGER_DIGITS_MAX:
+        raise ValueError(f'"{text[:40]}" is no whole number')
+    digits = found[1].lower()
+    radix = {"0x": 16, "0b": 2, "0o": 8}.get(digits[:2], 10)
+    value = int(digits[2:] if radix != 10 else digits, radix)
+    value = -value if text.startswith("-") else value
+    low, high = INTEGERS[base]
+    if not low <= value <= high:
+        raise ValueError(f"{text} does not fit {base}, which goes from {low} to {high}")
+    return value
+
+
+def _items(text: str) -> list[str]:
+    if not (text.startswith("[") and text.endswith("]")):
+        raise ValueError("the default of an array stands in brackets")
+    body, items, place = text[1:-1].strip(), list[str](), 0
+    while place < len(body):
+        found = _ITEM.match(body, place)
+        if not found:
+            raise ValueError(f"{body[place : place + 40]} is no list of values")
+        items.append(found[1].strip())
+        place = found.end()
+    return items
+
+
+def text_of(interface: Interface) -> str:
+    """Write what a .msg, .srv or .action would say: constants, fields and defaults."""
+    return "---\n".join("".join(_lines(part, 0, None)) for part in messages_of(interface))
+
+
+def full_text_of(interface: Interface, find: Callable[[str], Message]) -> str:
+    """Write a type with the fields of all that it is made of below, as `ros2 interface show` does.
+
+    Raises:
+        UnknownTypeError: What `find` raises for a part that is missing.
+    """
+    return "---\n".join("".join(_lines(part, 0, find)) for part in messages_of(interface))
+
+
+def kind_of(interface: Interface) -> str:
+    """Name what a type is: msg, srv or action."""
+    match interface:
+        case Message():
+            return "msg"
+        case Service():
+            return "srv"
+        case Action():
+            return "action"
+
+
+def _lines(message: Message, level: int, find: Callable[[str], Message] | None) -> list[str]:
+    indent = _INDENT * level
+    lines = [
+        f"{indent}{one.base} {one.name}={_value(one.value, quoted=False)}\n"
+        for one in message.constants
+    ]
+    for one in message.fields:
+        lines.append(f"{indent}{one.type} {one.name}{_default(one)}\n")
+        if one.type.nested and find is not None:
+            lines += _lines(find(one.type.base), level + 1, find)
+    return lines
+
+
+def _default(field: Field) -> str:
+    return "" if field.default is None else f" {_literal(field.default)}"
+
+
+def _literal(value: Literal) -> str:
+    if isinstance(value, tuple):
+        return f"[{', '.join(_value(item, quoted=True) for item in value)}]"
+    return _value(value, quoted=True)
+
+
+def _value(value: Scalar, *, quoted: bool) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, str):
+        escaped = value.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n")
+        return f'"{escaped}"' if quoted or value != value.strip() or "#" in value else value
+    return repr(value)

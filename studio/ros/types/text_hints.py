@@ -1,4 +1,4 @@
-"""What a line that breaks a rule of interface texts was probably meant to be."""
+"""Hints for a line that breaks a rule of interface texts: what it was probably meant to be."""
 
 from __future__ import annotations
 
@@ -34,38 +34,38 @@ _CHARACTERS_MAX: Final = 200
 """A longer line is not guessed at."""
 
 
-def is_part_rule(line: str) -> bool:
+def is_separator(line: str) -> bool:
     """Whether a line was meant to part a text: dashes, but not three of them."""
     dashes = line.strip()
     return len(dashes) > 1 and set(dashes) <= set("-\u2013\u2014") and dashes != "---"
 
 
-def mend_of(code: str) -> str:
+def hint_for(code: str) -> str:
     """Say what to write instead of a line without its comment, in half a sentence; empty: unknown.
 
     The line is one that was refused: what is fine is not looked for.
     """
     if len(code) > _CHARACTERS_MAX:
         return ""
-    if is_part_rule(code):
+    if is_separator(code):
         return "a line of three dashes, ---, parts a text"
     if "//" in code or code.startswith("/*"):
         return "a comment begins with #"
     if ";" in code:
         return "leave the ; out" if code.endswith(";") else "leave the ; out, one field a line"
     found = _WORDS.fullmatch(code)
-    return _mend_of_words(found) if found else _mend_of_order(code)
+    return _hint_for_words(found) if found else _hint_for_order(code)
 
 
-def _mend_of_words(found: re.Match[str]) -> str:
+def _hint_for_words(found: re.Match[str]) -> str:
     kind, array, name = found["type"], found["array"] or "", found["name"]
     rest = found["rest"].strip()
     if name in PRIMITIVES:
         return f"the type comes first: {name}{array} {_field_name(kind)}"
-    return _mend_of_type(kind) or _mend_of_rest(f"{kind}{array}", name, rest)
+    return _hint_for_type(kind) or _hint_for_rest(f"{kind}{array}", name, rest)
 
 
-def _mend_of_type(kind: str) -> str:
+def _hint_for_type(kind: str) -> str:
     if kind in _OTHER_NAMES:
         return f"write {_OTHER_NAMES[kind]}"
     if "." in kind:
@@ -74,7 +74,7 @@ def _mend_of_type(kind: str) -> str:
     return f"write {near[0]}" if near else ""
 
 
-def _mend_of_rest(kind: str, name: str, rest: str) -> str:
+def _hint_for_rest(kind: str, name: str, rest: str) -> str:
     if rest.startswith(","):
         return "one field a line"
     if re.fullmatch(r"\[[^\]]*\]", rest):
@@ -87,7 +87,7 @@ def _mend_of_rest(kind: str, name: str, rest: str) -> str:
     return f"write {_field_name(name)}" if _field_name(name) != name else ""
 
 
-def _mend_of_order(code: str) -> str:
+def _hint_for_order(code: str) -> str:
     """Say how a line such as `speed: float32` or `float32` alone is written."""
     name, colon, kind = (part.strip() for part in code.partition(":"))
     if colon and kind in PRIMITIVES:

@@ -3,8 +3,7 @@ from __future__ import annotations
 import pytest
 
 from studio.errors import InterfaceTextError
-from studio.ros.types.definitions import Field, FieldType, Message
-from studio.ros.types.limits import DEPTH_MAX, check_sizes
+from studio.ros.types.definitions import DEPTH_MAX, Field, FieldType, Message, check_sizes
 
 
 def chain(levels: int) -> dict[str, Message]:

@@ -4,8 +4,8 @@ import pytest
 
 from studio.errors import UnknownTypeError
 from studio.ros.types.definitions import Field, FieldType, Message
-from studio.ros.types.hashes import closure, type_description, type_hash
 from studio.ros.types.library import TypeLibrary
+from studio.ros.types.type_hash import closure, type_description, type_hash
 
 # Hashes that others published or printed; of shortened ones head and tail are compared.
 GOLDEN = {

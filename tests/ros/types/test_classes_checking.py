@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from studio.errors import MessageValueError
-from studio.ros.types.checking import check_message, check_scalar
+from studio.ros.types.classes import check_message, check_scalar
 from studio.ros.types.definitions import FieldType
 from studio.ros.types.library import TypeLibrary
 

@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 
 from studio.errors import TypeDescriptionError
 from studio.ros.cdr import Codec
-from studio.ros.types.descriptions import read_description, write_description
 from studio.ros.types.library import TypeLibrary
+from studio.ros.types.type_descriptions import read_description, write_description
 from tests.support.ros_values import values_of
 
 if TYPE_CHECKING:

@@ -1,7 +1,7 @@
 from __future__ import annotations
 
 from studio.ros.types.definitions import Constant, Field, FieldType, Shape
-from studio.ros.types.stores import MessageStore
+from studio.ros.types.rosbags import MessageStore
 
 
 def test_a_message_comes_with_its_fields_bounds_and_constants():

@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from studio.errors import MessageValueError
+from studio.ros.types.convert import Brevity, from_dict, from_yaml, to_csv, to_dict, to_yaml
 from studio.ros.types.library import TypeLibrary
-from studio.ros.types.plain import Brevity, from_dict, from_yaml, to_csv, to_dict, to_yaml
 from tests.support.ros_values import values_of
 
 if TYPE_CHECKING:

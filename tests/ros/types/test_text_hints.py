@@ -1,7 +1,7 @@
 import pytest
 
 from studio.errors import InterfaceTextError
-from studio.ros.types.parser import parse_interface
+from studio.ros.types.interface_text import parse_interface
 
 
 @pytest.mark.parametrize(

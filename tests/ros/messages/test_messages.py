@@ -5,8 +5,7 @@ import sys
 
 import pytest
 
-from studio.ros.messages import action, message, service, shared_types
-from studio.ros.messages.finder import MessageFinder, install
+from studio.ros.messages import MessageFinder, action, install, message, service, shared_types
 
 
 def imported(name: str):

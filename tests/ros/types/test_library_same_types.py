@@ -3,11 +3,9 @@ from __future__ import annotations
 import pytest
 
 from studio.errors import OtherTypeError, UnknownTypeError
-from studio.ros.messages import message
-from studio.ros.messages.shared import types_of
+from studio.ros.messages import message, types_of
 from studio.ros.node.node import Node
-from studio.ros.node.same_types import check_same_type
-from studio.ros.types.library import TypeLibrary
+from studio.ros.types.library import TypeLibrary, check_same_type
 from tests.support.node_pair import context_at
 from tests.support.wire import running_router
 

@@ -3,7 +3,7 @@ from __future__ import annotations
 import json
 
 from studio.ros.messages import message
-from studio.ros.types.json_texts import plain_json, to_json
+from studio.ros.types.convert import plain_json, to_json
 
 
 def test_numbers_that_a_page_cannot_hold_become_texts():
