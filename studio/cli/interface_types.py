@@ -51,7 +51,8 @@ def known_types(options: argparse.Namespace, distro: str) -> TypeLibrary:
         SettingsError: What was pasted does not say which types it defines.
         WireSettingsError: What the environment names is not there, or holds no types.
     """
-    from studio.ros.types.files import InterfaceTexts, add_own_types, texts_at
+    from studio.ros.messages import add_own_types
+    from studio.ros.types.files import InterfaceTexts, texts_at
     from studio.ros.types.library import TypeLibrary
 
     library = TypeLibrary(distro)
@@ -81,14 +82,15 @@ def environment_with(paths: Sequence[Path]) -> dict[str, str]:
     Raises:
         UnreadableFileError: Nothing is there, or it holds no types.
     """
-    from studio.ros.types.files import VARIABLE, texts_at
+    from studio.ros.messages import INTERFACES_VARIABLE
+    from studio.ros.types.files import texts_at
 
     absolute = [path.expanduser().absolute() for path in paths]
     for path in absolute:
         texts_at(path)
-    before = os.environ.get(VARIABLE, "")
+    before = os.environ.get(INTERFACES_VARIABLE, "")
     named = [*filter(None, before.split(os.pathsep)), *map(str, absolute)]
-    added = {VARIABLE: os.pathsep.join(named)} if named else {}
+    added = {INTERFACES_VARIABLE: os.pathsep.join(named)} if named else {}
     return {**os.environ, **added}
 
 

@@ -51,7 +51,7 @@ def add(parser: argparse.ArgumentParser) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     from studio.nodes.demos.starting import environment_for
-    from studio.ros.wire.opening import open_wire
+    from studio.ros.wire.session import open_wire
     from studio.ros.wire.settings import wire_settings
 
     words = [word.removeprefix(" ") for word in options.arguments]

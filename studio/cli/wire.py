@@ -65,7 +65,7 @@ def opened_wire(options: argparse.Namespace, *, own_types: bool = True) -> Gener
         NoRouterError: None answers, and none may be started.
         WireSettingsError: An option or the environment says what cannot be.
     """
-    from studio.ros.wire.opening import open_wire
+    from studio.ros.wire.session import open_wire
     from studio.ros.wire.settings import wire_settings
 
     profile = profile_of(options)

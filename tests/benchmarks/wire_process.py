@@ -22,8 +22,7 @@ from studio.ros.keys import DataKey
 from studio.ros.messages import message
 from studio.ros.node.node import Node
 from studio.ros.qos import QoSProfile
-from studio.ros.wire.door import declare_publisher, declare_subscription
-from studio.ros.wire.threads import take_few_threads
+from studio.ros.wire.zenoh import declare_publisher, declare_subscription, use_few_threads
 from tests.support.wire import open_test_session
 
 if TYPE_CHECKING:
@@ -223,7 +222,7 @@ def publish(send: Callable[[str], None], rate_hz: int) -> dict[str, float]:
 def main(role: str, kind: str, port: int, rate_hz: int) -> None:
     """Run one end; others have Zenoh's threads as they are by default."""
     if kind.startswith(("ours", "drain")):
-        take_few_threads()
+        use_few_threads()
     with open_test_session(f"tcp/127.0.0.1:{port}") as wire:
         if role == "publish":
             send = PUBLISHERS[kind](wire, port)

@@ -14,7 +14,7 @@ from studio.ros.client import DurabilityPolicy, QoSProfile
 from studio.ros.graph.graph import Graph
 from studio.ros.graph.unseen import unseen_nodes
 from studio.ros.messages import service
-from studio.ros.wire.door import close, insert
+from studio.ros.wire.zenoh import close, insert
 from studio.settings import WireChoice
 from tests.support.command_line import studio
 from tests.support.demos import heard, node_at

@@ -13,7 +13,7 @@ from studio.ros.action import ActionClient
 from studio.ros.client import action
 from studio.ros.keys import DataKey
 from studio.ros.messages import service
-from studio.ros.wire.door import declare_queryable
+from studio.ros.wire.zenoh import declare_queryable
 from tests.support.demos import heard, node_at, running_demo
 from tests.support.patience import Stopwatch
 from tests.support.wire import PATIENCE_S, open_test_session, wait_until

@@ -19,7 +19,7 @@ from studio.ros.keys import DataKey
 from studio.ros.messages import message
 from studio.ros.node.executor import SingleThreadedExecutor
 from studio.ros.node.node import Node
-from studio.ros.wire.door import declare_publisher
+from studio.ros.wire.zenoh import declare_publisher
 from tests.support.demos import heard, node_at
 from tests.support.wire import PATIENCE_S, open_test_session, wait_until
 
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from collections.abc import Generator
 
     from studio.ros.node.subscription import Subscription
-    from studio.ros.wire.door import Outgoing
+    from studio.ros.wire.zenoh import Outgoing
 
 pytestmark = pytest.mark.network
 STRING = "std_msgs/msg/String"

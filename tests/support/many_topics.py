@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from studio.ros.qos import QoSProfile
 from studio.ros.tokens import EndpointKind, EndpointToken, NodeToken
-from studio.ros.wire.door import declare_token
+from studio.ros.wire.zenoh import declare_token
 
 if TYPE_CHECKING:
     from studio.ros.wire.session import WireSession

@@ -19,8 +19,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 import pytest
 
-from studio.ros.wire.endpoints import parse_endpoint
-from studio.ros.wire.probing import Answer, probe
+from studio.ros.wire.endpoints import ProbeResult, parse_endpoint, probe
 from tests.support.wire import PATIENCE_S, wait_until
 
 if TYPE_CHECKING:
@@ -167,7 +166,7 @@ def real_router(endpoint: str) -> Generator[subprocess.Popen[str]]:
     process = _started(_ROUTER, endpoint, (), None, output=subprocess.DEVNULL)
     try:
         place = parse_endpoint(endpoint)
-        wait_until("rmw_zenohd listens", lambda: probe(place) is Answer.ZENOH)
+        wait_until("rmw_zenohd listens", lambda: probe(place) is ProbeResult.ZENOH)
         yield process
     finally:
         process.kill()

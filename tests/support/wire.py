@@ -11,19 +11,19 @@ from typing import TYPE_CHECKING
 from studio.ros.profiles import profile_named
 from studio.ros.qos import QoSProfile
 from studio.ros.tokens import EndpointKind, EndpointToken, NodeToken
-from studio.ros.wire.door import declare_token
 from studio.ros.wire.endpoints import parse_endpoint
 from studio.ros.wire.router import start_router
 from studio.ros.wire.session import open_session
 from studio.ros.wire.settings import WireSettings
+from studio.ros.wire.zenoh import declare_token
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator
 
     from studio.ros.types.library import TypeLibrary
-    from studio.ros.wire.door import Declared
     from studio.ros.wire.router import EmbeddedRouter
     from studio.ros.wire.session import WireSession
+    from studio.ros.wire.zenoh import Declaration
 
 PATIENCE_S = 60.0
 _POLL_S = 0.005
@@ -94,7 +94,7 @@ def session_pair(
         yield one, other
 
 
-def show_endpoints(wire: WireSession, count: int, name: str = "many") -> list[Declared]:
+def show_endpoints(wire: WireSession, count: int, name: str = "many") -> list[Declaration]:
     """One node with so many publishers, each on a topic of its own; keep what is given back."""
     node = NodeToken(wire.domain, wire.zid, wire.next_id(), "/", name)
     publishers = (

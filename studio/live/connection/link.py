@@ -18,8 +18,7 @@ from studio.ros.messages import types_of
 from studio.ros.node.context import Context
 from studio.ros.node.executor import SingleThreadedExecutor
 from studio.ros.node.node import Node
-from studio.ros.wire.opening import open_wire
-from studio.ros.wire.watching import RouterWatch
+from studio.ros.wire.session import RouterWatch, open_wire
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Final
 
 from studio.errors import StudioError
 from studio.live.connection.plan import planned_wire
-from studio.ros.wire.endpoints import parse_endpoint
-from studio.ros.wire.probing import Answer, probe
+from studio.ros.wire.endpoints import ProbeResult, parse_endpoint, probe
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -68,7 +67,7 @@ def nodes_nearby(choice: WireChoice) -> int:
     try:
         places = [parse_endpoint(one) for one in planned_wire(choice).connect]
         is_here = len(places) == 1 and places[0].is_loopback and places[0].is_stream
-        if not is_here or probe(places[0]) is not Answer.ZENOH:
+        if not is_here or probe(places[0]) is not ProbeResult.ZENOH:
             return 0
         from studio.live.connection.report import examine  # noqa: PLC0415 - imports zenoh
 

@@ -11,8 +11,7 @@ import msgspec
 
 from studio.errors import NoRouterError, StudioError
 from studio.live.connection.plan import planned_wire
-from studio.ros.wire.endpoints import parse_endpoint
-from studio.ros.wire.probing import Answer, probe
+from studio.ros.wire.endpoints import ProbeResult, parse_endpoint, probe
 from studio.settings import WireChoice
 
 if TYPE_CHECKING:
@@ -140,4 +139,4 @@ def _answers(choice: WireChoice) -> bool:
         places = [parse_endpoint(one) for one in planned_wire(choice).connect]
     except StudioError:
         return False
-    return any(probe(one) in {Answer.ZENOH, Answer.TLS} for one in places)
+    return any(probe(one) in {ProbeResult.ZENOH, ProbeResult.TLS} for one in places)

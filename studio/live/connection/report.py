@@ -18,10 +18,9 @@ from studio.ros.graph.unseen import unseen_nodes
 from studio.ros.messages import types_of
 from studio.ros.profiles import PROFILES
 from studio.ros.tokens import ADMIN_SPACE, EndpointToken, NodeToken, parse_token
-from studio.ros.wire.door import standing_tokens
-from studio.ros.wire.endpoints import parse_endpoint
-from studio.ros.wire.probing import Answer, probe
+from studio.ros.wire.endpoints import ProbeResult, parse_endpoint, probe
 from studio.ros.wire.session import open_session
+from studio.ros.wire.zenoh import standing_tokens
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable
@@ -89,9 +88,9 @@ def examine(choice: WireChoice, own: Collection[str], request: int = 0) -> WireR
     """
     settings = planned_wire(choice)
     answer = _answer_at(settings)
-    if answer is Answer.NOBODY:
+    if answer is ProbeResult.NOBODY:
         return _report(settings, "no_router", request, starts=_starts(choice, settings))
-    if answer is Answer.OTHER:
+    if answer is ProbeResult.OTHER:
         return _report(settings, "foreign", request)
     try:
         with open_session(settings, types_of(settings.profile.distro)) as wire:
@@ -99,7 +98,7 @@ def examine(choice: WireChoice, own: Collection[str], request: int = 0) -> WireR
             unseen = unseen_nodes(wire)
             census.unseen = unseen.count if unseen else 0
     except NoRouterError:
-        verdict = "no_router" if answer is Answer.UNKNOWN else "not_admitted"
+        verdict = "no_router" if answer is ProbeResult.UNKNOWN else "not_admitted"
         return _report(settings, verdict, request)
     return _judged(settings, census, request)
 
@@ -124,9 +123,9 @@ def seen_distros(endpoints: Iterable[GraphEndpoint], hashes: DistroHashes) -> tu
     return tuple(distro for distro, fits in fitting.items() if most and fits == most)
 
 
-def _answer_at(settings: WireSettings) -> Answer:
+def _answer_at(settings: WireSettings) -> ProbeResult:
     if len(settings.connect) != 1:
-        return Answer.UNKNOWN
+        return ProbeResult.UNKNOWN
     return probe(parse_endpoint(settings.connect[0]))
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from studio.errors import InterfaceError
 from studio.ros.profiles import PROFILES
 from studio.ros.types.library import TypeLibrary
-from studio.ros.wire.probing import Answer
+from studio.ros.wire.endpoints import ProbeResult
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
@@ -32,14 +32,14 @@ class ForeignHashes:
     distros: tuple[str, ...]
 
 
-def why_no_router(endpoint: str, answer: Answer) -> str | None:
+def why_no_router(endpoint: str, answer: ProbeResult) -> str | None:
     """Say why there is no router at an endpoint; None when one is there, or may be."""
-    if answer is Answer.NOBODY:
+    if answer is ProbeResult.NOBODY:
         return (
             f"Nobody answers at {endpoint}: start a router there (studio router, or ros2 run "
             "rmw_zenoh_cpp rmw_zenohd), or name another with --connect."
         )
-    if answer is Answer.OTHER:
+    if answer is ProbeResult.OTHER:
         return (
             f"Something that is no Zenoh router holds {endpoint}: end it, or name another place "
             "with --connect."

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from studio.errors import TokenError
 from studio.ros.tokens import ADMIN_SPACE, NodeToken, parse_token
-from studio.ros.wire.door import standing_tokens
+from studio.ros.wire.zenoh import standing_tokens
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

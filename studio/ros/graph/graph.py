@@ -6,14 +6,11 @@ import threading
 import time
 from typing import TYPE_CHECKING, Self
 
-import zenoh
-
 from studio.ros.graph import actions
 from studio.ros.graph.table import GraphTable, Taken
 from studio.ros.names import check_full_name
 from studio.ros.tokens import EndpointKind, tokens_of_domain
-from studio.ros.wire.door import standing_tokens, watch_tokens
-from studio.ros.wire.reading import ReadingThread
+from studio.ros.wire.zenoh import ReadingThread, Sample, standing_tokens, token_change, watch_tokens
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -183,7 +180,7 @@ class Graph:
             if listener in self._listeners:
                 self._listeners.remove(listener)
 
-    def _take(self, samples: list[zenoh.Sample]) -> None:
+    def _take(self, samples: list[Sample]) -> None:
         """Take a batch in; the graph's thread only."""
         with self._changed:
             results = {str(one.key_expr): self._take_one(one) for one in samples}
@@ -198,11 +195,9 @@ class Graph:
         for listener in listeners:
             listener()
 
-    def _take_one(self, sample: zenoh.Sample) -> Taken:
-        token = str(sample.key_expr)
-        if sample.kind == zenoh.SampleKind.DELETE:
-            return self._table.delete(token)
-        return self._table.put(token)
+    def _take_one(self, sample: Sample) -> Taken:
+        token, stands = token_change(sample)
+        return self._table.put(token) if stands else self._table.delete(token)
 
     def _stands(self, token: str) -> bool:
         return token in standing_tokens(self._wire.zenoh, token, DOUBT_TIMEOUT_S)

@@ -9,14 +9,13 @@ from typing import TYPE_CHECKING, Final, cast
 
 from studio.errors import TokenError
 from studio.ros.tokens import EndpointToken, parse_token, tokens_of_domain
-from studio.ros.wire.door import admin_answers, standing_tokens
+from studio.ros.wire.zenoh import admin_answers, standing_tokens
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    import zenoh
-
     from studio.ros.wire.session import WireSession
+    from studio.ros.wire.zenoh import Session
 
 _TIMEOUT_S: Final = 3.0
 _DOUBT_S: Final = 1.0
@@ -81,13 +80,13 @@ def why_unseen(found: UnseenNodes) -> str:
     )
 
 
-def _publishing(session: zenoh.Session, domain: int) -> Iterator[str]:
+def _publishing(session: Session, domain: int) -> Iterator[str]:
     """Session ids of those who publish `/rosout`, as each process with a node of ROS does."""
     key = f"@/*/peer/publisher/{domain}/rosout/**"
     return (answered.split("/")[1] for answered, _ in admin_answers(session, key, _TIMEOUT_S))
 
 
-def _shown(session: zenoh.Session, domain: int) -> set[str]:
+def _shown(session: Session, domain: int) -> set[str]:
     tokens = standing_tokens(session, tokens_of_domain(domain), _TIMEOUT_S)
     return {_zid(token) for token in tokens}
 
@@ -100,7 +99,7 @@ def _zid(token: str) -> str:
     return parsed.node.zid if isinstance(parsed, EndpointToken) else parsed.zid
 
 
-def _versions(session: zenoh.Session, keys: Iterable[str]) -> tuple[str, ...]:
+def _versions(session: Session, keys: Iterable[str]) -> tuple[str, ...]:
     found = {_version(said) for key in keys for _, said in admin_answers(session, key, _TIMEOUT_S)}
     return tuple(sorted(found - {_STRANGE}))
 

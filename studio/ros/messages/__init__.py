@@ -11,21 +11,33 @@ import sys
 from functools import cache
 from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from studio.errors import RosNameError, UnknownTypeError
+from studio.errors import RosNameError, StudioError, UnknownTypeError, WireSettingsError
 from studio.ros.names import KINDS, full_type_name
 from studio.ros.profiles import JAZZY, PROFILES
-from studio.ros.types.files import add_own_types
+from studio.ros.types.files import texts_at
 from studio.ros.types.library import ActionType, ServiceType, TypeLibrary
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Mapping, Sequence
     from types import ModuleType
 
     from studio.ros.types.classes import MessageValue
 
-__all__ = ["action", "message", "service", "shared_types", "types_of"]
+__all__ = [
+    "INTERFACES_VARIABLE",
+    "action",
+    "add_own_types",
+    "message",
+    "service",
+    "shared_types",
+    "types_of",
+]
+
+INTERFACES_VARIABLE = "STUDIO_INTERFACES"
+"""The variable that names paths, as in PATH, whose types every node of the process knows."""
 
 
 @cache
@@ -38,6 +50,19 @@ def types_of(distro: str) -> TypeLibrary:
     library = TypeLibrary(distro)
     add_own_types(library)
     return library
+
+
+def add_own_types(library: TypeLibrary, environment: Mapping[str, str] = os.environ) -> None:
+    """Add the types that the environment names; the library says which texts are not valid.
+
+    Raises:
+        WireSettingsError: One of the paths is not there, or holds no types.
+    """
+    for path in filter(None, environment.get(INTERFACES_VARIABLE, "").split(os.pathsep)):
+        try:
+            library.add_sound_texts(texts_at(Path(path).expanduser().absolute()))
+        except StudioError as error:
+            raise WireSettingsError(f"{INTERFACES_VARIABLE}: {error}") from None
 
 
 def shared_types() -> TypeLibrary:

@@ -16,7 +16,7 @@ from studio.ros.node.time import ClockType
 from studio.ros.node.work import MutuallyExclusiveCallbackGroup
 from studio.ros.qos import as_profile
 from studio.ros.tokens import EndpointKind, EndpointToken, NodeToken
-from studio.ros.wire.door import declare_token
+from studio.ros.wire.zenoh import declare_token
 
 if TYPE_CHECKING:
     from collections.abc import Callable

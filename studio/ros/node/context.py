@@ -11,7 +11,7 @@ from studio.ros.graph.graph import Graph
 from studio.ros.messages import shared_types, types_of
 from studio.ros.node.arguments import RosArguments, parse_arguments
 from studio.ros.node.drain import Drain, Source
-from studio.ros.wire.opening import open_wire
+from studio.ros.wire.session import open_wire
 from studio.ros.wire.settings import wire_settings
 
 if TYPE_CHECKING:

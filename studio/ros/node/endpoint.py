@@ -6,15 +6,15 @@ from typing import TYPE_CHECKING
 
 from studio.ros.gid import gid_of
 from studio.ros.keys import DataKey
-from studio.ros.wire.door import declare_token
+from studio.ros.wire.zenoh import declare_token
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from studio.ros.graph.graph import Graph
     from studio.ros.tokens import EndpointToken
-    from studio.ros.wire.door import Declared
     from studio.ros.wire.session import WireSession
+    from studio.ros.wire.zenoh import Declaration
 
 
 class Endpoint:
@@ -32,13 +32,13 @@ class Endpoint:
         self.token = token
         self.gid = gid_of(str(token))
         self.key = str(DataKey(wire.domain, token.name, token.type_name, token.type_hash))
-        self._shown: Declared | None = None
+        self._shown: Declaration | None = None
 
     def show(self) -> None:
         """Show the token, after what it stands for was declared."""
         self._shown = declare_token(self.wire.zenoh, str(self.token))
 
-    def hide(self, *declared: Declared) -> None:
+    def hide(self, *declared: Declaration) -> None:
         """Take back the token, then what it stands for; nothing when the session is closed."""
         shown, self._shown = self._shown, None
         if shown is None or self.wire.zenoh.is_closed():

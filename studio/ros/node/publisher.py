@@ -11,14 +11,14 @@ from studio.ros.attachment import packed
 from studio.ros.cdr import check_kind, codec_of
 from studio.ros.qos import DEPTH_DEFAULT, DurabilityPolicy, HistoryPolicy, ReliabilityPolicy
 from studio.ros.types.classes import definition_of
-from studio.ros.wire.door import declare_publisher
+from studio.ros.wire.zenoh import declare_publisher
 
 if TYPE_CHECKING:
     from studio.ros.node.endpoint import Endpoint
     from studio.ros.node.work import Work
     from studio.ros.qos import QoSProfile
     from studio.ros.types.classes import MessageValue
-    from studio.ros.wire.door import Outgoing
+    from studio.ros.wire.zenoh import Outgoing
 
 
 class Publisher:

@@ -11,8 +11,6 @@ from collections import Counter, deque
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-import zenoh
-
 from studio.errors import AttachmentError, CdrError
 from studio.ros.attachment import Attachment, packed, unpack
 from studio.ros.cdr import check_kind, codec_of
@@ -20,7 +18,7 @@ from studio.ros.node.logger import get_logger
 from studio.ros.node.work import Work
 from studio.ros.qos import DEPTH_DEFAULT
 from studio.ros.types.classes import definition_of
-from studio.ros.wire.door import declare_queryable
+from studio.ros.wire.zenoh import ZError, declare_queryable
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine
@@ -29,7 +27,7 @@ if TYPE_CHECKING:
     from studio.ros.node.work import CallbackGroup
     from studio.ros.qos import QoSProfile
     from studio.ros.types.library import ServiceKind
-    from studio.ros.wire.door import Asked, Incoming
+    from studio.ros.wire.zenoh import Incoming, Query
 
 _RING = 4_096
 PENDING_MAX = 10_000
@@ -41,7 +39,7 @@ PENDING_OF_CLIENT_MAX = 1_000
 class _Request:
     """A query that waits, and what it came with."""
 
-    query: Asked
+    query: Query
     payload: bytes
     attachment: Attachment
 
@@ -78,7 +76,7 @@ class Service(Work):
         self._pending: dict[tuple[bytes, int], _Request] = {}
         self._askers: Counter[bytes] = Counter()
         self._lock = threading.Lock()
-        self._incoming: Incoming[Asked] | None = declare_queryable(
+        self._incoming: Incoming[Query] | None = declare_queryable(
             endpoint.wire.zenoh, endpoint.key, max(_RING, self._depth)
         )
         endpoint.show()
@@ -132,7 +130,7 @@ class Service(Work):
             with contextlib.suppress(RuntimeError):  # another thread answers it just now
                 request.query.drop()
 
-    def _receive(self, query: Asked) -> None:
+    def _receive(self, query: Query) -> None:
         payload, attachment = query.payload, query.attachment
         try:
             unpacked = unpack(None if attachment is None else attachment.to_bytes())
@@ -170,7 +168,7 @@ class Service(Work):
             return f"Clients wait for {PENDING_MAX} answers already."
         return None
 
-    def _refuse(self, query: Asked, reason: str) -> None:
+    def _refuse(self, query: Query, reason: str) -> None:
         self._say(reason)
         query.drop()
 
@@ -213,7 +211,7 @@ class Service(Work):
         attachment = packed(number.sequence, time.time_ns(), number.gid)
         try:
             request.query.reply(request.query.key_expr, payload, attachment=attachment)
-        except (zenoh.ZError, RuntimeError):  # RuntimeError: another thread drops it just now
+        except (ZError, RuntimeError):  # RuntimeError: another thread drops it just now
             if self._incoming is not None:  # else it was taken back while the callback ran
                 raise
         self._finish(request)

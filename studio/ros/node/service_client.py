@@ -6,9 +6,7 @@ import threading
 import time
 from collections import deque
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, cast
-
-import zenoh
+from typing import TYPE_CHECKING, Any
 
 from studio.errors import (
     AttachmentError,
@@ -26,7 +24,14 @@ from studio.ros.cdr import check_kind, codec_of
 from studio.ros.node.future import Future
 from studio.ros.node.work import Work
 from studio.ros.types.classes import definition_of
-from studio.ros.wire.door import declare_querier
+from studio.ros.wire.zenoh import (
+    REPLIES_WAITING_MAX,
+    Replies,
+    Reply,
+    Sample,
+    ZError,
+    declare_querier,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -37,11 +42,10 @@ if TYPE_CHECKING:
     from studio.ros.qos import QoSProfile
     from studio.ros.types.classes import MessageValue
     from studio.ros.types.library import ServiceKind
-    from studio.ros.wire.door import Asking
+    from studio.ros.wire.zenoh import Querier
 
 SERVICE_TIMEOUT_S = 600.0
 """How long rmw_zenoh lets a service take."""
-_REPLIES_WAITING = 64
 _LOOK_S = 0.1
 _LOST_LOOK_S = 0.25
 _LOST_LOOKS = 4
@@ -53,15 +57,11 @@ class _Call:
     """A request that is under way; `answered` when a reply came, others may follow."""
 
     future: Future[Any]
-    replies: zenoh.Handler[zenoh.Reply]
-    token: zenoh.CancellationToken
+    replies: Replies
     answered: bool = False
     was_served: bool = False
     looks_without_server: int = 0
     failure: WireError | None = None
-
-    def cancel(self) -> None:
-        cast("Any", self.token).cancel()  # which says nothing of what it gives
 
 
 class Client(Work):
@@ -93,7 +93,9 @@ class Client(Work):
         self._lock = threading.Lock()
         self._calls: dict[int, _Call] = {}
         self._done: deque[tuple[Future[Any], bytes | WireError]] = deque()
-        self._querier: Asking | None = declare_querier(endpoint.wire.zenoh, endpoint.key, timeout_s)
+        self._querier: Querier | None = declare_querier(
+            endpoint.wire.zenoh, endpoint.key, timeout_s
+        )
         endpoint.show()
 
     @property
@@ -163,14 +165,9 @@ class Client(Work):
                 raise DestroyedError(f"client of {self.srv_name}")
             self._sequence += 1
             number = self._sequence
-            token = zenoh.CancellationToken()
-            replies = self._querier.get(
-                zenoh.handlers.FifoChannel(_REPLIES_WAITING),
-                payload=payload,
-                attachment=packed(number, time.time_ns(), self.endpoint.gid),
-                cancellation_token=token,
-            )
-            self._calls[number] = _Call(future, replies, token, was_served=was_served)
+            attachment = packed(number, time.time_ns(), self.endpoint.gid)
+            replies = Replies(self._querier, payload, attachment)
+            self._calls[number] = _Call(future, replies, was_served=was_served)
         future.listen(lambda: self._give_up(number, future))
         self._node.context.drain.hurry(self)
         return future
@@ -209,24 +206,24 @@ class Client(Work):
         if querier is None:
             return
         for call in calls.values():
-            call.cancel()
+            call.replies.cancel()
             call.future.cancel()
         self.endpoint.hide(querier)
 
     def _drain_call(self, number: int, call: _Call) -> int:
         # No more at once than wait: a server that replies without end must not hold the drain.
-        for came in range(_REPLIES_WAITING):
+        for came in range(REPLIES_WAITING_MAX):
             try:
                 reply = call.replies.try_recv()
-            except zenoh.ZError:  # the last reply was taken, or the time is over
+            except ZError:  # the last reply was taken, or the time is over
                 self._ended(number, call)
                 return came + 1
             if reply is None:
                 return came
             self._replied(number, call, reply)
-        return _REPLIES_WAITING
+        return REPLIES_WAITING_MAX
 
-    def _replied(self, number: int, call: _Call, reply: zenoh.Reply) -> None:
+    def _replied(self, number: int, call: _Call, reply: Reply) -> None:
         sample, refusal = reply.ok, reply.err
         if refusal is not None:
             payload = refusal.payload.to_bytes()
@@ -243,7 +240,7 @@ class Client(Work):
                 "was asked, and the first answer was taken."
             )
 
-    def _why_foreign(self, number: int, sample: zenoh.Sample) -> str | None:
+    def _why_foreign(self, number: int, sample: Sample) -> str | None:
         """Say why a reply is not rmw_zenoh's to a request, None when it is."""
         attachment = sample.attachment
         try:
@@ -271,7 +268,7 @@ class Client(Work):
             call.was_served |= is_served
             call.looks_without_server = 0 if is_served else call.looks_without_server + 1
             if call.was_served and call.looks_without_server >= _LOST_LOOKS:
-                call.cancel()
+                call.replies.cancel()
                 self._ended(number, call)
 
     def _settle(self, future: Future[Any], answer: bytes | WireError) -> None:
@@ -292,7 +289,7 @@ class Client(Work):
         with self._lock:
             call = self._calls.pop(number, None)
         if call is not None and cancel:
-            call.cancel()
+            call.replies.cancel()
         return call is not None
 
 

@@ -19,17 +19,15 @@ from studio.ros.node.sequences import Gaps
 from studio.ros.node.work import Work
 from studio.ros.qos import DEPTH_DEFAULT, DurabilityPolicy, HistoryPolicy, ReliabilityPolicy
 from studio.ros.tokens import EndpointKind
-from studio.ros.wire.door import SAMPLES_WAITING_MAX, declare_subscription
+from studio.ros.wire.zenoh import SAMPLES_WAITING_MAX, declare_subscription
 
 if TYPE_CHECKING:
-    import zenoh
-
     from studio.ros.node.endpoint import Endpoint
     from studio.ros.node.events import CountEvent
     from studio.ros.node.work import CallbackGroup
     from studio.ros.qos import QoSProfile
     from studio.ros.types.classes import MessageValue
-    from studio.ros.wire.door import Incoming
+    from studio.ros.wire.zenoh import Incoming, Sample
 
 RING = 4_096
 """Samples that Zenoh keeps between two looks, where not only the newest counts."""
@@ -92,7 +90,7 @@ class Subscription(Work):
         self.events: list[Work] = []
         self.lost_event: CountEvent | None = None
         self.on_arrival: Callable[[], object] | None = None
-        self._incoming: Incoming[zenoh.Sample] | None = _declared(endpoint, ring)
+        self._incoming: Incoming[Sample] | None = _declared(endpoint, ring)
         endpoint.show()
 
     @property
@@ -179,7 +177,7 @@ class Subscription(Work):
         if self.on_arrival is not None:
             self.on_arrival()
 
-    def _received(self, sample: zenoh.Sample, now_ns: int) -> RawSample | None:
+    def _received(self, sample: Sample, now_ns: int) -> RawSample | None:
         attachment = sample.attachment
         try:
             unpacked = unpack(None if attachment is None else attachment.to_bytes())
@@ -231,7 +229,7 @@ def _sizes(qos: QoSProfile) -> tuple[int, int]:
     return depth, 1 if depth == 1 else max(RING, depth)
 
 
-def _declared(endpoint: Endpoint, ring: int) -> Incoming[zenoh.Sample]:
+def _declared(endpoint: Endpoint, ring: int) -> Incoming[Sample]:
     qos = endpoint.token.qos
     latched = qos.durability is DurabilityPolicy.TRANSIENT_LOCAL
     return declare_subscription(

@@ -12,14 +12,13 @@ from studio.ros.keys import whatever_type_key
 from studio.ros.names import check_full_name
 from studio.ros.node.arrivals import Arrivals, Flow
 from studio.ros.node.sequences import Gaps
-from studio.ros.wire.door import declare_subscription
+from studio.ros.wire.zenoh import declare_subscription
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    import zenoh
-
     from studio.ros.node.context import Context
+    from studio.ros.wire.zenoh import Sample
 
 RING: Final = 64
 """Samples that Zenoh keeps between two looks; what falls out is counted by its numbers."""
@@ -68,7 +67,7 @@ class Tally:
             self.close()
         return len(samples)
 
-    def _missed(self, samples: Sequence[zenoh.Sample]) -> int:
+    def _missed(self, samples: Sequence[Sample]) -> int:
         """How many fell out of the ring; none are known of senders that do not number them."""
         missed = 0
         for sample in samples:

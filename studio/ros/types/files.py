@@ -13,9 +13,7 @@ from xml.etree import ElementTree
 from studio.errors import (
     InterfaceTextError,
     RosNameError,
-    StudioError,
     UnreadableFileError,
-    WireSettingsError,
 )
 from studio.ros.names import KINDS, check_package_name, split_type_name
 from studio.ros.types.interface_text import TEXT_BYTES_MAX
@@ -23,16 +21,10 @@ from studio.ros.types.interface_text import TEXT_BYTES_MAX
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
-    from studio.ros.types.library import TypeLibrary
-
 
 FILES_MAX = 5_000
 _MANIFEST = "package.xml"
 _PACKAGE_NAME = re.compile(r"[A-Za-z0-9_.-]{1,200}")
-
-
-VARIABLE = "STUDIO_INTERFACES"
-"""Of the environment: paths as PATH has them, whose types every node of the process knows."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,19 +131,6 @@ def _rename(path: Path, error: RosNameError) -> str:
     better = "".join(word[:1].upper() + word[1:] for word in words).lstrip("0123456789")
     mend = f": call it {better[:1].upper()}{better[1:]}{path.suffix}" if better else ""
     return f"its name defines no type, {error.reason}{mend}"
-
-
-def add_own_types(library: TypeLibrary, environment: Mapping[str, str] = os.environ) -> None:
-    """Take up the types that the environment names; why a text is not one, the library says.
-
-    Raises:
-        WireSettingsError: One of the paths is not there, or holds no types.
-    """
-    for path in filter(None, environment.get(VARIABLE, "").split(os.pathsep)):
-        try:
-            library.add_sound_texts(texts_at(Path(path).expanduser().absolute()))
-        except StudioError as error:
-            raise WireSettingsError(f"{VARIABLE}: {error}") from None
 
 
 def texts_at(path: Path) -> InterfaceTexts:

@@ -1,27 +1,55 @@
-"""The router of our own: a Zenoh router inside this process, where rmw_zenohd would run."""
+"""A Zenoh router inside this process, which stands in for rmw_zenohd."""
 
 from __future__ import annotations
 
+import contextlib
+import ipaddress
 import json
 import logging
+import secrets
 import signal
 import threading
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Self
-
-import zenoh
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final, Self, cast
 
 from studio.errors import RouterNotStartedError, WireSettingsError
-from studio.ros.wire.door import close, insert
-from studio.ros.wire.endpoints import Endpoint, parse_endpoint
-from studio.ros.wire.probing import Answer, probe
-from studio.ros.wire.refused_tokens import TokenRelay
+from studio.ros.tokens import ADMIN_SPACE
+from studio.ros.wire.endpoints import Endpoint, ProbeResult, parse_endpoint, probe
 from studio.ros.wire.settings import LEASE_MS
+from studio.ros.wire.zenoh import (
+    Config,
+    ReadingThread,
+    Sample,
+    Session,
+    ZError,
+    close,
+    declare_token,
+    insert,
+    open_zenoh,
+    read_config,
+    standing_tokens,
+    token_change,
+    watch_tokens,
+    watch_transports,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
+    from studio.ros.wire.zenoh import Declaration
+
+
 _log = logging.getLogger(__name__)
+
+_TOKENS: Final = (f"{ADMIN_SPACE}/**", "**/@adv/**", "@/*/@ros2_lv/**")
+"""Of nodes and endpoints, of publishers that keep samples, and of bridges to DDS."""
+_USERS: Final = "transport/auth/usrpwd"
+_SETTLE_S: Final = 0.5
+"""After this the router has every token that it takes from the peers themselves."""
+_LOOK_TIMEOUT_S: Final = 3.0
+_RETRY: Final = {"period_init_ms": 250, "period_max_ms": 4_000, "period_increase_factor": 2}
+
 
 _ACCEPT_TIMEOUT_MS = 5_000
 """A peer that begins a handshake and falls silent is let go after this."""
@@ -58,7 +86,7 @@ class EmbeddedRouter:
     """A router that listens at one endpoint until it is closed."""
 
     def __init__(
-        self, session: zenoh.Session, endpoint: Endpoint, relay: TokenRelay | None = None
+        self, session: Session, endpoint: Endpoint, relay: TokenRelay | None = None
     ) -> None:
         """Own a session in mode router, and what declares there the tokens that it refused."""
         self._session, self._relay = session, relay
@@ -98,18 +126,18 @@ def start_router(
     config = _base(config_file)
     try:
         _complete(config, endpoint, overrides or {})
-        session = zenoh.open(config)
-    except zenoh.ZError as error:
+        session = open_zenoh(config)
+    except ZError as error:
         reason = str(error).split(" at /")[0]
         raise RouterNotStartedError(endpoint.text, reason, held=_is_held(endpoint)) from None
     return EmbeddedRouter(session, endpoint, _relay(session, endpoint, config))
 
 
-def _relay(session: zenoh.Session, endpoint: Endpoint, config: zenoh.Config) -> TokenRelay | None:
+def _relay(session: Session, endpoint: Endpoint, config: Config) -> TokenRelay | None:
     """Show the nodes that are older than the router; without, all others are seen as well."""
     try:
         return TokenRelay(session, endpoint, config)
-    except zenoh.ZError as error:
+    except ZError as error:
         _log.warning(
             "Nodes that are older than the router at %s stay unseen: %s", endpoint.text, error
         )
@@ -149,20 +177,20 @@ def run_router(
 
 
 def _is_held(endpoint: Endpoint) -> bool:
-    return probe(endpoint) in {Answer.ZENOH, Answer.TLS, Answer.OTHER}
+    return probe(endpoint) in {ProbeResult.ZENOH, ProbeResult.TLS, ProbeResult.OTHER}
 
 
-def _base(config_file: str | None) -> zenoh.Config:
+def _base(config_file: str | None) -> Config:
     """Read the user's configuration of routers, or make that of rmw_zenohd."""
     if config_file is not None:
         try:
-            return zenoh.Config.from_file(config_file)
-        except (zenoh.ZError, OSError) as error:
+            return read_config(config_file)
+        except (ZError, OSError) as error:
             reason = str(error).split(" at /")[0]
             raise WireSettingsError(
                 f"ZENOH_ROUTER_CONFIG_URI names {config_file}, which is refused: {reason}."
             ) from None
-    config = zenoh.Config()
+    config = read_config()
     # Zenoh would wait half a second for others that it finds by itself; nobody is to find it.
     insert(config, "scouting/delay", "0")
     insert(config, "scouting/multicast/enabled", "false")
@@ -175,9 +203,162 @@ def _base(config_file: str | None) -> zenoh.Config:
     return config
 
 
-def _complete(config: zenoh.Config, endpoint: Endpoint, overrides: Mapping[str, str]) -> None:
+def _complete(config: Config, endpoint: Endpoint, overrides: Mapping[str, str]) -> None:
     insert(config, "mode", '"router"')
     insert(config, "listen/endpoints", json.dumps([endpoint.text]))
     for key, json5 in overrides.items():
         if key.partition("/")[0] not in _OF_SESSIONS:
             insert(config, key, json5)
+
+
+class TokenRelay:
+    """A session in mode peer beside a router, with links to the peers that the router has.
+
+    When a link to a router comes up, peers of Zenoh 1.8 and older send the tokens that they
+    declared before it as the answer to an interest; routers of Zenoh 1.9 and later refuse them.
+    So the nodes of Jazzy that are older than the router would be seen by nobody who looks by way
+    of the router. This session hears the tokens of such peers by its own links to them, and what
+    the router does not know is declared there for as long as the peer shows it.
+
+    It listens nowhere, so it reaches those peers that listen where this machine can connect to:
+    rmw_zenoh's nodes on this machine, but not those on others, which listen on their localhost.
+    """
+
+    def __init__(self, router: Session, endpoint: Endpoint, config: Config) -> None:
+        """Open the session.
+
+        Args:
+            router: Where tokens are declared.
+            endpoint: Where the router listens.
+            config: How a session is admitted there; taken over and completed.
+
+        Raises:
+            ZError: The session cannot be opened.
+        """
+        self._router = router
+        self._lock = threading.Lock()
+        self._shown: set[str] = set()
+        self._declared: dict[str, Declaration] = {}
+        self._doubted, self._closed = threading.Event(), threading.Event()
+        self._session = open_zenoh(_beside(config, endpoint, str(router.info.zid())))
+        self._readers = [
+            ReadingThread("ros-token-relay", watch_tokens(self._session, key), self._take)
+            for key in _TOKENS
+        ]
+        links = watch_transports(router)
+        self._links = ReadingThread("ros-token-relay-links", links, lambda _: self._doubted.set())
+        self._declaring = threading.Thread(
+            target=self._declare, name="ros-token-relay-declare", daemon=True
+        )
+        self._declaring.start()
+
+    def close(self) -> None:
+        """End the session and take back what was declared; again is harmless."""
+        self._closed.set()
+        self._doubted.set()
+        for reader in (*self._readers, self._links):
+            reader.close()
+        close(self._session)
+
+    def _take(self, samples: list[Sample]) -> None:
+        with self._lock:
+            for sample in samples:
+                token, stands = token_change(sample)
+                if stands:
+                    self._shown.add(token)
+                    self._doubted.set()
+                else:
+                    self._forget(token)
+
+    def _forget(self, token: str) -> None:
+        self._shown.discard(token)
+        declared = self._declared.pop(token, None)
+        if declared is not None:
+            with contextlib.suppress(ZError):  # the router has ended
+                declared.undeclare()
+
+    def _declare(self) -> None:
+        """Compare with what the router knows after each change, until the end."""
+        while self._doubted.wait() and not self._closed.wait(_SETTLE_S):
+            self._doubted.clear()
+            with contextlib.suppress(ZError):  # the router has ended
+                self._declare_refused()
+
+    def _declare_refused(self) -> None:
+        known = {
+            token
+            for key in _TOKENS
+            for token in standing_tokens(self._router, key, _LOOK_TIMEOUT_S)
+        }
+        with self._lock:
+            refused = self._shown - known - self._declared.keys()
+            for token in refused:
+                self._declared[token] = declare_token(self._router, token)
+        if refused:
+            _log.debug("The router refused %d tokens, which are declared for them.", len(refused))
+
+
+def _beside(config: Config, endpoint: Endpoint, router_zid: str) -> Config:
+    """Complete the configuration of a peer that hears no token from the router itself.
+
+    Else what it declares there would come back and stand for ever.
+    """
+    insert(config, "id", json.dumps(f"a{secrets.token_hex(15)}"))  # a file may name the router's
+    insert(config, "mode", '"peer"')
+    insert(config, "adminspace/enabled", "false")
+    insert(config, "connect/endpoints", json.dumps([_near(endpoint)]))
+    insert(config, "connect/retry", json.dumps(_RETRY))
+    insert(config, "listen/endpoints", "[]")
+    insert(config, "scouting/delay", "0")
+    insert(config, "scouting/multicast/enabled", "false")
+    insert(config, "scouting/gossip/enabled", "true")
+    # Other routers would give back what is declared here.
+    insert(config, "scouting/gossip/autoconnect", '{"peer": ["peer"]}')
+    # rmw_zenoh's nodes expect the peer with the greater id to connect, yet nobody can connect here.
+    always = {"peer": {"to_router": "always", "to_peer": "always"}}
+    insert(config, "scouting/gossip/autoconnect_strategy", json.dumps(always))
+    _take_first_user(config)
+    insert(config, "access_control", json.dumps(_no_tokens_from(router_zid)))
+    return config
+
+
+def _take_first_user(config: Config) -> None:
+    """Be one of those whom the router admits by name and password, if no user is given."""
+    users = cast("Any", config).get_json(f"{_USERS}/dictionary_file")
+    file = cast("str | None", json.loads(users))
+    if file is None or json.loads(cast("Any", config).get_json(f"{_USERS}/user")) is not None:
+        return
+    with contextlib.suppress(OSError):  # the router has said that it cannot read it
+        user, _, password = Path(file).read_text().partition("\n")[0].partition(":")
+        insert(config, f"{_USERS}/user", json.dumps(user))
+        insert(config, f"{_USERS}/password", json.dumps(password))
+
+
+def _near(endpoint: Endpoint) -> str:
+    """Where this machine finds a router that listens at an endpoint, which may be all addresses."""
+    try:
+        address = ipaddress.ip_address(endpoint.host)
+    except ValueError:
+        return endpoint.text
+    if not address.is_unspecified:
+        return endpoint.text
+    host = "127.0.0.1" if address.version == 4 else "[::1]"
+    return f"{endpoint.protocol}/{host}:{endpoint.port}"
+
+
+def _no_tokens_from(zid: str) -> dict[str, object]:
+    return {
+        "enabled": True,
+        "default_permission": "allow",
+        "rules": [
+            {
+                "id": "tokens",
+                "permission": "deny",
+                "messages": ["liveliness_token"],
+                "flows": ["ingress"],
+                "key_exprs": ["**", *_TOKENS],
+            }
+        ],
+        "subjects": [{"id": "router", "zids": [zid]}],
+        "policies": [{"rules": ["tokens"], "subjects": ["router"]}],
+    }

@@ -1,27 +1,56 @@
-"""WireSession: one Zenoh session in one ROS domain, which its nodes share."""
+"""WireSession: a Zenoh session in one ROS domain; how to open one, and to watch its router."""
 
 from __future__ import annotations
 
 import itertools
 import json
+import threading
+from dataclasses import replace
 from typing import TYPE_CHECKING, Self
 
-import zenoh
-
-from studio.errors import NoRouterError, WireSettingsError
+from studio.errors import (
+    ForeignEndpointError,
+    NoRouterError,
+    NotAdmittedError,
+    RouterNotStartedError,
+    WireError,
+    WireSettingsError,
+)
 from studio.ros.types.library import TypeLibrary
-from studio.ros.wire.door import close, insert
+from studio.ros.wire.endpoints import Endpoint, ProbeResult, parse_endpoint, probe
+from studio.ros.wire.router import EmbeddedRouter, RouterChoice, router_choice, start_router
 from studio.ros.wire.settings import LEASE_MS
+from studio.ros.wire.zenoh import (
+    Config,
+    ReadingThread,
+    Session,
+    TransportEvent,
+    ZError,
+    close,
+    insert,
+    open_zenoh,
+    read_config,
+    router_change,
+    use_few_threads,
+    watch_transports,
+)
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from studio.ros.profiles import WireProfile
-    from studio.ros.wire.router import EmbeddedRouter
     from studio.ros.wire.settings import WireSettings
+
 
 SERVICE_TIMEOUT_MS = 600_000
 """How long rmw_zenoh lets a service take."""
 _RETRY = {"period_init_ms": 250, "period_max_ms": 1_000, "period_increase_factor": 2}
 """A session finds a router that has come back within a second."""
+
+
+_RACES_MAX = 5
+"""How often the one who wins a race for the endpoint may be gone when we come to join."""
+_ROUTERS = frozenset({ProbeResult.ZENOH, ProbeResult.TLS})
 
 
 class WireSession:
@@ -37,7 +66,7 @@ class WireSession:
 
     def __init__(
         self,
-        session: zenoh.Session,
+        session: Session,
         settings: WireSettings,
         types: TypeLibrary,
         router: EmbeddedRouter | None = None,
@@ -100,12 +129,12 @@ def open_session(
     config = zenoh_config(settings)
     library = types or TypeLibrary(settings.profile.distro)
     try:
-        return WireSession(zenoh.open(config), settings, library, router)
-    except zenoh.ZError as error:
+        return WireSession(open_zenoh(config), settings, library, router)
+    except ZError as error:
         raise NoRouterError(settings.connect, str(error)) from None
 
 
-def zenoh_config(settings: WireSettings) -> zenoh.Config:
+def zenoh_config(settings: WireSettings) -> Config:
     """Zenoh's configuration of a session: a client that does not look around by multicast.
 
     Raises:
@@ -115,17 +144,15 @@ def zenoh_config(settings: WireSettings) -> zenoh.Config:
         config = _base(settings)
         for key, json5 in settings.overrides.items():
             insert(config, key, json5)
-    except (zenoh.ZError, OSError) as error:
+    except (ZError, OSError) as error:
         reason = str(error).split(" at /")[0]
         raise WireSettingsError(f"Zenoh's configuration is refused: {reason}.") from None
     return config
 
 
-def _base(settings: WireSettings) -> zenoh.Config:
-    if settings.config_file is not None:
-        config = zenoh.Config.from_file(settings.config_file)
-    else:
-        config = zenoh.Config()
+def _base(settings: WireSettings) -> Config:
+    config = read_config(settings.config_file)
+    if settings.config_file is None:
         insert(config, "mode", '"client"')
         insert(config, "scouting/multicast/enabled", "false")
         insert(config, "timestamping/enabled", "true")
@@ -135,3 +162,145 @@ def _base(settings: WireSettings) -> zenoh.Config:
     if settings.connect:
         insert(config, "connect/endpoints", json.dumps(settings.connect))
     return config
+
+
+def open_wire(
+    settings: WireSettings, router: str = "auto", types: TypeLibrary | None = None
+) -> WireSession:
+    """Open a session that every node of this process shares; close it.
+
+    Args:
+        settings: Where the router is, and what is spoken there.
+        router: `auto` starts a router where none answers if only this machine can reach the
+            endpoint; `off` starts none; an endpoint is joined, and started where none answers.
+        types: A library that is shared; one of the distribution is made without.
+
+    Raises:
+        NoRouterError: None answers, and none may be started.
+        NotAdmittedError: A router answers and wants another name, password or certificate.
+        ForeignEndpointError: Something that is no Zenoh holds the endpoint.
+        RouterNotStartedError: None answers, and the endpoint cannot be listened at.
+        WireSettingsError: The settings cannot be.
+    """
+    use_few_threads()
+    choice = router_choice(router)
+    if choice.endpoint is not None:
+        settings = replace(settings, connect=(choice.endpoint.text,))
+    for _ in range(_RACES_MAX - 1):
+        try:
+            return _open_once(settings, choice, types)
+        except NoRouterError:
+            if _place_for_router(settings, choice) is None:
+                raise
+    return _open_once(settings, choice, types)
+
+
+def _open_once(
+    settings: WireSettings, choice: RouterChoice, types: TypeLibrary | None
+) -> WireSession:
+    found = _answer_at(settings)
+    router = _router_of_our_own(settings, choice) if found is ProbeResult.NOBODY else None
+    try:
+        return open_session(settings, types, router)
+    except WireError as error:
+        if router is not None:
+            router.close()
+        # A router that ended just now answered, too: it is there no more when asked again.
+        refuses = isinstance(error, NoRouterError) and found in _ROUTERS
+        if refuses and _answer_at(settings) in _ROUTERS:
+            raise NotAdmittedError(settings.connect[0]) from None
+        raise
+
+
+def _router_of_our_own(settings: WireSettings, choice: RouterChoice) -> EmbeddedRouter | None:
+    """Start a router where nobody is, None where none is wanted."""
+    place = _place_for_router(settings, choice)
+    if place is None:
+        return None
+    try:
+        return start_router(place, settings.overrides, settings.router_config_file)
+    except RouterNotStartedError as error:
+        if error.held:
+            return None  # another process was quicker: it is joined
+        raise
+
+
+def _answer_at(settings: WireSettings) -> ProbeResult:
+    """Look at the only endpoint; of several, Zenoh takes whichever answers."""
+    if len(settings.connect) != 1:
+        return ProbeResult.UNKNOWN
+    found = probe(parse_endpoint(settings.connect[0]))
+    if found is ProbeResult.OTHER:
+        raise ForeignEndpointError(settings.connect[0])
+    return found
+
+
+def _place_for_router(settings: WireSettings, choice: RouterChoice) -> Endpoint | None:
+    if not choice.starts:
+        return None
+    if choice.endpoint is not None:
+        return choice.endpoint
+    places = [parse_endpoint(text) for text in settings.connect]
+    if len(places) == 1 and places[0].is_loopback and places[0].is_stream:
+        return places[0]
+    return None
+
+
+class RouterWatch:
+    """Follows the links of one session; Zenoh itself mends them, within a second.
+
+    What was declared stands again when a router is back, and so do the tokens of all others.
+    """
+
+    def __init__(
+        self, wire: WireSession, listener: Callable[[bool], None] = lambda _is_there: None
+    ) -> None:
+        """Begin to watch.
+
+        Args:
+            wire: The session.
+            listener: Told whether a router is there each time that this changes, from a thread
+                of this watch; it must be quick.
+        """
+        self._listener = listener
+        self._changed = threading.Condition()
+        events = watch_transports(wire.zenoh)
+        # Those that are there come as events, too, yet whoever asks at once is to be told.
+        self._routers = {str(zid) for zid in wire.zenoh.info.routers_zid()}
+        self._thread = ReadingThread("ros-router-watch", events, self._take)
+
+    @property
+    def is_connected(self) -> bool:
+        """Whether a router is there now."""
+        return bool(self._routers)
+
+    def wait_for(self, *, connected: bool, timeout_s: float | None = None) -> bool:
+        """Wait until a router is there, or none; False when it is not so in time."""
+        with self._changed:
+            return self._changed.wait_for(lambda: self.is_connected is connected, timeout_s)
+
+    def close(self) -> None:
+        """Stop watching; again is harmless."""
+        self._thread.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def _take(self, events: list[TransportEvent]) -> None:
+        for event in events:
+            before = self.is_connected
+            with self._changed:
+                self._take_one(event)
+                self._changed.notify_all()
+            if before is not self.is_connected:
+                self._listener(self.is_connected)
+
+    def _take_one(self, event: TransportEvent) -> None:
+        changed = router_change(event)
+        if changed is None:
+            return
+        zid, is_linked = changed
+        (self._routers.add if is_linked else self._routers.discard)(zid)

@@ -11,7 +11,7 @@ import pytest
 
 from studio.live.connection.desk import WireDesk
 from studio.live.connection.report import Census, examine
-from studio.ros.wire.door import declare_token
+from studio.ros.wire.zenoh import declare_token
 from studio.settings import WireChoice
 from tests.support.wire import (
     free_endpoint,

@@ -12,7 +12,7 @@ import pytest
 from studio.ros.graph.graph import Graph
 from studio.ros.qos import QoSProfile
 from studio.ros.tokens import EndpointKind, EndpointToken, NodeToken
-from studio.ros.wire.door import declare_token
+from studio.ros.wire.zenoh import declare_token
 from tests.support.wire import (
     PATIENCE_S,
     free_endpoint,
@@ -25,8 +25,8 @@ from tests.support.wire import (
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from studio.ros.wire.door import Declared
     from studio.ros.wire.session import WireSession
+    from studio.ros.wire.zenoh import Declaration
 
 STRING = "std_msgs/msg/String"
 
@@ -59,7 +59,7 @@ def endpoint_of(
     )
 
 
-def show(wire: WireSession, *tokens: NodeToken | EndpointToken) -> list[Declared]:
+def show(wire: WireSession, *tokens: NodeToken | EndpointToken) -> list[Declaration]:
     return [declare_token(wire.zenoh, str(token)) for token in tokens]
 
 
@@ -169,7 +169,7 @@ def test_tokens_that_are_none_are_counted(robot: WireSession, graph: Graph):
 
 def test_ten_thousand_topics_of_ten_sessions_are_all_seen_and_all_go(endpoint: str, graph: Graph):
     with ExitStack() as stack:
-        held: list[Declared] = []
+        held: list[Declaration] = []
         for at in range(10):
             wire = stack.enter_context(open_test_session(endpoint))
             held += show_endpoints(wire, 1_000, f"robot_{at}")
@@ -182,7 +182,7 @@ def test_ten_thousand_topics_of_ten_sessions_are_all_seen_and_all_go(endpoint: s
 NODE_OF_ITS_OWN = """
 import sys
 from studio.ros.tokens import NodeToken
-from studio.ros.wire.door import declare_token
+from studio.ros.wire.zenoh import declare_token
 from tests.support.wire import open_test_session
 wire = open_test_session(sys.argv[1])
 token = declare_token(wire.zenoh, str(NodeToken(0, wire.zid, wire.next_id(), "/", "victim")))

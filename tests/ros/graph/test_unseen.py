@@ -11,7 +11,7 @@ import pytest
 import zenoh
 
 from studio.ros.graph.unseen import unseen_nodes, why_unseen
-from studio.ros.wire.door import close, declare_token, insert
+from studio.ros.wire.zenoh import close, declare_token, insert
 from tests.support.wire import open_test_session, running_router, wait_until
 
 if TYPE_CHECKING:

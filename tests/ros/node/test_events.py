@@ -14,7 +14,7 @@ from studio.ros.event_handler import (
     SubscriptionEventCallbacks,
 )
 from studio.ros.messages import message
-from studio.ros.wire.door import declare_publisher
+from studio.ros.wire.zenoh import declare_publisher
 from tests.support.node_pair import node_pair, spin_until
 from tests.support.wire import wait_until
 

@@ -12,7 +12,7 @@ from studio.ros.node.subscription import Subscription
 from studio.ros.parameters.parameter import Parameter
 from studio.ros.qos import QoSProfile, qos_profile_rosout_default
 from studio.ros.tokens import EndpointKind, tokens_of_domain
-from studio.ros.wire.door import standing_tokens
+from studio.ros.wire.zenoh import standing_tokens
 from tests.support.node_pair import context_at, node_pair, spin_until
 from tests.support.wire import open_test_session, wait_until
 

@@ -16,7 +16,7 @@ from studio.ros.node.future import Future
 from studio.ros.node.spinning import spinning
 from studio.ros.node.work import ReentrantCallbackGroup
 from studio.ros.qos import QoSProfile
-from studio.ros.wire.door import declare_querier
+from studio.ros.wire.zenoh import declare_querier
 from tests.support.node_pair import node_pair, spin_until
 from tests.support.wire import PATIENCE_S, wait_until
 

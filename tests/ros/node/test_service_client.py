@@ -20,7 +20,7 @@ from studio.ros.messages import message, service
 from studio.ros.node.future import Future
 from studio.ros.node.spinning import spinning
 from studio.ros.node.work import ReentrantCallbackGroup
-from studio.ros.wire.door import declare_queryable
+from studio.ros.wire.zenoh import declare_queryable
 from tests.support.node_pair import node_pair, spin_until
 from tests.support.wire import wait_until
 

@@ -16,7 +16,7 @@ from studio.ros.qos import (
     ReliabilityPolicy,
     qos_profile_sensor_data,
 )
-from studio.ros.wire.door import declare_publisher
+from studio.ros.wire.zenoh import declare_publisher
 from tests.support.node_pair import node_pair, spin_until
 from tests.support.wire import wait_until
 

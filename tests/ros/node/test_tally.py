@@ -11,7 +11,7 @@ import pytest
 from studio.errors import RosNameError
 from studio.ros.attachment import Attachment
 from studio.ros.node.tally import RING, Tally
-from studio.ros.wire.door import declare_publisher, declare_subscription
+from studio.ros.wire.zenoh import declare_publisher, declare_subscription
 from tests.support.node_pair import context_at, node_pair
 from tests.support.wire import running_router, wait_until
 

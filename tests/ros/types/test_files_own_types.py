@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.errors import UnknownTypeError, UnreadableFileError, WireSettingsError
-from studio.ros.types.files import VARIABLE, add_own_types, texts_at
+from studio.ros.messages import INTERFACES_VARIABLE, add_own_types
+from studio.ros.types.files import texts_at
 from studio.ros.types.library import TypeLibrary
 
 if TYPE_CHECKING:
@@ -42,7 +43,9 @@ def test_the_paths_of_the_environment_are_taken_up(package: Path, tmp_path: Path
     other.mkdir(parents=True)
     (other / "Pack.msg").write_text("own_interfaces/Cell[] cells\n")
     library = TypeLibrary("jazzy")
-    add_own_types(library, {VARIABLE: f"{package}{os.pathsep}{os.pathsep}{other.parent}"})
+    add_own_types(
+        library, {INTERFACES_VARIABLE: f"{package}{os.pathsep}{os.pathsep}{other.parent}"}
+    )
     pack = library.message("more_interfaces/msg/Pack")
     cell = library.message(CELL)(voltage=1.5)
     assert pack(cells=[cell]).cells[0].voltage == 1.5
@@ -57,15 +60,15 @@ def test_without_the_variable_nothing_is_added():
 
 def test_a_path_that_cannot_be_is_said_with_the_variable(tmp_path: Path, package: Path):
     for path in (tmp_path / "none", package / "package.xml"):
-        with pytest.raises(WireSettingsError, match=f"^{VARIABLE}: "):
-            add_own_types(TypeLibrary("jazzy"), {VARIABLE: str(path)})
+        with pytest.raises(WireSettingsError, match=f"^{INTERFACES_VARIABLE}: "):
+            add_own_types(TypeLibrary("jazzy"), {INTERFACES_VARIABLE: str(path)})
 
 
 def test_of_a_package_with_a_faulty_text_the_others_are_known(package: Path):
     bad = package / "msg" / "Bad.msg"
     bad.write_text("# Mine.\nfloat x\n")
     library = TypeLibrary("jazzy")
-    add_own_types(library, {VARIABLE: str(package)})
+    add_own_types(library, {INTERFACES_VARIABLE: str(package)})
     assert library.message(CELL)(voltage=1.5).voltage == 1.5
     with pytest.raises(UnknownTypeError, match=f'{bad}:2: "float" is no type: write float32 or'):
         library.message("own_interfaces/msg/Bad")

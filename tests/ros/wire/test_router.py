@@ -13,13 +13,11 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.errors import RouterNotStartedError, WireSettingsError
-from studio.ros.wire.door import declare_publisher, declare_subscription
 from studio.ros.wire.endpoints import parse_endpoint
-from studio.ros.wire.opening import open_wire
 from studio.ros.wire.router import router_choice, start_router
-from studio.ros.wire.session import open_session
+from studio.ros.wire.session import RouterWatch, open_session, open_wire
 from studio.ros.wire.settings import WireSettings
-from studio.ros.wire.watching import RouterWatch
+from studio.ros.wire.zenoh import declare_publisher, declare_subscription
 from tests.support.patience import ended_within
 from tests.support.wire import (
     PATIENCE_S,
@@ -37,7 +35,7 @@ if TYPE_CHECKING:
 
     import zenoh
 
-    from studio.ros.wire.door import Incoming, Outgoing
+    from studio.ros.wire.zenoh import Incoming, Outgoing
 
 END_S = 2.0
 
@@ -58,7 +56,7 @@ run_router(sys.argv[1], lambda endpoint: print(endpoint, flush=True))
 
 OPENED = """
 import sys
-from studio.ros.wire.opening import open_wire
+from studio.ros.wire.session import open_wire
 from studio.ros.wire.session import open_session
 from studio.ros.wire.settings import WireSettings
 print("ready", flush=True)

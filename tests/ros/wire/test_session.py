@@ -10,9 +10,8 @@ import pytest
 
 from studio.errors import NotAdmittedError, WireSettingsError
 from studio.ros.wire.endpoints import parse_endpoint
-from studio.ros.wire.opening import open_wire
 from studio.ros.wire.router import start_router
-from studio.ros.wire.session import zenoh_config
+from studio.ros.wire.session import open_wire, zenoh_config
 from studio.ros.wire.settings import WireSettings
 from tests.support.certificates import make_certificates
 from tests.support.wire import free_endpoint, open_test_session, running_router, session_pair

@@ -13,8 +13,8 @@ from studio.errors import (
     RouterNotStartedError,
     WireSettingsError,
 )
-from studio.ros.wire import probing
-from studio.ros.wire.opening import open_wire
+from studio.ros.wire import endpoints as probing
+from studio.ros.wire.session import open_wire
 from studio.ros.wire.settings import WireSettings
 from tests.support.wire import free_endpoint, running_router
 

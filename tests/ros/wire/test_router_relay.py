@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING
 
 import zenoh
 
-from studio.ros.wire.door import close, declare_token, insert, standing_tokens
 from studio.ros.wire.endpoints import parse_endpoint
 from studio.ros.wire.router import start_router
 from studio.ros.wire.session import open_session
 from studio.ros.wire.settings import WireSettings
+from studio.ros.wire.zenoh import close, declare_token, insert, standing_tokens
 from tests.support.certificates import make_certificates
 from tests.support.wire import free_endpoint, open_test_session, wait_until
 

@@ -7,19 +7,19 @@ from contextlib import ExitStack
 from typing import TYPE_CHECKING
 
 import pytest
+import zenoh
 
 from studio.ros.graph.graph import Graph
 from studio.ros.qos import QoSProfile
 from studio.ros.tokens import EndpointKind, EndpointToken, NodeToken
-from studio.ros.wire.door import (
+from studio.ros.wire.session import RouterWatch
+from studio.ros.wire.zenoh import (
     declare_publisher,
     declare_querier,
     declare_queryable,
     declare_subscription,
     declare_token,
-    queue,
 )
-from studio.ros.wire.watching import RouterWatch
 from tests.support.wire import (
     PATIENCE_S,
     free_endpoint,
@@ -31,8 +31,8 @@ from tests.support.wire import (
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from studio.ros.wire.door import Asked, Incoming
     from studio.ros.wire.session import WireSession
+    from studio.ros.wire.zenoh import Incoming, Query
 
 
 class Place:
@@ -130,7 +130,7 @@ def test_queryables_return_with_their_askers(place: Place, pair: tuple[WireSessi
     server.start()
 
     def is_answered() -> bool:
-        replies = asking.get(queue(), payload=b"1", attachment=b"x")
+        replies = asking.get(zenoh.handlers.FifoChannel(16), payload=b"1", attachment=b"x")
         return any(reply.ok is not None for reply in replies)
 
     try:
@@ -141,7 +141,7 @@ def test_queryables_return_with_their_askers(place: Place, pair: tuple[WireSessi
         server.join(PATIENCE_S)
 
 
-def answer(asked: Incoming[Asked], ended: threading.Event) -> None:
+def answer(asked: Incoming[Query], ended: threading.Event) -> None:
     for query in asked:
         if ended.is_set():
             return

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio.ros.wire.door import declare_publisher, declare_subscription
-from studio.ros.wire.reading import BATCH_MAX, ReadingThread
+from studio.ros.wire.zenoh import BATCH_MAX, ReadingThread, declare_publisher, declare_subscription
 from tests.support.wire import session_pair, wait_until
 
 if TYPE_CHECKING:
@@ -16,7 +15,7 @@ if TYPE_CHECKING:
 
     import zenoh
 
-    from studio.ros.wire.door import Incoming, Outgoing
+    from studio.ros.wire.zenoh import Incoming, Outgoing
 
 MANY = 2 * BATCH_MAX + 1
 

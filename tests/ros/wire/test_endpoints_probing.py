@@ -10,15 +10,14 @@ from typing import TYPE_CHECKING, cast
 
 import pytest
 
-from studio.ros.wire.endpoints import parse_endpoint
-from studio.ros.wire.probing import Answer, probe
+from studio.ros.wire.endpoints import ProbeResult, parse_endpoint, probe
 from tests.support.wire import free_endpoint, open_test_session, running_router
 
 if TYPE_CHECKING:
     from collections.abc import Generator
 
 
-def looked_at(endpoint: str) -> Answer:
+def looked_at(endpoint: str) -> ProbeResult:
     return probe(parse_endpoint(endpoint))
 
 
@@ -41,12 +40,12 @@ def program_that_says(words: bytes) -> Generator[str]:
 
 
 def test_nobody_is_where_nobody_listens():
-    assert looked_at(free_endpoint()) is Answer.NOBODY
+    assert looked_at(free_endpoint()) is ProbeResult.NOBODY
 
 
 def test_a_router_answers_and_goes_on_as_before():
     with running_router() as endpoint:
-        assert [looked_at(endpoint) for _ in range(3)] == [Answer.ZENOH] * 3
+        assert [looked_at(endpoint) for _ in range(3)] == [ProbeResult.ZENOH] * 3
         with open_test_session(endpoint) as wire:
             assert len(list(wire.zenoh.info.routers_zid())) == 1
 
@@ -65,12 +64,12 @@ def test_a_router_answers_and_goes_on_as_before():
 )
 def test_any_other_program_is_no_router(words: bytes):
     with program_that_says(words) as endpoint:
-        assert looked_at(endpoint) is Answer.OTHER
+        assert looked_at(endpoint) is ProbeResult.OTHER
 
 
 @pytest.mark.parametrize("endpoint", ["udp/127.0.0.1:7447", "unixsock-stream//tmp/none"])
 def test_of_what_is_no_stream_nothing_is_known(endpoint: str):
-    assert looked_at(endpoint) is Answer.UNKNOWN
+    assert looked_at(endpoint) is ProbeResult.UNKNOWN
 
 
 def test_who_hung_up_because_it_ended_is_nobody():
@@ -85,10 +84,10 @@ def test_who_hung_up_because_it_ended_is_nobody():
 
         thread = threading.Thread(target=end)
         thread.start()
-        assert looked_at(endpoint) is Answer.NOBODY
+        assert looked_at(endpoint) is ProbeResult.NOBODY
         thread.join()
 
 
 def test_behind_tls_only_zenoh_can_look():
     with program_that_says(b"") as endpoint:
-        assert looked_at(endpoint.replace("tcp/", "tls/")) is Answer.TLS
+        assert looked_at(endpoint.replace("tcp/", "tls/")) is ProbeResult.TLS
