@@ -12,7 +12,7 @@ from studio.cli.acting import acting
 from studio.cli.learning import say_aside, say_foreign
 from studio.cli.looking import full_name, say_other_types
 from studio.cli.wire import add_wire_options
-from studio.ros.graph.actions import goal_service
+from studio.ros.graph.graph import goal_service
 from studio.ros.names import full_type_name
 
 if TYPE_CHECKING:

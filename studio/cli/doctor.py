@@ -57,7 +57,7 @@ def _run(options: argparse.Namespace) -> int:
 
 def _unseen(wire: WireSession) -> list[Fault]:
     from studio.cli.faults import Fault
-    from studio.ros.graph.unseen import unseen_nodes, why_unseen
+    from studio.ros.graph.diagnosis import unseen_nodes, why_unseen
 
     found = unseen_nodes(wire)
     return [Fault("unseen nodes", why_unseen(found))] if found else []
@@ -74,7 +74,7 @@ def _print_verdict(graph: Graph, faults: list[Fault], why_nobody: str) -> None:
 
 
 def _sections(wire: WireSession, graph: Graph) -> list[Section]:
-    from studio.ros.graph.unseen import router_versions
+    from studio.ros.graph.diagnosis import router_versions
 
     return [
         (

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from studio.errors import StudioError
 from studio.ros.graph.diagnosis import DistroHashes, foreign_hashes, why_not_heard
-from studio.ros.qos_matching import why_unmatched
+from studio.ros.qos import why_unmatched
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -43,9 +43,7 @@ def looking(options: argparse.Namespace) -> Generator[Graph]:
 
 def why_empty(wire: WireSession) -> str:
     """Say why no node is seen: the router shows none, they are in other domains, or none is."""
-    from studio.ros.graph.diagnosis import why_nobody
-    from studio.ros.graph.domains import nodes_by_domain
-    from studio.ros.graph.unseen import unseen_nodes, why_unseen
+    from studio.ros.graph.diagnosis import nodes_by_domain, unseen_nodes, why_nobody, why_unseen
 
     unseen = unseen_nodes(wire)
     if unseen is not None:

@@ -50,7 +50,7 @@ def _list(options: argparse.Namespace) -> None:
 
 
 def _info(options: argparse.Namespace) -> int:
-    from studio.ros.graph.node_parts import parts_of
+    from studio.ros.graph.graph import parts_of
 
     path = full_name(options.node_name)
     with looking(options) as graph:

@@ -14,7 +14,7 @@ from studio.displays.pose_look import NOT_FINITE, colour_of, colour_properties
 from studio.displays.properties import rgb_of
 from studio.displays.rows import chosen_rows
 from studio.displays.turning import FAR, drawable
-from studio.ros.fast.poses import GRID_CELLS, read_grid_cells
+from studio.ros.columns.poses import GRID_CELLS, read_grid_cells
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

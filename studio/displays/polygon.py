@@ -13,7 +13,7 @@ from studio.displays.pose_look import colour_of, colour_properties
 from studio.displays.properties import rgb_of
 from studio.displays.rows import chosen_rows
 from studio.displays.turning import drawable
-from studio.ros.fast.poses import POLYGON, read_polygon
+from studio.ros.columns.poses import POLYGON, read_polygon
 
 if TYPE_CHECKING:
     from studio.displays.display import Received

@@ -24,7 +24,7 @@ from studio.displays.pose_look import (
 from studio.displays.properties import Property, rgb_of
 from studio.displays.rows import poses_of_rows
 from studio.displays.turning import turned
-from studio.ros.fast.poses import POSE_ARRAY, read_pose_array
+from studio.ros.columns.poses import POSE_ARRAY, read_pose_array
 
 if TYPE_CHECKING:
     from studio.displays.display import Received

@@ -26,7 +26,7 @@ USED_LATER: Final = (
     *("studio.live.panels.driving_work", "studio.live.panels.goal_work"),
     *("studio.live.panels.hearing_channels", "studio.live.panels.parameter_work"),
     *("studio.live.panels.publication_work", "studio.live.panels.requests"),
-    *("studio.ros.messages", "studio.ros.graph.node_parts", "studio.ros.types.convert"),
+    *("studio.ros.messages", "studio.ros.graph.graph", "studio.ros.types.convert"),
 )
 """With what they import, all that functions of the loop import when they are first called."""
 

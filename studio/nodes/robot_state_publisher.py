@@ -20,8 +20,8 @@ from studio.nodes.link_transforms import LinkTransforms
 from studio.nodes.state_pace import StatePace
 from studio.robot.urdf_text import robot_from_urdf
 from studio.ros.client import Node
+from studio.ros.columns.transforms import TransformCodec
 from studio.ros.duration import NANOSECONDS
-from studio.ros.fast.transforms import TransformCodec
 from studio.ros.messages import message
 from studio.ros.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from studio.tf.columns import TransformColumns

@@ -6,8 +6,8 @@ import struct
 from typing import NamedTuple
 
 from studio.errors import AttachmentError
-from studio.ros.gid import GID_BYTES
 
+GID_BYTES = 16
 _LAYOUT = struct.Struct(f"<qqB{GID_BYTES}s")
 ATTACHMENT_BYTES = _LAYOUT.size
 # Releases before 2025 name each part: the first string begins with its length.

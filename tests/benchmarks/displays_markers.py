@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from studio.displays.display import Received
 from studio.displays.marker_array import MarkerArrayDisplay
 from studio.displays.markers.kinds import Kind
-from studio.ros.fast.markers import MarkerCodec
+from studio.ros.columns.markers import MarkerCodec
 from tests.benchmarks.report import Timings, judge, say
 from tests.support.markers import TYPES, array_of, marker
 

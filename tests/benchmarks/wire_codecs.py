@@ -10,8 +10,8 @@ import numpy as np
 from rosbags.typesys import Stores, get_typestore
 
 from studio.ros.cdr import Codec
-from studio.ros.fast.markers import MarkerCodec
-from studio.ros.fast.transforms import TransformCodec
+from studio.ros.columns.markers import MarkerCodec
+from studio.ros.columns.transforms import TransformCodec
 from studio.ros.messages import message
 from tests.benchmarks.report import judge_ratio, say
 

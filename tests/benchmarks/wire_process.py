@@ -18,10 +18,10 @@ from typing import TYPE_CHECKING, Any
 from studio.ros.attachment import Attachment
 from studio.ros.cdr import Codec
 from studio.ros.client import Context, SingleThreadedExecutor
-from studio.ros.keys import DataKey
 from studio.ros.messages import message
 from studio.ros.node.node import Node
 from studio.ros.qos import QoSProfile
+from studio.ros.tokens import DataKey
 from studio.ros.wire.zenoh import declare_publisher, declare_subscription, use_few_threads
 from tests.support.wire import open_test_session
 

@@ -12,9 +12,7 @@ import pytest
 
 from studio.ros.attachment import unpack
 from studio.ros.cdr import Codec
-from studio.ros.gid import gid_of
-from studio.ros.keys import parse_key
-from studio.ros.tokens import EndpointKind, EndpointToken, parse_token
+from studio.ros.tokens import EndpointKind, EndpointToken, gid_of, parse_key, parse_token
 from studio.ros.types.library import TypeLibrary
 
 Line = dict[str, Any]

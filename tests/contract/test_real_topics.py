@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from studio.ros.client import Context, Node
-from studio.ros.gid import gid_of
 from studio.ros.messages import message
 from studio.ros.node.inbox import BLINK_NS
 from studio.ros.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
+from studio.ros.tokens import gid_of
 from tests.support.demos import heard, node_at, spun
 from tests.support.ros2_peer import RealNode, RealNodes, real_node, real_nodes
 from tests.support.wire import open_test_session, wait_until

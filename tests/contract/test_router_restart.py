@@ -11,8 +11,8 @@ import zenoh
 
 from studio.live.connection.report import examine
 from studio.ros.client import DurabilityPolicy, QoSProfile
+from studio.ros.graph.diagnosis import unseen_nodes
 from studio.ros.graph.graph import Graph
-from studio.ros.graph.unseen import unseen_nodes
 from studio.ros.messages import service
 from studio.ros.wire.zenoh import close, insert
 from studio.settings import WireChoice

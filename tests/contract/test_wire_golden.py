@@ -11,11 +11,17 @@ import pytest
 from studio.ros.attachment import Attachment, unpack
 from studio.ros.cdr import Codec
 from studio.ros.duration import Duration
-from studio.ros.gid import gid_of
-from studio.ros.keys import DataKey, parse_key
 from studio.ros.profiles import PROFILES
 from studio.ros.qos import QoSProfile
-from studio.ros.tokens import EndpointKind, EndpointToken, NodeToken, parse_token
+from studio.ros.tokens import (
+    DataKey,
+    EndpointKind,
+    EndpointToken,
+    NodeToken,
+    gid_of,
+    parse_key,
+    parse_token,
+)
 from studio.ros.types.convert import from_dict, to_dict
 from studio.ros.types.library import TypeLibrary
 from tests.support.golden_wire import FOLDER, golden_text

@@ -11,8 +11,8 @@ import pytest
 from studio.errors import CdrError, NoAnswerError, NotServedError, WireError
 from studio.ros.action import ActionClient
 from studio.ros.client import action
-from studio.ros.keys import DataKey
 from studio.ros.messages import service
+from studio.ros.tokens import DataKey
 from studio.ros.wire.zenoh import declare_queryable
 from tests.support.demos import heard, node_at, running_demo
 from tests.support.patience import Stopwatch

@@ -15,10 +15,10 @@ import pytest
 
 from studio.ros.attachment import Attachment
 from studio.ros.client import ExternalShutdownException, QoSProfile, ReliabilityPolicy
-from studio.ros.keys import DataKey
 from studio.ros.messages import message
 from studio.ros.node.executor import SingleThreadedExecutor
 from studio.ros.node.node import Node
+from studio.ros.tokens import DataKey
 from studio.ros.wire.zenoh import declare_publisher
 from tests.support.demos import heard, node_at
 from tests.support.wire import PATIENCE_S, open_test_session, wait_until

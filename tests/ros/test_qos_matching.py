@@ -10,8 +10,8 @@ from studio.ros.qos import (
     ReliabilityPolicy,
     qos_profile_best_available,
     qos_profile_sensor_data,
+    why_unmatched,
 )
-from studio.ros.qos_matching import why_unmatched
 
 PLAIN = QoSProfile(depth=10)
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from studio.ros.fast.marker_columns import MarkerColumns, MarkerTexts, Texture
+from studio.ros.columns.markers import MarkerColumns, MarkerTexts, Texture
 from studio.tf.columns import TransformColumns
 
 if TYPE_CHECKING:

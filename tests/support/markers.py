@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from studio.displays.display import Received
 from studio.displays.marker_array import MarkerArrayDisplay
 from studio.ros.cdr import Codec
-from studio.ros.fast.markers import MarkerCodec
+from studio.ros.columns.markers import MarkerCodec
 from studio.ros.types.library import TypeLibrary
 
 if TYPE_CHECKING:
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from studio.displays.display import Display
     from studio.displays.drawing import Drawing, Shape
     from studio.displays.markers.kinds import Kind
-    from studio.ros.fast.marker_columns import MarkerColumns
+    from studio.ros.columns.markers import MarkerColumns
 
 TYPES = TypeLibrary("jazzy")
 MARKER = TYPES.message("visualization_msgs/msg/Marker")

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from studio.ros.cdr import Codec
-from studio.ros.fast.transforms import TransformCodec
+from studio.ros.columns.transforms import TransformCodec
 from studio.ros.types.convert import from_dict
 from studio.ros.types.library import TypeLibrary
 from studio.tf.buffer import TransformBuffer

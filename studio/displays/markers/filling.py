@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from studio.displays.markers.kinds import Flags, Whole
     from studio.displays.markers.naming import Named
     from studio.displays.markers.table import MarkerTable
-    from studio.ros.fast.marker_columns import MarkerColumns, MarkerTexts
+    from studio.ros.columns.markers import MarkerColumns, MarkerTexts
 
 POINTS_MAX: Final = 2_000_000
 WORDS_MAX: Final = 2000

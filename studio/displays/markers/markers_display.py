@@ -10,7 +10,7 @@ from studio.displays.markers.batches import MarkerBatches
 from studio.displays.markers.statuses import statuses_of
 from studio.displays.markers.store import MarkerStore
 from studio.displays.properties import Property
-from studio.ros.fast.markers import MarkerCodec
+from studio.ros.columns.markers import MarkerCodec
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from studio.displays.markers.kinds import Flags, Whole
-    from studio.ros.fast.marker_columns import MarkerColumns, MarkerTexts
+    from studio.ros.columns.markers import MarkerColumns, MarkerTexts
 
 _KEPT: Final = 4
 _BYTES_KEPT_MAX: Final = 1 << 20

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from studio.displays.markers.kinds import Flags, Whole
     from studio.displays.markers.naming import Named
     from studio.displays.markers.sequence import Key
-    from studio.ros.fast.marker_columns import MarkerColumns
+    from studio.ros.columns.markers import MarkerColumns
 
 MARKERS_MAX: Final = 50_000
 NAMESPACES_MAX: Final = 1000

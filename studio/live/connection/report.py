@@ -12,9 +12,8 @@ from typing import TYPE_CHECKING, Final
 from studio.errors import NoRouterError, TokenError
 from studio.live.connection.plan import planned_wire
 from studio.protocol.wire import DomainView, Verdict, WireReport
-from studio.ros.graph.diagnosis import DistroHashes, foreign_hashes
+from studio.ros.graph.diagnosis import DistroHashes, foreign_hashes, unseen_nodes
 from studio.ros.graph.endpoints import GraphEndpoint, GraphNode
-from studio.ros.graph.unseen import unseen_nodes
 from studio.ros.messages import types_of
 from studio.ros.profiles import PROFILES
 from studio.ros.tokens import ADMIN_SPACE, EndpointToken, NodeToken, parse_token

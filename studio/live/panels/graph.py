@@ -129,7 +129,7 @@ def _link(
 
 
 def _node(graph: Graph, command: GetNode) -> NodeAnswer:
-    from studio.ros.graph.node_parts import parts_of  # noqa: PLC0415 - imports zenoh
+    from studio.ros.graph.graph import parts_of  # noqa: PLC0415 - imports zenoh
 
     same = [one for one in graph.nodes() if one.path == command.name]
     parts = parts_of(graph, same[0], hidden=False)._asdict() if same else {}

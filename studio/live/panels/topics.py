@@ -16,7 +16,7 @@ from studio.protocol.topics import (
     TopicRow,
     TopicTable,
 )
-from studio.ros.qos_matching import why_unmatched
+from studio.ros.qos import why_unmatched
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence

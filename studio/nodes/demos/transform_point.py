@@ -11,7 +11,7 @@ import studio.ros.client as rclpy
 from studio.errors import CdrError, FrameError
 from studio.nodes.demos.running import until_stopped
 from studio.ros.client import DurabilityPolicy, Node, QoSProfile
-from studio.ros.fast.transforms import TransformCodec
+from studio.ros.columns.transforms import TransformCodec
 from studio.ros.messages.studio_interfaces.srv import TransformPoint
 from studio.ros.messages.tf2_msgs.msg import TFMessage
 from studio.tf.buffer import TransformBuffer

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from studio.ros.gid import gid_of
+from studio.ros.tokens import gid_of
 
 if TYPE_CHECKING:
     from studio.ros.qos import QoSProfile

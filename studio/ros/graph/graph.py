@@ -1,14 +1,13 @@
-"""Graph: who is there in a domain, kept by a thread of its own, asked from any."""
+"""The ROS graph of a domain, kept by a thread: its nodes, topics, services and actions."""
 
 from __future__ import annotations
 
 import threading
 import time
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, NamedTuple, Self
 
-from studio.ros.graph import actions
 from studio.ros.graph.table import GraphTable, Taken
-from studio.ros.names import check_full_name
+from studio.ros.names import check_full_name, is_hidden
 from studio.ros.tokens import EndpointKind, tokens_of_domain
 from studio.ros.wire.zenoh import ReadingThread, Sample, standing_tokens, token_change, watch_tokens
 
@@ -18,11 +17,14 @@ if TYPE_CHECKING:
     from studio.ros.graph.endpoints import GraphEndpoint, GraphNode
     from studio.ros.wire.session import WireSession
 
+_GOAL = "/_action/send_goal"
+_GOAL_TYPE = "_SendGoal"
 NamesAndTypes = list[tuple[str, list[str]]]
 """What rclpy gives for topics, services and actions: names in order, each with its types."""
-
 DOUBT_TIMEOUT_S = 1.0
 SETTLE_TIMEOUT_S = 3.0
+NamesAndType = list[tuple[str, str]]
+"""Names in order, each with its type."""
 
 
 class Graph:
@@ -136,15 +138,15 @@ class Graph:
 
     def actions(self) -> NamesAndTypes:
         """Actions that somebody serves, by the services and topics that they are made of."""
-        return actions.names_and_types(self.services())
+        return action_names_and_types(self.services())
 
     def action_servers(self, action: str) -> list[GraphNode]:
         """The nodes that serve an action."""
-        return [found.node for found in self.servers(actions.goal_service(action))]
+        return [found.node for found in self.servers(goal_service(action))]
 
     def action_clients(self, action: str) -> list[GraphNode]:
         """The nodes that may send goals to an action."""
-        return [found.node for found in self.clients(actions.goal_service(action))]
+        return [found.node for found in self.clients(goal_service(action))]
 
     def endpoint_of_gid(self, gid: bytes) -> GraphEndpoint | None:
         """Whose sample or request it is, None when nobody's token says that."""
@@ -201,3 +203,62 @@ class Graph:
 
     def _stands(self, token: str) -> bool:
         return token in standing_tokens(self._wire.zenoh, token, DOUBT_TIMEOUT_S)
+
+
+class NodeParts(NamedTuple):
+    """Each group has what is not hidden, or all of it."""
+
+    subscribers: NamesAndType
+    publishers: NamesAndType
+    service_servers: NamesAndType
+    service_clients: NamesAndType
+    action_servers: NamesAndType
+    action_clients: NamesAndType
+
+
+def parts_of(graph: Graph, node: GraphNode, *, hidden: bool) -> NodeParts:
+    """Group what a node has; `hidden` names too, such as the topics that actions are made of."""
+    ends = graph.endpoints_of(node)
+
+    def of(kind: EndpointKind) -> list[GraphEndpoint]:
+        return [end for end in ends if end.kind is kind]
+
+    return NodeParts(
+        _names_of(of(EndpointKind.SUBSCRIPTION), hidden=hidden),
+        _names_of(of(EndpointKind.PUBLISHER), hidden=hidden),
+        _names_of(of(EndpointKind.SERVICE), hidden=hidden),
+        _names_of(of(EndpointKind.CLIENT), hidden=hidden),
+        _actions_of(of(EndpointKind.SERVICE)),
+        _actions_of(of(EndpointKind.CLIENT)),
+    )
+
+
+def _names_of(ends: list[GraphEndpoint], *, hidden: bool) -> NamesAndType:
+    return sorted({(end.name, end.type_name) for end in ends if hidden or not is_hidden(end.name)})
+
+
+def _actions_of(ends: list[GraphEndpoint]) -> NamesAndType:
+    return sorted(
+        (end.name.removesuffix(_GOAL), end.type_name.removesuffix("_SendGoal"))
+        for end in ends
+        if end.name.endswith(_GOAL)
+    )
+
+
+def goal_service(action: str) -> str:
+    """Name the service that takes an action's goals."""
+    return action + _GOAL
+
+
+def action_names_and_types(services: list[tuple[str, list[str]]]) -> list[tuple[str, list[str]]]:
+    """Find the actions among services; one whose type is no action's is a service only."""
+    found = (
+        (name.removesuffix(_GOAL), [one.removesuffix(_GOAL_TYPE) for one in _goal_types(types)])
+        for name, types in services
+        if name.endswith(_GOAL) and len(name) > len(_GOAL)
+    )
+    return [(name, types) for name, types in found if types]
+
+
+def _goal_types(types: list[str]) -> list[str]:
+    return [one for one in types if "/action/" in one and one.endswith(_GOAL_TYPE)]

@@ -8,9 +8,8 @@ from enum import Enum, auto
 from typing import TYPE_CHECKING
 
 from studio.errors import TokenError
-from studio.ros.gid import gid_of
 from studio.ros.graph.endpoints import GraphEndpoint, GraphNode
-from studio.ros.tokens import EndpointKind, NodeToken, parse_token
+from studio.ros.tokens import EndpointKind, NodeToken, gid_of, parse_token
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping

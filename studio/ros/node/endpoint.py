@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from studio.ros.gid import gid_of
-from studio.ros.keys import DataKey
+from studio.ros.tokens import DataKey, gid_of
 from studio.ros.wire.zenoh import declare_token
 
 if TYPE_CHECKING:

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Final
 
 from studio.errors import AttachmentError
 from studio.ros.attachment import unpack
-from studio.ros.keys import whatever_type_key
 from studio.ros.names import check_full_name
 from studio.ros.node.arrivals import Arrivals, Flow
 from studio.ros.node.sequences import Gaps
+from studio.ros.tokens import whatever_type_key
 from studio.ros.wire.zenoh import declare_subscription
 
 if TYPE_CHECKING:

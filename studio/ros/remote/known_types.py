@@ -6,7 +6,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, TypeVar
 
 from studio.errors import StudioError, UnknownTypeError
-from studio.ros.graph.actions import goal_service
+from studio.ros.graph.graph import goal_service
 from studio.ros.remote.type_asking import learn_from, texts_from
 from studio.ros.types.type_descriptions import DESCRIPTION_SERVICE
 

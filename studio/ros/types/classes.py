@@ -29,12 +29,9 @@ from studio.ros.types.definitions import (
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-
 Keep = Callable[[Any], Any]
 _DTYPES = {"bool": np.bool_, "byte": np.uint8, "char": np.uint8}
 _KINDS_TAKEN = {"b": "b", "i": "iu", "u": "iu", "f": "fiu"}
-
-
 _SCALARS: dict[str, object] = {"bool": False, "string": "", "wstring": ""}
 _FLOAT32_MAX = 3.4028235677973366e38
 

@@ -30,8 +30,6 @@ _HUGE = 2**1000
 _ABBREVIATED = {"float32": "float", "float64": "double", "bool": "boolean", "byte": "octet"}
 _HEADER = "std_msgs/msg/Header"
 _TIME = "builtin_interfaces/msg/Time"
-
-
 _EXACT_MAX: Final = 2**53
 """From here on numbers of JavaScript leave out whole ones."""
 _LENGTHS: Final = (10_000, 1_000, 100, 10)

@@ -11,7 +11,6 @@ from studio.errors import InterfaceTextError, UnknownTypeError
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-
 INTEGERS = {
     "byte": (0, 255),
     "char": (0, 255),
@@ -26,8 +25,6 @@ DUMMY_FIELD = "structure_needs_at_least_one_member"
 
 Scalar = bool | int | float | str
 Literal = Scalar | tuple[Scalar, ...]
-
-
 EVENT_INFO = "service_msgs/msg/ServiceEventInfo"
 DEPTH_MAX = 32
 # Values that one message holds at least: the fixed arrays of it, multiplied.

@@ -21,7 +21,6 @@ from studio.ros.types.interface_text import TEXT_BYTES_MAX
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
-
 FILES_MAX = 5_000
 _MANIFEST = "package.xml"
 _PACKAGE_NAME = re.compile(r"[A-Za-z0-9_.-]{1,200}")

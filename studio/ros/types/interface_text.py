@@ -31,7 +31,6 @@ from studio.ros.types.text_hints import hint_for, is_separator
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-
 _INTEGER = re.compile(r"[+-]?(0[xX][0-9a-fA-F]+|0[oO]?[0-7]+|0[bB][01]+|[0-9]+)", re.ASCII)
 _INTEGER_DIGITS_MAX = 70
 _TRUTH = {"true": True, "1": True, "false": False, "0": False}
@@ -40,8 +39,6 @@ _QUOTED = re.compile(r'"(?:[^"\\]|\\.)*+"|\'(?:[^\'\\]|\\.)*+\'')
 _ITEM = re.compile(rf"\s*+((?:{_QUOTED.pattern})|[^,\"'\[\]]++)\s*+(,|$)")
 _ESCAPE = re.compile(r"\\(.)")
 _ESCAPES = {"n": "\n", "t": "\t", "r": "\r"}
-
-
 TEXT_BYTES_MAX = 1_000_000
 MEMBERS_MAX = 2_000
 LINE_CHARACTERS_MAX = 10_000

@@ -35,7 +35,6 @@ if TYPE_CHECKING:
 
     from studio.ros.types.files import InterfaceTexts
 
-
 # What nodes themselves speak: a text that says otherwise would cut them off from all others.
 _SETTLED = {
     "action_msgs",

@@ -44,7 +44,6 @@ if TYPE_CHECKING:
     from studio.ros.types.classes import MessageValue
     from studio.ros.types.library import TypeLibrary
 
-
 PARTS_MAX = 1_000
 _NESTED = 1
 _BOUNDED = {21: 17, 22: 18}
@@ -52,8 +51,6 @@ _SHAPES = {0: Shape.SINGLE, 1: Shape.ARRAY, 2: Shape.BOUNDED, 3: Shape.SEQUENCE}
 _IDS_PER_SHAPE = 48
 # `.msg` has two names for an unsigned byte: the one that is no letter is meant.
 _BASES = {number: base for base, number in TYPE_IDS.items() if base != "char"}
-
-
 DESCRIPTION = "type_description_interfaces/msg/TypeDescription"
 SOURCE = "type_description_interfaces/msg/TypeSource"
 _CALL_PARTS = {"srv": ("Request", "Response"), "action": ("Goal", "Result", "Feedback")}

@@ -11,7 +11,6 @@ from studio.ros.types.definitions import DUMMY_FIELD, Field, FieldType, Message,
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-
 # `char` of a .msg is an unsigned byte by the time that it is described.
 TYPE_IDS = {
     "int8": 2, "uint8": 3, "char": 3, "int16": 4, "uint16": 5, "int32": 6, "uint32": 7,

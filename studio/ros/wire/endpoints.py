@@ -13,8 +13,6 @@ from studio.errors import WireSettingsError
 
 _STREAMS = frozenset({"tcp", "tls"})
 _PROTOCOLS = _STREAMS | {"udp", "quic", "ws", "unixsock-stream", "serial", "vsock"}
-
-
 CONNECT_TIMEOUT_S = 3.0
 ANSWER_TIMEOUT_S = 4.0
 _HANG_UPS_MAX = 4

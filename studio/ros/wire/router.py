@@ -39,7 +39,6 @@ if TYPE_CHECKING:
 
     from studio.ros.wire.zenoh import Declaration
 
-
 _log = logging.getLogger(__name__)
 
 _TOKENS: Final = (f"{ADMIN_SPACE}/**", "**/@adv/**", "@/*/@ros2_lv/**")
@@ -49,8 +48,6 @@ _SETTLE_S: Final = 0.5
 """After this the router has every token that it takes from the peers themselves."""
 _LOOK_TIMEOUT_S: Final = 3.0
 _RETRY: Final = {"period_init_ms": 250, "period_max_ms": 4_000, "period_increase_factor": 2}
-
-
 _ACCEPT_TIMEOUT_MS = 5_000
 """A peer that begins a handshake and falls silent is let go after this."""
 _LOOK_AGAIN_S = 0.25

@@ -41,13 +41,10 @@ if TYPE_CHECKING:
     from studio.ros.profiles import WireProfile
     from studio.ros.wire.settings import WireSettings
 
-
 SERVICE_TIMEOUT_MS = 600_000
 """How long rmw_zenoh lets a service take."""
 _RETRY = {"period_init_ms": 250, "period_max_ms": 1_000, "period_increase_factor": 2}
 """A session finds a router that has come back within a second."""
-
-
 _RACES_MAX = 5
 """How often the one who wins a race for the endpoint may be gone when we come to join."""
 _ROUTERS = frozenset({ProbeResult.ZENOH, ProbeResult.TLS})

@@ -7,7 +7,7 @@ from studio.documents.model import Model
 from studio.errors import RosNameError
 from studio.live.displays.display_list import DisplayList, DisplaySpec, Listening
 from studio.live.displays.drawing_room import DrawingRoom
-from studio.ros.fast.transforms import TransformCodec
+from studio.ros.columns.transforms import TransformCodec
 from studio.scene import DocumentScene
 from studio.tf.columns import TransformColumns
 from tests.support.display_messages import NOW_NS, encoded, pose, received

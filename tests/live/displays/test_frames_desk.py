@@ -8,7 +8,7 @@ from studio.displays.drawing import FIXED_FRAME
 from studio.errors import UnknownFrameError
 from studio.live.displays.frames_desk import FramesDesk
 from studio.protocol.live import GetTf
-from studio.ros.fast.transforms import TransformCodec
+from studio.ros.columns.transforms import TransformCodec
 from studio.tf.columns import TransformColumns
 from tests.support.display_messages import encoded
 from tests.support.heard_topics import HeardTopics, publisher

@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING
 from hypothesis import given
 from hypothesis import strategies as st
 
-from studio.ros.gid import gid_of
 from studio.ros.graph import table as tables
 from studio.ros.graph.table import GraphTable, Taken
 from studio.ros.qos import QoSProfile
-from studio.ros.tokens import EndpointKind, EndpointToken, NodeToken
+from studio.ros.tokens import EndpointKind, EndpointToken, NodeToken, gid_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -6,8 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from studio.errors import MessageValueError
-from studio.ros.fast.skeleton import LITTLE, places_of
-from studio.ros.fast.times import nanoseconds_at, put_nanoseconds
+from studio.ros.columns.layout import LITTLE, nanoseconds_at, places_of, put_nanoseconds
 
 PLACES = places_of([4], 2, 4)
 

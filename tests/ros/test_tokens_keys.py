@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from studio.errors import RosNameError
-from studio.ros.keys import DataKey, dds_type, parse_key, ros_type, whatever_type_key
+from studio.ros.tokens import DataKey, dds_type, parse_key, ros_type, whatever_type_key
 
 STRING_HASH = "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18"
 TYPES = {

@@ -1,21 +1,20 @@
-"""MarkerLayout: where the numbers of a visualization_msgs/MarkerArray lie."""
+"""The layout of a visualization_msgs/MarkerArray: its texts, and where its numbers lie."""
 
 from __future__ import annotations
 
 import struct
 from dataclasses import dataclass
 from itertools import accumulate
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from studio.ros.columns.layout import BytesReader, BytesWriter, Places, Skeleton, places_of
 from studio.ros.duration import NANOSECONDS
-from studio.ros.fast.bytes_reader import BytesReader
-from studio.ros.fast.marker_columns import MarkerTexts, Texture
-from studio.ros.fast.skeleton import Places, Skeleton, places_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
 
 TYPE_NAME = "visualization_msgs/msg/MarkerArray"
 SINGLE_TYPE_NAME = "visualization_msgs/msg/Marker"
@@ -30,6 +29,29 @@ _WXYZ = [6, 3, 4, 5]
 NO_TEXTURE = {order: struct.pack(f"{order}I4xiII4xI4xII", 1, 0, 0, 1, 1, 0, 0) for order in "<>"}
 # No text, no resource of a mesh, and a file of no name and bytes.
 NO_MESH = {order: struct.pack(f"{order}I4xI4xI4xI", 1, 1, 1, 0) for order in "<>"}
+
+
+class Texture(NamedTuple):
+    """The picture of a marker: `sensor_msgs/CompressedImage`."""
+
+    stamp_ns: int
+    frame: str
+    format: str
+    data: bytes
+
+
+class MarkerTexts(NamedTuple):
+    """What a marker says in texts and bytes; `texture` is None where all of it is empty."""
+
+    frame: str
+    namespace: str
+    text: str = ""
+    mesh_resource: str = ""
+    mesh_file_name: str = ""
+    mesh_file_data: bytes = b""
+    mesh_use_embedded_materials: bool = False
+    texture_resource: str = ""
+    texture: Texture | None = None
 
 
 class Runs:
@@ -196,3 +218,71 @@ class MarkerWalk:
             uv_starts=uv_starts,
             skeleton=Skeleton(self._reader.raw, numbers),
         )
+
+
+def marker_template(
+    all_texts: tuple[MarkerTexts, ...], starts: tuple[NDArray[np.intp], ...]
+) -> bytes:
+    """Write a message with all its texts and counts, every number still zero.
+
+    Args:
+        all_texts: Of each marker.
+        starts: Where the points, colours and texture coordinates of each marker begin, and end.
+
+    Raises:
+        MessageValueError: A text is none, or the time of a texture does not fit.
+    """
+    writer = BytesWriter(TYPE_NAME)
+    writer.word(len(all_texts))
+    counts = zip(*((each[1:] - each[:-1]).tolist() for each in starts), strict=True)
+    for texts, (points, colors, uvs) in zip(all_texts, counts, strict=True):
+        _put_head(writer, texts)
+        _put_list(writer, points, POINT_BYTES, 8)
+        _put_list(writer, colors, COLOR_BYTES, 4)
+        if uvs or texts.texture_resource or texts.texture:
+            _put_texture(writer, texts)
+            _put_list(writer, uvs, UV_BYTES, 4)
+        else:
+            writer.ready(NO_TEXTURE["<"])
+        _put_mesh(writer, texts)
+    return bytes(writer.written)
+
+
+def _put_head(writer: BytesWriter, texts: MarkerTexts) -> None:
+    writer.numbers(4, 8)
+    writer.text(texts.frame)
+    writer.text(texts.namespace)
+    writer.numbers(4, 12)
+    writer.numbers(8, POSE_AND_SCALE_BYTES)
+    writer.numbers(4, COLOR_TO_LOCKED_BYTES)
+
+
+def _put_texture(writer: BytesWriter, texts: MarkerTexts) -> None:
+    texture = texts.texture or Texture(0, "", "", b"")
+    writer.text(texts.texture_resource)
+    writer.time(*divmod(texture.stamp_ns, NANOSECONDS))
+    writer.text(texture.frame)
+    writer.text(texture.format)
+    _put_bytes(writer, texture.data)
+
+
+def _put_mesh(writer: BytesWriter, texts: MarkerTexts) -> None:
+    if texts.text or texts.mesh_resource or texts.mesh_file_name or texts.mesh_file_data:
+        writer.text(texts.text)
+        writer.text(texts.mesh_resource)
+        writer.text(texts.mesh_file_name)
+        _put_bytes(writer, texts.mesh_file_data)
+    else:
+        writer.ready(NO_MESH["<"])
+    writer.written.append(texts.mesh_use_embedded_materials)
+
+
+def _put_bytes(writer: BytesWriter, data: bytes) -> None:
+    writer.word(len(data))
+    writer.written += data
+
+
+def _put_list(writer: BytesWriter, count: int, each_bytes: int, number_bytes: int) -> None:
+    writer.word(count)
+    if count:
+        writer.numbers(number_bytes, count * each_bytes)

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from studio.ros.columns.layout import BytesReader
 from studio.ros.duration import NANOSECONDS
-from studio.ros.fast.bytes_reader import BytesReader
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from studio.errors import CdrError
 from studio.ros.cdr import Codec
-from studio.ros.fast.poses import (
+from studio.ros.columns.poses import (
     GRID_CELLS,
     PATH,
     POLYGON,

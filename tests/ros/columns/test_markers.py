@@ -10,8 +10,7 @@ from hypothesis import strategies as st
 
 from studio.errors import CdrError, MessageValueError
 from studio.ros.cdr import Codec
-from studio.ros.fast.marker_columns import MarkerColumns, MarkerTexts, Texture
-from studio.ros.fast.markers import MarkerCodec
+from studio.ros.columns.markers import MarkerCodec, MarkerColumns, MarkerTexts, Texture
 from studio.ros.types.library import TypeLibrary
 from tests.support.fast_values import assert_same, marker_columns
 from tests.support.ros_values import values_of

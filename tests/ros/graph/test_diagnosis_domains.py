@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from studio.ros.graph.domains import count_nodes, nodes_by_domain
+from studio.ros.graph.diagnosis import count_nodes, nodes_by_domain
 from studio.ros.tokens import NodeToken
 from studio.ros.wire.zenoh import declare_token
 from tests.support.wire import open_test_session, running_router, wait_until

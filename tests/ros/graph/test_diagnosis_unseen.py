@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import pytest
 import zenoh
 
-from studio.ros.graph.unseen import unseen_nodes, why_unseen
+from studio.ros.graph.diagnosis import unseen_nodes, why_unseen
 from studio.ros.wire.zenoh import close, declare_token, insert
 from tests.support.wire import open_test_session, running_router, wait_until
 

@@ -1,28 +1,84 @@
-"""visualization_msgs/MarkerArray as columns: read and written without an object for each part."""
+"""visualization_msgs/MarkerArray as columns: one array for each field of all markers."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from studio.errors import MessageValueError
-from studio.ros.fast.marker_columns import MarkerColumns
-from studio.ros.fast.marker_layout import (
+from studio.ros.columns.layout import (
+    LITTLE,
+    KnownLayouts,
+    nanoseconds_at,
+    numbers_of,
+    put_nanoseconds,
+    view,
+)
+from studio.ros.columns.marker_layout import (
     SINGLE_TYPE_NAME,
     TYPE_NAME,
     MarkerLayout,
+    MarkerTexts,
     MarkerWalk,
+    Texture,
+    marker_template,
 )
-from studio.ros.fast.marker_template import marker_template
-from studio.ros.fast.skeleton import LITTLE, KnownLayouts, numbers_of, view
-from studio.ros.fast.times import nanoseconds_at, put_nanoseconds
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+__all__ = ["MarkerCodec", "MarkerColumns", "MarkerTexts", "Texture"]
+
 _TEMPLATES_MAX = 8
 _BYTE = np.dtype(np.uint8)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class MarkerColumns:
+    """The M markers of one message.
+
+    Items of all markers lie one after another: those of marker i are
+    `points[point_starts[i] : point_starts[i + 1]]`, and so the colours and texture coordinates.
+
+    Attributes:
+        texts: Of each marker; the very same object as before when only numbers changed.
+        stamps_ns: Shape (M,), int64, since the epoch.
+        ids: Shape (M,), int32.
+        types: Shape (M,), int32: `Marker.ARROW` and so on.
+        actions: Shape (M,), int32: `Marker.ADD` and so on.
+        positions: Shape (M, 3), float64, metres in the marker's frame.
+        rotations_wxyz: Shape (M, 4), float64, as they were sent, of whatever length.
+        scales: Shape (M, 3), float64, metres.
+        colors_rgba: Shape (M, 4), float32, as they were sent, from 0 to 1.
+        lifetimes_ns: Shape (M,), int64; 0 is for ever.
+        frame_locked: Shape (M,), bool.
+        points: Shape (P, 3), float64, metres in the marker.
+        point_starts: Shape (M + 1,).
+        point_colors_rgba: Shape (C, 4), float32.
+        point_color_starts: Shape (M + 1,).
+        uvs: Shape (U, 2), float32.
+        uv_starts: Shape (M + 1,).
+    """
+
+    texts: tuple[MarkerTexts, ...]
+    stamps_ns: NDArray[np.int64]
+    ids: NDArray[np.int32]
+    types: NDArray[np.int32]
+    actions: NDArray[np.int32]
+    positions: NDArray[np.float64]
+    rotations_wxyz: NDArray[np.float64]
+    scales: NDArray[np.float64]
+    colors_rgba: NDArray[np.float32]
+    lifetimes_ns: NDArray[np.int64]
+    frame_locked: NDArray[np.bool_]
+    points: NDArray[np.float64]
+    point_starts: NDArray[np.intp]
+    point_colors_rgba: NDArray[np.float32]
+    point_color_starts: NDArray[np.intp]
+    uvs: NDArray[np.float32]
+    uv_starts: NDArray[np.intp]
 
 
 class MarkerCodec:
@@ -80,7 +136,8 @@ class MarkerCodec:
         for found in self._templates:
             if _is_built_alike(found[1], columns):
                 return found
-        template = marker_template(columns)
+        starts = (columns.point_starts, columns.point_color_starts, columns.uv_starts)
+        template = marker_template(columns.texts, starts)
         made = template, MarkerWalk(template).run()
         self._templates = [made, *self._templates[: _TEMPLATES_MAX - 1]]
         return made

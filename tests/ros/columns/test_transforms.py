@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from studio.errors import CdrError, MessageValueError
 from studio.ros.cdr import Codec
-from studio.ros.fast.transforms import TYPE_NAME, TransformCodec
+from studio.ros.columns.transforms import TYPE_NAME, TransformCodec
 from studio.ros.types.library import TypeLibrary
 from studio.tf.columns import TransformColumns
 from tests.support.fast_values import assert_same, transform_columns

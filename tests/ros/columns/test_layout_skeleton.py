@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from studio.ros.fast.skeleton import KnownLayouts, Skeleton, places_of
+from studio.ros.columns.layout import KnownLayouts, Skeleton, places_of
 
 HEAD = b"\0\1\0\0"
 

@@ -7,18 +7,19 @@ from dataclasses import dataclass
 import numpy as np
 
 from studio.errors import MessageValueError
-from studio.ros.fast.bytes_reader import BytesReader
-from studio.ros.fast.bytes_writer import BytesWriter
-from studio.ros.fast.skeleton import (
+from studio.ros.columns.layout import (
     LITTLE,
+    BytesReader,
+    BytesWriter,
     KnownLayouts,
     Places,
     Skeleton,
+    nanoseconds_at,
     numbers_of,
     places_of,
+    put_nanoseconds,
     view,
 )
-from studio.ros.fast.times import nanoseconds_at, put_nanoseconds
 from studio.tf.columns import TransformColumns
 
 TYPE_NAME = "tf2_msgs/msg/TFMessage"

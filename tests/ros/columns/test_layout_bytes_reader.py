@@ -5,8 +5,7 @@ import struct
 import pytest
 
 from studio.errors import CdrError
-from studio.ros.fast.bytes_reader import BytesReader
-from studio.ros.fast.bytes_writer import BytesWriter
+from studio.ros.columns.layout import BytesReader, BytesWriter
 
 NAME = "p/msg/T"
 

@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 import xxhash
 
-from studio.ros.gid import gid_of
+from studio.ros.tokens import gid_of
 
 TOKEN = "@ros2_lv/0/a1/0/0/NN/%/%/talker"
 

@@ -1,1 +1,0 @@
-"""Transforms and markers as columns of numbers, read and written many times faster than objects."""
