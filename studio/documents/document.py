@@ -22,7 +22,7 @@ from studio.documents.keeping.history import HistoryDesk
 from studio.documents.keeping.saving import SaveDesk
 from studio.documents.keeping.sharing import SharedFile, place_edits
 from studio.documents.meshes.mesh_desk import MeshDesk
-from studio.documents.model import Model, urdf_text
+from studio.documents.model import Model
 from studio.documents.packages_used import PackagesUsed
 from studio.documents.policy import target_of
 from studio.documents.posing.motion import Motion
@@ -38,9 +38,13 @@ from studio.documents.watching import FileWatch
 from studio.errors import CommandError
 from studio.live.connection.feed import FeedDesk
 from studio.live.connection.opened_types import take_types
+from studio.live.displays.display_file import DisplayFile
 from studio.live.displays.live_desk import LiveDesk
+from studio.live.displays.robot_reading import RobotReader
+from studio.packages.uris import resolve_uri
 from studio.protocol.edits import Built
 from studio.protocol.files import Saved
+from studio.robot.urdf_text import urdf_text
 from studio.scene import DocumentScene
 from studio.settings import LOOPBACK_HOSTS
 
@@ -48,7 +52,7 @@ if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable, Collection, Mapping, Sequence
 
     from studio.description.queries import Query
-    from studio.description.values import Edit
+    from studio.description.values import Edit, ReadPolicy
     from studio.documents.services import Services
     from studio.packages.workspace import Location
     from studio.protocol.listeners import Listener
@@ -99,20 +103,33 @@ class Document:
         self.history, self.saving = HistoryDesk(self), SaveDesk(self)
         self.drafts, self.exports = DraftDesk(self, services.settings.data_folder), ExportDesk(self)
         self.motion = Motion(self.model, self.board)
-        self.poses, self.feed = PoseDesk(self, services), FeedDesk(self, services.wire)
+        self.poses = PoseDesk(self, services)
+        self.feed = FeedDesk(
+            self.model, self.motion, lambda: self.expansion, services.wire, self.board.audience
+        )
         self._services = services
         worker = services.description_worker(self.opened)
         self._runs = EditLoop(worker, self.sources, self.target, self._take)
         self._meshes = MeshDesk(self, services.meshes, self._watch_files)
         self.robot_checks = RobotChecks(self, services, self._meshes)
         self.variants = VariantDesk(self, services, self._meshes.want)
-        self.live = LiveDesk(self, services, self._meshes)
+        self.live = self._displays_of(services)
         self._files: tuple[str, ...] = (self.path,)
         self._watch = FileWatch(self._changed_on_disk, troubled=self.disk.tell_watch)
-        self._packages = PackagesUsed()
+        self._packages, self._was_unsaved = PackagesUsed(), False
         self._packages_seen: dict[str, str] | None = None
-        self._was_unsaved = False
         self._background: dict[str, asyncio.Task[None]] = {}
+
+    def _displays_of(self, services: Services) -> LiveDesk:
+        data_folder = services.settings.data_folder
+        return LiveDesk(
+            self.model,
+            self._meshes,
+            RobotReader(services.description_worker, self, data_folder / "from_ros" / "nowhere"),
+            DisplayFile(data_folder, self.entry),
+            services.wire,
+            self.board.audience,
+        )
 
     @property
     def title(self) -> str:
@@ -140,6 +157,19 @@ class Document:
     def target(self) -> Target:
         """What its xacro worker runs, and what that may read."""
         return target_of(self.location, trusted=self._services.settings.trusted)
+
+    @property
+    def policy(self) -> ReadPolicy:
+        """What its xacro worker may read."""
+        return self.target.policy
+
+    def resolve_uri(self, uri: str) -> Path:
+        """The file of a URI in this document; looks at the disk, may run in any thread.
+
+        Raises:
+            PackageError: It names no file that may be read.
+        """
+        return resolve_uri(uri, self.entry, self.location.index, self.location.served)
 
     @property
     def worker_pid(self) -> int | None:

@@ -4,17 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
-from xml.etree import ElementTree
 
 from studio.documents.posing.joints import JointPositions
 from studio.robot.assembly import Assembly, Change
 from studio.robot.kinematics import Kinematics
 from studio.robot.textured import mesh_uris
 from studio.robot.values import Robot
-from studio.robot.xml_tree import parse_tree
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Mapping, Set
+    from collections.abc import Callable, Iterator, Set
 
     from studio.description.values import Expansion, Part
     from studio.problems import Problem
@@ -111,26 +109,3 @@ class Model:
         """Links whose drawn joint axis changed: the children of the changed joints."""
         joints = change.robot.joints
         return frozenset(joints[name].child for name in change.changed_joints if name in joints)
-
-
-def urdf_text(parts: Iterable[Part], root_attributes: Iterable[tuple[str, str]]) -> str:
-    """A robot of these parts as URDF text, one indented element after the other.
-
-    In any thread, for a large robot takes its time.
-    """
-    root = ElementTree.Element("robot", dict(root_attributes))
-    root.extend(part_element(part, root.attrib) for part in parts)
-    ElementTree.indent(root)
-    return '<?xml version="1.0" ?>\n' + ElementTree.tostring(root, encoding="unicode") + "\n"
-
-
-def part_element(part: Part, root_attributes: Mapping[str, str]) -> ElementTree.Element:
-    """A part as an element of a robot, with its prefixes as written.
-
-    A part declares its prefixes itself, to stand alone; what the root declares is not repeated.
-    """
-    element = parse_tree(part.xml)
-    for name in [one for one in element.attrib if one.startswith("xmlns:")]:
-        if root_attributes.get(name) == element.get(name):
-            del element.attrib[name]
-    return element

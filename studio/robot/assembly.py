@@ -14,7 +14,7 @@ from studio.robot.values import Joint, Link, Material, Robot, Visual
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
-    from studio.description.values import Part
+    from studio.description.values import Expansion, Part
 
 
 @dataclass(frozen=True, slots=True)
@@ -223,6 +223,16 @@ class Assembly:
         return dataclasses.replace(
             problem, place=part.place, macro_stack=part.calls, parts=(part.key,)
         )
+
+
+def assembled(expansion: Expansion) -> tuple[Robot, str]:
+    """The robot of a whole run, and what is wrong with it in a sentence, or an empty text."""
+    change = Assembly(expansion.robot_name).apply(expansion.part_order, expansion.changed_parts)
+    if change.kept_last_good:
+        fault = str(change.problems[0]) if change.problems else "It describes no robot."
+    else:
+        fault = str(expansion.warnings[0]) if expansion.is_recovered else ""
+    return change.robot, fault
 
 
 def _problem(severity: Severity, code: str, sentence: str, part: Part) -> Problem:

@@ -6,8 +6,8 @@ import asyncio
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from studio.debounce import Throttle
 from studio.documents.keeping.draft_store import forget_drafts, left_drafts
-from studio.documents.lookout import Lookout
 from studio.packages.presence import is_file
 from studio.protocol.keeping import LeftWork, LeftWorkEntry
 from studio.protocol.listeners import tell
@@ -26,7 +26,7 @@ class LeftWorkDesk:
         self._engine, self._data_folder = engine, data_folder
         self._presenters: set[Listener] = set()
         self._told: LeftWork | None = None
-        self._lookout = Lookout(self._look)
+        self._throttle = Throttle(self._look)
 
     def attach(self, listener: Listener) -> None:
         """Let a presenter hear of it, now and whenever it changes."""
@@ -41,7 +41,7 @@ class LeftWorkDesk:
 
     def doubt(self) -> None:
         """Documents were opened or closed: look again, beside."""
-        self._lookout.doubt()
+        self._throttle.trigger()
 
     async def forget(self, path: str) -> None:
         """Give the work on a served file up.
@@ -55,7 +55,7 @@ class LeftWorkDesk:
 
     async def close(self) -> None:
         """End what runs for it."""
-        await self._lookout.close()
+        await self._throttle.close()
 
     async def _look(self) -> None:
         told = await asyncio.to_thread(_left_work, self._data_folder, self._engine.served)

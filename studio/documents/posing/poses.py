@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
+from studio.debounce import Throttle
 from studio.description.poses.named_poses import NamedPose
 from studio.description.poses.poses_file import POSE_LIMIT, read_poses, rounded, write_poses
 from studio.documents.keeping.shelf import Shelf, ShelfKind
-from studio.documents.lookout import Lookout
 from studio.documents.posing.pose_reading import FoundPoses, read_poses_around
 from studio.documents.states.second_robot import argument_values
 from studio.documents.watching import FileWatch
@@ -47,7 +47,7 @@ class PoseDesk:
         self._told = LastTold[Poses](document.board.audience)
         self._watch = FileWatch(self._changed_on_disk, may_name_poses)
         self._watch.watch({str(self._shelf.path)})
-        self._lookout = Lookout(self._look, pause_s=_PAUSE_S)
+        self._throttle = Throttle(self._look, pause_s=_PAUSE_S)
 
     def events(self) -> Iterable[Poses]:
         """What a newcomer is told."""
@@ -56,11 +56,11 @@ class PoseDesk:
     def doubt(self) -> None:
         """The robot may be another one: look soon, and not too often, while anybody listens."""
         if len(self._document.board.audience):
-            self._lookout.doubt()
+            self._throttle.trigger()
 
     async def close(self) -> None:
         """End what runs for it."""
-        await self._lookout.close()
+        await self._throttle.close()
         await self._watch.close()
 
     def apply(self, command: ApplyPose) -> None:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final
 from xml.etree import ElementTree
 
 from studio.description.editing.line_diff import DiffLine, LineDiff, line_diff
-from studio.documents.model import part_element
+from studio.robot.urdf_text import part_element
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, Sequence

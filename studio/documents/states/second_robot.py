@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from studio.description.values import Expansion, OpenRequest, SiteKind
-from studio.robot.assembly import Assembly
+from studio.robot.assembly import assembled
 from studio.robot.kinematics import Kinematics
+from studio.robot.values import Robot
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
@@ -18,7 +19,6 @@ if TYPE_CHECKING:
     from studio.documents.document import Document
     from studio.documents.edit_loop import Target
     from studio.documents.states.recipes import Recipe
-    from studio.robot.values import Robot
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -59,15 +59,8 @@ class SecondRobots:
         answer = await self._worker.open(request)
         if isinstance(answer, Expansion):
             return await asyncio.to_thread(_assembled, recipe, answer)
-        assembly = Assembly()
-        return SecondRobot(
-            recipe,
-            assembly.robot,
-            Kinematics(assembly.robot),
-            {},
-            answer.files,
-            str(answer.problem),
-        )
+        robot = Robot("")
+        return SecondRobot(recipe, robot, Kinematics(robot), {}, answer.files, str(answer.problem))
 
     async def close(self) -> None:
         """End the worker; the next run takes another."""
@@ -101,18 +94,6 @@ def argument_values(sites: Iterable[Site]) -> dict[str, str]:
 
 
 def _assembled(recipe: Recipe, expansion: Expansion) -> SecondRobot:
-    assembly = Assembly(expansion.robot_name)
-    change = assembly.apply(expansion.part_order, expansion.changed_parts)
-    fault = ""
-    if change.kept_last_good:
-        fault = str(change.problems[0]) if change.problems else "It describes no robot."
-    elif expansion.is_recovered:
-        fault = str(expansion.warnings[0])
-    return SecondRobot(
-        recipe,
-        change.robot,
-        Kinematics(change.robot),
-        argument_values(expansion.changed_sites),
-        expansion.files,
-        fault,
-    )
+    robot, fault = assembled(expansion)
+    values = argument_values(expansion.changed_sites)
+    return SecondRobot(recipe, robot, Kinematics(robot), values, expansion.files, fault)

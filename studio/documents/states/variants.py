@@ -6,10 +6,10 @@ import asyncio
 from dataclasses import replace
 from typing import TYPE_CHECKING, Final
 
+from studio.debounce import Throttle
 from studio.description.editing.sources import Change
 from studio.description.editing.variants_file import VARIANT_LIMIT, read_variants, write_variants
 from studio.documents.keeping.shelf import Shelf, ShelfKind
-from studio.documents.lookout import Lookout
 from studio.documents.states.comparison_desk import ComparisonDesk
 from studio.documents.states.recipes import Recipe, RecipeBook
 from studio.documents.watching import FileWatch
@@ -69,7 +69,7 @@ class VariantDesk:
         self._told = LastTold[Variants](document.board.audience)
         self._watch = FileWatch(self._changed_on_disk)
         self._watch.watch({str(self._shelf.path)})
-        self._lookout = Lookout(self._look, first_s=_FIRST_S, pause_s=_PAUSE_S)
+        self._throttle = Throttle(self._look, first_s=_FIRST_S, pause_s=_PAUSE_S)
 
     def events(self) -> Iterable[Event]:
         """What a newcomer is told."""
@@ -78,11 +78,11 @@ class VariantDesk:
 
     def doubt(self) -> None:
         """Something may have changed: look soon, and not too often."""
-        self._lookout.doubt()
+        self._throttle.trigger()
 
     async def close(self) -> None:
         """End what runs for it."""
-        await self._lookout.close()
+        await self._throttle.close()
         await asyncio.gather(self._watch.close(), self._comparison.close())
 
     async def save(self, command: SaveVariant | UpdateVariant) -> VariantSaved:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
-from studio.documents.lookout import Lookout
+from studio.debounce import Throttle
 from studio.errors import CommandError, StudioError
 from studio.live.connection.nearby import Nearby
 from studio.live.connection.plan import planned_wire
@@ -44,7 +44,7 @@ class WireDesk:
         self._phase: _Phase = "off"
         self._trouble = ""
         self._told = LastTold[WireState](self._audience)
-        self._lookout = Lookout(self._look, pause_s=_PAUSE_S)
+        self._throttle = Throttle(self._look, pause_s=_PAUSE_S)
         self._nearby = Nearby(lambda: self._choice, self._is_alone, self._tell)
         self._closed = False
         self.on_link: Callable[[WireLink | None], None] = _nobody
@@ -107,7 +107,7 @@ class WireDesk:
     async def close(self) -> None:
         """End the connection, and the router if it is ours."""
         self._closed = True
-        await asyncio.gather(self._lookout.close(), self._nearby.close())
+        await asyncio.gather(self._throttle.close(), self._nearby.close())
         if self._opening is not None:
             await asyncio.wait({self._opening}, timeout=_OPENING_PATIENCE_S)
         link, self._link = self._link, None
@@ -152,7 +152,7 @@ class WireDesk:
 
     def _doubt(self) -> None:
         if not self._closed:
-            self._lookout.doubt()
+            self._throttle.trigger()
 
     async def _look(self) -> None:
         link = self._link

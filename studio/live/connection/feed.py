@@ -6,7 +6,7 @@ import asyncio
 import logging
 from contextlib import asynccontextmanager
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Final, Literal
+from typing import TYPE_CHECKING, Final, Literal, Protocol
 
 from studio.errors import CommandError, StudioError
 from studio.live.connection.sending import RobotSending
@@ -15,12 +15,14 @@ from studio.protocol.listeners import LastTold
 from studio.protocol.wire import WireFeed
 
 if TYPE_CHECKING:
-    from collections.abc import AsyncGenerator, Iterable
+    from collections.abc import AsyncGenerator, Callable, Iterable, Mapping
     from pathlib import Path
 
-    from studio.documents.document import Document
+    from studio.description.values import Expansion
     from studio.live.connection.desk import WireDesk
     from studio.live.connection.hearing import DescriptionIn, JointsIn
+    from studio.live.connection.sending import SentRobot
+    from studio.protocol.listeners import Audience
     from studio.protocol.wire import JointSource
 
 TICK_S: Final = 1 / 60
@@ -28,6 +30,22 @@ _TELL_EVERY_S: Final = 0.5
 _TOPICS: Final = {"joint_states": "/joint_states", "tf": "/tf"}
 
 _log = logging.getLogger(__name__)
+
+
+class MovesJoints(Protocol):
+    """What moves the joints of a robot."""
+
+    def animate(self, *, running: bool) -> None:
+        """Swing them, or stop."""
+        ...
+
+    def lead(self, leader: str) -> None:
+        """Let something else move them from now on, by `follow`; empty: nobody."""
+        ...
+
+    def follow(self, positions: Mapping[str, float]) -> None:
+        """Move them, rad or m by name, to where their leader says they are."""
+        ...
 
 
 @dataclass(slots=True)
@@ -40,15 +58,30 @@ class _Described:
 
 
 class FeedDesk:
-    """Carries out what is asked about one document and the wire."""
+    """Carries out what is asked about one document and the wire.
 
-    def __init__(self, document: Document, wire: WireDesk) -> None:
-        self._document, self._wire = document, wire
-        self._sending = RobotSending(document)
+    Args:
+        model: The document's robot.
+        motion: Moves its joints.
+        expansion: Gives the last good run; None before the first.
+        wire: The connection.
+        audience: Is told what goes out and what comes in.
+    """
+
+    def __init__(
+        self,
+        model: SentRobot,
+        motion: MovesJoints,
+        expansion: Callable[[], Expansion | None],
+        wire: WireDesk,
+        audience: Audience,
+    ) -> None:
+        self._model, self._motion, self._wire = model, motion, wire
+        self._sending = RobotSending(model, expansion)
         self._following: JointsIn | None = None
         self._source: Literal["sliders", "joint_states", "tf"] = "sliders"
         self._described: _Described | None = None
-        self._told = LastTold[WireFeed](document.board.audience)
+        self._told = LastTold[WireFeed](audience)
         self._told_s = 0.0
         self._ticking: asyncio.Task[None] | None = None
         self._turn = asyncio.Lock()
@@ -70,7 +103,7 @@ class FeedDesk:
                 await self._follow(source)
             else:
                 await self._stop_following()
-                self._document.motion.animate(running=source == "animation")
+                self._motion.animate(running=source == "animation")
 
     async def publish_robot(self, *, running: bool) -> None:
         """Publish the description and TF, or stop; errors as for `choose`."""
@@ -132,16 +165,16 @@ class FeedDesk:
     async def _follow(self, source: Literal["joint_states", "tf"]) -> None:
         link = await self._wire.link()
         await self._stop_following()
-        model = self._document.model
+        model = self._model
         hear = link.hear_tf if source == "tf" else link.hear_joint_states
         await self._sending.pause_joints(paused=source == "joint_states")  # no echo
         self._following = await asyncio.to_thread(hear, model.robot, model.kinematics)
         self._source = source
-        self._document.motion.lead(_TOPICS[source])
+        self._motion.lead(_TOPICS[source])
 
     async def _stop_following(self) -> None:
         self._source = "sliders"
-        self._document.motion.lead("")
+        self._motion.lead("")
         self._sending.measured(0)
         following, self._following = self._following, None
         if following is not None:
@@ -188,12 +221,12 @@ class FeedDesk:
 
     def _take(self) -> None:
         """Move the joints to where the wire says they are."""
-        following, model = self._following, self._document.model
+        following, model = self._following, self._model
         if following is None:
             return
         following.fit(model.robot, model.kinematics)
         if positions := following.collect():
-            self._document.motion.follow(positions)
+            self._motion.follow(positions)
             self._sending.measured(following.stamp_ns)
 
     async def _take_description(self) -> None:

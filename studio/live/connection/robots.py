@@ -6,7 +6,6 @@ import asyncio
 from functools import partial
 from typing import TYPE_CHECKING, Final, Protocol
 
-from studio.documents.library import Opener
 from studio.errors import CommandError
 from studio.live.connection.plan import chosen_wire
 from studio.packages.from_wire import choose_packages, keep_description
@@ -26,22 +25,15 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
     from pathlib import Path
 
-    from studio.documents.document import Document
     from studio.live.connection.desk import WireDesk
+    from studio.live.connection.feed import FeedDesk
     from studio.live.connection.hearing import DescriptionIn
     from studio.packages.index import PackageIndex
+    from studio.packages.roots import ServedRoots
+    from studio.packages.workspace import Location
 
 _FIRST_PATIENCE_S = 5.0
 """For a description that is latched: it comes at once, or nobody tells one."""
-
-
-class OpenRobots(Opener, Protocol):
-    """What the engine does for it."""
-
-    @property
-    def documents(self) -> Mapping[str, Document]:
-        """Those that are open, by their ids."""
-        ...
 
 
 class LetsGo(Protocol):
@@ -49,6 +41,44 @@ class LetsGo(Protocol):
 
     async def let_go(self) -> None:
         """Let go of the connection, which is about to end."""
+        ...
+
+
+class OpenRobot(Protocol):
+    """An open document."""
+
+    @property
+    def location(self) -> Location:
+        """Where its files lie."""
+        ...
+
+    @property
+    def feed(self) -> FeedDesk:
+        """Its robot on the wire."""
+        ...
+
+    @property
+    def live(self) -> LetsGo:
+        """Its displays."""
+        ...
+
+
+class OpenRobots(Protocol):
+    """All open documents."""
+
+    @property
+    def documents(self) -> Mapping[str, OpenRobot]:
+        """By their ids."""
+        ...
+
+    async def open_at(
+        self, path: Path, arguments: Mapping[str, str], within: ServedRoots | None
+    ) -> str:
+        """Open a path, serve its folders from now on, and return the document's id.
+
+        Raises:
+            StudioError: Nothing there can be opened.
+        """
         ...
 
 
@@ -115,7 +145,7 @@ class WireRobotDesk:
         except BaseException:
             await asyncio.to_thread(description.close)
             raise
-        feed = self._opener.document(name).feed
+        feed = self._opener.documents[name].feed
         await feed.describe(description, self._data_folder)
         await feed.choose("joint_states")
         return Opened(request=command.request, document=name)

@@ -5,16 +5,19 @@ from __future__ import annotations
 import asyncio
 import time
 from functools import partial
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, Protocol
 
-from studio.documents.model import urdf_text
 from studio.errors import StudioError
+from studio.live.displays.own_frames import PosedRobot
+from studio.robot.urdf_text import urdf_text
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from studio.description.values import Expansion
-    from studio.documents.document import Document
     from studio.live.connection.link import WireLink
     from studio.live.connection.telling import JointsOut, RobotOut
+    from studio.robot.assembly import Assembly
     from studio.robot.kinematics import Floats
 
 MOVING_PERIOD_S: Final = 1 / 30
@@ -27,11 +30,25 @@ DESCRIPTION_PERIOD_S: Final = 0.5
 """Between two descriptions while somebody drags."""
 
 
-class RobotSending:
-    """Looks at each tick whether anything is due; messages are made and sent in a thread."""
+class SentRobot(PosedRobot, Protocol):
+    """A robot whose description and joints are published."""
 
-    def __init__(self, document: Document) -> None:
-        self._document = document
+    @property
+    def assembly(self) -> Assembly:
+        """Its elements as they were written."""
+        ...
+
+
+class RobotSending:
+    """Looks at each tick whether anything is due; messages are made and sent in a thread.
+
+    Args:
+        model: The robot.
+        expansion: Gives the last good run; None before the first.
+    """
+
+    def __init__(self, model: SentRobot, expansion: Callable[[], Expansion | None]) -> None:
+        self._model, self._expansion = model, expansion
         self._robot: RobotOut | None = None
         self._joints: JointsOut | None = None
         self._joints_link: WireLink | None = None
@@ -141,12 +158,12 @@ class RobotSending:
             await self._tell_positions(now_s)
 
     def _is_description_due(self, now_s: float) -> bool:
-        news = self._document.expansion
+        news = self._expansion()
         due = now_s - self._description_s >= DESCRIPTION_PERIOD_S
         return due and news is not None and news is not self._description
 
     async def _tell_description(self, robot: RobotOut, now_s: float) -> None:
-        model, expansion = self._document.model, self._document.expansion
+        model, expansion = self._model, self._expansion()
         assert expansion is not None
         self._description, self._description_s = expansion, now_s
         make = partial(urdf_text, model.assembly.parts(), expansion.root_attributes)
@@ -160,12 +177,12 @@ class RobotSending:
         is_old = self._stamp_ns != 0 and self._stamp_ns == self._told_stamp_ns
         if is_old and self._values is not None:
             return False
-        moved = self._document.model.joints.values is not self._values
+        moved = self._model.joints.values is not self._values
         period_s = MOVING_PERIOD_S if moved else RESTING_PERIOD_S
         return now_s - self._values_s >= max(period_s, _PAUSE_SHARE * self._took_s)
 
     async def _tell_positions(self, now_s: float) -> None:
-        positions = self._document.model.joints
+        positions = self._model.joints
         self._values, self._values_s = positions.values, now_s
         stamp_ns = self._told_stamp_ns = self._stamp_ns
         by_name = positions.by_name()

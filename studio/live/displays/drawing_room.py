@@ -13,6 +13,7 @@ from studio.live.displays.catalogue_views import property_view
 from studio.live.displays.ear import Hearing
 from studio.live.displays.followed_frames import FollowedFrames
 from studio.live.displays.frames_desk import STILL, FramesDesk, KnowsPublishers
+from studio.live.displays.own_frames import PosedRobot
 from studio.live.displays.reasons import remarks_on
 from studio.live.displays.running import RunningDisplay
 from studio.live.displays.topics_now import KnowsTopics, TopicsNow
@@ -30,11 +31,11 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from studio.displays.display import Display
-    from studio.documents.model import Model
     from studio.live.displays.display_list import DisplayList, DisplaySpec, Listening
     from studio.live.displays.ear import Wish
     from studio.live.displays.placing import Pose
     from studio.protocol.roles import Visitor
+    from studio.scene import DocumentScene
 
 _MORE_MAX: Final = 500
 """Properties of one display that came with messages: more are not told."""
@@ -64,6 +65,15 @@ class Connected(Hearing, Protocol):
         ...
 
 
+class ShownRobot(PosedRobot, Protocol):
+    """A robot that stands in a scene."""
+
+    @property
+    def scene(self) -> DocumentScene:
+        """The 3D view."""
+        ...
+
+
 class Meshes(Protocol):
     """Who loads the meshes that the scene lacks."""
 
@@ -79,13 +89,13 @@ class Meshes(Protocol):
 class DrawingRoom:
     """Steps every display that is shown and applies what it draws."""
 
-    def __init__(self, model: Model, meshes: Meshes) -> None:
-        self._scene, self._meshes = model.scene, meshes
-        self.frames = FramesDesk(model)
+    def __init__(self, robot: ShownRobot, meshes: Meshes) -> None:
+        self._scene, self._meshes = robot.scene, meshes
+        self.frames = FramesDesk(robot)
         self._running: dict[str, RunningDisplay] = {}
         self._faults: dict[str, str] = {}
         self._seen: frozenset[str] = frozenset()
-        self._followed = FollowedFrames(model.scene.live)
+        self._followed = FollowedFrames(robot.scene.live)
         self._robot_at: Pose = STILL
         self._robot_trouble = ""
 

@@ -9,7 +9,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Final
 
 from studio.errors import CommandError, StudioError
-from studio.live.displays.display_file import DisplayFile, KeptDisplays
+from studio.live.displays.display_file import KeptDisplays
 from studio.live.displays.display_list import DisplayList, Listening
 from studio.protocol.listeners import LastTold
 from studio.protocol.live import (
@@ -38,15 +38,16 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from studio.displays.properties import Value
-    from studio.documents.document import Document
-    from studio.documents.services import Services
+    from studio.live.connection.desk import WireDesk
     from studio.live.connection.link import WireLink
+    from studio.live.displays.display_file import DisplayFile
     from studio.live.displays.display_list import DisplaySpec
-    from studio.live.displays.drawing_room import DrawingRoom, Meshes
+    from studio.live.displays.drawing_room import DrawingRoom, Meshes, ShownRobot
     from studio.live.displays.placing import Shown
     from studio.live.displays.robot_models import RobotModels
+    from studio.live.displays.robot_reading import RobotReader
     from studio.protocol import Event
-    from studio.protocol.listeners import Listener
+    from studio.protocol.listeners import Audience, Listener
 
 _TICK_S: Final = 1 / 30
 _LOOK_EVERY_S: Final = 0.5
@@ -66,12 +67,27 @@ class LiveDesk:
 
     Every command raises a CommandError or DisplayError when it cannot be done; then all is as it
     was.
+
+    Args:
+        robot: The document's own, and the scene that the displays draw in.
+        meshes: Loads the meshes that the scene lacks.
+        reader: Reads descriptions of other robots.
+        file: Where the displays are kept.
+        wire: The connection.
+        audience: Is told of the displays; they are drawn as long as it is not empty.
     """
 
-    def __init__(self, document: Document, services: Services, meshes: Meshes) -> None:
-        self._document, self._services, self._wire = document, services, services.wire
-        self._file = DisplayFile(services.settings.data_folder, document.entry)
-        self._meshes = meshes
+    def __init__(
+        self,
+        robot: ShownRobot,
+        meshes: Meshes,
+        reader: RobotReader,
+        file: DisplayFile,
+        wire: WireDesk,
+        audience: Audience,
+    ) -> None:
+        self._robot, self._meshes, self._reader = robot, meshes, reader
+        self._file, self._wire, self._audience = file, wire, audience
         self._list = DisplayList()
         self._made: DrawingRoom | None = None
         self._robots: RobotModels | None = None
@@ -86,8 +102,8 @@ class LiveDesk:
         self._fault = ""
         self._looked_s = 0.0
         self._asked_until_s = 0.0
-        self._states = LastTold[DisplayStates](document.board.audience)
-        self._settings = LastTold[LiveDisplays](document.board.audience)
+        self._states = LastTold[DisplayStates](audience)
+        self._settings = LastTold[LiveDisplays](audience)
         self._closed = False
 
     @property
@@ -97,8 +113,8 @@ class LiveDesk:
             from studio.live.displays.drawing_room import DrawingRoom  # noqa: PLC0415 - see above
             from studio.live.displays.robot_models import RobotModels  # noqa: PLC0415
 
-            self._made = DrawingRoom(self._document.model, self._meshes)
-            self._robots = RobotModels(self._document, self._services)
+            self._made = DrawingRoom(self._robot, self._meshes)
+            self._robots = RobotModels(self._robot, self._reader)
         return self._made
 
     def restore(self) -> None:
@@ -294,7 +310,7 @@ class LiveDesk:
 
     def _show_and_hide(self) -> None:
         for spec in self._list:
-            self._document.scene.live.show(spec.id, visible=self._list.is_shown(spec))
+            self._robot.scene.live.show(spec.id, visible=self._list.is_shown(spec))
 
     def _keep(self) -> None:
         self._unkept = KeptDisplays(tuple(self._list), self._list.groups_off, self._fixed_frame)
@@ -314,7 +330,7 @@ class LiveDesk:
     @property
     def _is_on(self) -> bool:
         now_s = time.monotonic()
-        if self._document.board.audience:
+        if self._audience:
             self._seen_s = now_s
         wanted = now_s < self._asked_until_s or len(self._list) > 0 or self._fixed_frame != ""
         return wanted and now_s - self._seen_s < _UNSEEN_S

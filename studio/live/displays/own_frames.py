@@ -14,7 +14,6 @@ from studio.tf.forest import FRAMES_MAX
 if TYPE_CHECKING:
     from collections.abc import Collection, Container
 
-    from studio.documents.posing.joints import JointPositions
     from studio.robot.kinematics import Floats, Kinematics
     from studio.robot.values import Robot
     from studio.tf.buffer import TransformBuffer
@@ -23,8 +22,21 @@ if TYPE_CHECKING:
 PUBLISHER: Final = "this robot"
 
 
+class JointState(Protocol):
+    """Where the joints of a robot stand."""
+
+    @property
+    def values(self) -> Floats:
+        """Of the movable joints in their order, rad or m; another array after each motion."""
+        ...
+
+    def by_name(self) -> dict[str, float]:
+        """The same, by the joints' names."""
+        ...
+
+
 class PosedRobot(Protocol):
-    """A robot and where its joints stand: what OwnFrames needs of a model."""
+    """A robot and where its joints stand."""
 
     @property
     def robot(self) -> Robot:
@@ -37,7 +49,7 @@ class PosedRobot(Protocol):
         ...
 
     @property
-    def joints(self) -> JointPositions:
+    def joints(self) -> JointState:
         """Where its joints stand."""
         ...
 

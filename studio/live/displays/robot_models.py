@@ -5,14 +5,10 @@ from __future__ import annotations
 import asyncio
 import logging
 from contextlib import suppress
-from dataclasses import replace
-from functools import partial
 from typing import TYPE_CHECKING, Final, Protocol
 
 from studio.displays.robot_model import RobotModelDisplay
 from studio.errors import StudioError
-from studio.live.displays.robot_reading import RobotReader
-from studio.packages.uris import resolve_uri
 from studio.protocol.wire import OpenFromWire
 
 if TYPE_CHECKING:
@@ -20,10 +16,9 @@ if TYPE_CHECKING:
 
     from studio.displays.display import Display
     from studio.displays.robot_model import DescriptionSource
-    from studio.documents.document import Document
-    from studio.documents.services import Services
-    from studio.documents.states.second_robot import SecondRobot
     from studio.live.connection.hearing import DescriptionIn
+    from studio.live.displays.own_frames import PosedRobot
+    from studio.live.displays.robot_reading import DescribedRobot, RobotReader
     from studio.robot.values import Robot
 
 _PAUSE_S: Final = 0.5
@@ -71,14 +66,12 @@ class RobotModels:
     """Steps on the loop with the displays; what takes its time is done beside.
 
     Args:
-        document: Whose robot one may show, and whose packages are looked into.
-        services: For a worker of their own.
+        own: The document's robot, which one may show.
+        reader: Reads the others; closed with this.
     """
 
-    def __init__(self, document: Document, services: Services) -> None:
-        self._document = document
-        nowhere = services.settings.data_folder / "from_ros" / "nowhere"
-        self._reader = RobotReader(services.description_worker, nowhere)
+    def __init__(self, own: PosedRobot, reader: RobotReader) -> None:
+        self._own, self._reader = own, reader
         self._models: dict[str, _Model] = {}
         self._link: HearsDescriptions | None = None
         self._tasks: set[asyncio.Task[None]] = set()
@@ -129,7 +122,7 @@ class RobotModels:
                 self._hear(model)
 
     def _show_own(self, model: _Model) -> None:
-        robot = self._document.model.robot
+        robot = self._own.robot
         if model.own is robot:
             return
         model.own = robot
@@ -168,20 +161,13 @@ class RobotModels:
     async def _read(self, model: _Model, source: DescriptionSource, text: str) -> None:
         try:
             is_file = source.kind == "File"
-            second = await (self._of_file(text) if is_file else self._reader.read_text(text))
+            read = self._reader.read_file if is_file else self._reader.read_text
+            described = await read(text)
             if source == model.source and not model.is_gone:
-                model.display.fail(_shown(model, second))
+                model.display.fail(_shown(model, described))
         except StudioError as error:
             if source == model.source:
                 model.display.fail(_kept(model.display, str(error)))
-
-    async def _of_file(self, uri: str) -> SecondRobot:
-        document = self._document
-        find = partial(
-            resolve_uri, uri, document.entry, document.location.index, document.location.served
-        )
-        path = await asyncio.to_thread(find)
-        return await self._reader.read_file(replace(document.target, entry=str(path)))
 
     def _hear(self, model: _Model) -> None:
         """Take what the parameter told; ask for it where that was not done, or in vain."""
@@ -236,7 +222,7 @@ async def _close(hearing: DescriptionIn) -> None:
         await asyncio.to_thread(hearing.close)
 
 
-def _shown(model: _Model, second: SecondRobot) -> str:
+def _shown(model: _Model, described: DescribedRobot) -> str:
     """Show a robot, and give what is to be said of it.
 
     What is broken comes after a good one only if that is none; else the good one stays.
@@ -244,8 +230,8 @@ def _shown(model: _Model, second: SecondRobot) -> str:
     Raises:
         DisplayError: It is more than can be drawn.
     """
-    display, robot = model.display, second.robot
-    fault = second.fault or ("" if robot.links else "It describes no link.")
+    display, robot = model.display, described.robot
+    fault = described.fault or ("" if robot.links else "It describes no link.")
     if fault and (not robot.links or (display.robot.links and not model.is_partial)):
         return _kept(display, fault)
     display.show(robot)

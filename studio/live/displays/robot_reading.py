@@ -4,22 +4,43 @@ from __future__ import annotations
 
 import asyncio
 import os
-from dataclasses import replace
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, NamedTuple, Protocol
 
-from studio.description.values import ReadPolicy
-from studio.documents.edit_loop import Target
-from studio.documents.states.recipes import Recipe
-from studio.documents.states.second_robot import SecondRobots
+from studio.description.values import Expansion, OpenRequest, ReadPolicy
+from studio.robot.assembly import assembled
+from studio.robot.values import Robot
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
     from studio.description.client import DescriptionWorker
-    from studio.documents.states.second_robot import SecondRobot
 
 _NAME: Final = "robot_description"
+
+
+class RobotFiles(Protocol):
+    """Where the files of robots are found."""
+
+    @property
+    def policy(self) -> ReadPolicy:
+        """What a description may read."""
+        ...
+
+    def resolve_uri(self, uri: str) -> Path:
+        """The file of a URI; looks at the disk, may run in any thread.
+
+        Raises:
+            PackageError: It names no file that may be read.
+        """
+        ...
+
+
+class DescribedRobot(NamedTuple):
+    """A robot, and what is wrong with its description; one that cannot be read has no links."""
+
+    robot: Robot
+    fault: str
 
 
 class RobotReader:
@@ -27,31 +48,45 @@ class RobotReader:
 
     Args:
         take_worker: Gives a worker; asked for at the first description.
+        files: Where descriptions in files are found, and what they may read.
         nowhere: A folder where nothing is: texts stand there, and look for all else in vain.
     """
 
-    def __init__(self, take_worker: Callable[[], DescriptionWorker], nowhere: Path) -> None:
-        self._nowhere = nowhere.resolve()
-        self._target = Target("", ReadPolicy((), {}, {}))
-        self._robots = SecondRobots(take_worker, lambda: self._target)
+    def __init__(
+        self, take_worker: Callable[[], DescriptionWorker], files: RobotFiles, nowhere: Path
+    ) -> None:
+        self._take_worker, self._files, self._nowhere = take_worker, files, nowhere.resolve()
+        self._worker: DescriptionWorker | None = None
         self._turn = asyncio.Lock()
 
-    async def read_text(self, text: str) -> SecondRobot:
+    async def read_text(self, text: str) -> DescribedRobot:
         """The robot that a text describes; what is wrong with it is in the answer."""
         entry = str(self._nowhere / _NAME)
-        target = Target(entry, ReadPolicy((str(self._nowhere),), {}, {}))
-        second = await self._read(target, {entry: text.encode("utf-8", "replace")})
-        return replace(second, fault=second.fault.replace(f"{self._nowhere}{os.sep}", ""))
+        policy = ReadPolicy((str(self._nowhere),), {}, {})
+        texts = {entry: text.encode("utf-8", "replace")}
+        robot, fault = await self._read(OpenRequest(entry, {}, policy, texts))
+        return DescribedRobot(robot, fault.replace(f"{self._nowhere}{os.sep}", ""))
 
-    async def read_file(self, target: Target) -> SecondRobot:
-        """The robot of a file, read under the rules of its target."""
-        return await self._read(target, {})
+    async def read_file(self, uri: str) -> DescribedRobot:
+        """The robot of a file; what is wrong with its text is in the answer.
+
+        Raises:
+            PackageError: The URI names no file that may be read.
+        """
+        path = await asyncio.to_thread(self._files.resolve_uri, uri)
+        return await self._read(OpenRequest(str(path), {}, self._files.policy, {}))
 
     async def close(self) -> None:
         """End the worker."""
-        await self._robots.close()
+        worker, self._worker = self._worker, None
+        if worker is not None:
+            await worker.close()
 
-    async def _read(self, target: Target, texts: dict[str, bytes]) -> SecondRobot:
+    async def _read(self, request: OpenRequest) -> DescribedRobot:
         async with self._turn:
-            self._target = target
-            return await self._robots.made(Recipe({}), texts)
+            if self._worker is None:
+                self._worker = self._take_worker()
+            answer = await self._worker.open(request)
+            if isinstance(answer, Expansion):
+                return DescribedRobot(*await asyncio.to_thread(assembled, answer))
+            return DescribedRobot(Robot(""), str(answer.problem))

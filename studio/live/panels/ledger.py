@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 from typing import TYPE_CHECKING, Final, Generic, Protocol, TypeVar
 
-from studio.documents.lookout import Lookout
+from studio.debounce import Throttle
 from studio.errors import CommandError
 from studio.protocol.listeners import Audience, tell
 
@@ -50,7 +50,7 @@ class Ledger(Generic[DeedT]):
         self._deeds: dict[int, DeedT] = {}
         self._changed: set[int] = set()
         self._audience = Audience()
-        self._lookout = Lookout(self._tell, pause_s=_PAUSE_S)
+        self._throttle = Throttle(self._tell, pause_s=_PAUSE_S)
         self._numbers = itertools.count(1)
         self._closed = False
 
@@ -97,7 +97,7 @@ class Ledger(Generic[DeedT]):
         """Have its news be told, soon."""
         if not self._closed:
             self._changed.add(deed.deed)
-            self._lookout.doubt()
+            self._throttle.trigger()
 
     def follow(self, listener: Listener) -> None:
         """Tell all that are kept, and what changes from now on."""
@@ -116,7 +116,7 @@ class Ledger(Generic[DeedT]):
     async def close(self) -> None:
         """Tell nobody any more."""
         self._closed = True
-        await self._lookout.close()
+        await self._throttle.close()
 
     async def _tell(self) -> None:
         changed, self._changed = self._changed, set()

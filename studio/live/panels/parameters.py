@@ -6,7 +6,7 @@ import asyncio
 from collections import OrderedDict
 from typing import TYPE_CHECKING, Final
 
-from studio.documents.lookout import Lookout
+from studio.debounce import Throttle
 from studio.protocol.commands import Commands, Scope
 from studio.protocol.listeners import tell
 from studio.protocol.parameters import (
@@ -51,7 +51,7 @@ class ParameterDesk:
         self._followed: dict[Listener, str] = {}
         self._ear: tuple[WireLink, Callable[[], None]] | None = None
         self._news: dict[str, dict[str, ParameterView | None]] = {}
-        self._lookout = Lookout(self._tell, pause_s=_PAUSE_S)
+        self._throttle = Throttle(self._tell, pause_s=_PAUSE_S)
 
     async def nodes(self, command: GetParameterNodes) -> ParameterNodes:
         """Tell which nodes have parameters."""
@@ -119,7 +119,7 @@ class ParameterDesk:
         """End all."""
         self._followed.clear()
         await self.let_go()
-        await self._lookout.close()
+        await self._throttle.close()
 
     async def _remote(self, node: str) -> RemoteParameters:
         from studio.live.panels.parameter_work import RemoteParameters  # noqa: PLC0415 - zenoh
@@ -174,7 +174,7 @@ class ParameterDesk:
         news.update(dict.fromkeys(str(one.name) for one in event.deleted_parameters))
         while len(news) > _NEWS_MAX:
             del news[next(iter(news))]
-        self._lookout.doubt()
+        self._throttle.trigger()
 
     async def _tell(self) -> None:
         news, self._news = self._news, {}

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from studio.description.editing.line_diff import DiffLine
 from studio.description.values import Part
-from studio.documents.model import urdf_text
 from studio.documents.questions.urdf_lines import LINES_SHOWN, PartLines, difference, part_lines
 from studio.problems import Place
+from studio.robot.urdf_text import urdf_text
 
 ROOT = (("name", "r"),)
 

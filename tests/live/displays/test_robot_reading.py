@@ -3,27 +3,43 @@
 from __future__ import annotations
 
 import asyncio
+from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
 
 from studio.description.client import DescriptionWorker
 from studio.description.values import ReadPolicy
-from studio.documents.edit_loop import Target
 from studio.live.displays.robot_reading import RobotReader
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine
-    from pathlib import Path
 
-    from studio.documents.states.second_robot import SecondRobot
+    from studio.live.displays.robot_reading import DescribedRobot
+
+
+@dataclass
+class Files:
+    """A file is named by its path, and these folders may be read."""
+
+    folder: Path
+
+    @property
+    def policy(self) -> ReadPolicy:
+        return ReadPolicy((str(self.folder),), {}, {})
+
+    def resolve_uri(self, uri: str) -> Path:
+        return Path(uri)
 
 
 def read(
-    folder: Path, ask: Callable[[RobotReader], Coroutine[None, None, SecondRobot]]
-) -> SecondRobot:
-    async def run() -> SecondRobot:
-        reader = RobotReader(DescriptionWorker, folder / "nowhere")
+    folder: Path,
+    ask: Callable[[RobotReader], Coroutine[None, None, DescribedRobot]],
+    readable: Path | None = None,
+) -> DescribedRobot:
+    async def run() -> DescribedRobot:
+        reader = RobotReader(DescriptionWorker, Files(readable or folder), folder / "nowhere")
         try:
             return await ask(reader)
         finally:
@@ -60,10 +76,12 @@ def test_what_is_wrong_with_a_text_is_said(text: str, said: str, tmp_path: Path)
     assert "secret" not in second.robot.links
 
 
-def test_a_file_is_read_under_the_rules_of_its_target(tmp_path: Path):
+def test_a_file_is_read_under_the_rules_of_its_place(tmp_path: Path):
     file = tmp_path / "r.urdf"
     file.write_text("<robot name='r'><link name='a'/></robot>")
-    inside = Target(str(file), ReadPolicy((str(tmp_path),), {}, {}))
-    assert list(read(tmp_path, lambda reader: reader.read_file(inside)).robot.links) == ["a"]
-    beside = Target(str(file), ReadPolicy((str(tmp_path / "other"),), {}, {}))
-    assert "outside" in read(tmp_path, lambda reader: reader.read_file(beside)).fault
+
+    def robot_where(readable: Path) -> DescribedRobot:
+        return read(tmp_path, lambda reader: reader.read_file(str(file)), readable)
+
+    assert list(robot_where(tmp_path).robot.links) == ["a"]
+    assert "outside" in robot_where(tmp_path / "other").fault
