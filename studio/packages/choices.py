@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Final
 import msgspec
 
 from studio.errors import PackageNotFoundError, UnreadableFileError
+from studio.files import write_whole
 from studio.packages.discovery import discover
 from studio.packages.folder_memory import FolderMemory
 from studio.packages.manifest import FILE_NAME
@@ -40,10 +41,8 @@ def save_choices(data_folder: Path, workspace: Path, chosen: Mapping[str, Path])
     """
     file = _file(data_folder, workspace)
     file.parent.mkdir(parents=True, exist_ok=True)
-    fresh = file.with_name(f"{file.name}.{os.getpid()}")
     text = msgspec.json.encode({name: str(folder) for name, folder in chosen.items()})
-    fresh.write_bytes(msgspec.json.format(text))
-    fresh.replace(file)
+    write_whole(file, msgspec.json.format(text))
 
 
 def folder_of_choice(name: str, chosen: Path) -> Path:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Final
 import msgspec
 
 from studio.errors import PackageError
+from studio.files import write_whole
 from studio.packages.manifest import FILE_NAME, SIZE_LIMIT_BYTES, package_name
 
 if TYPE_CHECKING:
@@ -98,9 +99,7 @@ class FolderMemory:
             return
         with contextlib.suppress(OSError, UnicodeEncodeError):  # the root's own name may be no text
             self._file.parent.mkdir(parents=True, exist_ok=True)
-            fresh = self._file.with_name(f"{self._file.name}.{os.getpid()}")
-            fresh.write_bytes(msgspec.msgpack.encode(store))
-            fresh.replace(self._file)
+            write_whole(self._file, msgspec.msgpack.encode(store))
 
     def _is_settled(self, mtime_ns: int) -> bool:
         return mtime_ns < self._written_ns - _CLOCK_GRAIN_NS

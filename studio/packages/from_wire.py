@@ -6,6 +6,7 @@ import re
 from typing import TYPE_CHECKING, Final
 
 from studio.errors import NotMadeError
+from studio.files import write_whole
 from studio.packages.choices import load_choices, save_choices
 from studio.settings import SOURCE_SIZE_LIMIT_BYTES
 
@@ -45,9 +46,7 @@ def keep_description(data_folder: Path, source: str, text: str) -> Path:
         folder.mkdir(parents=True, exist_ok=True)
         if file.is_file() and file.read_bytes() == content:
             return file
-        fresh = file.with_suffix(".new")
-        fresh.write_bytes(content)
-        fresh.replace(file)
+        write_whole(file, content)
     except OSError as error:
         raise NotMadeError(shown, _reason(error)) from error
     return file

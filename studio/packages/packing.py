@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from studio.errors import ExportError, OutsideRootsError, UnreadableFileError
+from studio.files import is_temporary
 from studio.packages.presence import is_file
-from studio.packages.temporary_files import is_temporary
 from studio.settings import MESH_SIZE_LIMIT_BYTES, ZIP_SIZE_LIMIT_BYTES
 
 if TYPE_CHECKING:

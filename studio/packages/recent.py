@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import contextlib
-import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 import msgspec
 
+from studio.files import write_whole
 from studio.packages.folder_memory import is_text
 
 if TYPE_CHECKING:
@@ -62,10 +62,8 @@ class RecentFiles:
         self._keep(tuple(one for one in self.all() if one.path != path))
 
     def _keep(self, files: tuple[RecentFile, ...]) -> None:
-        fresh = self._file.with_name(f"{_FILE}.{os.getpid()}")
         with contextlib.suppress(OSError, msgspec.MsgspecError, UnicodeEncodeError):
-            fresh.write_bytes(msgspec.json.format(msgspec.json.encode(_Store(files))))
-            fresh.replace(self._file)
+            write_whole(self._file, msgspec.json.format(msgspec.json.encode(_Store(files))))
 
 
 def last_opened(data_folder: Path) -> RecentFile | None:

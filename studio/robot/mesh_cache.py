@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import contextlib
 import os
-import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from studio.files import write_whole
 from studio.robot.mesh_blob import BLOB_VERSION, unpack_mesh
 
 if TYPE_CHECKING:
@@ -53,16 +53,8 @@ class MeshCache:
     def write(self, name: str, blob: bytes) -> bool:
         """Keep a packed mesh, whole or not at all; a full or read-only disk only costs time."""
         try:
-            descriptor, temporary = tempfile.mkstemp(dir=self.folder, suffix=".part")
+            write_whole(self._file(name), blob, mode=0o600)
         except OSError:
-            return False
-        try:
-            with os.fdopen(descriptor, "wb") as stream:
-                stream.write(blob)
-            Path(temporary).replace(self._file(name))
-        except OSError:
-            with contextlib.suppress(OSError):
-                Path(temporary).unlink()
             return False
         return True
 

@@ -13,7 +13,7 @@ from pathlib import Path
 from string import Template
 from typing import TYPE_CHECKING, Final
 
-from studio.server.credentials import write_private
+from studio.files import write_whole
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -64,7 +64,7 @@ class Window:
         self._file = folder / f"robot-description-studio-{os.getpid()}.html"
         text = _REDIRECT.substitute(address=escape(address, quote=True))
         try:
-            write_private(self._file, text.encode())
+            write_whole(self._file, text.encode(), mode=0o600)
         except OSError:  # the printed address opens the page as well
             return
         opens(self._file.as_uri())

@@ -6,10 +6,10 @@ import hmac
 import os
 import secrets
 import stat
-from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from studio.errors import DataFolderError, UnsafeKeyError
+from studio.files import write_whole
 from studio.protocol.roles import Role, Visitor
 
 if TYPE_CHECKING:
@@ -84,7 +84,7 @@ class Credentials:
         if self._key_folder is None:
             return
         try:
-            _write_key(self._key_folder / _KEY_FILE, self._key)
+            write_whole(self._key_folder / _KEY_FILE, self._key, mode=0o600)
         except OSError as error:
             raise _unusable(self._key_folder, error) from error
 
@@ -122,7 +122,7 @@ def cookie_key(data_folder: Path, now_s: float) -> bytes:
         if kept is not None:
             return kept
         key = secrets.token_bytes(_KEY_BYTES)
-        _write_key(path, key)
+        write_whole(path, key, mode=0o600)  # whole: two studios may start at once
     except OSError as error:
         raise _unusable(data_folder, error) from error
     return key
@@ -149,26 +149,6 @@ def _check_owner(path: Path, status: os.stat_result) -> None:
         raise UnsafeKeyError(str(path), "belongs to another user")
     if status.st_mode & _OTHERS:
         raise UnsafeKeyError(str(path), "can be read or written by other users")
-
-
-def _write_key(path: Path, key: bytes) -> None:
-    """Write beside it and rename: two studios that start at once never read half a key."""
-    draft = path.with_name(f"{path.name}.{os.getpid()}")
-    write_private(draft, key)
-    draft.replace(path)
-
-
-def write_private(path: Path, content: bytes) -> None:
-    """Write a new file that only its owner may read; what stands there is replaced, not followed.
-
-    Raises:
-        OSError: It cannot be written.
-    """
-    with suppress(FileNotFoundError):
-        path.unlink()
-    descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
-    with os.fdopen(descriptor, "wb") as file:
-        file.write(content)
 
 
 def _unusable(folder: Path, error: OSError) -> DataFolderError:

@@ -18,6 +18,7 @@ import msgspec
 from studio.description.editing.kept_sources import KeptSources  # noqa: TC001 - msgspec reads it
 from studio.documents.keeping.save_journal import SaveJournal
 from studio.errors import DraftError
+from studio.files import write_whole
 from studio.system import hold_file
 
 if TYPE_CHECKING:
@@ -90,20 +91,13 @@ class DraftFile:
         Raises:
             DraftError: The disk refuses it; the one before is still there.
         """
-        fresh = self._path.with_suffix(".part")
         try:
             data = msgspec.json.encode(draft)
         except UnicodeEncodeError as error:
             raise DraftError(draft.entry, "a file has a name that is no text") from error
         try:
-            with fresh.open("wb") as stream:
-                stream.write(data)
-                stream.flush()
-                os.fsync(stream.fileno())
-            fresh.replace(self._path)
+            write_whole(self._path, data, flush=True)
         except OSError as error:
-            with contextlib.suppress(OSError):
-                fresh.unlink(missing_ok=True)
             raise DraftError(str(self._path), _reason(error)) from error
 
     def remove(self) -> None:

@@ -10,7 +10,7 @@ from studio.description.editing.file_diff import file_diff
 from studio.description.editing.saving import hindrance, write_copy
 from studio.description.editing.undo import Change
 from studio.errors import CommandError, NotSavedError
-from studio.packages.temporary_files import sweep
+from studio.files import sweep
 from studio.protocol.diff_lines import hunk_views
 from studio.protocol.keeping import Changes, FileChanges
 

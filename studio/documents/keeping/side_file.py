@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import contextlib
-import os
 from typing import TYPE_CHECKING, Final
 
 from studio.errors import NotSavedError
+from studio.files import write_whole
 from studio.packages.presence import is_there
-from studio.packages.temporary_files import temporary_beside
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -50,19 +48,10 @@ class SideFile:
             NotSavedError: The disk refused it.
         """
         target = self._served.resolve(self.path)
-        temporary: Path | None = None
         try:
-            handle, temporary = temporary_beside(target)
-            with os.fdopen(handle, "wb") as stream:
-                stream.write(data)
-                stream.flush()
-                os.fsync(stream.fileno())
-            temporary.chmod(target.stat().st_mode & 0o777 if is_there(target) else 0o644)
-            temporary.replace(target)
+            mode = target.stat().st_mode & 0o777 if is_there(target) else 0o644
+            write_whole(target, data, mode=mode, flush=True)
         except OSError as error:
-            if temporary is not None:
-                with contextlib.suppress(OSError):
-                    temporary.unlink(missing_ok=True)
             reason = error.strerror or "the disk refused it"
             raise NotSavedError(str(self.path), reason) from error
 

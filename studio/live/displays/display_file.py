@@ -5,14 +5,15 @@ from __future__ import annotations
 import hashlib
 import logging
 import os
-import tempfile
-from contextlib import suppress
-from pathlib import Path
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 import msgspec
 
+from studio.files import write_whole
 from studio.live.displays.display_list import DISPLAYS_MAX, DisplaySpec
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 FOLDER: Final = "displays"
 _LIMIT_BYTES: Final = 4 << 20
@@ -53,17 +54,6 @@ class DisplayFile:
         """Keep this from now on; in any thread. What the disk refuses is logged."""
         try:
             self._path.parent.mkdir(parents=True, exist_ok=True)
-            self._replace(msgspec.json.encode(kept))
+            write_whole(self._path, msgspec.json.encode(kept), mode=0o600)
         except OSError as error:
             _log.warning("The displays are not kept in %s: %s.", self._path, error.strerror)
-
-    def _replace(self, data: bytes) -> None:
-        handle, name = tempfile.mkstemp(dir=self._path.parent, prefix=".", suffix=".json")
-        try:
-            with os.fdopen(handle, "wb") as stream:
-                stream.write(data)
-            Path(name).replace(self._path)
-        except OSError:
-            with suppress(OSError):
-                Path(name).unlink()
-            raise

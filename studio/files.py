@@ -1,11 +1,14 @@
-"""Files that stand beside another for the moment of its writing, and what a killed studio left."""
+"""Files that are written whole: beside their place first, then renamed over it.
+
+Whoever reads such a file sees the bytes before or the bytes after, also when the studio is killed.
+"""
 
 from __future__ import annotations
 
 import contextlib
 import os
 import re
-import tempfile
+import secrets
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
@@ -24,15 +27,48 @@ _EARLIER: Final = re.compile(r"\..+\.[a-z0-9_]{8}\.tmp", re.DOTALL)
 """As the studio named them before; other programs may do so, too: these are never removed."""
 
 
-def temporary_beside(target: Path) -> tuple[int, Path]:
+def write_whole(target: Path, data: bytes, *, mode: int | None = None, flush: bool = False) -> None:
+    """Put these bytes in the place of a file, or of none; a symlink there is replaced.
+
+    Args:
+        target: The file; its folder has to be there.
+        data: All of its bytes.
+        mode: Its permissions; None: those of any new file.
+        flush: Whether they are on the disk itself when this returns.
+
+    Raises:
+        OSError: The disk refuses it; what was there before is still there.
+    """
+    handle, temporary = temporary_beside(target, 0o666 if mode is None else 0o600)
+    try:
+        with os.fdopen(handle, "wb") as stream:
+            stream.write(data)
+            if flush:
+                stream.flush()
+                os.fsync(stream.fileno())
+        if mode is not None:
+            temporary.chmod(mode)
+        temporary.replace(target)
+    except OSError:
+        with contextlib.suppress(OSError):
+            temporary.unlink(missing_ok=True)
+        raise
+
+
+def temporary_beside(target: Path, mode: int = 0o600) -> tuple[int, Path]:
     """Make and open a file in the folder of `target`, to be renamed over it.
+
+    Args:
+        target: The file that it will be.
+        mode: Its permissions, as far as the system gives them to a new file.
 
     Raises:
         OSError: The disk refuses it.
     """
-    prefix = f".{target.name[:_NAME_KEPT]}.studio-{os.getpid()}-"
-    handle, name = tempfile.mkstemp(prefix=prefix, suffix=".tmp", dir=target.parent)
-    return handle, Path(name)
+    name = f".{target.name[:_NAME_KEPT]}.studio-{os.getpid()}-{secrets.token_hex(4)}.tmp"
+    path = target.with_name(name)
+    flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
+    return os.open(path, flags, mode), path
 
 
 def is_temporary(name: str) -> bool:
