@@ -152,7 +152,7 @@ IMPORTED_IN_THREADS = {"studio.live.connection.link", "studio.live.connection.re
 def _imported_at_first_use() -> set[str]:
     """What functions of rooms that work on the loop import when they are called."""
     found: set[str] = set()
-    for room in ("engine", "displays", "scene", "ros"):
+    for room in ("documents", "live", "displays", "scene", "ros"):
         for file in (STUDIO / room).rglob("*.py"):
             for one in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
                 if isinstance(one, ast.FunctionDef | ast.AsyncFunctionDef):
