@@ -62,16 +62,14 @@ class Recorder:
 
     def files(self) -> list[str]:
         """Those that ran in every step after the first few."""
-        steps: dict[int, set[str]] = {number: set() for number in range(_WARM + 1, STEPS + 1)}
+        steps = {number: set[str]() for number in range(_WARM + 1, STEPS + 1)}
         for walk in self._folder.glob("*.walk"):
             for line in walk.read_text().splitlines():
                 number, _, file = line.partition(" ")
                 if int(number) in steps:
                     steps[int(number)].add(file)
-        return sorted(
-            Path(one).relative_to(REPOSITORY).as_posix()
-            for one in set.intersection(*steps.values())
-        )
+        always = [one for one in steps[STEPS] if all(one in files for files in steps.values())]
+        return sorted(Path(one).relative_to(REPOSITORY).as_posix() for one in always)
 
 
 @contextmanager
