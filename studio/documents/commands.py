@@ -6,15 +6,8 @@ from typing import Final
 
 from studio.documents.document import Document
 from studio.protocol.commands import Commands, Scope
-from studio.protocol.documents import ChoosePackage
-from studio.protocol.edits import EditSite, Redo, ResetSite, Undo
-from studio.protocol.expanded import GetUrdfChanges
-from studio.protocol.files import GetCollisions, Reload, ResolveCollisions, Save
-from studio.protocol.inspection import GetFrames, GetMasses
-from studio.protocol.keeping import DiscardRestored, GetChanges, SaveCopy, UndoTo
-from studio.protocol.language import Complete, GetOutline, GetReferences, LookUp
-from studio.protocol.launching import SetArgument, SetArguments
-from studio.protocol.live import (
+from studio.protocol.connection import PublishJoints, PublishRobot, SetJointSource
+from studio.protocol.displays import (
     AddDisplay,
     ArrangeDisplay,
     DuplicateDisplay,
@@ -28,12 +21,43 @@ from studio.protocol.live import (
     SetFixedFrame,
     SwitchDisplays,
 )
-from studio.protocol.mending import ApplyFix, MendAll
+from studio.protocol.documents import ChoosePackage, SetArgument, SetArguments
+from studio.protocol.edits import ApplyFix, EditSite, MendAll, Redo, ResetSite, Undo
+from studio.protocol.language import Complete, GetOutline, GetReferences, LookUp
 from studio.protocol.origins import GetEffects, GetOrigin
-from studio.protocol.poses import ApplyPose, DeletePose, RenamePose, SavePose
-from studio.protocol.rewriting import FindTexts, GetRenaming, Rename, ReplaceTexts
-from studio.protocol.robot import AnimateJoints, RandomizeJoints, SetDisplay, SetJoints, ZeroJoints
-from studio.protocol.texts import EditText, GetText, GetUrdf
+from studio.protocol.robot import (
+    AnimateJoints,
+    ApplyPose,
+    DeletePose,
+    GetFrames,
+    GetMasses,
+    RandomizeJoints,
+    RenamePose,
+    SavePose,
+    SetDisplay,
+    SetJoints,
+    ZeroJoints,
+)
+from studio.protocol.saving import (
+    DiscardRestored,
+    GetChanges,
+    GetCollisions,
+    Reload,
+    ResolveCollisions,
+    Save,
+    SaveCopy,
+    UndoTo,
+)
+from studio.protocol.texts import (
+    EditText,
+    FindTexts,
+    GetRenaming,
+    GetText,
+    GetUrdf,
+    GetUrdfChanges,
+    Rename,
+    ReplaceTexts,
+)
 from studio.protocol.variants import (
     ApplyVariant,
     CompareVariants,
@@ -42,7 +66,6 @@ from studio.protocol.variants import (
     SaveVariant,
     UpdateVariant,
 )
-from studio.protocol.wire import PublishJoints, PublishRobot, SetJointSource
 
 COMMANDS: Final = Commands[Document](Scope.DOCUMENT)
 COMMANDS.presenter(EditSite, lambda d, c, _: d.edit_site(c.site, c.text, c.gesture))

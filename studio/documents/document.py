@@ -43,7 +43,7 @@ from studio.live.displays.live_desk import LiveDesk
 from studio.live.displays.robot_reading import RobotReader
 from studio.packages.uris import resolve_uri
 from studio.protocol.edits import Built
-from studio.protocol.files import Saved
+from studio.protocol.saving import Saved
 from studio.robot.urdf_text import urdf_text
 from studio.scene import DocumentScene
 from studio.settings import LOOPBACK_HOSTS

@@ -31,22 +31,26 @@ from studio.packages.workspace import Location, open_location
 from studio.protocol.at_most_once import AtMostOnce
 from studio.protocol.commands import Answer, CommandRates, Commands, Scope
 from studio.protocol.documents import (
+    Arguments,
     CloseDocument,
     DocumentEntry,
     Documents,
     Done,
     Folder,
     FolderEntry,
+    GetArguments,
+    GetLink,
     Gone,
+    Link,
+    LinkOpened,
     ListFolder,
     Opened,
+    OpenLink,
     OpenPath,
     Watch,
 )
-from studio.protocol.keeping import ForgetWork
-from studio.protocol.launching import Arguments, GetArguments
 from studio.protocol.listeners import Audience, tell
-from studio.protocol.sharing import GetLink, Link, LinkOpened, OpenLink
+from studio.protocol.saving import ForgetWork
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

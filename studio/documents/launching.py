@@ -10,7 +10,7 @@ from studio.description.sites.launch_arguments import LaunchArgument, launch_arg
 from studio.description.values import SiteKind
 from studio.errors import CommandError, PackageError
 from studio.packages.presence import is_folder, is_there
-from studio.protocol.launching import Arguments, ArgumentView
+from studio.protocol.documents import Arguments, ArgumentView
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping

@@ -24,8 +24,7 @@ from studio.packages.working_copy import FOLDER as EXAMPLES
 from studio.packages.working_copy import working_copy
 from studio.packages.workspace import UPLOADS
 from studio.protocol.commands import Commands, Scope
-from studio.protocol.documents import Opened
-from studio.protocol.opening import (
+from studio.protocol.documents import (
     ExampleEntry,
     Examples,
     ForgetRecent,
@@ -34,6 +33,7 @@ from studio.protocol.opening import (
     ListRecent,
     NewRobot,
     NewUntitled,
+    Opened,
     OpenExample,
     OpenRecent,
     Places,

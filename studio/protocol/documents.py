@@ -1,4 +1,4 @@
-"""Messages about which documents are open, and what each of them is."""
+"""Which documents are open, how more are opened or made, their arguments, and links to them."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from typing import Literal
 
 from pydantic import Field
 
+from studio.description.values import Widget
 from studio.protocol.message import ArgumentName, Command, Event, Message
 
 
@@ -151,3 +152,198 @@ class Gone(Event):
 
     type: Literal["gone"] = "gone"
     document: str
+
+
+class ListRecent(Command):
+    """The files that were opened last."""
+
+    type: Literal["list_recent"] = "list_recent"
+
+
+class OpenRecent(Command):
+    """Open a file of that list again, with the arguments that it had."""
+
+    type: Literal["open_recent"] = "open_recent"
+    path: str = Field(max_length=4096)
+
+
+class ForgetRecent(Command):
+    """Take a file out of that list; the file stays."""
+
+    type: Literal["forget_recent"] = "forget_recent"
+    path: str = Field(max_length=4096)
+
+
+class ListExamples(Command):
+    """The models that the studio ships."""
+
+    type: Literal["list_examples"] = "list_examples"
+
+
+class OpenExample(Command):
+    """Open the working copy of a shipped model."""
+
+    type: Literal["open_example"] = "open_example"
+    name: str = Field(max_length=200)
+    arguments: dict[ArgumentName, str] = Field(default_factory=dict)
+    """That the model is opened with."""
+
+
+class ListPlaces(Command):
+    """The folders in which something new can be made."""
+
+    type: Literal["list_places"] = "list_places"
+
+
+class NewRobot(Command):
+    """Make a package `folder/name` out of a template, and open its robot."""
+
+    type: Literal["new_robot"] = "new_robot"
+    template: Literal["blank", "rover", "arm"]
+    name: str = Field(max_length=200)
+    folder: str = Field(default="", max_length=4096)
+    """Empty: that of the data folder."""
+
+
+class NewUntitled(Command):
+    """Open a text that has no file yet."""
+
+    type: Literal["new_untitled"] = "new_untitled"
+    text: str
+
+
+class SaveAs(Command):
+    """Write the document's robot to a new place, and go on there."""
+
+    type: Literal["save_as"] = "save_as"
+    name: str = Field(max_length=200)
+    folder: str = Field(default="", max_length=4096)
+    """Empty: that of the data folder."""
+    as_package: bool = True
+    """With package.xml, launch/ and README.md around it."""
+
+
+class RecentEntry(Message):
+    """One file of the list; `is_there` false: it is gone."""
+
+    path: str
+    title: str
+    time_s: float
+    """When it was opened, Unix time."""
+    origin: Literal["file", "example", "upload", "untitled"]
+    is_there: bool
+
+
+class Recent(Event):
+    """Answer to `list_recent` and `forget_recent`: newest first."""
+
+    type: Literal["recent"] = "recent"
+    request: int
+    files: tuple[RecentEntry, ...]
+
+
+class ExampleEntry(Message):
+    """One shipped model; `text` says what it shows."""
+
+    name: str
+    robot: str
+    text: str
+
+
+class Examples(Event):
+    """Answer to `list_examples`."""
+
+    type: Literal["examples"] = "examples"
+    request: int
+    examples: tuple[ExampleEntry, ...]
+
+
+class Places(Event):
+    """Answer to `list_places`: the data folder's own first."""
+
+    type: Literal["places"] = "places"
+    request: int
+    folders: tuple[str, ...]
+
+
+class SetArgument(Command):
+    """Pass an argument as `name:=value` on the command line would; None takes it back."""
+
+    type: Literal["set_argument"] = "set_argument"
+    name: ArgumentName
+    value: str | None
+
+
+class GetArguments(Command):
+    """What a robot can be launched with: the open document's, or that of a file not yet open."""
+
+    type: Literal["get_arguments"] = "get_arguments"
+    path: str = Field(default="", max_length=4096)
+
+
+class SetArguments(Command):
+    """Pass several arguments at once, as one run and one undo step; None takes one back."""
+
+    type: Literal["set_arguments"] = "set_arguments"
+    values: dict[ArgumentName, str | None] = Field(min_length=1, max_length=1000)
+
+
+class ArgumentView(Message):
+    """One argument of a robot, as a form shows it."""
+
+    name: str
+    file: str
+    line: int
+    default: str | None
+    """As written in the file; None: the robot needs a value from outside."""
+    value: str | None
+    """What is passed now."""
+    shown: str
+    """What it comes to now, where that is known without a run."""
+    widget: Widget
+    is_file: bool
+    """Its value names a file."""
+
+
+class Arguments(Event):
+    """Answer to `get_arguments`; `missing`: those without which it cannot be shown."""
+
+    type: Literal["arguments"] = "arguments"
+    request: int
+    path: str
+    arguments: tuple[ArgumentView, ...]
+    missing: tuple[str, ...]
+
+
+class GetLink(Command):
+    """A link that opens this robot with its arguments and unsaved edits."""
+
+    type: Literal["get_link"] = "get_link"
+
+
+class OpenLink(Command):
+    """Open what a link holds as a document of its own; its edits are unsaved there."""
+
+    type: Literal["open_link"] = "open_link"
+    link: str = Field(max_length=400_000)
+
+
+class Link(Event):
+    """Answer to `get_link`: `text` goes behind `#robot=` of the studio's address."""
+
+    type: Literal["link"] = "link"
+    request: int
+    text: str
+    arguments: int
+    files: tuple[str, ...]
+    """Those whose unsaved edits it holds."""
+    edits: int
+
+
+class LinkOpened(Event):
+    """Answer to `open_link`: go to `/d/<document>`; `left_out` says which edits found no place."""
+
+    type: Literal["link_opened"] = "link_opened"
+    request: int
+    document: str
+    left_out: tuple[str, ...]

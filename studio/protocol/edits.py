@@ -1,4 +1,4 @@
-"""Messages about the values that are edited, what a run made of them, and the undo list."""
+"""Edits of values and of problems that have a fix, what a run made of them, and the undo list."""
 
 from __future__ import annotations
 
@@ -93,3 +93,24 @@ class Built(Event):
     type: Literal["built"] = "built"
     ok: bool
     duration_ms: float
+
+
+class ApplyFix(Command):
+    """Make the edits of a problem's fix as one undo step; refused when it is no longer found.
+
+    The three say which problem is meant, as `problems` told it.
+    """
+
+    type: Literal["apply_fix"] = "apply_fix"
+    code: str = Field(max_length=100)
+    sentence: str = Field(max_length=4096)
+    label: str = Field(max_length=1000)
+
+
+class MendAll(Command):
+    """Make the edits of every error's and every warning's fix as one undo step.
+
+    Of two that want the same place, the first one's; notes (severity `info`) are left as they are.
+    """
+
+    type: Literal["mend_all"] = "mend_all"

@@ -6,7 +6,7 @@ from typing import Annotated, Final, Literal, TypeAlias
 
 from pydantic import Field, TypeAdapter
 
-from studio.protocol.live import RosName
+from studio.protocol.displays import RosName
 from studio.protocol.message import Message
 
 WISH_LIMIT: Final = 1 << 31

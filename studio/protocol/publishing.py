@@ -1,4 +1,4 @@
-"""Messages about what pages publish on topics, once or at a rate."""
+"""Publishing to a topic, and driving a robot with velocity commands."""
 
 from __future__ import annotations
 
@@ -61,3 +61,21 @@ class Publications(Event):
     type: Literal["publications"] = "publications"
     whole: bool
     deeds: tuple[PublicationView, ...]
+
+
+class Drive(Command):
+    """Drive so fast until told otherwise, or until nothing is told for half a second.
+
+    What comes next for the topic takes its place; who falls silent, or leaves, stands still.
+    """
+
+    type: Literal["drive"] = "drive"
+    topic: Name
+    stamped: bool = False
+    """A `TwistStamped` with the time is sent, not a `Twist`."""
+    x: float = 0.0
+    """m/s, forward."""
+    y: float = 0.0
+    """m/s, to the left."""
+    yaw: float = 0.0
+    """rad/s, anticlockwise."""

@@ -1,8 +1,10 @@
-"""Messages about the robot that is drawn: its tree, its joints and how it is displayed."""
+"""The robot of a document: links, joints, frames, masses, poses, and what is shown of it."""
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Literal, TypeAlias
+
+from pydantic import Field
 
 from studio.protocol.message import Command, Event, Message
 
@@ -97,3 +99,130 @@ class Displays(Event):
 
     type: Literal["displays"] = "displays"
     displays: dict[str, dict[str, bool | float | str]]
+
+
+class PoseView(Message):
+    """One named pose as the page lists it."""
+
+    key: str
+    """What the commands call it."""
+    name: str
+    group: str
+    """The planning group of an SRDF that it is stated for; empty: none."""
+    kind: Literal["own", "srdf", "initial"]
+    """Saved here, a group state of an SRDF, or a file of initial positions."""
+    file: str
+    line: int
+    positions: dict[str, float]
+    """By joint of the robot that moves freely, rad or m."""
+    unknown: tuple[str, ...]
+    """Joints that the robot does not have, or that take no single number; the first ones."""
+    unknown_count: int
+    beyond: tuple[str, ...]
+    """Joints whose limits do not let them go so far; the first ones."""
+
+
+class Poses(Event):
+    """All named poses that fit the robot."""
+
+    type: Literal["poses"] = "poses"
+    poses: tuple[PoseView, ...]
+    path: str
+    """The file that one's own are kept in."""
+    only_here: str
+    """Why one's own are kept for this session only; empty: they are in the file."""
+    trouble: str
+    """What is wrong with that file, in a sentence."""
+
+
+class ApplyPose(Command):
+    """Move the joints to a named pose; joints that it does not name stay."""
+
+    type: Literal["apply_pose"] = "apply_pose"
+    key: str = Field(max_length=5000)
+    duration_s: float = Field(default=0.0, ge=0.0, le=5.0)
+    """Of the way there; 0: at once."""
+
+
+class SavePose(Command):
+    """Keep where the joints are under a name; with `replace` also under one that there is."""
+
+    type: Literal["save_pose"] = "save_pose"
+    name: str = Field(max_length=100)
+    replace: bool = False
+
+
+class RenamePose(Command):
+    """Give one's own pose another name."""
+
+    type: Literal["rename_pose"] = "rename_pose"
+    name: str = Field(max_length=100)
+    new_name: str = Field(max_length=100)
+
+
+class DeletePose(Command):
+    """Forget one's own pose; the joints stay where they are."""
+
+    type: Literal["delete_pose"] = "delete_pose"
+    name: str = Field(max_length=100)
+
+
+_Three: TypeAlias = tuple[float, float, float]
+_Six: TypeAlias = tuple[float, float, float, float, float, float]
+
+
+class GetFrames(Command):
+    """Where the joints of the last good robot stand; links follow from that and the positions."""
+
+    type: Literal["get_frames"] = "get_frames"
+
+
+class Frames(Event):
+    """Answer to `get_frames`, true of the robot now: ask again when something was built.
+
+    By joint the frame of the joint in its parent link: x, y, z in m, then roll, pitch, yaw in rad.
+    """
+
+    type: Literal["frames"] = "frames"
+    request: int
+    revision: int
+    """As in `robot`."""
+    origins: dict[str, _Six]
+
+
+class GetMasses(Command):
+    """What the links of the last good robot weigh, and what room their shapes take."""
+
+    type: Literal["get_masses"] = "get_masses"
+
+
+class VolumeView(Message):
+    """Of all visuals or all collisions of a link, m3; not exact: at most that."""
+
+    volume_m3: float
+    is_exact: bool
+
+
+class LinkMassView(Message):
+    """A link with an inertial; None stands for what no number can say."""
+
+    link: str
+    mass_kg: float
+    centre_m: _Three
+    """Centre of mass in the frame of the link."""
+    moments_kg_m2: _Three | None
+    """Principal, the least first."""
+    inertia_kg_m2: _Six
+    """ixx, ixy, ixz, iyy, iyz, izz as written: about the centre, in the axes of the inertial."""
+    visual: VolumeView | None
+    """None without such shapes, and while the size of a mesh is not known."""
+    collision: VolumeView | None
+
+
+class Masses(Event):
+    """Answer to `get_masses`, true of the robot now: ask again when something was built."""
+
+    type: Literal["masses"] = "masses"
+    request: int
+    links: tuple[LinkMassView, ...]
+    """In the order of the robot; links without an inertial are not among them."""

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from studio.protocol.live import RosName
+from studio.protocol.displays import RosName
 from studio.protocol.message import Command, Event, Message
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Literal
 
-from studio.protocol.live import RosName
+from studio.protocol.displays import RosName
 from studio.protocol.message import Command, Event, Message
 
 

@@ -12,8 +12,8 @@ from xml.sax.saxutils import quoteattr
 
 import pytest
 
-from studio.protocol.files import Save
 from studio.protocol.robot import SetJoints
+from studio.protocol.saving import Save
 from studio.server.exports import disposition
 from tests.support.open_documents import engine, opened
 from tests.support.packages import write_package

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from studio.errors import NotSavedError
-from studio.protocol.files import Save
-from studio.protocol.mending import ApplyFix
-from studio.protocol.rewriting import Rename
+from studio.protocol.edits import ApplyFix
+from studio.protocol.saving import Save
+from studio.protocol.texts import Rename
 from tests.support.open_documents import engine, opened, until
 from tests.support.permissions import open_folder, unprivileged
 

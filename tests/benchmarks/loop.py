@@ -17,7 +17,7 @@ from studio.displays.map import MapDisplay
 from studio.displays.point_cloud2 import PointCloud2Display
 from studio.displays.tf import TfDisplay
 from studio.live.displays.frames_desk import FramesDesk
-from studio.protocol.live import GetTf
+from studio.protocol.displays import GetTf
 from studio.robot.values import Joint, JointType, Link, Origin, Robot
 from studio.scene import DocumentScene
 from tests.benchmarks.displays import TYPES, cloud_message, map_message

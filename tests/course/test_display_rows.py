@@ -12,7 +12,7 @@ import pytest
 from studio.displays.catalogue import DISPLAYS
 from studio.displays.drawing import Points
 from studio.nodes.demos.rover.room import clearance_m
-from studio.protocol.live import AddDisplay, GetTf, SetDisplayProperty, SetFixedFrame
+from studio.protocol.displays import AddDisplay, GetTf, SetDisplayProperty, SetFixedFrame
 from studio.ros.messages import message
 from tests.support.demos import heard, node_at, running_demo
 from tests.support.display_samples import BASE, SAMPLES

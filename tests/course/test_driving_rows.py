@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio.protocol.driving import Drive
+from studio.protocol.publishing import Drive
 from tests.support.bridged import bridged
 from tests.support.demos import heard, node_at, running_demo
 from tests.support.open_documents import until

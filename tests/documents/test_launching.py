@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.errors import CommandError, OutsideRootsError
-from studio.protocol.launching import Arguments, GetArguments, SetArguments
+from studio.protocol.documents import Arguments, GetArguments, SetArguments
 from tests.support.open_documents import Ear, engine, opened
 from tests.support.packages import write_package
 

@@ -9,8 +9,7 @@ import pytest
 
 from studio.errors import CommandError, NotMadeError, PackageError
 from studio.packages.recent import RecentFiles
-from studio.protocol.documents import OpenPath
-from studio.protocol.opening import (
+from studio.protocol.documents import (
     ForgetRecent,
     ListExamples,
     ListPlaces,
@@ -18,6 +17,7 @@ from studio.protocol.opening import (
     NewRobot,
     NewUntitled,
     OpenExample,
+    OpenPath,
     OpenRecent,
     SaveAs,
 )

@@ -9,8 +9,8 @@ import pytest
 
 from studio.errors import CommandError
 from studio.protocol.at_most_once import REMEMBERED_MAX, AtMostOnce
+from studio.protocol.documents import Places
 from studio.protocol.edits import Undo
-from studio.protocol.opening import Places
 from tests.support.open_documents import Ear
 
 if TYPE_CHECKING:

@@ -1,5 +1,5 @@
+from studio.protocol.displays import LiveDisplays
 from studio.protocol.listeners import Audience, LastTold
-from studio.protocol.live import LiveDisplays
 from tests.support.open_documents import Ear
 
 

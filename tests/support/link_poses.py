@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from studio.protocol.inspection import GetFrames, GetMasses
+from studio.protocol.robot import GetFrames, GetMasses
 from studio.protocol.roles import Role
 from studio.robot.inertia import total
 from tests.support.asked import ask_document

@@ -12,10 +12,10 @@ from studio.errors import ExportError, SaveConflictError, UnknownDocumentError, 
 from studio.live.panels.hearing_frames import Tick, chunk_of
 from studio.protocol.documents import CloseDocument, DocumentEntry, Documents, Done
 from studio.protocol.edits import Redo, Undo
-from studio.protocol.files import Reload, Save
 from studio.protocol.hearing import Hear, NotHeard
 from studio.protocol.listeners import tell
 from studio.protocol.robot import AnimateJoints, RandomizeJoints, ZeroJoints
+from studio.protocol.saving import Reload, Save
 from studio.protocol.texts import GetUrdf, Urdf
 from studio.ros.attachment import Attachment
 from studio.ros.node.inbox import RawSample

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final
 from studio.description.editing.disk_news import FileChange
 from studio.documents.keeping.disk_problems import changed_on_disk, file_gone, not_watched
 from studio.errors import EditError
-from studio.protocol.files import Collisions, CollisionView, DiskMerged
+from studio.protocol.saving import Collisions, CollisionView, DiskMerged
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from studio.description.editing.merging import Merge, Place
     from studio.description.values import Edit
     from studio.documents.document import Document
-    from studio.protocol.files import GetCollisions, ResolveCollisions
+    from studio.protocol.saving import GetCollisions, ResolveCollisions
 
 _SHOWN: Final = 50
 """Collisions of one file that are shown; of more than that nobody reads every one."""

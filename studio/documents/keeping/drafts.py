@@ -13,7 +13,7 @@ from studio.documents.keeping.disk_problems import save_cut
 from studio.documents.keeping.draft_store import Draft, draft_file
 from studio.errors import DraftError, PackageError
 from studio.problems import Place, Problem, Severity
-from studio.protocol.keeping import Restored
+from studio.protocol.saving import Restored
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Generator, Iterable

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from studio.documents.document import Document
-    from studio.protocol.keeping import UndoTo
+    from studio.protocol.saving import UndoTo
 
 
 class HistoryDesk:

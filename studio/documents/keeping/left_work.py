@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 from studio.debounce import Throttle
 from studio.documents.keeping.draft_store import forget_drafts, left_drafts
 from studio.packages.presence import is_file
-from studio.protocol.keeping import LeftWork, LeftWorkEntry
 from studio.protocol.listeners import tell
 from studio.protocol.roles import Role
+from studio.protocol.saving import LeftWork, LeftWorkEntry
 
 if TYPE_CHECKING:
     from studio.documents.engine import Engine

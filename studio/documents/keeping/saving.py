@@ -11,13 +11,12 @@ from studio.description.editing.saving import hindrance, write_copy
 from studio.description.editing.undo import Change
 from studio.errors import CommandError, NotSavedError
 from studio.files import sweep
-from studio.protocol.diff_lines import hunk_views
-from studio.protocol.keeping import Changes, FileChanges
+from studio.protocol.saving import Changes, FileChanges
+from studio.protocol.texts import hunk_views
 
 if TYPE_CHECKING:
     from studio.documents.document import Document
-    from studio.protocol.files import ResolveCollisions
-    from studio.protocol.keeping import GetChanges, SaveCopy
+    from studio.protocol.saving import GetChanges, ResolveCollisions, SaveCopy
 
 
 class SaveDesk:

@@ -22,8 +22,8 @@ from studio.description.values import Edit
 from studio.documents.questions.texts import TEXT_LIMIT_BYTES
 from studio.errors import CommandError, EditError, PackageError
 from studio.packages.roots import package_folder_of
+from studio.protocol.documents import Link
 from studio.protocol.message import ArgumentName, Message
-from studio.protocol.sharing import Link
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence

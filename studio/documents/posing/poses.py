@@ -15,14 +15,14 @@ from studio.documents.watching import FileWatch
 from studio.errors import CommandError
 from studio.packages.pose_files import may_name_poses
 from studio.protocol.listeners import LastTold
-from studio.protocol.poses import Poses, PoseView
+from studio.protocol.robot import Poses, PoseView
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
     from studio.documents.document import Document
     from studio.documents.services import Services
-    from studio.protocol.poses import ApplyPose, DeletePose, RenamePose, SavePose
+    from studio.protocol.robot import ApplyPose, DeletePose, RenamePose, SavePose
     from studio.robot.kinematics import Kinematics
 
 _PAUSE_S: Final = 0.2

@@ -10,9 +10,7 @@ from studio.description.editing.line_diff import LineDiff
 from studio.description.values import Expansion, OpenRequest
 from studio.documents.questions.urdf_lines import PartLines, difference, part_lines
 from studio.errors import CommandError
-from studio.protocol.diff_lines import hunk_views
-from studio.protocol.expanded import GetUrdfChanges, UrdfChanges
-from studio.protocol.texts import Urdf
+from studio.protocol.texts import GetUrdfChanges, Urdf, UrdfChanges, hunk_views
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Final
 
 from studio.errors import PackageError, RobotError, WorkerError
 from studio.packages.uris import resolve_uri
-from studio.protocol.inspection import Frames, LinkMassView, Masses, VolumeView
+from studio.protocol.robot import Frames, LinkMassView, Masses, VolumeView
 from studio.robot.link_masses import link_mass
 from studio.robot.values import Mesh
 from studio.robot.volumes import mesh_volume, shapes_volume
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from studio.documents.document import Document
-    from studio.protocol.inspection import GetFrames, GetMasses
+    from studio.protocol.robot import GetFrames, GetMasses
     from studio.robot.link_masses import LinkMass
     from studio.robot.meshes import MeshLibrary
     from studio.robot.values import Link, Robot

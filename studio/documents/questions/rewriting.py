@@ -12,7 +12,7 @@ from studio.description.values import Edit
 from studio.documents.questions.text_search import Matches, Words, matches_in, replacements_in
 from studio.documents.questions.texts import TEXT_LIMIT_BYTES
 from studio.errors import CommandError, EditError, PackageError, ReadOnlyTextError, StaleTextError
-from studio.protocol.rewriting import (
+from studio.protocol.texts import (
     FindTexts,
     FoundText,
     GetRenaming,

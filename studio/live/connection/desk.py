@@ -9,8 +9,8 @@ from studio.debounce import Throttle
 from studio.errors import CommandError, StudioError
 from studio.live.connection.nearby import Nearby
 from studio.live.connection.plan import planned_wire
+from studio.protocol.connection import WireState
 from studio.protocol.listeners import Audience, LastTold, tell
-from studio.protocol.wire import WireState
 
 if TYPE_CHECKING:
     from collections.abc import Callable

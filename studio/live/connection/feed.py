@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Final, Literal, Protocol
 from studio.errors import CommandError, StudioError
 from studio.live.connection.sending import RobotSending
 from studio.packages.from_wire import keep_description
+from studio.protocol.connection import WireFeed
 from studio.protocol.listeners import LastTold
-from studio.protocol.wire import WireFeed
 
 if TYPE_CHECKING:
     from collections.abc import AsyncGenerator, Callable, Iterable, Mapping
@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from studio.live.connection.desk import WireDesk
     from studio.live.connection.hearing import DescriptionIn, JointsIn
     from studio.live.connection.sending import SentRobot
+    from studio.protocol.connection import JointSource
     from studio.protocol.listeners import Audience
-    from studio.protocol.wire import JointSource
 
 TICK_S: Final = 1 / 60
 _TELL_EVERY_S: Final = 0.5

@@ -23,7 +23,7 @@ from studio.ros.wire.session import RouterWatch, open_wire
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from studio.protocol.wire import OpenFromWire
+    from studio.protocol.connection import OpenFromWire
     from studio.robot.kinematics import Kinematics
     from studio.robot.values import Robot
     from studio.ros.graph.graph import Graph

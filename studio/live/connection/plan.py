@@ -12,7 +12,7 @@ from studio.ros.wire.endpoints import parse_endpoint
 from studio.ros.wire.settings import WireSettings, wire_settings
 
 if TYPE_CHECKING:
-    from studio.protocol.wire import WirePlace
+    from studio.protocol.connection import WirePlace
     from studio.settings import WireChoice
 
 _USUAL_PORT = 7447

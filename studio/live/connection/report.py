@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Final
 
 from studio.errors import NoRouterError, TokenError
 from studio.live.connection.plan import planned_wire
-from studio.protocol.wire import DomainView, Verdict, WireReport
+from studio.protocol.connection import DomainView, Verdict, WireReport
 from studio.ros.graph.diagnosis import DistroHashes, foreign_hashes, unseen_nodes
 from studio.ros.graph.endpoints import GraphEndpoint, GraphNode
 from studio.ros.messages import types_of

@@ -10,8 +10,7 @@ from studio.errors import CommandError
 from studio.live.connection.plan import chosen_wire
 from studio.packages.from_wire import choose_packages, keep_description
 from studio.protocol.commands import Commands, Scope
-from studio.protocol.documents import Opened
-from studio.protocol.wire import (
+from studio.protocol.connection import (
     ConnectWire,
     DisconnectWire,
     ExamineWire,
@@ -20,6 +19,7 @@ from studio.protocol.wire import (
     WireReport,
     WireRobots,
 )
+from studio.protocol.documents import Opened
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

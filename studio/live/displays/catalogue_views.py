@@ -7,7 +7,7 @@ from functools import cache
 from typing import TYPE_CHECKING
 
 from studio.displays.catalogue import DISPLAYS
-from studio.protocol.live import DisplayKindView, PropertyView
+from studio.protocol.displays import DisplayKindView, PropertyView
 
 if TYPE_CHECKING:
     from studio.displays.display import Display

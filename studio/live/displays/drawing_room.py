@@ -17,7 +17,7 @@ from studio.live.displays.own_frames import PosedRobot
 from studio.live.displays.reasons import remarks_on
 from studio.live.displays.running import RunningDisplay
 from studio.live.displays.topics_now import KnowsTopics, TopicsNow
-from studio.protocol.live import (
+from studio.protocol.displays import (
     DisplayState,
     DisplayStates,
     DisplayView,

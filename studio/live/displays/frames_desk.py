@@ -10,7 +10,7 @@ from studio.displays.drawing import FIXED_FRAME, NO_TURN, ORIGIN
 from studio.errors import CdrError, FrameError
 from studio.live.displays.clock_watch import CLOCK_QOS, CLOCK_TYPE, ClockWatch
 from studio.live.displays.own_frames import OwnFrames
-from studio.protocol.live import FrameView, GetTf, TfFrames, TfPose
+from studio.protocol.displays import FrameView, GetTf, TfFrames, TfPose
 from studio.ros.columns.transforms import TransformCodec
 from studio.ros.qos import DurabilityPolicy, QoSProfile
 from studio.tf.admission import Notice, plain

@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, Final
 from studio.errors import CommandError, StudioError
 from studio.live.displays.display_file import KeptDisplays
 from studio.live.displays.display_list import DisplayList, Listening
-from studio.protocol.listeners import LastTold
-from studio.protocol.live import (
+from studio.protocol.displays import (
     AddDisplay,
     ArrangeDisplay,
     DisplayKinds,
@@ -32,6 +31,7 @@ from studio.protocol.live import (
     TfFrames,
     Topics,
 )
+from studio.protocol.listeners import LastTold
 from studio.protocol.roles import Visitor
 
 if TYPE_CHECKING:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
 from studio.errors import ExtrapolationError, UnconnectedFramesError, UnknownFrameError
-from studio.protocol.live import Mend, Remark
+from studio.protocol.displays import Mend, Remark
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

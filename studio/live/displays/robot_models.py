@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Final, Protocol
 
 from studio.displays.robot_model import RobotModelDisplay
 from studio.errors import StudioError
-from studio.protocol.wire import OpenFromWire
+from studio.protocol.connection import OpenFromWire
 
 if TYPE_CHECKING:
     from collections.abc import Coroutine, Mapping

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from studio.live.connection.topic_kinds import carried_types, kind_for
-from studio.protocol.live import TopicView
+from studio.protocol.displays import TopicView
 
 if TYPE_CHECKING:
     from studio.live.connection.link import WireLink

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final
 from studio.errors import CommandError
 from studio.live.panels.running import outcome_of
 from studio.protocol.commands import Commands, Scope
-from studio.protocol.driving import Drive
+from studio.protocol.publishing import Drive
 
 if TYPE_CHECKING:
     from studio.live.connection.desk import WireDesk

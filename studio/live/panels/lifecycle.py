@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from studio.errors import CommandError, StudioError, WireError
 from studio.protocol.commands import Commands, Scope
-from studio.protocol.lifecycle import (
+from studio.protocol.graph import (
     MANAGED_MAX,
     ChangeState,
     GetManaged,

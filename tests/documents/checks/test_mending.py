@@ -9,7 +9,7 @@ import pytest
 
 from studio.errors import CommandError, ReadOnlyTextError, StaleTextError
 from studio.problems import Fix, Problem, Replacement, Severity
-from studio.protocol.mending import ApplyFix
+from studio.protocol.edits import ApplyFix
 from tests.support.asked import ask_document
 from tests.support.open_documents import engine, opened
 

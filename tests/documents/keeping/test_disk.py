@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.errors import EditError, SaveConflictError
-from studio.protocol.files import GetCollisions, ResolveCollisions
+from studio.protocol.saving import GetCollisions, ResolveCollisions
 from tests.support.open_documents import Ear, engine, opened, until
 from tests.support.packages import write_package
 

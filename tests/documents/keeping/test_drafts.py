@@ -12,9 +12,8 @@ import pytest
 
 from studio.errors import OutsideRootsError
 from studio.protocol.documents import CloseDocument
-from studio.protocol.files import ResolveCollisions
-from studio.protocol.keeping import DiscardRestored, ForgetWork, UndoTo
 from studio.protocol.roles import Role
+from studio.protocol.saving import DiscardRestored, ForgetWork, ResolveCollisions, UndoTo
 from studio.protocol.texts import EditText, GetText, TextChange
 from tests.support.open_documents import Ear, engine, opened, until
 from tests.support.packages import write_package

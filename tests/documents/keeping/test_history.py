@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.errors import CommandError
-from studio.protocol.keeping import UndoTo
+from studio.protocol.saving import UndoTo
 from tests.support.open_documents import Ear, engine, opened
 from tests.support.packages import write_package
 

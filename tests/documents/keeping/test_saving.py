@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.errors import CommandError, NotSavedError, OutsideRootsError, StudioError
-from studio.protocol.files import GetCollisions, ResolveCollisions, Save
-from studio.protocol.keeping import GetChanges, SaveCopy
+from studio.protocol.saving import GetChanges, GetCollisions, ResolveCollisions, Save, SaveCopy
 from studio.protocol.texts import EditText, GetText, TextChange
 from tests.support.open_documents import Ear, engine, opened
 from tests.support.packages import write_package

@@ -13,7 +13,7 @@ import pytest
 
 from studio.documents.keeping.sharing import read_link
 from studio.errors import CommandError
-from studio.protocol.sharing import GetLink, Link, OpenLink
+from studio.protocol.documents import GetLink, Link, OpenLink
 from tests.support.open_documents import Ear, engine, opened
 from tests.support.packages import write_package
 

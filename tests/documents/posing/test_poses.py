@@ -10,9 +10,8 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from studio.errors import CommandError, PosesFileError
-from studio.protocol.launching import SetArgument
-from studio.protocol.poses import ApplyPose, DeletePose, RenamePose, SavePose
-from studio.protocol.robot import SetJoints, ZeroJoints
+from studio.protocol.documents import SetArgument
+from studio.protocol.robot import ApplyPose, DeletePose, RenamePose, SavePose, SetJoints, ZeroJoints
 from tests.support.open_documents import Ear, engine, opened, until
 from tests.support.packages import write_package
 

@@ -5,9 +5,8 @@ from __future__ import annotations
 import asyncio
 from typing import TYPE_CHECKING, Any
 
-from studio.protocol.expanded import GetUrdfChanges
 from studio.protocol.roles import Role
-from studio.protocol.texts import EditText, GetText, GetUrdf, TextChange
+from studio.protocol.texts import EditText, GetText, GetUrdf, GetUrdfChanges, TextChange
 from tests.support.asked import ask_document
 from tests.support.loop_watch import calls_here
 from tests.support.open_documents import Ear, engine, opened

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from studio.protocol.edits import EditSite
-from studio.protocol.inspection import GetFrames, GetMasses
+from studio.protocol.robot import GetFrames, GetMasses
 from studio.protocol.roles import Role
 from tests.support.asked import ask_document
 from tests.support.descriptions import robot, write

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from studio.errors import CommandError, EditError, ReadOnlyTextError
-from studio.protocol.rewriting import FindTexts, GetRenaming, Rename, ReplaceTexts
 from studio.protocol.roles import Role
+from studio.protocol.texts import FindTexts, GetRenaming, Rename, ReplaceTexts
 from tests.support.asked import ask_document
 from tests.support.open_documents import Ear, engine, opened
 from tests.support.packages import write_package

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from studio.errors import CommandError
-from studio.protocol.files import Save
-from studio.protocol.launching import SetArgument
+from studio.protocol.documents import SetArgument
 from studio.protocol.robot import SetDisplay, SetJoints
+from studio.protocol.saving import Save
 from studio.protocol.variants import (
     CompareVariants,
     DeleteVariant,

@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.errors import CommandError, VariantsFileError
-from studio.protocol.documents import OpenPath
+from studio.protocol.documents import OpenPath, SetArgument, SetArguments
 from studio.protocol.edits import Redo, Undo
-from studio.protocol.launching import SetArgument, SetArguments
 from studio.protocol.texts import EditText, GetText, TextChange
 from studio.protocol.variants import (
     ApplyVariant,

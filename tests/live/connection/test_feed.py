@@ -11,10 +11,10 @@ import pytest
 
 from studio.errors import CommandError
 from studio.nodes.robot_state_publisher import LATCHED
+from studio.protocol.connection import PublishJoints, PublishRobot, SetJointSource
 from studio.protocol.documents import CloseDocument
 from studio.protocol.edits import EditSite
 from studio.protocol.robot import AnimateJoints, SetJoints, ZeroJoints
-from studio.protocol.wire import PublishJoints, PublishRobot, SetJointSource
 from studio.ros.messages import message
 from tests.support.demos import RunningDemo, call, heard, running
 from tests.support.open_documents import opened, until

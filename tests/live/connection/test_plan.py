@@ -6,7 +6,7 @@ import pytest
 
 from studio.errors import WireSettingsError
 from studio.live.connection.plan import chosen_wire, planned_wire
-from studio.protocol.wire import ConnectWire
+from studio.protocol.connection import ConnectWire
 from studio.ros.wire.settings import ROUTER_ENDPOINT
 from studio.settings import WireChoice
 

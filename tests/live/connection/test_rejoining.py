@@ -10,8 +10,8 @@ import pytest
 
 from studio.live.connection.desk import WireDesk
 from studio.live.connection.rejoining import FILE, KeptConnection, Rejoining, place_of
-from studio.protocol.live import AddDisplay
-from studio.protocol.wire import ConnectWire, DisconnectWire
+from studio.protocol.connection import ConnectWire, DisconnectWire
+from studio.protocol.displays import AddDisplay
 from studio.settings import WireChoice
 from tests.support.open_documents import until
 from tests.support.wire import free_endpoint, router_at

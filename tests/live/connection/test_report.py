@@ -25,7 +25,7 @@ from tests.support.wire import (
 if TYPE_CHECKING:
     from collections.abc import Generator
 
-    from studio.protocol.wire import WireReport
+    from studio.protocol.connection import WireReport
     from studio.ros.types.library import TypeLibrary
     from studio.ros.wire.session import WireSession
 

@@ -9,8 +9,7 @@ import pytest
 
 from studio.errors import CommandError, NoRouterError, NotServedError, WireSettingsError
 from studio.nodes.robot_state_publisher import LATCHED
-from studio.protocol.robot import SetJoints
-from studio.protocol.wire import (
+from studio.protocol.connection import (
     ConnectWire,
     DisconnectWire,
     ExamineWire,
@@ -20,6 +19,7 @@ from studio.protocol.wire import (
     PublishRobot,
     SetJointSource,
 )
+from studio.protocol.robot import SetJoints
 from studio.ros.messages import message
 from studio.ros.parameters.parameter import Parameter
 from tests.support.open_documents import until

@@ -7,7 +7,7 @@ import pytest
 from studio.displays.drawing import FIXED_FRAME
 from studio.errors import UnknownFrameError
 from studio.live.displays.frames_desk import FramesDesk
-from studio.protocol.live import GetTf
+from studio.protocol.displays import GetTf
 from studio.ros.columns.transforms import TransformCodec
 from studio.tf.columns import TransformColumns
 from tests.support.display_messages import encoded

@@ -10,7 +10,8 @@ import pytest
 
 from studio.errors import CommandError, DisplayError
 from studio.live.displays import live_desk
-from studio.protocol.live import (
+from studio.protocol.connection import ConnectWire, DisconnectWire
+from studio.protocol.displays import (
     AddDisplay,
     ArrangeDisplay,
     DuplicateDisplay,
@@ -21,7 +22,6 @@ from studio.protocol.live import (
     SetFixedFrame,
     SwitchDisplays,
 )
-from studio.protocol.wire import ConnectWire, DisconnectWire
 from studio.ros.messages import message
 from studio.ros.types.library import TypeLibrary
 from tests.support.demos import node_at

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from studio.nodes.robot_state_publisher import LATCHED, RobotStatePublisher
-from studio.protocol.live import AddDisplay, RemoveDisplay, SetDisplayProperty, SetFixedFrame
+from studio.protocol.displays import AddDisplay, RemoveDisplay, SetDisplayProperty, SetFixedFrame
 from studio.ros.messages import message
 from studio.ros.parameters.parameter import Parameter
 from tests.support.meshes import stl

@@ -10,9 +10,8 @@ import pytest
 from studio.errors import RouterGoneError
 from studio.live.panels.desk import COMMANDS
 from studio.protocol.calls import CallService
-from studio.protocol.driving import Drive
 from studio.protocol.goals import CancelGoal, SendGoal
-from studio.protocol.publishing import Publish, StopPublishing
+from studio.protocol.publishing import Drive, Publish, StopPublishing
 from studio.ros.action import ActionServer
 from studio.ros.node.future import Future
 from studio.ros.node.work import ReentrantCallbackGroup

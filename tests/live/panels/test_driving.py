@@ -10,7 +10,7 @@ from pydantic import ValidationError
 
 from studio.errors import CommandError, StudioError
 from studio.live.panels import driving
-from studio.protocol.driving import Drive
+from studio.protocol.publishing import Drive
 from tests.support.asked import ask_ros
 from tests.support.bridged import Bridged, bridged
 from tests.support.demos import heard

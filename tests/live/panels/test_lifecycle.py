@@ -12,7 +12,7 @@ from studio.errors import CommandError, NotServedError
 from studio.live.connection.desk import WireDesk
 from studio.live.panels import lifecycle
 from studio.live.panels.lifecycle import LifecycleDesk
-from studio.protocol.lifecycle import ChangeState, GetManaged, ManagedNodeView
+from studio.protocol.graph import ChangeState, GetManaged, ManagedNodeView
 from studio.settings import WireChoice
 from tests.support.managed_arm import managed_arm
 from tests.support.wire import PATIENCE_S

@@ -1,4 +1,4 @@
-"""Messages about the live scene: displays of topics, and the frame that all is drawn in."""
+"""Displays of topics in a document's 3D view, its fixed frame, and TF."""
 
 from __future__ import annotations
 

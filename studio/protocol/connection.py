@@ -1,4 +1,4 @@
-"""Messages about ROS 2 on the wire: the connection, and what of a robot goes out and comes in."""
+"""The connection to a ROS system, and what of a robot goes out to it and comes in from it."""
 
 from __future__ import annotations
 
