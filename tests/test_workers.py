@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio.description.codec import CODEC
+from studio.description.requests import CODEC
 from studio.description.values import Edit, EditRequest, Failure
 from studio.errors import WorkerDiedError, WorkerTimeoutError
 from studio.system import kept_waiting_s

@@ -28,7 +28,7 @@ def add(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> None:
     """Expand one file as stock xacro does, within what may be read for it."""
-    from studio.description.evaluator.oracle import export_urdf
+    from studio.description.evaluator.stock_xacro import export_urdf
     from studio.settings import XACRO_MEMORY_BYTES
     from studio.system import limit_memory
 

@@ -6,9 +6,8 @@ import asyncio
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from studio.description.codec import CODEC
-from studio.description.expressions.budget import reading_time_s
-from studio.description.queries import REPLIES
+from studio.description.expressions.bounds import reading_time_s
+from studio.description.requests import CODEC, REPLIES
 from studio.description.values import (
     ArgumentsRequest,
     EditRequest,
@@ -25,7 +24,7 @@ from studio.settings import EXPANSION_TIMEOUT_S
 from studio.workers import Worker
 
 if TYPE_CHECKING:
-    from studio.description.queries import Query, Reply
+    from studio.description.requests import Query, Reply
     from studio.description.session import Answer, Request
 
 

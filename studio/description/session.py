@@ -2,36 +2,46 @@
 
 from __future__ import annotations
 
+import logging
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias, assert_never
 
-from studio.description.checks.answering import checked_broken, checked_good
-from studio.description.checks.check_values import CheckQuery
-from studio.description.checks.fault_mends import mend_of
+from studio.description.checks.checks import checked_broken, checked_good
+from studio.description.checks.spelling import mend_of
 from studio.description.evaluator.evaluation import Evaluation
-from studio.description.evaluator.output_tree import OutputElement
-from studio.description.evaluator.parts import part_of, write_part, write_parts
-from studio.description.evaluator.recovering import (
-    RecoveredRun,
-    problems_of_text,
-    recovered_run,
+from studio.description.evaluator.output_tree import (
+    OutputElement,
+    OutputIndex,
+    part_of,
+    write_part,
+    write_parts,
 )
+from studio.description.evaluator.recovering import RecoveredRun, problems_of_text, recovered_run
 from studio.description.evaluator.run_record import RunRecord
 from studio.description.evaluator.source_store import SourceStore
 from studio.description.faults import Fault, Refusal, Unsupported, problem_of
-from studio.description.language.language_desk import LanguageDesk
-from studio.description.language.questions import LANGUAGE_QUERIES
+from studio.description.language.questions import (
+    LANGUAGE_QUERIES,
+    CompletionQuery,
+    LookUpQuery,
+    OutlineQuery,
+    ReferencesQuery,
+    RenamingQuery,
+)
+from studio.description.language.service import LanguageService
+from studio.description.origins.effects import site_effects
 from studio.description.origins.good_run import GoodRun
+from studio.description.origins.origin_values import PartOriginQuery, SiteEffectsQuery
+from studio.description.origins.provenance import part_origin
 from studio.description.patching.live_run import LiveRun
-from studio.description.patching.output_index import OutputIndex
-from studio.description.patching.verification import verified
-from studio.description.replies import guarded, reply_to
 from studio.description.sites.sites import SiteBuilder
 from studio.description.syntax.recovery import RECOVERABLE
 from studio.description.syntax.source_tree import SourceElement, SourceText, parse_source
 from studio.description.values import (
+    PATCH_DIFFERED,
     ArgumentsRequest,
+    CheckQuery,
     EditRequest,
     Expansion,
     Failure,
@@ -45,11 +55,93 @@ from studio.packages.roots import ServedRoots
 from studio.problems import Place, Problem, Severity
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Iterator, Mapping
 
     from studio.description.patching.live_run import Patch
-    from studio.description.queries import Query, Reply
+    from studio.description.requests import Query, Reply
     from studio.description.values import ReadPolicy, Site
+
+
+NOT_OPEN = "No robot is open in this worker: open it again."
+
+
+def reply_to(query: Query, run: GoodRun | None) -> Reply:
+    """Answer a question; one that has no answer, or fails, is told so in a sentence."""
+    if run is None:
+        return NoReply("The description has not been expanded yet: mend its problems first.")
+    return guarded(lambda: _reply(query, run))
+
+
+def guarded(answer: Callable[[], Reply]) -> Reply:
+    """The answer, or what hindered it in a sentence."""
+    try:
+        return answer()
+    except Fault as fault:
+        return NoReply(fault.sentence)
+    except Exception as error:  # noqa: BLE001 - a question may not cost the process its robot
+        return NoReply(f"The question could not be answered: {type(error).__name__}: {error}")
+
+
+def _reply(query: Query, run: GoodRun) -> Reply:
+    match query:
+        case PartOriginQuery(part=part):
+            return part_origin(run, part)
+        case SiteEffectsQuery(site=site):
+            return site_effects(run, site)
+        case (
+            OutlineQuery() | LookUpQuery() | ReferencesQuery() | CompletionQuery() | RenamingQuery()
+        ):
+            raise TypeError("the language desk answers what is asked about texts")
+        case CheckQuery():
+            raise TypeError("the session answers what is asked about all texts")
+        case _:
+            assert_never(query)
+
+
+_log = logging.getLogger(__name__)
+
+
+def verified(
+    answer: Expansion | Failure, told: Expansion | None, entry: str
+) -> Expansion | Failure:
+    """A full run's answer: news only when it corrects anything, which is told and logged.
+
+    One that only proves the patches right is marked as they are.
+    """
+    if isinstance(answer, Failure):
+        return _unproven(answer, entry)
+    found = list(_corrections(answer, told))
+    if not found:
+        return replace(answer, is_patch=True)
+    what = f"{len(found)} of the shown values, the first {found[0]}"
+    sentence = f"A quick edit was not what a full run gives; corrected: {what}. Tell us of it."
+    _log.error("%s: %s", entry, sentence)
+    problem = Problem(Severity.WARNING, PATCH_DIFFERED, sentence, Place(entry))
+    return replace(answer, warnings=(*answer.warnings, problem))
+
+
+def _unproven(failure: Failure, entry: str) -> Failure:
+    """A failure that patches have hidden: the robot that is shown is none of a full run."""
+    sentence = "A quick edit hid this; the robot that is shown is of that edit. Tell us of it."
+    _log.error("%s: %s: %s", entry, sentence, failure.problem.sentence)
+    problem = replace(failure.problem, sentence=f"{failure.problem.sentence} {sentence}")
+    return replace(failure, problem=problem)
+
+
+def _corrections(answer: Expansion, told: Expansion | None) -> Iterator[str]:
+    """What a full run says otherwise, each by its name."""
+    yield from (part.key for part in answer.changed_parts)
+    yield from (site.id for site in answer.changed_sites)
+    if answer.part_order is not None:
+        yield "the order of parts"
+    if answer.site_order is not None:
+        yield "the order of texts"
+    if told is None:
+        return
+    for name in ("robot_name", "root_attributes", "files", "include_tree", "warnings"):
+        if getattr(answer, name) != getattr(told, name):
+            yield name
+
 
 Answer: TypeAlias = Expansion | Failure
 Request: TypeAlias = OpenRequest | EditRequest | ArgumentsRequest | ReloadRequest | VerifyRequest
@@ -77,7 +169,7 @@ class Session:
         """Code of what the last run failed for; empty when it gave a robot."""
         self._chain_to: Callable[[str], tuple[Place, ...]] = lambda _: ()
         """How a file came to be included in the last good run."""
-        self._language = LanguageDesk(self._store, self._policy, self._entry)
+        self._language = LanguageService(self._store, self._policy, self._entry)
 
     def answer(self, request: Request) -> Answer:
         """Carry out a request and run.
@@ -244,7 +336,7 @@ class Session:
 
     def _fall_back(self) -> tuple[Evaluation, OutputElement]:
         """Let stock xacro expand; its elements all seem to stand at the entry's first line."""
-        from studio.description.evaluator.oracle import expand_root  # noqa: PLC0415 - only when needed
+        from studio.description.evaluator.stock_xacro import expand_root  # noqa: PLC0415 - only when needed
 
         text = expand_root(self._entry, self._arguments, self._policy, self._store)
         origin = self._store.tree(self._entry).root

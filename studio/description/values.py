@@ -1,4 +1,4 @@
-"""What flows out of the description room: parts with their origins, and sites that can be edited.
+"""What flows out of the description room: parts with their origins, sites, and what checks find.
 
 All values are plain and frozen, so that they cross the worker's pipe as msgpack.
 """
@@ -216,3 +216,25 @@ class NoReply:
     """The question cannot be answered; `sentence` says why and what to do."""
 
     sentence: str
+
+
+@dataclass(frozen=True, slots=True)
+class CheckQuery:
+    """What is wrong with the texts as they are now, beyond what a run tells?"""
+
+
+@dataclass(frozen=True, slots=True)
+class ReadRobot:
+    """The robot that can be read of texts that are broken."""
+
+    name: str
+    parts: tuple[Part, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Checked:
+    """What the checks found; where the texts are broken, over what can be read of them."""
+
+    problems: tuple[Problem, ...]
+    read: ReadRobot | None = None
+    """Set while the texts are broken."""

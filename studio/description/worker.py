@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from studio.description.codec import CODEC
-from studio.description.queries import QUERIES, Query, Reply
-from studio.description.replies import NOT_OPEN
-from studio.description.session import Answer, Request, Session, open_session
+from studio.description.requests import CODEC, QUERIES, Query, Reply
+from studio.description.session import NOT_OPEN, Answer, Request, Session, open_session
 from studio.description.values import Failure, NoReply, OpenRequest
 from studio.problems import Problem, Severity
 from studio.settings import XACRO_MEMORY_BYTES

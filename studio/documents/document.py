@@ -51,7 +51,7 @@ from studio.settings import LOOPBACK_HOSTS
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable, Collection, Mapping, Sequence
 
-    from studio.description.queries import Query
+    from studio.description.requests import Query
     from studio.description.values import Edit, ReadPolicy
     from studio.documents.services import Services
     from studio.packages.workspace import Location

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
     from studio.description.client import DescriptionWorker
     from studio.description.editing.sources import Sources
-    from studio.description.queries import Query, Reply
+    from studio.description.requests import Query, Reply
     from studio.protocol.listeners import Listener
 
 CHECK_AFTER_S: Final = 0.15

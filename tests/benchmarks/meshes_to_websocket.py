@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 import trimesh
 import yourdfpy
 
-from studio.description.evaluator.oracle import export_urdf
+from studio.description.evaluator.stock_xacro import export_urdf
 from tests.benchmarks.report import Timings, say, say_beside
 from tests.benchmarks.robots import MeasuredRobot, corpus, rover
 from tests.support.descriptions import policy_for

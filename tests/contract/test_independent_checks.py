@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import pytest
 from lxml import etree
 
-from studio.description.evaluator.oracle import export_urdf
+from studio.description.evaluator.stock_xacro import export_urdf
 from studio.errors import PackageError
 from studio.packages.uris import resolve_uri
 from studio.packages.workspace import open_location

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
-from studio.description.evaluator.oracle import export_urdf
+from studio.description.evaluator.stock_xacro import export_urdf
 from studio.packages.entry_points import entry_points
 from studio.packages.roots import ServedRoots
 from tests.support.descriptions import policy_for

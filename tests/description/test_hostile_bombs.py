@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio.description.evaluator.oracle import export_urdf
-from studio.description.expressions.budget import Limits
+from studio.description.evaluator.stock_xacro import export_urdf
+from studio.description.expressions.bounds import Limits
 from studio.errors import ExpansionError
 from tests.support.descriptions import policy_for, robot, write
 from tests.support.hostile import (

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio.description.evaluator import oracle
-from studio.description.evaluator.oracle import export_urdf
-from studio.description.expressions.budget import Limits
+from studio.description.evaluator import stock_xacro
+from studio.description.evaluator.stock_xacro import export_urdf
+from studio.description.expressions.bounds import Limits
 from studio.description.session import open_session
 from studio.description.values import Expansion, Failure, OpenRequest
 from studio.errors import ExpansionError
@@ -231,7 +231,7 @@ def test_a_refusal_is_never_handed_to_stock_xacro(
     def never(*_arguments: object) -> str:
         raise AssertionError("the fallback was tried")
 
-    monkeypatch.setattr(oracle, "expand_root", never)
+    monkeypatch.setattr(stock_xacro, "expand_root", never)
     file = write(place, placed(case, place))
     answer = open_session(OpenRequest(str(file), {}, policy_for(place), {}))[1]
     assert isinstance(answer, Failure)

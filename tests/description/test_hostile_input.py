@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio.description.evaluator.oracle import export_urdf
-from studio.description.expressions.budget import Limits
+from studio.description.evaluator.stock_xacro import export_urdf
+from studio.description.expressions.bounds import Limits
 from studio.description.session import open_session
 from studio.description.values import Expansion, Failure, OpenRequest
 from studio.errors import ExpansionError, RefusedError

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from studio.description.editing.splice import difference
+from studio.description.editing.edits import difference
 from studio.description.evaluator.evaluation import Evaluation
 from studio.description.faults import Unsupported
 from studio.description.session import Session, open_session

@@ -9,7 +9,7 @@ from contextlib import asynccontextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
-from studio.description.checks.check_values import Checked, CheckQuery
+from studio.description.values import Checked, CheckQuery
 from studio.documents.document import Document
 from studio.documents.services import Services
 from studio.packages.workspace import open_location

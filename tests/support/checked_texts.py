@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from studio.description.checks.check_values import Checked, CheckQuery
-from studio.description.editing.mending import apart, edits_of
-from studio.description.editing.splice import apply
+from studio.description.editing.edits import apart, apply, edits_of
 from studio.description.session import open_session
-from studio.description.values import Failure, OpenRequest
+from studio.description.values import Checked, CheckQuery, Failure, OpenRequest
 from tests.support.descriptions import policy_for, robot, write
 
 if TYPE_CHECKING:

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Final, cast
 
 from studio.description.evaluator.evaluation import Evaluation
 from studio.description.evaluator.output_tree import OutputElement
-from studio.description.evaluator.plans import EVALUATE_COMMENTS
-from studio.description.expressions.guarded_operations import text_of
+from studio.description.evaluator.walk import EVALUATE_COMMENTS
+from studio.description.expressions.guards import text_of
 from studio.description.syntax.source_tree import SourceComment, SourceText
 
 if TYPE_CHECKING:

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
     from pathlib import Path
 
-    from studio.description.expressions.budget import Limits
+    from studio.description.expressions.bounds import Limits
 
 XMLNS = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
 _PACKAGE_NAME = re.compile(r"<name>\s*([^<\s]+)")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from studio.description.editing.sources import Sources
-from studio.description.sites.drafts import draft_xml, draft_yaml
+from studio.description.sites.editable_texts import draft_xml, draft_yaml
 from studio.description.syntax.source_tree import parse_source
 from studio.description.values import Expansion, Site, Widget, WidgetKind
 from studio.packages.roots import ServedRoots
@@ -13,7 +13,7 @@ from studio.packages.roots import ServedRoots
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from studio.description.sites.drafts import Draft
+    from studio.description.sites.editable_texts import Draft
 
 ROVER = """\
 <robot name="rover" xmlns:xacro="http://www.ros.org/wiki/xacro">\r

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from studio.description.language.questions import Completion, LanguageQuery, Meaning, TextPlace
-    from studio.description.queries import Reply
+    from studio.description.requests import Reply
 
 
 class Editor:

@@ -6,7 +6,7 @@ import random
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from studio.description.evaluator.packages_found import find_package
+from studio.description.evaluator.substitution import find_package
 from studio.description.faults import Fault
 from studio.description.sites.launch_arguments import LaunchArgument, launch_arguments
 from studio.description.values import WidgetKind

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import AsyncGenerator
     from pathlib import Path
 
-    from studio.description.queries import Query, Reply
+    from studio.description.requests import Query, Reply
     from studio.description.session import Answer
     from studio.description.values import (
         ArgumentsRequest,

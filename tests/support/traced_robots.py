@@ -20,7 +20,7 @@ from tests.support.descriptions import policy_for
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from studio.description.queries import Reply
+    from studio.description.requests import Reply
 
 Key = tuple[str, str, str]
 """Part, path of the element in it, attribute."""

@@ -6,8 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from studio.description.evaluator.output_tree import macro_calls
-from studio.description.evaluator.parts import part_keys
+from studio.description.evaluator.output_tree import macro_calls, part_keys
 from studio.problems import Problem, Severity
 
 if TYPE_CHECKING:

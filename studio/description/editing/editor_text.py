@@ -3,6 +3,8 @@
 The editor's text has no byte order mark, every line break (CRLF, LF, CR) is one LF, and offsets
 count UTF-16 code units from 0, as JavaScript counts. A byte that is no text of the file's encoding
 is shown as U+FFFD and stays the byte that it is. What an edit does not touch keeps its bytes.
+
+`changes_between` gives what changed between two such texts, for editors that follow it.
 """
 
 from __future__ import annotations
@@ -10,16 +12,19 @@ from __future__ import annotations
 import codecs
 import re
 from bisect import bisect_left, bisect_right
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import accumulate
 from typing import TYPE_CHECKING, Final
 
+from studio.description.editing.edits import common_start
 from studio.description.syntax.attribute_spans import text_encoding, writing_encoding
 from studio.description.values import Edit
 from studio.errors import EditError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Iterator
+
 
 _LINE_BREAK: Final = re.compile(r"\r\n|\r|\n")
 _BREAK_TO_COME: Final = re.compile(r"\r\n?|\n")
@@ -179,3 +184,52 @@ def _readable_encoding(data: bytes) -> str:
     except (LookupError, ValueError):
         return "utf-8"
     return encoding if is_exact and len(characters) == len(every_byte) else "utf-8"
+
+
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """In the text before, characters [start, end) give way to `text`."""
+
+    start: int
+    end: int
+    text: str
+
+
+def changes_between(old: str, new: str) -> tuple[Piece, ...]:
+    """The pieces that lead from `old` to `new`, in order, none touching another.
+
+    A single stretch, except where as many lines stood there before: then each changed line alone,
+    so that what stands between them stays in place.
+    """
+    if old == new:
+        return ()
+    # Only what lies between the first and the last difference is looked at closely.
+    start = old.rfind("\n", 0, common_start(old, new)) + 1
+    end = common_start(old[start:][::-1], new[start:][::-1])
+    before, after = old[start : len(old) - end], new[start : len(new) - end]
+    if before.count("\n") == after.count("\n"):
+        return tuple(_line_by_line(before.split("\n"), after.split("\n"), start))
+    return (_one_piece(before, after, start),)
+
+
+def patched(old: str, pieces: Iterable[Piece]) -> str:
+    """The text that the pieces lead to; in order, none overlapping."""
+    parts: list[str] = []
+    at = 0
+    for piece in pieces:
+        parts += [old[at : piece.start], piece.text]
+        at = piece.end
+    return "".join((*parts, old[at:]))
+
+
+def _line_by_line(before: list[str], after: list[str], at: int) -> Iterator[Piece]:
+    for old, new in zip(before, after, strict=True):
+        if old != new:
+            yield _one_piece(old, new, at)
+        at += len(old) + 1
+
+
+def _one_piece(old: str, new: str, offset: int) -> Piece:
+    start = common_start(old, new)
+    end = common_start(old[start:][::-1], new[start:][::-1])
+    return Piece(offset + start, offset + len(old) - end, new[start : len(new) - end])

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from difflib import SequenceMatcher
 from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
-from studio.description.editing.splice import common_start
+from studio.description.editing.edits import common_start
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence

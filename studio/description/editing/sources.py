@@ -6,19 +6,25 @@ it reads and writes files when asked, and waits for nothing.
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from enum import Enum, auto
 from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from studio.description.editing.disk_news import DiskNews, FileChange
-from studio.description.editing.held_text import HeldText, edits_between
-from studio.description.editing.kept_sources import KeptSources, KeptText
-from studio.description.editing.merging import merge
+from studio.description.editing.edits import apply_to, decode, difference, edit_at
+from studio.description.editing.merging import hunks_between, merge
 from studio.description.editing.saving import FileToSave, save_files
-from studio.description.editing.span_table import SpanTable
-from studio.description.editing.splice import decode, difference, edit_at
-from studio.description.editing.undo import ArgumentChange, Change, Splice, Step, UndoStack
+from studio.description.editing.spans import ChangedRegions, SpanTable
+from studio.description.editing.undo import (
+    ArgumentChange,
+    Change,
+    KeptSources,
+    KeptText,
+    Splice,
+    Step,
+    UndoStack,
+)
 from studio.description.values import Edit
 from studio.errors import EditError, PackageError
 
@@ -26,7 +32,83 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 
     from studio.description.editing.merging import Merge, Side
-    from studio.description.values import Expansion
+    from studio.description.values import Expansion, Span
+
+
+class HeldText:
+    """A file's bytes with the edits that the disk does not have."""
+
+    __slots__ = ("disk", "file", "now", "regions")
+
+    def __init__(self, file: str, disk: bytes) -> None:
+        self.file, self.disk, self.now = file, disk, disk
+        self.regions = ChangedRegions(disk)
+
+    def apply(self, edits: Iterable[Edit]) -> tuple[Splice, ...]:
+        """Apply edits one after the other and note what differs then; what each one did.
+
+        Raises:
+            EditError: An edit lies outside the text; those before it are applied.
+        """
+        text = bytearray(self.now)
+        try:
+            return tuple(self._apply(edit, text) for edit in edits)
+        finally:
+            self.now = bytes(text)
+
+    def saved_at(self, span: Span) -> bytes | None:
+        """What the disk has where `span` is now; None when a reload changed the file around it."""
+        base = self.regions.base_span(span)
+        return None if base is None else self.disk[base.start : base.end]
+
+    def saved_text(self, span: Span) -> str | None:
+        """What the disk says where `span` is now, when it says something else and can be told."""
+        base = self.regions.base_span(span)
+        if base is None:
+            return None
+        is_same = self.disk[base.start : base.end] == self.now[span.start : span.end]
+        return None if is_same else decode(self.disk, base)
+
+    def rebased(self, disk: bytes) -> HeldText:
+        """The same text, with its differences counted against another text of the disk."""
+        text = HeldText(self.file, disk)
+        text.apply(edits_between(self.file, disk, self.now))
+        return text
+
+    def _apply(self, edit: Edit, text: bytearray) -> Splice:
+        taken = apply_to(text, edit)
+        self.regions.note(edit, text)
+        return Splice(edit.file, edit.start, taken, edit.new)
+
+
+def edits_between(file: str, old: bytes, new: bytes) -> tuple[Edit, ...]:
+    """The edits from one text to the other, the last place first: so each one's offsets hold."""
+    hunks = reversed(hunks_between(old, new))
+    return tuple(Edit(file, hunk.start, hunk.end, hunk.new) for hunk in hunks)
+
+
+class FileChange(Enum):
+    """What somebody else did to a file."""
+
+    NONE = auto()
+    """It is as it was read, or as it is edited here."""
+    RELOADED = auto()
+    """It changed and had no unsaved edits: its new text is taken."""
+    MERGED = auto()
+    """It changed elsewhere than here: its changes are taken, the unsaved edits are kept."""
+    CONFLICT = auto()
+    """It changed where it has unsaved edits: nothing is taken until somebody chooses."""
+    GONE = auto()
+    """It cannot be read any more; its text here is kept."""
+
+
+@dataclass(frozen=True, slots=True)
+class DiskNews:
+    """The change, the edits that took it over (in order), and how many places stay edited."""
+
+    what: FileChange
+    edits: tuple[Edit, ...] = ()
+    kept: int = 0
 
 
 class Sources:

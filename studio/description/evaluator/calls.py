@@ -1,25 +1,50 @@
-"""Macro calls and the blocks handed to them."""
+"""Macros as they are defined and called, and the blocks handed to them."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, cast
 
-from studio.description.evaluator.declarations import bound_cell, warn_hidden
-from studio.description.evaluator.macros import Default, Macro, MacroTable
-from studio.description.evaluator.node_attributes import import_namespaces, required, warn_unknown
+from studio.description.evaluator.macros import Macro, MacroTable
 from studio.description.evaluator.output_tree import CallFrame, OutputElement
 from studio.description.evaluator.scopes import Cell, Scope, ScopeView
-from studio.description.expressions.guarded_operations import text_of
+from studio.description.evaluator.walk import (
+    bound_cell,
+    import_namespaces,
+    required,
+    warn_hidden,
+    warn_unknown,
+)
+from studio.description.expressions.guards import text_of
 from studio.description.faults import Fault, misnamed
+from studio.description.syntax.params import read_parameters
 from studio.description.values import SiteKind
 
 if TYPE_CHECKING:
-    from studio.description.evaluator.evaluation import Evaluation
     from studio.description.evaluator.output_tree import Node, OutputChild
+    from studio.description.evaluator.walk import Walk
+    from studio.description.syntax.params import Default
+
+
+def define_macro(
+    run: Walk, node: Node, _out: OutputElement, macros: MacroTable, _scope: Scope
+) -> None:
+    """`xacro:macro`: kept as it is written, evaluated at each call."""
+    (name,) = required(node, "name")
+    warn_unknown(run.texts, node, "name", "params")
+    if name == "call" or "." in name:
+        sentence = f'A macro may not be called "{name}": "call" and names with "." are taken.'
+        raise Fault("macro-name", sentence)
+    if name.startswith("xacro:"):
+        run.texts.warn("macro-name", f'The macro name "{name}" should not start with "xacro:".')
+        name = name[6:]
+    macro = macros.own(name) or Macro(name, node)
+    macro.body = node
+    macro.parameters, macro.defaults = read_parameters(node.attributes.get("params", ""))
+    macros.put(name, macro)
 
 
 def call_by_name(
-    run: Evaluation, node: Node, out: OutputElement, macros: MacroTable, scope: Scope
+    run: Walk, node: Node, out: OutputElement, macros: MacroTable, scope: Scope
 ) -> None:
     """`xacro:call`: the macro is named by an expression."""
     (text,) = required(node, "macro")
@@ -32,9 +57,7 @@ def call_by_name(
     call_macro(run, renamed, out, macros, scope)
 
 
-def call_macro(
-    run: Evaluation, node: Node, out: OutputElement, macros: MacroTable, scope: Scope
-) -> None:
+def call_macro(run: Walk, node: Node, out: OutputElement, macros: MacroTable, scope: Scope) -> None:
     """Evaluate a macro's body in a new scope, whose parent is the caller's."""
     macro, macros_in, scope_in = _resolve(node.tag[6:], macros, scope)
     written = macro.body  # what stands inside the call may define the macro anew
@@ -96,9 +119,7 @@ def _missing(macro: Macro, names: list[str]) -> Fault:
     return Fault("missing-parameter", f'The macro "{macro.name}" also needs {wanted}.')
 
 
-def _bind_arguments(
-    run: Evaluation, node: Node, macro: Macro, inner: Scope, scope: Scope
-) -> list[str]:
+def _bind_arguments(run: Walk, node: Node, macro: Macro, inner: Scope, scope: Scope) -> list[str]:
     """Bind what the call gives; the parameters that are left."""
     left = list(macro.parameters)
     for name, text in node.attributes.items():
@@ -114,7 +135,7 @@ def _bind_arguments(
 
 
 def _bind_blocks(
-    run: Evaluation,
+    run: Walk,
     node: Node,
     macro: Macro,
     left: list[str],
@@ -138,9 +159,7 @@ def _bind_blocks(
         raise Fault("unused-block", sentence)
 
 
-def _bind_defaults(
-    run: Evaluation, macro: Macro, left: list[str], inner: Scope, scope: Scope
-) -> None:
+def _bind_defaults(run: Walk, macro: Macro, left: list[str], inner: Scope, scope: Scope) -> None:
     """Give what the call left out its default, evaluated where the call stands."""
     for name in [one for one in left if one in macro.defaults and not one.startswith("*")]:
         default = macro.defaults[name]
@@ -154,7 +173,7 @@ def _bind_defaults(
         left.remove(name)
 
 
-def _with_default(run: Evaluation, cell: Cell, default: Default, scope: Scope) -> Cell:
+def _with_default(run: Walk, cell: Cell, default: Default, scope: Scope) -> Cell:
     name = cell.name
     if default.forward and scope.has(name):
         run.texts.bind(cell, run.texts.forwarded(name, scope, cell))
@@ -168,7 +187,7 @@ def _with_default(run: Evaluation, cell: Cell, default: Default, scope: Scope) -
 
 
 def insert_block(
-    run: Evaluation, node: Node, out: OutputElement, macros: MacroTable, scope: Scope
+    run: Walk, node: Node, out: OutputElement, macros: MacroTable, scope: Scope
 ) -> None:
     """`xacro:insert_block`: the elements are evaluated once more, now in this scope."""
     (name,) = required(node, "name")

@@ -1,71 +1,54 @@
-"""One run: a source tree in, the tree of the robot out, by xacro 2.1.1's rules.
-
-Nothing is changed in place, so sources are parsed once and evaluated often. Where xacro evaluates
-a text twice, or evaluates an attribute that nobody sees, that is done here too: it decides errors.
-"""
+"""Expand a description by xacro 2.1.1's rules: a source tree in, the tree of the robot out."""
 
 from __future__ import annotations
 
+import keyword
 import re
 import sys
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Final, TypeAlias, cast
 
-from studio.description.evaluator.calls import call_by_name, call_macro, insert_block
-from studio.description.evaluator.declarations import define_arg, define_macro, define_property
+from studio.description.evaluator.calls import (
+    call_by_name,
+    call_macro,
+    define_macro,
+    insert_block,
+)
 from studio.description.evaluator.graph import Role
-from studio.description.evaluator.includes import include
 from studio.description.evaluator.macros import MacroTable
-from studio.description.evaluator.node_attributes import (
+from studio.description.evaluator.output_tree import OutputElement
+from studio.description.evaluator.scopes import Cell, Scope, ScopeView, literal_value, truth_of
+from studio.description.evaluator.texts import Argument
+from studio.description.evaluator.walk import (
+    Walk,
     attribute_text,
+    bound_cell,
+    import_namespaces,
     required,
+    warn_hidden,
     warn_unknown,
     xml_name,
 )
-from studio.description.evaluator.output_tree import CallFrame, OutputElement, macro_calls
-from studio.description.evaluator.plans import EVALUATE_COMMENTS, plan_of
-from studio.description.evaluator.run_record import Binding
-from studio.description.evaluator.scopes import Scope, truth_of
-from studio.description.evaluator.texts import Argument, Texts
-from studio.description.expressions.budget import Budget, Limits
-from studio.description.expressions.guarded_operations import MUTATING, text_of
+from studio.description.expressions.guards import MUTATING, text_of
 from studio.description.faults import Fault, Refusal, Unsupported
-from studio.description.syntax.source_tree import SourceComment, SourceElement, SourceText
+from studio.description.syntax.source_tree import SourceElement
+from studio.description.values import SiteKind
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Generator, Mapping
+    from collections.abc import Callable, Generator
 
     from studio.description.evaluator.output_tree import Node, OutputChild
-    from studio.description.evaluator.source_store import SourceStore
-    from studio.description.values import ReadPolicy, SiteKind
-    from studio.problems import Place
 
 RECURSION_LIMIT: Final = 8_000
 """Python frames; 200 macros inside each other need about 4,500."""
+INCLUDE_DEPTH: Final = 64
+"""Files inside files; the deepest robot of the corpus has 7."""
 _MUTATES: Final = re.compile(rf"\.(?:{'|'.join(sorted(MUTATING))})\s*\(")
+_MAGIC: Final = re.compile(r"[*[?]+")
 
 
-class Evaluation:
-    """The state of one run. `frame` is the macro call under way, `path` the tags around it."""
-
-    def __init__(
-        self,
-        store: SourceStore,
-        policy: ReadPolicy,
-        arguments: Mapping[str, str],
-        limits: Limits | None = None,
-    ) -> None:
-        self.store = store
-        self.budget = Budget(limits or Limits())
-        self.texts = Texts(store, policy, self.budget)
-        self.texts.arguments = {
-            name: Argument(name, text, is_given=True) for name, text in arguments.items()
-        }
-        self.frame: CallFrame | None = None
-        self.path = ""
-        self.bindings: dict[tuple[SourceElement, str, str], Binding] = {}
-        self.includes: dict[tuple[str, str], None] = {}
-        self.included_at: dict[str, Place] = {}
+class Evaluation(Walk):
+    """One run of an entry file."""
 
     def run(self, entry: str) -> OutputElement:
         """Expand a file.
@@ -92,22 +75,6 @@ class Evaluation:
             reason = f"{self.texts.at or entry}: {type(error).__name__}: {error}"
             raise Unsupported(reason) from error
 
-    def explain(self, fault: Fault) -> Fault:
-        """Give a fault the place, include chain and macro stack of this moment."""
-        self.texts.locate(fault)
-        if fault.place is not None:
-            fault.include_chain = self.chain_to(fault.place.file)
-        fault.macro_stack = macro_calls(self.frame)
-        return fault
-
-    def chain_to(self, file: str) -> tuple[Place, ...]:
-        """Where a file was included, and the files that include it, the outermost first."""
-        chain: list[Place] = []
-        while file in self.included_at and len(chain) < 100:
-            chain.append(self.included_at[file])
-            file = chain[-1].file
-        return tuple(reversed(chain))
-
     def _root(self, entry: str) -> OutputElement:
         self.texts.files.append(entry)
         root = self.source(entry)
@@ -121,128 +88,227 @@ class Evaluation:
         self.children(root, out, macros, scope)
         return out
 
-    def source(self, path: str) -> SourceElement:
-        """The root of a file; what is written there gives the run its time and room.
-
-        Raises:
-            Fault: It cannot be read.
-        """
-        tree = self.store.tree(path)
-        self.budget.source(tree.path, len(tree.data))
-        return tree.root
-
-    # What every kind of element needs
-
-    def binding(
-        self, kind: SiteKind | None, name: str, element: SourceElement, attribute: str, text: str
-    ) -> Binding:
-        """The one binding for a named text of a source element."""
-        key = (element, attribute, name)
-        found = self.bindings.get(key)
-        if found is None:
-            found = self.bindings[key] = Binding(kind, name, element, attribute, text)
-        return found
-
-    def attributes(self, node: Node, made: OutputElement, scope: Scope) -> None:
-        """Evaluate a node's attributes into `made`; those of xacro itself are left out."""
-        plan = plan_of(node)
-        if isinstance(node, OutputElement):
-            _share_records(node, made)
-        values = plan.fixed
-        if values is None:
-            values = {
-                name: text if "$" not in text else self._attribute(name, text, made, scope)
-                for name, text in plan.attributes
-            }
-            values.pop("xmlns:xacro", None)
-        made.attributes = {**made.attributes, **values} if made.attributes else values
-
-    def _attribute(self, name: str, text: str, made: OutputElement, scope: Scope) -> str:
-        record = self.texts.evaluated(text, scope, [made], (self.path, name))
-        if type(record.value) is not str:
-            record.value = text_of(record.value)
-        made.made(name, record)
-        return record.value
-
-    def echo_attributes(self, node: Node, scope: Scope) -> dict[str, str]:
-        """Evaluate attributes that xacro evaluates without using them: for errors and xmlns."""
-        plan = plan_of(node)
-        if plan.fixed is not None:
-            return plan.fixed
-        values = {n: text_of(self.texts.echoed(text, scope)) for n, text in plan.attributes}
-        values.pop("xmlns:xacro", None)
-        return values
-
-    def children(self, node: Node, out: OutputElement, macros: MacroTable, scope: Scope) -> None:
-        """Evaluate all children of a node into `out`."""
-        comments = False
-        for child in plan_of(node).children:
-            if isinstance(child, SourceText):
-                comments &= not self._text(child, out, scope)
-            elif isinstance(child, SourceComment):
-                comments = self._comment(child, scope, on=comments)
-            else:
-                comments = False
-                self.element(child, out, macros, scope)
-
-    def element(self, node: Node, out: OutputElement, macros: MacroTable, scope: Scope) -> None:
-        """Evaluate one element into `out`."""
-        tag = node.tag
-        if not tag.startswith("xacro:"):
-            self.ordinary(node, out, macros, scope)
-            return
-        self.texts.at = node.origin
-        handler = _HANDLERS.get(tag)
+    def xacro_element(
+        self, node: Node, out: OutputElement, macros: MacroTable, scope: Scope
+    ) -> None:
+        """Carry out an element of xacro itself, or call the macro of its name."""
+        handler = _HANDLERS.get(node.tag)
         if handler is not None:
             handler(self, node, out, macros, scope)
         else:
             call_macro(self, node, out, macros, scope)
 
-    def ordinary(self, node: Node, out: OutputElement, macros: MacroTable, scope: Scope) -> None:
-        """An element of the robot itself."""
-        self.budget.element()
-        self.texts.at = node.origin
-        made = OutputElement(node.tag, node.origin, self.frame)
-        outer = self.path
-        self.budget.nesting(outer)
-        self.path = f"{outer}/{node.tag}" if outer else node.tag
-        self.attributes(node, made, scope)
-        if node.children:
-            self.children(node, made, macros, scope)
-        self.path = outer
-        out.children.append(made)
 
-    def _text(self, node: SourceText, out: OutputElement, scope: Scope) -> bool:
-        """Evaluate a text; whether it is more than blanks."""
-        if node.literal or "$" not in node.text:
-            out.children.append(node)
-            return not node.literal
-        made = SourceText("")
-        record = self.texts.evaluated(node.text, scope, made, (self.path, ""))
-        made.text = record.value = text_of(record.value)
-        out.children.append(made)
-        return bool(made.text.strip())
-
-    def _comment(self, node: SourceComment, scope: Scope, *, on: bool) -> bool:
-        """Comments do not come out, but those that are evaluated can fail; whether more are."""
-        if EVALUATE_COMMENTS in node.text:
-            return f"{EVALUATE_COMMENTS}:off" not in node.text
-        if on:
-            self.texts.echoed(node.text, scope)
-        return on
+def define_property(
+    run: Evaluation, node: Node, _out: OutputElement, _macros: MacroTable, scope: Scope
+) -> None:
+    """`xacro:property`: a value, a default, a block of elements, or the removal of a name."""
+    texts = run.texts
+    (name_text,) = required(node, "name")
+    warn_unknown(texts, node, "name", "value", "default", "remove", "scope", "lazy_eval")
+    name = text_of(texts.consumed(name_text, scope, ("xacro:property", "name")))
+    _check_name(name)
+    removes = _flag(run, node, "remove", scope, otherwise="false")
+    if removes + ("value" in node.attributes) + ("default" in node.attributes) > 1:
+        sentence = f'The property "{name}" may have only one of value, default and remove.'
+        raise Fault("property-attributes", sentence)
+    if removes and scope.has(name):
+        scope.remove(name)
+        _warn_kept(run, name)
+        run.texts.is_pure = False  # texts evaluated before it cannot be evaluated again
+        return
+    if "default" in node.attributes:
+        _warn_scope(run, node, name)
+        if scope.has(name):
+            return
+    attribute = next((a for a in ("default", "value") if a in node.attributes), None)
+    target, lazy = _target(run, node, name, scope)
+    if attribute is None:
+        target.cells[f"**{name}"] = Cell(f"**{name}", target, node)
+        return
+    _bind(run, node, attribute, name, target if lazy else (target, scope))
 
 
-def _share_records(block: OutputElement, made: OutputElement) -> None:
-    """What made an attribute of a block makes that of each copy, unless it is evaluated again."""
-    for name, record in block.makers.items():
-        if "$" in block.attributes.get(name, ""):
-            record.sink = Role.STRUCTURE
-        elif isinstance(record.sink, list):
-            record.sink.append(made)
-        made.made(name, record)
+def _check_name(name: str) -> None:
+    if name.startswith("__"):
+        sentence = f'The property name "{name}" may not start with two underscores.'
+        raise Fault("property-name", sentence)
+    if not name.isidentifier() or keyword.iskeyword(name):
+        sentence = f'The property name "{name}" must be a Python name: letters, digits and "_".'
+        raise Fault("property-name", sentence)
 
 
-_Handler: TypeAlias = "Callable[[Evaluation, Node, OutputElement, MacroTable, Scope], None]"
+def _flag(run: Evaluation, node: Node, attribute: str, scope: Scope, otherwise: str) -> bool:
+    text = node.attributes.get(attribute)
+    if not text:
+        return otherwise == "true"
+    value = run.texts.consumed(text, scope, ("xacro:property", attribute))
+    return truth_of(value, text)
+
+
+def _warn_kept(run: Evaluation, name: str) -> None:
+    if name in run.texts.symbols:
+        run.texts.warn("hides-builtin", f'"{name}" is a name of xacro itself: it stays defined.')
+
+
+def _warn_scope(run: Evaluation, node: Node, name: str) -> None:
+    if "scope" in node.attributes:
+        sentence = f'"{name}" has a default and a scope: xacro means defaults for the local scope.'
+        run.texts.warn("default-scope", sentence)
+
+
+def _target(run: Evaluation, node: Node, name: str, scope: Scope) -> tuple[Scope, bool]:
+    """The scope to bind in, and whether the text may wait for its first reader.
+
+    Raises:
+        Fault: It asks for the parent of the outermost scope, which ends xacro, too.
+    """
+    lazy = _flag(run, node, "lazy_eval", scope, otherwise="true")
+    where = node.attributes.get("scope")
+    if where == "global":
+        return scope.top(), False
+    if where != "parent":
+        return scope, lazy
+    target = scope.parent
+    if target is None:
+        sentence = f'"{name}" has no parent scope here: leave out scope="parent".'
+        raise Fault("no-parent-scope", sentence)
+    while target.is_namespace and not scope.is_namespace and target.parent is not None:
+        target = target.parent
+    return target, False
+
+
+def _bind(
+    run: Evaluation, node: Node, attribute: str, name: str, target: Scope | tuple[Scope, Scope]
+) -> None:
+    """Bind a text: lazily in a scope, or (where, evaluated in) at once."""
+    text = node.attributes[attribute]
+    binding = run.binding(SiteKind.PROPERTY, name, node.origin, attribute, text)
+    if isinstance(target, tuple):
+        where, evaluated_in = target
+        cell = bound_cell(run, Cell(name, where, None, binding), text, evaluated_in)
+        warn_hidden(run, name)
+        where.cells[name] = cell
+        return
+    warn_hidden(run, name)
+    value = literal_value(text)
+    cell = target.cells[name] = Cell(name, target, value, binding, node.origin)
+    if isinstance(value, str) and "$" in value:
+        cell.pending = value
+    else:
+        cell.value = literal_value(value)  # xacro types the text again when it is first read
+
+
+def define_arg(
+    run: Evaluation, node: Node, _out: OutputElement, _macros: MacroTable, scope: Scope
+) -> None:
+    """`xacro:arg`: a value that the caller of xacro may give; the first declaration counts."""
+    name, text = required(node, "name", "default")
+    warn_unknown(run.texts, node, "name", "default")
+    binding = run.binding(SiteKind.ARG, name, node.origin, "default", text)
+    argument = run.texts.arguments.get(name)
+    if argument is None:
+        argument = Argument(name, text, is_given=False)
+        argument.declared_by(binding)
+        if "$" in text:
+            argument.record = run.texts.evaluated(text, scope, argument)
+            argument.value = text_of(argument.record.value)
+        run.texts.arguments[name] = argument
+    elif argument.binding is not binding:
+        binding.overridden = True
+    argument.declared_by(binding)
+
+
+def include(
+    run: Evaluation, node: Node, out: OutputElement, macros: MacroTable, scope: Scope
+) -> None:
+    """Evaluate each file as if its content stood here."""
+    (pattern,) = required(node, "filename")
+    warn_unknown(run.texts, node, "filename", "ns", "optional")
+    macros_in, scope_in = _namespace(run, node, macros, scope)
+    optional = truth_of(node.attributes.get("optional"), node.attributes.get("optional"))
+    if any(isinstance(child, SourceElement | OutputElement) for child in node.children):
+        run.texts.warn("include-children", "Elements inside <xacro:include> are ignored.")
+    included: list[OutputElement] = []
+    for path in _files(run, pattern, scope):
+        content = _include_one(run, node, path, (macros_in, scope_in), optional=optional)
+        run.texts.at = node.origin
+        if content is not None:
+            included.append(content)
+            import_namespaces(run.texts, out, content.attributes)
+    for content in included:
+        out.children += content.children
+
+
+def _namespace(
+    run: Evaluation, node: Node, macros: MacroTable, scope: Scope
+) -> tuple[MacroTable, Scope]:
+    text = node.attributes.get("ns")
+    if not text:
+        return macros, scope
+    name = text_of(run.texts.consumed(text, scope, ("xacro:include", "ns")))
+    macros_in, scope_in = MacroTable(), Scope(run.texts, scope, is_namespace=True)
+    macros.put(name, macros_in)
+    warn_hidden(run, name)
+    scope.cells[name] = Cell(name, scope, ScopeView(scope_in))
+    return macros_in, scope_in
+
+
+def _files(run: Evaluation, pattern: str, scope: Scope) -> list[str]:
+    spec = text_of(run.texts.consumed(pattern, scope, ("xacro:include", "filename")))
+    path = run.texts.absolute(spec)
+    if not _MAGIC.search(path):
+        return [path]
+    found = run.store.glob(path)
+    if not found:
+        run.texts.warn("include-no-match", f'No file matches "{path}".')
+    return found
+
+
+def _include_one(
+    run: Evaluation,
+    node: Node,
+    path: str,
+    inside: tuple[MacroTable, Scope],
+    *,
+    optional: bool,
+) -> OutputElement | None:
+    """One file's content; None when it is optional and cannot be read."""
+    before = run.texts.mark()
+    try:
+        root = _root_of(run, node, path)
+        run.texts.files.append(path)
+        content = _evaluate(run, root, *inside)
+    except Fault as fault:
+        if not (optional and fault.unreadable):
+            raise
+        if isinstance(fault, Refusal):
+            run.texts.warn("outside-roots", f"An optional file was left out: {fault.sentence}")
+        run.texts.back_to(before)
+        return None
+    run.texts.files.pop()
+    return content
+
+
+def _root_of(run: Evaluation, node: Node, path: str) -> SourceElement:
+    if len(run.texts.files) > INCLUDE_DEPTH:
+        sentence = f"Files include each other more than {INCLUDE_DEPTH} deep: one includes itself."
+        raise Refusal("include-recursion", sentence)
+    root = run.source(path)
+    run.texts.asked_for(root.tree.path)
+    run.includes[node.origin.tree.path, root.tree.path] = None
+    run.included_at.setdefault(root.tree.path, node.origin.place)
+    return root
+
+
+def _evaluate(
+    run: Evaluation, root: SourceElement, macros: MacroTable, scope: Scope
+) -> OutputElement:
+    content = OutputElement("xacro:include", root, run.frame)
+    run.texts.at = root
+    content.attributes = run.echo_attributes(root, scope)
+    run.children(root, content, macros, scope)
+    return content
 
 
 def _condition(
@@ -286,6 +352,7 @@ def _set_attribute(
         out.made(name, record)
 
 
+_Handler: TypeAlias = "Callable[[Evaluation, Node, OutputElement, MacroTable, Scope], None]"
 _HANDLERS: Final[dict[str, _Handler]] = {
     "xacro:insert_block": insert_block,
     "xacro:include": include,

@@ -16,8 +16,8 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from studio.description.evaluator.output_tree import OutputElement
-    from studio.description.syntax.fault_book import XmlFault
     from studio.description.syntax.source_tree import SourceTree
+    from studio.description.syntax.xml_faults import XmlFault
     from studio.description.values import ReadPolicy
     from studio.problems import Place
 

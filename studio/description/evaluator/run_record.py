@@ -8,7 +8,7 @@ over the whole run; `graph` says how these are linked.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 from studio.description.evaluator.graph import Readable
 
@@ -19,13 +19,11 @@ if TYPE_CHECKING:
     from studio.description.evaluator.scopes import Cell
     from studio.description.evaluator.texts import Argument
     from studio.description.syntax.source_tree import SourceElement, SourceTree
+    from studio.description.syntax.yaml_spans import KeyPath
     from studio.description.values import SiteKind
     from studio.problems import Problem
 
 VALUES_KEPT = 16
-
-KeyPath: TypeAlias = tuple[str | int, ...]
-"""Where a YAML value stands: mapping keys as text and list indices, outermost first."""
 
 
 class Input:

@@ -1,19 +1,22 @@
-"""`$(find ...)`, `$(arg ...)`, `$(env ...)`, `$(optenv ...)`, `$(eval ...)` as xacro has them."""
+"""`$(find ...)`, `$(arg ...)`, `$(env ...)`, `$(optenv ...)` and `$(eval ...)`, as in xacro."""
 
 from __future__ import annotations
 
 import re
 from functools import lru_cache
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, Protocol
 
 from studio.description.evaluator.symbols import SAFE_BUILTINS
 from studio.description.expressions.expressions import compile_expression, helpers_of
 from studio.description.expressions.guarded_functions import MATH, counted_functions
-from studio.description.expressions.guarded_operations import text_of
-from studio.description.faults import Fault, Refusal, shorten
+from studio.description.expressions.guards import text_of
+from studio.description.faults import Fault, Refusal, misnamed, shorten
+from studio.packages.near_files import is_misspelt
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
+
 
 _COMMANDS: Final = ("find", "env", "optenv", "dirname", "arg")
 _FIND_ONLY: Final = ("find",)
@@ -160,3 +163,34 @@ def auto_typed(text: str) -> Any:  # noqa: ANN401
         return float(text) if "." in text else int(text)
     except ValueError:
         return {"true": True, "false": False}.get(text.lower(), text)
+
+
+def find_package(packages: Mapping[str, tuple[str, ...]], name: str, asking_file: str) -> str:
+    """The folder of a package: of several, the one that shares the longest path with the asker.
+
+    Raises:
+        Fault: There is none of that name; its fix is to write one that is near, or to choose the
+            folder.
+    """
+    folders = packages.get(name, ())
+    if not folders:
+        sentence = f'The package "{name}" was not found'
+        otherwise = "choose its folder or give --package-path."
+        # A word that many packages end with, as _description, makes no two of them alike.
+        alike = [one for one in packages if is_misspelt(name, one)]
+        fault = misnamed("package-not-found", sentence, name, alike, otherwise)
+        fault.package = name
+        raise fault
+    if len(folders) == 1:
+        return folders[0]
+    asking = Path(asking_file).parts
+    return max(folders, key=lambda folder: _shared(Path(folder).parts, asking))
+
+
+def _shared(left: Sequence[str], right: Sequence[str]) -> int:
+    count = 0
+    for one, other in zip(left, right, strict=False):
+        if one != other:
+            break
+        count += 1
+    return count

@@ -18,7 +18,7 @@ from studio.description.expressions.guarded_functions import (
     counted_functions,
     tokenize,
 )
-from studio.description.expressions.guarded_operations import text_of, type_of
+from studio.description.expressions.guards import text_of, type_of
 from studio.description.faults import Fault
 
 if TYPE_CHECKING:

@@ -1,4 +1,4 @@
-"""One run's evaluation of texts: expressions, substitutions, lazy bindings, and who read what."""
+"""Evaluate the texts of one run: expressions, substitutions, lazy bindings, and who read what."""
 
 from __future__ import annotations
 
@@ -8,16 +8,14 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, Final, cast
 
 from studio.description.evaluator.graph import Readable, Record, Role
-from studio.description.evaluator.packages_found import find_package
-from studio.description.evaluator.pure_expressions import failed, out_of_bounds, pure_value
 from studio.description.evaluator.run_record import YamlReads
 from studio.description.evaluator.scopes import Cell, Scope, literal_value
-from studio.description.evaluator.substitution import substitute
-from studio.description.evaluator.symbols import make_symbols
+from studio.description.evaluator.substitution import find_package, substitute
+from studio.description.evaluator.symbols import make_symbols, pure_names
 from studio.description.evaluator.yaml_values import Reader, wrap
-from studio.description.expressions.bounded_values import is_lasting
+from studio.description.expressions.bounds import Budget, Limits, is_lasting
 from studio.description.expressions.expressions import Expression, compile_expression, helpers_of
-from studio.description.expressions.guarded_operations import SIZE_LIMIT, text_of
+from studio.description.expressions.guards import SIZE_LIMIT, text_of
 from studio.description.faults import Fault, Refusal, misnamed, shorten
 from studio.description.syntax.templates import Cut, segments_of
 from studio.problems import Problem, Severity
@@ -29,9 +27,54 @@ if TYPE_CHECKING:
     from studio.description.evaluator.run_record import Binding, Input, YamlScalar
     from studio.description.evaluator.scopes import Replay
     from studio.description.evaluator.source_store import SourceStore
-    from studio.description.expressions.budget import Budget
     from studio.description.syntax.source_tree import SourceElement
     from studio.description.values import ReadPolicy
+
+
+_PURE_LIMITS: Final = Limits(seconds=0.5)
+"""Of one expression in a YAML file."""
+_TEXT_FOR_NUMBER: Final = re.compile(
+    r"multiply sequence|(unsupported operand|not supported between|bad operand).*'str'"
+    r"|must be real number, not str|can only concatenate str|must be str, not"
+)
+"""What Python says of arithmetic with a text."""
+
+
+def pure_value(text: str) -> Any:  # noqa: ANN401
+    """An expression of a YAML file: no names but mathematics and builtins.
+
+    Raises:
+        Fault: It cannot be evaluated.
+    """
+    code = compile_expression(text).code
+    try:
+        return eval(code, pure_names(Budget(_PURE_LIMITS).steps))
+    except Fault:
+        raise
+    except Exception as error:  # noqa: BLE001 - whatever the expression does
+        raise failed(text, error) from None
+
+
+def failed(text: str, error: Exception) -> Fault:
+    """What an expression's exception comes to."""
+    reason = str(error.args[0]) if isinstance(error, KeyError) and error.args else str(error)
+    if isinstance(error, KeyError):
+        reason = f"there is no key {error}"
+    if isinstance(error, TypeError) and _TEXT_FOR_NUMBER.search(reason):
+        reason = "a text stands where a number is needed; is a value in it empty or no number?"
+    spoken = (reason or type(error).__name__).rstrip(".")
+    return Fault(
+        "bad-expression",
+        f'"{shorten(text)}" cannot be evaluated: {spoken}{"" if spoken.endswith("?") else "."}',
+    )
+
+
+def out_of_bounds(error: BaseException) -> Refusal:
+    """What a RecursionError or MemoryError comes to."""
+    if isinstance(error, MemoryError):
+        return Refusal("value-too-large", "An expression needs too much memory.")
+    return Refusal("nested-too-deep", "Properties or expressions are nested too deeply.")
+
 
 _ARG_COMPARED: Final = re.compile(r"""['"]?\$\(arg\s+(\w+)\)['"]?\s*[=!]=\s*['"]([^'"]*)['"]""")
 _STRUCTURE: Final = Role.STRUCTURE

@@ -6,13 +6,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, SupportsIndex, cast
 
-from studio.description.evaluator.run_record import KeyPath, YamlReads, YamlScalar
-from studio.description.expressions.guarded_operations import METHODS
+from studio.description.evaluator.run_record import YamlReads, YamlScalar
+from studio.description.expressions.guards import METHODS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
 
     from studio.description.evaluator.run_record import Input
+    from studio.description.syntax.yaml_spans import KeyPath
 
 
 class Reader:

@@ -11,7 +11,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Final
 
-from studio.description.expressions import guarded_operations as guarded
+from studio.description.expressions import guards
+from studio.description.expressions.bounds import made
 from studio.description.faults import Fault, Refusal, shorten
 
 if TYPE_CHECKING:
@@ -46,13 +47,13 @@ _COUNTED: Final = (ast.Mod, ast.BitOr, ast.BitXor, ast.BitAnd, ast.Sub)
 """Operators whose work is no less for a small result: formats, and those of sets."""
 _ORDERING: Final = (ast.Eq, ast.NotEq, ast.Lt, ast.LtE, ast.Gt, ast.GtE)
 HELPERS: Final[dict[str, Any]] = {
-    "__multiply": guarded.multiply,
-    "__power": guarded.power,
-    "__shift_left": guarded.shift_left,
-    "__add": guarded.add,
-    "__modulo": guarded.modulo,
-    "__attribute": guarded.attribute,
-    "__made": guarded.made,
+    "__multiply": guards.multiply,
+    "__power": guards.power,
+    "__shift_left": guards.shift_left,
+    "__add": guards.add,
+    "__modulo": guards.modulo,
+    "__attribute": guards.attribute,
+    "__made": made,
     "__builtins__": {},
 }
 """Names that compiled expressions need; `helpers_of` a run has them all."""
@@ -61,10 +62,10 @@ HELPERS: Final[dict[str, Any]] = {
 def helpers_of(steps: Callable[[Iterable[Any]], Iterator[Any]]) -> dict[str, Any]:
     """The helpers of one run: each call, search and slice is a step, as each turn of a loop is."""
 
-    def made(value: Any) -> Any:  # noqa: ANN401 - any value of a description
-        return guarded.made(next(steps((value,))))
+    def counted(value: Any) -> Any:  # noqa: ANN401 - any value of a description
+        return made(next(steps((value,))))
 
-    return {**HELPERS, "__steps": steps, "__made": made}
+    return {**HELPERS, "__steps": steps, "__made": counted}
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,7 +135,7 @@ def _check(node: ast.AST) -> None:
 
 
 def _mutates(node: ast.AST) -> bool:
-    return isinstance(node, ast.Attribute) and node.attr in guarded.MUTATING
+    return isinstance(node, ast.Attribute) and node.attr in guards.MUTATING
 
 
 def _refused(sentence: str) -> Refusal:

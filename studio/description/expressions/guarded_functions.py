@@ -10,8 +10,8 @@ import re
 from itertools import repeat
 from typing import TYPE_CHECKING, Any, Final, cast
 
-from studio.description.expressions.bounded_values import ITEMS_LIMIT, made, too_large
-from studio.description.expressions.guarded_operations import add, multiply, type_of
+from studio.description.expressions.bounds import ITEMS_LIMIT, made, too_large
+from studio.description.expressions.guards import add, multiply, type_of
 from studio.description.faults import Refusal
 
 if TYPE_CHECKING:

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from studio.description.language.definitions import name_in_params
 from studio.description.language.token_at import (
     Where,
     declarations_in,
@@ -15,6 +14,7 @@ from studio.description.language.token_at import (
     token_at,
 )
 from studio.description.syntax.attribute_spans import attribute_text
+from studio.description.syntax.params import name_in_params
 from studio.description.syntax.templates import Cut
 
 if TYPE_CHECKING:

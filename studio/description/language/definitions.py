@@ -1,25 +1,28 @@
-"""Where the files of a watched run define macros, properties, args, links and joints, by name."""
+"""What the files of a watched run define, by name, and what comments say of it."""
 
 from __future__ import annotations
 
+import re
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
-from studio.description.evaluator.macros import PARAMS_LIMIT, parameter, read_parameters
 from studio.description.language.questions import Parameter, TextPlace
 from studio.description.language.subject import printed
 from studio.description.syntax.attribute_spans import attribute_spans, character_offsets
+from studio.description.syntax.params import name_in_params, read_parameters
+from studio.description.syntax.source_tree import SourceComment, SourceText
 from studio.description.syntax.templates import Cut
 from studio.errors import EditError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from studio.description.evaluator.macros import Default
     from studio.description.evaluator.output_tree import OutputElement
     from studio.description.language.reading import Reading
     from studio.description.language.watched_run import Included, Trace
+    from studio.description.syntax.params import Default
     from studio.description.syntax.source_tree import SourceElement
+
 
 _VALUES = frozenset({"xacro:property", "xacro:arg"})
 _PARTS = frozenset({"link", "joint"})
@@ -169,14 +172,58 @@ def parameter_bytes(macro: SourceElement, name: str) -> tuple[int, int] | None:
     return span.start + offsets[at], span.start + offsets[at + len(name)]
 
 
-def name_in_params(text: str, name: str) -> int:
-    """Where `params` names a parameter, its stars left out; -1 when it does not."""
-    if len(text) > PARAMS_LIMIT:
-        return -1
-    at = 0
-    while (rest := text[at:]).strip():
-        found, _, behind = parameter(rest)
-        if found.lstrip("*") == name:
-            return at + len(rest) - len(rest.lstrip()) + len(found) - len(name)
-        at = len(text) - len(behind)
-    return -1
+_LENGTH: Final = 2_000
+_MARKUP: Final = re.compile(r"<\s*/?[A-Za-z][^>]*>")
+_LICENCE: Final = re.compile(r"copyright|licen[sc]e|all rights reserved", re.IGNORECASE)
+_RULE: Final = re.compile(r"[=*#~_+/|-]{3,}")
+_LIST_MARK: Final = re.compile(r"^[-*@\s]*(?:param(?:eter)?\s+)?")
+
+
+def documentation_of(element: SourceElement) -> str:
+    """The comments on the lines right above an element, without rules, licences and old code."""
+    text = "\n".join(filter(None, (_plain(one) for one in _comments_above(element))))
+    return text if len(text) <= _LENGTH else text[: _LENGTH - 1] + "…"
+
+
+def _comments_above(element: SourceElement) -> list[str]:
+    siblings = element.parent.children if element.parent else []
+    lines: list[list[str]] = [[]]
+    for sibling in reversed(siblings[: _index(element)]):
+        if isinstance(sibling, SourceComment):
+            lines[0].insert(0, sibling.text)
+        elif not isinstance(sibling, SourceText):
+            # A comment behind another element on its line speaks of that one.
+            lines[0].clear()
+            break
+        elif not _joins(sibling.text):
+            break
+        elif "\n" in sibling.text:
+            lines.insert(0, [])
+    return [comment for line in lines for comment in line]
+
+
+def _index(element: SourceElement) -> int:
+    siblings = element.parent.children if element.parent else []
+    return next((at for at, one in enumerate(siblings) if one is element), 0)
+
+
+def _joins(text: str) -> bool:
+    """Whether a text between a comment and an element lets them belong together."""
+    return not text.strip() and text.count("\n") <= 1
+
+
+def _plain(comment: str) -> str:
+    if _MARKUP.search(comment) or _LICENCE.search(comment):
+        return ""
+    lines = (_RULE.sub("", line).strip() for line in comment.splitlines())
+    return "\n".join(line for line in lines if line)
+
+
+def parameter_documentation(documentation: str, name: str) -> str:
+    """What the documentation of a macro says of one parameter, where a line begins with it."""
+    for line in re.split(r"\n|;", documentation):
+        words = _LIST_MARK.sub("", line)
+        rest = words.removeprefix(name)
+        if rest != words and (said := re.match(r"\s*(?:\([^)]*\)\s*)?[:=\u2013-]\s*(.+)", rest)):
+            return said[1].strip()
+    return ""

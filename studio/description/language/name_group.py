@@ -10,11 +10,11 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from studio.description.evaluator.macros import read_parameters
-from studio.description.evaluator.name_chains import Chain
 from studio.description.language.questions import SubjectKind as Kind
 from studio.description.language.references import Spot, attribute_value, macro_around, meant_by
+from studio.description.language.uses import Chain
 from studio.description.language.words import XACRO_TAGS
+from studio.description.syntax.params import read_parameters
 from studio.errors import EditError
 
 if TYPE_CHECKING:

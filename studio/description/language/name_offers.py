@@ -5,21 +5,21 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any, Final
 
-from studio.description.evaluator.macros import read_parameters
-from studio.description.evaluator.name_chains import chains_of
 from studio.description.evaluator.scopes import Namespace
 from studio.description.evaluator.symbols import PURE_SYMBOLS, SAFE_BUILTINS
 from studio.description.language.offers import Offer, Snippet, plain, written
 from studio.description.language.questions import SubjectKind as Kind
 from studio.description.language.subject import MISSING, found_in, found_of, keys_below, printed
+from studio.description.language.uses import chains_of
+from studio.description.syntax.params import read_parameters
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from studio.description.evaluator.name_chains import Chain
     from studio.description.evaluator.scopes import Scope
     from studio.description.language.cursor import Cursor
     from studio.description.language.token_at import Segment
+    from studio.description.language.uses import Chain
 
 _PARAMETER, _OWN, _READABLE, _COMMON, _RARE = range(5)
 _USUAL: Final = frozenset(

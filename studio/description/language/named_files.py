@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 from urllib.parse import unquote
 
-from studio.description.evaluator.packages_found import find_package
+from studio.description.evaluator.substitution import find_package
 from studio.description.faults import Fault
 
 if TYPE_CHECKING:

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
-from studio.description.language.definitions import parameters_of, place_of
-from studio.description.language.documentation import documentation_of
+from studio.description.language.definitions import documentation_of, parameters_of, place_of
 from studio.description.language.questions import (
     Outline,
     OutlineFile,

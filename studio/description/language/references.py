@@ -5,16 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
-from studio.description.evaluator.macros import read_parameters
-from studio.description.evaluator.name_chains import Chain
 from studio.description.language.meaning import places_of
 from studio.description.language.named_files import existing
 from studio.description.language.questions import Reference, References, TextPlace
 from studio.description.language.questions import SubjectKind as Kind
 from studio.description.language.subject import found_in
-from studio.description.language.uses import Use, uses_in
+from studio.description.language.uses import Chain, Use, uses_in
 from studio.description.language.words import FILE_ATTRIBUTES, PART_REFERENCES
 from studio.description.syntax.attribute_spans import attribute_spans
+from studio.description.syntax.params import read_parameters
 from studio.description.syntax.templates import Cut
 from studio.errors import EditError
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Final, cast
 
 from studio.description.evaluator.scopes import Namespace, ScopeView
 from studio.description.evaluator.yaml_values import origin_of
-from studio.description.expressions.guarded_operations import text_of
+from studio.description.expressions.guards import text_of
 from studio.description.faults import Fault, shorten
 from studio.description.language.questions import SubjectKind, TextPlace
 from studio.description.language.watched_run import WatchedTexts
@@ -16,10 +16,10 @@ from studio.description.values import SiteKind
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from studio.description.evaluator.name_chains import Chain, Key
-    from studio.description.evaluator.run_record import KeyPath
     from studio.description.evaluator.scopes import Cell, Scope
+    from studio.description.language.uses import Chain, Key
     from studio.description.syntax.source_tree import SourceElement
+    from studio.description.syntax.yaml_spans import KeyPath
 
 MISSING: Final = object()
 """The value of what has none yet."""

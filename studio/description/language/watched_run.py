@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from studio.description.evaluator.scopes import Scope
     from studio.description.evaluator.source_store import SourceStore
     from studio.description.evaluator.texts import Argument
-    from studio.description.expressions.budget import Budget
+    from studio.description.expressions.bounds import Budget
     from studio.description.syntax.source_tree import SourceTree
     from studio.description.values import ReadPolicy
 

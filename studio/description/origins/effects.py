@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final, NamedTuple
 
-from studio.description.evaluator.parts import part_keys
-from studio.description.origins.attribute_places import attribute_place
-from studio.description.origins.element_paths import tags_of, walk_named
+from studio.description.evaluator.output_tree import part_keys
 from studio.description.origins.origin_values import Aspect, Effect, SiteEffects
-from studio.description.origins.site_inputs import inputs_by_site
-from studio.description.origins.tracing import Governor, TracedBinding, inputs_of, written_at
+from studio.description.origins.provenance import attribute_place, tags_of, walk_named
+from studio.description.origins.tracing import (
+    Governor,
+    TracedBinding,
+    inputs_by_site,
+    inputs_of,
+    written_at,
+)
 from studio.description.syntax.source_tree import SourceText
 from studio.description.values import NoReply
 

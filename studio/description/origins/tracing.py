@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeAlias
 
 from studio.description.evaluator.evaluation import Evaluation
@@ -18,8 +19,11 @@ from studio.description.evaluator.run_record import Binding, Input, YamlScalar
 from studio.description.evaluator.scopes import Cell
 from studio.description.evaluator.texts import Argument, Texts
 from studio.description.evaluator.yaml_values import Reader, wrap
-from studio.description.expressions.budget import Limits
+from studio.description.expressions.bounds import Limits
+from studio.description.sites.editable_texts import draft_yaml
+from studio.description.sites.sites import path_as_written
 from studio.description.syntax.source_tree import SourceText
+from studio.description.values import SiteKind
 
 if TYPE_CHECKING:
     from collections.abc import Generator, Iterator, Mapping
@@ -27,13 +31,16 @@ if TYPE_CHECKING:
     from studio.description.evaluator.graph import Record
     from studio.description.evaluator.macros import MacroTable
     from studio.description.evaluator.output_tree import CallFrame, Node
-    from studio.description.evaluator.run_record import KeyPath, YamlReads
+    from studio.description.evaluator.run_record import YamlReads
     from studio.description.evaluator.scopes import Scope
     from studio.description.evaluator.source_store import SourceStore
-    from studio.description.expressions.budget import Budget
+    from studio.description.expressions.bounds import Budget
+    from studio.description.sites.editable_texts import Draft
     from studio.description.syntax.source_tree import SourceElement
-    from studio.description.values import ReadPolicy, SiteKind
+    from studio.description.syntax.yaml_spans import KeyPath
+    from studio.description.values import ReadPolicy
     from studio.problems import Place
+
 
 Inputs: TypeAlias = "tuple[Input, ...]"
 _GOVERNING: Final = frozenset(
@@ -338,3 +345,75 @@ def written_at(element: OutputElement, attribute: str) -> Written | None:
     if attribute in element.origin.attributes:
         return Written(element.origin, attribute, ())
     return None
+
+
+def site_of_binding(binding: TracedBinding) -> str:
+    """Id of the text of a binding, were it one that can be edited; empty for what never is."""
+    start = f"{binding.element.tree.path}#{binding.element.ordinal}@"
+    match binding.kind:
+        case None:
+            return ""
+        case SiteKind.PARAM_DEFAULT:
+            return f"{start}params:{binding.name}"
+        case _:
+            return start + binding.attribute
+
+
+class YamlSites:
+    """The scalars of the YAML files that a traced run read."""
+
+    def __init__(self, yaml: Mapping[str, YamlReads]) -> None:
+        self._yaml = yaml
+        self._files: dict[str, _YamlFile] = {}
+
+    def draft_of(self, scalar: YamlScalar) -> Draft | None:
+        """Where a value that was read is written; None for a mapping or a list."""
+        file = self._file(scalar.document)
+        return file.drafts.get(path_as_written(scalar.path, file.written, file.aliases))
+
+    def inputs_by_site(self) -> Iterator[tuple[str, Input]]:
+        """Every scalar that was read, itself or with all that stands around it."""
+        for path, reads in self._yaml.items():
+            file = self._file(path)
+            whole = {path_as_written(one, file.written, file.aliases) for one in reads.whole}
+            for scalar in reads.values.values():
+                at = path_as_written(scalar.path, file.written, file.aliases)
+                if at in file.drafts:
+                    yield file.drafts[at].id, scalar
+                elif at in whole:
+                    yield from ((one.id, scalar) for one in file.below(at))
+
+    def _file(self, path: str) -> _YamlFile:
+        if path not in self._files:
+            self._files[path] = _yaml_file(path, self._yaml[path].data)
+        return self._files[path]
+
+
+class _YamlFile:
+    """The drafts of one file by key path."""
+
+    def __init__(self, path: str, data: bytes) -> None:
+        drafted = draft_yaml(path, data)
+        self.drafts = {draft.path: draft for draft in drafted.drafts}
+        self.written = set(self.drafts)
+        self.aliases = dict(drafted.aliases)
+
+    def below(self, path: KeyPath) -> Iterator[Draft]:
+        return (one for at, one in self.drafts.items() if at[: len(path)] == path)
+
+
+@lru_cache(maxsize=64)
+def _yaml_file(path: str, data: bytes) -> _YamlFile:
+    """Drafting takes longer than the run: unchanged bytes are not drafted again."""
+    return _YamlFile(path, data)
+
+
+def inputs_by_site(trace: Trace) -> dict[str, list[Input]]:
+    """What was read of each text that has a name or a key path, by the text's site id."""
+    found: dict[str, list[Input]] = {}
+    for binding in trace.bindings:
+        if site := site_of_binding(binding):
+            found.setdefault(site, []).append(binding)
+    for site, scalar in YamlSites(trace.yaml).inputs_by_site():
+        found.setdefault(site, []).append(scalar)
+    return found

@@ -10,15 +10,18 @@ import logging
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
-from studio.description.evaluator.pure_expressions import pure_value
 from studio.description.evaluator.run_record import YamlScalar
 from studio.description.evaluator.scopes import Cell, literal_value
-from studio.description.evaluator.texts import Argument
+from studio.description.evaluator.texts import Argument, pure_value
 from studio.description.evaluator.yaml_values import replace_item, rewrite
 from studio.description.faults import Fault
-from studio.description.patching.detaching import Detaching
-from studio.description.patching.propagation import Propagation
-from studio.description.patching.replay import PatchRefused, Replay, is_same
+from studio.description.patching.propagation import (
+    Detaching,
+    PatchRefused,
+    Propagation,
+    Replay,
+    is_same,
+)
 from studio.description.patching.text_edits import TextEdits
 from studio.description.syntax.yaml_reading import scalar_of
 from studio.description.values import SiteKind
@@ -27,11 +30,10 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
     from studio.description.evaluator.evaluation import Evaluation
-    from studio.description.evaluator.output_tree import OutputElement
+    from studio.description.evaluator.output_tree import OutputElement, OutputIndex
     from studio.description.evaluator.run_record import Binding, RunRecord
-    from studio.description.patching.output_index import OutputIndex
-    from studio.description.sites.drafts import Draft, FileDrafts
-    from studio.description.sites.run_reads import RunReads
+    from studio.description.sites.editable_texts import Draft, FileDrafts
+    from studio.description.sites.sites import RunReads
     from studio.description.values import Edit
 
 _log = logging.getLogger(__name__)

@@ -1,7 +1,8 @@
-"""What a number in a robot description measures, told by where it ends up and what it is called."""
+"""Numbers as people write them, and what a number of a robot description measures."""
 
 from __future__ import annotations
 
+import math
 import re
 from dataclasses import dataclass
 from enum import Enum, auto
@@ -236,3 +237,26 @@ def _refined(named: Quantity, used: set[Quantity]) -> Quantity:
     loose = {POSITION: ANGLE, ANGLE: POSITION, ANGULAR_SPEED: LINEAR_SPEED, EFFORT: FORCE}
     other = loose.get(named)
     return other if other is not None and used == {other} else named
+
+
+_NUMBER = re.compile(r"\s*[+-]?(\d*)(\.?)(\d*)(?:([eE])([+-]?)(\d+))?\s*")
+
+
+def parse_number(text: str) -> float | None:
+    """The finite number that a text is; None for anything else (also inf, nan and `1_000`)."""
+    if "_" in text:
+        return None
+    try:
+        number = float(text)
+    except ValueError:
+        return None
+    return number if math.isfinite(number) else None
+
+
+def decimals_of(text: str) -> int:
+    """Digits behind the decimal point of a number as written; an exponent shifts the point."""
+    number = _NUMBER.fullmatch(text)
+    if number is None:
+        return 0
+    exponent = int(f"{number[5]}{number[6]}") if number[4] else 0
+    return max(0, len(number[3]) - exponent)

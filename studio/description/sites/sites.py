@@ -1,25 +1,274 @@
 """The editable texts of a finished run, each with its place, what it came to, and its widget.
 
-What only the bytes tell is kept per file and drafted anew only when they change; a site that came
-out the same as in the run before is the same object.
+What the bytes alone tell is kept per file and read anew only when they change. A site that came out
+the same as in the run before is the same object.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Final, NamedTuple, Protocol, TypeAlias
 
-from studio.description.sites.drafts import Draft, FileDrafts, draft_xml, draft_yaml
-from studio.description.sites.run_reads import RunReads, Seen
+from studio.description.evaluator.run_record import YamlScalar
+from studio.description.sites.editable_texts import Draft, FileDrafts, draft_xml, draft_yaml
+from studio.description.sites.quantities import parse_number
 from studio.description.sites.widgets import infer_widget, keep_range
-from studio.description.syntax.number_text import parse_number
 from studio.description.values import Site, SiteKind
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
-    from studio.description.evaluator.run_record import RunRecord
+    from studio.description.evaluator.graph import Consumer
+    from studio.description.evaluator.run_record import Binding, Input, RunRecord, YamlReads
+    from studio.description.syntax.yaml_spans import KeyPath
     from studio.description.values import Widget
+
+
+CONSUMERS_KEPT: Final = 8
+
+
+class Links(NamedTuple):
+    """What reads one input: `reads` counts texts, of the consumers there are the first few."""
+
+    reads: int
+    consumers: tuple[Consumer, ...]
+    dependents: tuple[Binding, ...]
+    """Named texts that were made from it."""
+
+
+class Reach:
+    """The links of one state of a graph, each looked up once."""
+
+    def __init__(self) -> None:
+        self._links: dict[Input, Links] = {}
+        self._consumers: dict[Input, tuple[Consumer, ...]] = {}
+
+    def forget(self, one: Input) -> None:
+        """Look at an input anew: it, or what is made of it, got or lost readers."""
+        self._links.pop(one, None)
+        self._consumers.pop(one, None)
+
+    def links(self, one: Input) -> Links:
+        """What reads an input."""
+        links = self._links.get(one)
+        if links is None:
+            links = self._links[one] = _links_of(one)
+        return links
+
+    def consumers(self, start: Input) -> tuple[Consumer, ...]:
+        """The attributes that an input shapes, through any number of properties, nearest first.
+
+        Only the first few.
+        """
+        found = self._consumers.get(start)
+        if found is None:
+            found = self._consumers[start] = tuple(self._nearest(start))[:CONSUMERS_KEPT]
+        return found
+
+    def _nearest(self, start: Input) -> dict[Consumer, None]:
+        """Consumers from the nearest on, until there are enough."""
+        found: dict[Consumer, None] = {}
+        seen: set[Input] = {start}
+        front: list[Input] = [start]
+        while front:
+            reached: list[Input] = []
+            for one in front:
+                _, consumers, dependents = self._links.get(one) or self.links(one)
+                if consumers:
+                    found.update(dict.fromkeys(consumers))
+                    if len(found) >= CONSUMERS_KEPT:
+                        return found
+                for dependent in dependents:
+                    if dependent not in seen:
+                        seen.add(dependent)
+                        reached.append(dependent)
+            front = reached
+        return found
+
+
+def _links_of(one: Input) -> Links:
+    readings = one.readings
+    consumers: dict[Consumer, None] = {}
+    dependents: dict[Binding, None] = {}
+    for record in readings:
+        made = record.made
+        if made is not None and made.binding is not None:
+            dependents[made.binding] = None
+        elif record.consumer is not None and len(consumers) < CONSUMERS_KEPT:
+            consumers[record.consumer] = None
+    return Links(len(readings), tuple(consumers), tuple(dependents))
+
+
+_BindingKey: TypeAlias = tuple[str, int, str, str]
+"""File, ordinal of the element, attribute; for `params` the parameter's name."""
+_OWNERS = ("link:", "joint:")
+_MERGE = "<<"
+_ALIAS_STEPS = 16
+
+
+class Seen(NamedTuple):
+    """What a run saw of one text; `values` are distinct, as xacro prints them."""
+
+    values: tuple[str, ...] = ()
+    reads: int = 0
+    consumers: tuple[Consumer, ...] = ()
+    compared: tuple[str, ...] = ()
+    owner: str = ""
+
+
+NOT_READ = Seen()
+
+
+class RunReads:
+    """One run record, asked by drafts."""
+
+    def __init__(self, record: RunRecord) -> None:
+        self._record = record
+        self._reach = Reach()
+        self._yaml: dict[str, _YamlInputs] = {}
+        self._bindings: dict[_BindingKey, list[Binding]] = {}
+        for binding in record.bindings:
+            if binding.kind is not None:
+                self._bindings.setdefault(_key(binding), []).append(binding)
+
+    def readers_changed(self, one: Input) -> None:
+        """Look at an input anew."""
+        self._reach.forget(one)
+
+    def bindings(self, path: str, draft: Draft) -> list[Binding]:
+        """What the run bound the text of a draft to."""
+        name = draft.name if draft.kind is SiteKind.PARAM_DEFAULT else ""
+        return self._bindings.get((path, draft.ordinal, draft.attribute, name), [])
+
+    def site_of(
+        self, one: Binding | YamlScalar, files: Mapping[str, FileDrafts]
+    ) -> tuple[str, str | None]:
+        """The file and site id of what was read; None when it is no site."""
+        if isinstance(one, YamlScalar):
+            path = one.document
+            return path, self._inputs_of(path, files[path]).site_of(one.path)
+        path, ordinal, attribute, name = _key(one)
+        return path, f"{path}#{ordinal}@{attribute}" + (f":{name}" if name else "")
+
+    def of_file(self, path: str, file: FileDrafts) -> Iterator[tuple[Draft, Seen]]:
+        """Each draft of a file with what the run saw of it."""
+        return ((draft, self.seen(path, file, draft)) for draft in file.drafts)
+
+    def seen(self, path: str, file: FileDrafts, draft: Draft) -> Seen:
+        """What the run saw of a draft of a file."""
+        if draft.kind is SiteKind.YAML:
+            return self._of_yaml(path, file, draft)
+        if draft.kind is SiteKind.LITERAL:
+            element = self._record.trees[path].elements[draft.ordinal]
+            return _of_literal(draft.text, self._record.part_keys.get(element, ()))
+        bindings = self.bindings(path, draft)
+        if not bindings:
+            return NOT_READ
+        values = dict.fromkeys(value for one in bindings for value in one.values)
+        return Seen(tuple(values), *self._shared(bindings))
+
+    def _of_yaml(self, path: str, file: FileDrafts, draft: Draft) -> Seen:
+        inputs = self._inputs_of(path, file)
+        reads, consumers, compared = self._shared(inputs.of(draft.path))
+        reads += inputs.reads_of_whole(draft.path)
+        return Seen((draft.text,) if reads else (), reads, consumers, compared)
+
+    def _inputs_of(self, path: str, file: FileDrafts) -> _YamlInputs:
+        inputs = self._yaml.get(path)
+        if inputs is None:
+            inputs = self._yaml[path] = _YamlInputs(file, self._record.yaml[path])
+        return inputs
+
+    def _shared(self, inputs: Iterable[Input]) -> tuple[int, tuple[Consumer, ...], tuple[str, ...]]:
+        """Reads, consumers and comparisons of one text that was met under several names."""
+        inputs, reach = tuple(inputs), self._reach
+        reads = sum(reach.links(one).reads for one in inputs)
+        consumers = dict.fromkeys(found for one in inputs for found in reach.consumers(one))
+        compared = dict.fromkeys(text for one in inputs for text in _compared_with(one, reach))
+        return reads, tuple(consumers), tuple(compared)
+
+
+def _key(binding: Binding) -> _BindingKey:
+    element = binding.element
+    name = binding.name if binding.kind is SiteKind.PARAM_DEFAULT else ""
+    return (element.tree.path, element.ordinal, binding.attribute, name)
+
+
+def _compared_with(start: Input, reach: Reach) -> Iterator[str]:
+    """What conditions compare it with, itself or under the name that it was passed on as."""
+    yield from start.compared
+    for dependent in reach.links(start).dependents:
+        if dependent.compared and _passes_on(dependent, start):
+            yield from dependent.compared
+
+
+def _passes_on(dependent: Input, start: Input) -> bool:
+    """Whether `dependent` is nothing but the value of `start`: `${x}` or `$(arg x)`."""
+    text, name = getattr(dependent, "text", None), getattr(start, "name", None)
+    return bool(name) and text in {f"${{{name}}}", f"$(arg {name})"}
+
+
+def _of_literal(text: str, keys: tuple[str, ...]) -> Seen:
+    if not keys:
+        return NOT_READ
+    owners = [key for key in keys if key.startswith(_OWNERS)]
+    return Seen((text,), len(keys), owner=owners[0] if len(owners) == len(keys) == 1 else "")
+
+
+class _YamlInputs:
+    """What was read of one YAML file, by the paths where it is written."""
+
+    def __init__(self, file: FileDrafts, document: YamlReads) -> None:
+        self._ids = {draft.path: draft.id for draft in file.drafts}
+        written, aliases = set(self._ids), dict(file.aliases)
+        self._written = {one: path_as_written(one, written, aliases) for one in document.values}
+        self._inputs: dict[KeyPath, list[Input]] = {}
+        for path, scalar in document.values.items():
+            self._inputs.setdefault(self._written[path], []).append(scalar)
+        self._whole = {path_as_written(path, written, aliases) for path in document.whole}
+
+    def of(self, path: KeyPath) -> list[Input]:
+        """The values read there; what was read through an alias counts where it is written."""
+        return self._inputs.get(path, [])
+
+    def site_of(self, path: KeyPath) -> str | None:
+        """The site that a value was read from; a container is none."""
+        return self._ids.get(self._written.get(path, path))
+
+    def reads_of_whole(self, path: KeyPath) -> int:
+        """How many containers around a path were read at once."""
+        if not self._whole:
+            return 0
+        return sum(path[:size] in self._whole for size in range(len(path) + 1))
+
+
+def path_as_written(
+    path: KeyPath, written: set[KeyPath], aliases: Mapping[KeyPath, KeyPath]
+) -> KeyPath:
+    """Follow aliases and merge keys from a path as read to the path as written."""
+    for _ in range(_ALIAS_STEPS):
+        if path in written:
+            return path
+        followed = _followed(path, written, aliases)
+        if followed is None:
+            return path
+        path = followed
+    return path
+
+
+def _followed(
+    path: KeyPath, written: set[KeyPath], aliases: Mapping[KeyPath, KeyPath]
+) -> KeyPath | None:
+    for size in range(len(path), 0, -1):
+        if path[:size] in aliases:
+            return (*aliases[path[:size]], *path[size:])
+    for size in range(len(path) - 1, -1, -1):
+        merge = (*path[:size], _MERGE)
+        if merge in aliases:
+            return (*aliases[merge], *path[size:])
+        if (*merge, *path[size:]) in written:
+            return (*merge, *path[size:])
+    return None
 
 
 class EditedTexts(Protocol):

@@ -7,9 +7,15 @@ import re
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from studio.description.sites.quantities import Quantity, Sweep, in_unit, quantity_of
+from studio.description.sites.quantities import (
+    Quantity,
+    Sweep,
+    decimals_of,
+    in_unit,
+    parse_number,
+    quantity_of,
+)
 from studio.description.syntax.annotations import NOTHING, Annotation
-from studio.description.syntax.number_text import decimals_of, parse_number
 from studio.description.values import Widget, WidgetKind
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ from studio.errors import EditError
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from studio.description.syntax.text_mends import TextMends
+    from studio.description.syntax.mends import TextMends
     from studio.problems import Fix
 
 NAME: Final = re.compile(rb"[A-Za-z_\x80-\xff][\w.:\x80-\xff-]*")

@@ -7,7 +7,7 @@ import logging
 from dataclasses import replace
 from typing import TYPE_CHECKING, Final
 
-from studio.description.checks.check_values import Checked, CheckQuery, ReadRobot
+from studio.description.values import Checked, CheckQuery, ReadRobot
 from studio.errors import CommandError
 from studio.problems import Fix, Problem
 from studio.protocol.roles import Role

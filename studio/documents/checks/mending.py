@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import count
 from typing import TYPE_CHECKING
 
-from studio.description.editing.mending import apart, edits_of
+from studio.description.editing.edits import apart, edits_of
 from studio.description.editing.sources import Change
 from studio.documents.questions.texts import TEXT_LIMIT_BYTES
 from studio.errors import CommandError, EditError, ReadOnlyTextError

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 from typing import TYPE_CHECKING, Final
 
-from studio.description.editing.disk_news import FileChange
+from studio.description.editing.sources import FileChange
 from studio.documents.keeping.disk_problems import changed_on_disk, file_gone, not_watched
 from studio.errors import EditError
 from studio.protocol.saving import Collisions, CollisionView, DiskMerged
@@ -13,8 +13,8 @@ from studio.protocol.saving import Collisions, CollisionView, DiskMerged
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from studio.description.editing.disk_news import DiskNews
     from studio.description.editing.merging import Merge, Place
+    from studio.description.editing.sources import DiskNews
     from studio.description.values import Edit
     from studio.documents.document import Document
     from studio.protocol.saving import GetCollisions, ResolveCollisions

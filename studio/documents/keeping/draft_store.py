@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Final
 
 import msgspec
 
-from studio.description.editing.kept_sources import KeptSources  # noqa: TC001 - msgspec reads it
+from studio.description.editing.undo import KeptSources  # noqa: TC001 - msgspec reads it
 from studio.documents.keeping.save_journal import SaveJournal
 from studio.errors import DraftError
 from studio.files import write_whole

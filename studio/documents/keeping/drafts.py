@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Generator, Iterable
     from pathlib import Path
 
-    from studio.description.editing.kept_sources import KeptSources
+    from studio.description.editing.undo import KeptSources
     from studio.documents.document import Document
     from studio.documents.keeping.draft_store import DraftFile
 

@@ -6,7 +6,7 @@ import asyncio
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from studio.description.editing.file_diff import file_diff
+from studio.description.editing.line_diff import file_diff
 from studio.description.editing.saving import hindrance, write_copy
 from studio.description.editing.undo import Change
 from studio.errors import CommandError, NotSavedError

@@ -6,8 +6,7 @@ import asyncio
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
-from studio.description.poses.group_states import group_states
-from studio.description.poses.initial_positions import SIZE_LIMIT_BYTES, initial_positions
+from studio.description.poses import INITIAL_POSITIONS_LIMIT_BYTES, group_states, initial_positions
 from studio.description.values import Expansion, OpenRequest
 from studio.errors import PackageError
 from studio.packages.pose_files import pose_files
@@ -17,7 +16,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from studio.description.client import DescriptionWorker
-    from studio.description.poses.named_poses import NamedPose
+    from studio.description.poses import NamedPose
     from studio.documents.edit_loop import Target
     from studio.packages.roots import ServedRoots
     from studio.packages.workspace import Location
@@ -102,7 +101,7 @@ def _initial(paths: Iterable[Path], served: ServedRoots) -> list[NamedPose]:
     found: list[NamedPose] = []
     for path in paths:
         try:
-            data = served.read(path, SIZE_LIMIT_BYTES)
+            data = served.read(path, INITIAL_POSITIONS_LIMIT_BYTES)
         except PackageError:
             continue
         if pose := initial_positions(str(path), data):

@@ -6,8 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
 from studio.debounce import Throttle
-from studio.description.poses.named_poses import NamedPose
-from studio.description.poses.poses_file import POSE_LIMIT, read_poses, rounded, write_poses
+from studio.description.poses import POSE_LIMIT, NamedPose, read_poses, rounded, write_poses
 from studio.documents.keeping.shelf import Shelf, ShelfKind
 from studio.documents.posing.pose_reading import FoundPoses, read_poses_around
 from studio.documents.states.second_robot import argument_values

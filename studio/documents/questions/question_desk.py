@@ -10,7 +10,7 @@ from studio.documents.questions.question_queue import QuestionQueue
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable
 
-    from studio.description.queries import Query, Reply
+    from studio.description.requests import Query, Reply
     from studio.protocol.listeners import Listener
 
 REST_S: Final = 0.3

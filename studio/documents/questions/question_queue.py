@@ -13,7 +13,7 @@ from studio.protocol.roles import Role
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from studio.description.queries import Query, Reply
+    from studio.description.requests import Query, Reply
     from studio.protocol.listeners import Listener
 
 KEPT: Final = 4

@@ -6,8 +6,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from studio.description.editing.editor_text import EditorText
-from studio.description.editing.text_changes import Piece, changes_between, patched
+from studio.description.editing.editor_text import EditorText, Piece, changes_between, patched
 from studio.errors import CommandError, EditError, ReadOnlyTextError, StaleTextError
 from studio.protocol.roles import Role
 from studio.protocol.texts import EditText, GetText, Text, TextChange, TextsChanged

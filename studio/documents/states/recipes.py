@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from studio.description.editing.splice import difference
+from studio.description.editing.edits import difference
 from studio.description.editing.variants import NamedTexts, TextName, Variant, texts_by_file
 from studio.errors import EditError, PackageError
 from studio.packages.roots import package_folder_of

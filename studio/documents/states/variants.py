@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final
 
 from studio.debounce import Throttle
 from studio.description.editing.sources import Change
-from studio.description.editing.variants_file import VARIANT_LIMIT, read_variants, write_variants
+from studio.description.editing.variants import VARIANT_LIMIT, read_variants, write_variants
 from studio.documents.keeping.shelf import Shelf, ShelfKind
 from studio.documents.states.comparison_desk import ComparisonDesk
 from studio.documents.states.recipes import Recipe, RecipeBook

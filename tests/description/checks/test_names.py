@@ -2,11 +2,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from studio.description.checks.check_values import Checked, CheckQuery
-from studio.description.editing.mending import edits_of
-from studio.description.editing.splice import apply
+from studio.description.editing.edits import apply, edits_of
 from studio.description.session import open_session
-from studio.description.values import OpenRequest
+from studio.description.values import Checked, CheckQuery, OpenRequest
 from studio.problems import Severity
 from tests.support.checked_texts import checked
 from tests.support.descriptions import policy_for, write

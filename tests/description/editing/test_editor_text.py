@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from studio.description.editing.editor_text import EditorText
-from studio.description.editing.splice import apply
+from studio.description.editing.edits import apply
 from studio.errors import EditError
 from tests.support.corpus import corpus
 from tests.support.corpus_files import xml_trees

@@ -9,10 +9,10 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from studio.description.editing.edits import apply, decode
 from studio.description.editing.sources import Sources
-from studio.description.editing.splice import apply, decode
 from studio.description.session import Session
-from studio.description.syntax.number_text import parse_number
+from studio.description.sites.quantities import parse_number
 from studio.description.values import (
     Edit,
     EditRequest,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
-from studio.description.editing.splice import apply
+from studio.description.editing.edits import apply
 from studio.description.editing.undo import ArgumentChange, Splice, Step, UndoStack
 
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio.description.editing.splice import apply
+from studio.description.editing.edits import apply
 from studio.description.editing.variants import NamedTexts, TextName, differing_names
 from studio.description.values import SiteKind
 

@@ -6,10 +6,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from studio.description.editing.variants import TextName, Variant
-from studio.description.editing.variants_file import (
+from studio.description.editing.variants import (
     SIZE_LIMIT_BYTES,
     VARIANT_LIMIT,
+    TextName,
+    Variant,
     read_variants,
     write_variants,
 )

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio.description.expressions.budget import Limits
+from studio.description.expressions.bounds import Limits
 from studio.description.faults import Refusal
 from tests.support.descriptions import (
     canonical,

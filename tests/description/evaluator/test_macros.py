@@ -8,7 +8,8 @@ import xacro
 from hypothesis import given
 from hypothesis import strategies as st
 
-from studio.description.evaluator.macros import Default, Macro, MacroTable, read_parameters
+from studio.description.evaluator.macros import Macro, MacroTable
+from studio.description.syntax.params import Default, read_parameters
 from studio.description.syntax.source_tree import parse_source
 
 BODY = parse_source("a.xacro", b"<a/>").root

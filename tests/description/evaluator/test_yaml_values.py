@@ -12,7 +12,8 @@ from studio.description.expressions.expressions import HELPERS, compile_expressi
 from studio.description.syntax.yaml_reading import read_yaml
 
 if TYPE_CHECKING:
-    from studio.description.evaluator.run_record import Input, KeyPath
+    from studio.description.evaluator.run_record import Input
+    from studio.description.syntax.yaml_spans import KeyPath
 
 TEXT = b"arm:\n  links: [{length: 0.5}, {length: 0.7}]\n  name: left\nmass: 3\n"
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from studio.description.expressions.budget import Budget, Limits
+from studio.description.expressions.bounds import Budget, Limits
 from studio.description.expressions.guarded_functions import (
     MATH,
     bounded_range,

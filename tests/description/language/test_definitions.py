@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from studio.description.evaluator.macros import read_parameters
-from studio.description.language.definitions import name_in_params, parameters_of
+from studio.description.language.definitions import parameters_of
+from studio.description.syntax.params import name_in_params, read_parameters
 
 
 @pytest.mark.parametrize(

@@ -17,7 +17,7 @@ from tests.support.questioned_robot import FILES
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from studio.description.queries import Reply
+    from studio.description.requests import Reply
 
 
 @pytest.fixture

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio.description.editing.splice import decode, difference, edit_at, inverse
+from studio.description.editing.edits import decode, difference, edit_at, inverse
 from studio.description.session import Session
 from studio.description.sites.sites import SiteBuilder
 from studio.description.values import (

@@ -12,11 +12,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from studio.description.editing.mending import apart, edits_of
-from studio.description.editing.splice import apply
-from studio.description.syntax.fault_book import FAULTS_LIMIT
+from studio.description.editing.edits import apart, apply, edits_of
 from studio.description.syntax.recovery import Recovered, recover
 from studio.description.syntax.source_tree import SourceError, SourceTree, parse_source
+from studio.description.syntax.xml_faults import FAULTS_LIMIT
 from studio.settings import repository_or_wheel
 
 XACRO = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'

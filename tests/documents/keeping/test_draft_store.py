@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import pytest
 
-from studio.description.editing.kept_sources import KeptSources, KeptText
-from studio.description.editing.undo import ArgumentChange, Splice, Step
+from studio.description.editing.undo import ArgumentChange, KeptSources, KeptText, Splice, Step
 from studio.documents.keeping.draft_store import Draft, draft_file, forget_drafts, left_drafts
 from studio.errors import DraftError
 from tests.support.permissions import open_folder, unprivileged

@@ -21,7 +21,7 @@ from tests.support.packages import write_package
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from studio.description.editing.kept_sources import KeptSources
+    from studio.description.editing.undo import KeptSources
     from studio.documents.document import Document
 
 

@@ -7,10 +7,8 @@ from typing import Final
 
 import pytest
 
-from studio.description.editing.variants import Variant
-from studio.description.editing.variants_file import read_variants, write_variants
-from studio.description.poses.named_poses import NamedPose
-from studio.description.poses.poses_file import read_poses, write_poses
+from studio.description.editing.variants import Variant, read_variants, write_variants
+from studio.description.poses import NamedPose, read_poses, write_poses
 from studio.documents.keeping.shelf import Shelf, ShelfKind
 from studio.errors import CommandError, OutsideRootsError, UnreadableFileError, VariantsFileError
 from studio.packages.roots import ServedRoots

@@ -18,7 +18,7 @@ from tests.support.open_documents import Ear
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from studio.description.queries import Query
+    from studio.description.requests import Query
 
 OUTLINE, COMPLETION = OutlineQuery(), CompletionQuery("a.xacro", b"", 0)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from studio.description.editing.splice import apply
+from studio.description.editing.edits import apply
 from studio.documents.questions.text_search import Words, matches_in, replacements_in
 
 TEXT = "<a>\r\n  Größe 🤖 Wheel wheel_1 wheels\r\n</a>".encode()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from studio.description.evaluator.oracle import export_urdf
+from studio.description.evaluator.stock_xacro import export_urdf
 from studio.description.values import ReadPolicy
 from studio.nodes.robot_state_publisher import RobotStateNode
 from studio.settings import repository_or_wheel

@@ -1,1 +1,0 @@
-"""Named joint positions from the files around a robot: group states, initial, one's own."""

@@ -1,0 +1,319 @@
+"""The editable texts of one file, as far as its bytes alone tell: what a run adds is in `sites`.
+
+Ids count elements, not bytes, so that they outlast every edit of a text.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
+
+from studio.description.sites.quantities import NUMBERED_TAGS, parse_number, quantity_of_attribute
+from studio.description.syntax.annotations import (
+    NOTHING,
+    Annotation,
+    Comment,
+    Entry,
+    Remark,
+    attach_comments,
+    read_annotation,
+)
+from studio.description.syntax.attribute_spans import attribute_spans
+from studio.description.syntax.params import param_defaults
+from studio.description.syntax.source_tree import SourceComment, SourceElement, SourceText
+from studio.description.syntax.yaml_spans import YamlDocument, key_path_text, read_yaml_document
+from studio.description.values import SiteKind, Span
+from studio.problems import Place
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Set
+
+    from studio.description.syntax.source_tree import SourceTree
+    from studio.description.syntax.yaml_spans import KeyPath
+
+_TEXTS = {
+    "xacro:property": (SiteKind.PROPERTY, ("value", "default")),
+    "xacro:arg": (SiteKind.ARG, ("default",)),
+}
+_AROUND = frozenset(
+    {"robot", "link", "joint", "visual", "collision", "inertial", "geometry", "material"}
+)
+_CONDITIONS = frozenset({"xacro:if", "xacro:unless"})
+_NAMED = frozenset({"link", "joint", "material"})
+_VECTOR_LENGTH = 16
+_TAG_UNITS = {
+    "!degrees": "deg",
+    "!radians": "rad",
+    "!meters": "m",
+    "!millimeters": "mm",
+    "!foot": "ft",
+    "!inches": "in",
+}
+_LINE_END = re.compile(rb"\n|\r(?!\n)")
+
+
+@dataclass(frozen=True, slots=True)
+class Draft:
+    """One editable text of a file; the fields are those of `Site`, where they are the same."""
+
+    id: str
+    kind: SiteKind
+    name: str
+    place: Place
+    span: Span
+    text: str
+    group: str
+    annotation: Annotation = NOTHING
+    ordinal: int = -1
+    """The element that holds it; -1 in YAML."""
+    attribute: str = ""
+    path: KeyPath = ()
+    """The key path of a YAML scalar."""
+    element_path: str = ""
+    """Of a literal: tags from the link or joint down to its element."""
+    remarks: tuple[str, ...] = ()
+    """The comments that speak of it."""
+    tag: str = ""
+    """Of a YAML scalar, as written: `!degrees`."""
+
+    def rewritten(self, text: str) -> Draft:
+        """The draft when another text stands there, on the same line."""
+        if self.kind is SiteKind.YAML:
+            annotation = _yaml_annotation(self.remarks, text, self.tag)
+        else:
+            annotation = read_annotation(self.remarks, text)
+        return replace(self, text=text, annotation=annotation)
+
+
+@dataclass(frozen=True, slots=True)
+class FileDrafts:
+    """All drafts of one file in file order, and the bytes that they are true for."""
+
+    data: bytes
+    drafts: tuple[Draft, ...]
+    aliases: tuple[tuple[KeyPath, KeyPath], ...] = field(default=())
+
+
+def draft_yaml(path: str, data: bytes) -> FileDrafts:
+    """Every scalar of a YAML file. Its heading is its section comment, else its parent key."""
+    document = read_yaml_document(data)
+    drafts: list[Draft] = []
+    for scalar, remark in zip(document.scalars, _yaml_remarks(document), strict=True):
+        name = key_path_text(scalar.path)
+        draft = Draft(
+            id=f"{path}#{name}",
+            kind=SiteKind.YAML,
+            name=name,
+            place=Place(path, scalar.line, scalar.column),
+            span=scalar.span,
+            text=scalar.text,
+            group=remark.group or key_path_text(scalar.path[:-1]),
+            annotation=_yaml_annotation(remark.comments, scalar.text, scalar.tag),
+            path=scalar.path,
+            remarks=remark.comments,
+            tag=scalar.tag,
+        )
+        drafts.append(draft)
+    return FileDrafts(data, tuple(drafts), document.aliases)
+
+
+def _yaml_annotation(comments: tuple[str, ...], text: str, tag: str) -> Annotation:
+    annotation = read_annotation(comments, text)
+    if not annotation.unit and tag in _TAG_UNITS:
+        return replace(annotation, unit=_TAG_UNITS[tag])
+    return annotation
+
+
+def _yaml_remarks(document: YamlDocument) -> list[Remark]:
+    """One remark per scalar; a key that opens a nested level ends the group above it."""
+    marked = [(Entry(line, line, is_value=False), -1) for line in document.headings]
+    marked += [
+        (Entry(one.line, one.line, is_grouped=len(one.path) > 1), index)
+        for index, one in enumerate(document.scalars)
+    ]
+    marked.sort(key=lambda pair: (pair[0].first_line, pair[1]))
+    remarks = attach_comments([entry for entry, _ in marked], document.comments)
+    found = {index: remark for (_, index), remark in zip(marked, remarks, strict=True)}
+    return [found[index] for index in range(len(document.scalars))]
+
+
+def draft_xml(
+    tree: SourceTree, before: FileDrafts | None = None, known: Set[str] = frozenset()
+) -> FileDrafts:
+    """Every arg, property, macro default and plain URDF number of an XML file.
+
+    What was one of them in the drafts before, or is known by its id, stays one, whatever is
+    written there now.
+    """
+    known = {one.id for one in before.drafts} if before else known
+    remarks, shown = _xml_remarks(tree), _shown_parts(tree)
+    drafts: list[Draft] = []
+    for element in tree.elements:
+        if element.tag in _TEXTS:
+            drafts += _named_texts(element, remarks.get(element.ordinal, Remark()))
+        elif element.tag == "xacro:macro":
+            drafts += _macro_defaults(element)
+        elif element.tag in NUMBERED_TAGS:
+            drafts += _literals(element, known, shown)
+    return FileDrafts(tree.data, tuple(drafts))
+
+
+def _named_texts(element: SourceElement, remark: Remark) -> Iterator[Draft]:
+    kind, attributes = _TEXTS[element.tag]
+    present = [name for name in attributes if name in element.attributes]
+    if not present:
+        return
+    spans = attribute_spans(element.tree.data, element.offset)
+    for attribute in present:
+        text = element.attributes[attribute]
+        yield Draft(
+            id=f"{element.tree.path}#{element.ordinal}@{attribute}",
+            kind=kind,
+            name=element.attributes.get("name", ""),
+            place=element.place,
+            span=spans[attribute],
+            text=text,
+            group=remark.group,
+            annotation=read_annotation(remark.comments, text),
+            remarks=remark.comments,
+            ordinal=element.ordinal,
+            attribute=attribute,
+        )
+
+
+def _macro_defaults(element: SourceElement) -> Iterator[Draft]:
+    if "params" not in element.attributes:
+        return
+    tree = element.tree
+    params = attribute_spans(tree.data, element.offset)["params"]
+    for default in param_defaults(tree.data, params, tree.encoding):
+        yield Draft(
+            id=f"{tree.path}#{element.ordinal}@params:{default.name}",
+            kind=SiteKind.PARAM_DEFAULT,
+            name=default.name,
+            place=element.place,
+            span=default.span,
+            text=default.text,
+            group=element.attributes.get("name", ""),
+            ordinal=element.ordinal,
+            attribute="params",
+        )
+
+
+def _literals(
+    element: SourceElement, known: Set[str], shown: dict[SourceElement, str]
+) -> Iterator[Draft]:
+    """The attributes of a URDF element that are plain numbers, or were."""
+    start = f"{element.tree.path}#{element.ordinal}@"
+    wanted = [
+        name
+        for name, text in element.attributes.items()
+        if quantity_of_attribute(element.tag, name) is not None
+        and (_is_numbers(text) or start + name in known)
+    ]
+    line = _ancestry(element) if wanted else ()
+    if not line:
+        return
+    spans = attribute_spans(element.tree.data, element.offset)
+    path = "/".join(_path_part(one) for one in line)
+    for attribute in wanted:
+        yield Draft(
+            id=start + attribute,
+            kind=SiteKind.LITERAL,
+            name=f"{'/'.join(shown.get(one, one.tag) for one in line)} @{attribute}",
+            place=element.place,
+            span=spans[attribute],
+            text=element.attributes[attribute],
+            group=line[0].attributes.get("name", "") or line[0].tag.removeprefix("xacro:"),
+            ordinal=element.ordinal,
+            attribute=attribute,
+            element_path=path,
+        )
+
+
+def _is_numbers(text: str) -> bool:
+    words = text.split()
+    if not 1 <= len(words) <= _VECTOR_LENGTH:
+        return False
+    return all(parse_number(word) is not None for word in words)
+
+
+def _ancestry(element: SourceElement) -> tuple[SourceElement, ...]:
+    """From the link, joint, material or xacro element around it down to an element of URDF.
+
+    Nothing below a foreign element (gazebo, a sensor): what its numbers mean is not known.
+    """
+    line = [element]
+    above = element.parent
+    while above is not None:
+        if above.tag not in _AROUND and above.xacro_name is None:
+            return ()
+        is_open = line[0].tag not in _NAMED and line[0].xacro_name is None
+        if is_open and above.tag != "robot" and above.tag not in _CONDITIONS:
+            line.insert(0, above)
+        above = above.parent
+    return tuple(line)
+
+
+def _path_part(element: SourceElement) -> str:
+    slides = element.tag == "joint" and element.attributes.get("type") == "prismatic"
+    return "joint:prismatic" if slides else element.tag
+
+
+def _shown_parts(tree: SourceTree) -> dict[SourceElement, str]:
+    """The tag of each element inside a link, numbered among its like: `visual[2]` of several."""
+    likes: dict[tuple[SourceElement, str], list[SourceElement]] = {}
+    for element in tree.elements:
+        if element.parent is not None and element.tag in _AROUND - _NAMED:
+            likes.setdefault((element.parent, element.tag), []).append(element)
+    return {
+        element: f"{element.tag}[{number}]"
+        for like in likes.values()
+        if len(like) > 1
+        for number, element in enumerate(like, 1)
+    }
+
+
+def _xml_remarks(tree: SourceTree) -> dict[int, Remark]:
+    """What comments say about each arg and property, by ordinal."""
+    parents = {
+        element.parent.ordinal: element.parent
+        for element in tree.elements
+        if element.tag in _TEXTS and element.parent is not None
+    }
+    remarks: dict[int, Remark] = {}
+    for parent in parents.values():
+        children = list(parent.elements())
+        entries = [_entry(child) for child in children]
+        found = attach_comments(entries, _comments(parent))
+        remarks.update((one.ordinal, remark) for one, remark in zip(children, found, strict=True))
+    return remarks
+
+
+def _entry(element: SourceElement) -> Entry:
+    is_value = element.tag in _TEXTS
+    tag = element.tree.data[element.offset : tag_end(element)] if is_value else b""
+    return Entry(element.line, element.line + len(_LINE_END.findall(tag)), is_value=is_value)
+
+
+def tag_end(element: SourceElement) -> int:
+    """Byte offset behind the start tag's `>`."""
+    spans = attribute_spans(element.tree.data, element.offset)
+    last = max((span.end for span in spans.values()), default=element.offset)
+    return element.tree.data.index(b">", last) + 1
+
+
+def _comments(parent: SourceElement) -> list[Comment]:
+    """The comments among an element's children; own line: no element stands before it there."""
+    comments: list[Comment] = []
+    own_line = False
+    for child in parent.children:
+        if isinstance(child, SourceText):
+            own_line = "\n" in child.text or own_line
+        elif isinstance(child, SourceComment):
+            last = child.line + child.text.count("\n")
+            comments.append(Comment(child.text, child.line, last, own_line=own_line))
+        else:
+            own_line = False
+    return comments
