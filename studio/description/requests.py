@@ -2,7 +2,7 @@
 
 Queries change nothing; every one is answered from the last good run, also while the texts are
 broken. A new question is a value in `QUERIES`, its reply one in `REPLIES`, and an arm in
-`session.reply_to`.
+`Session.query`.
 """
 
 from __future__ import annotations

@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeAlias, assert_never
+from typing import TYPE_CHECKING, TypeAlias
 
 from studio.description.checks.checks import checked_broken, checked_good
 from studio.description.checks.spelling import mend_of
@@ -17,23 +17,19 @@ from studio.description.evaluator.output_tree import (
     write_part,
     write_parts,
 )
-from studio.description.evaluator.recovering import RecoveredRun, problems_of_text, recovered_run
-from studio.description.evaluator.run_record import RunRecord
+from studio.description.evaluator.runs import (
+    GoodRun,
+    RecoveredRun,
+    RunRecord,
+    problems_of_text,
+    recovered_run,
+)
 from studio.description.evaluator.source_store import SourceStore
 from studio.description.faults import Fault, Refusal, Unsupported, problem_of
-from studio.description.language.questions import (
-    LANGUAGE_QUERIES,
-    CompletionQuery,
-    LookUpQuery,
-    OutlineQuery,
-    ReferencesQuery,
-    RenamingQuery,
-)
+from studio.description.language.questions import LANGUAGE_QUERIES
 from studio.description.language.service import LanguageService
-from studio.description.origins.effects import site_effects
-from studio.description.origins.good_run import GoodRun
 from studio.description.origins.origin_values import PartOriginQuery, SiteEffectsQuery
-from studio.description.origins.provenance import part_origin
+from studio.description.origins.origins import Origins
 from studio.description.patching.live_run import LiveRun
 from studio.description.sites.sites import SiteBuilder
 from studio.description.syntax.recovery import RECOVERABLE
@@ -63,39 +59,6 @@ if TYPE_CHECKING:
 
 
 NOT_OPEN = "No robot is open in this worker: open it again."
-
-
-def reply_to(query: Query, run: GoodRun | None) -> Reply:
-    """Answer a question; one that has no answer, or fails, is told so in a sentence."""
-    if run is None:
-        return NoReply("The description has not been expanded yet: mend its problems first.")
-    return guarded(lambda: _reply(query, run))
-
-
-def guarded(answer: Callable[[], Reply]) -> Reply:
-    """The answer, or what hindered it in a sentence."""
-    try:
-        return answer()
-    except Fault as fault:
-        return NoReply(fault.sentence)
-    except Exception as error:  # noqa: BLE001 - a question may not cost the process its robot
-        return NoReply(f"The question could not be answered: {type(error).__name__}: {error}")
-
-
-def _reply(query: Query, run: GoodRun) -> Reply:
-    match query:
-        case PartOriginQuery(part=part):
-            return part_origin(run, part)
-        case SiteEffectsQuery(site=site):
-            return site_effects(run, site)
-        case (
-            OutlineQuery() | LookUpQuery() | ReferencesQuery() | CompletionQuery() | RenamingQuery()
-        ):
-            raise TypeError("the language desk answers what is asked about texts")
-        case CheckQuery():
-            raise TypeError("the session answers what is asked about all texts")
-        case _:
-            assert_never(query)
 
 
 _log = logging.getLogger(__name__)
@@ -159,6 +122,8 @@ class Session:
         self._parts: dict[str, str] = {}
         self._sites: dict[str, Site] = {}
         self._good: GoodRun | None = None
+        self._origins: Origins | None = None
+        """Answers questions about the last good run."""
         self._doubted: set[str] = set()
         """Files edited or read anew since the last full run, whose sites the other side moved."""
         self._told: Expansion | None = None
@@ -227,7 +192,7 @@ class Session:
         sites = self._site_builder.patch(patch.sites, live.texts)
         self._parts.update((part.key, part.xml) for part in changed)
         self._sites.update((site.id, site) for site in sites)
-        self._good = self._good_run(root, record, "studio")
+        self._keep_good(root, record, "studio")
         self._told = Expansion(
             robot_name=root.attributes.get("name", ""),
             root_attributes=tuple(root.attributes.items()),
@@ -244,14 +209,33 @@ class Session:
         return self._told
 
     def query(self, query: Query) -> Reply:
-        """Answer a question from the last good run; nothing changes."""
+        """Answer a question from the last good run; nothing changes.
+
+        One that has no answer, or fails, is answered by a sentence that says why.
+        """
+        try:
+            return self._reply(query)
+        except Fault as fault:
+            return NoReply(fault.sentence)
+        except EditError as error:
+            return NoReply(str(error))
+        except Exception as error:  # noqa: BLE001 - a question may not cost the process its robot
+            return NoReply(f"The question could not be answered: {type(error).__name__}: {error}")
+
+    def _reply(self, query: Query) -> Reply:
         if isinstance(query, CheckQuery):
-            return guarded(self._check)
+            return self._check()
         if isinstance(query, LANGUAGE_QUERIES):
             if self._live is not None:
                 self._sites.update(self._live.texts.moved(self._sites))
             return self._language.answer(query, self._arguments, self._good, self._sites)
-        return reply_to(query, self._good)
+        if self._origins is None:
+            return NoReply("The description has not been expanded yet: mend its problems first.")
+        match query:
+            case PartOriginQuery(part=part):
+                return self._origins.part(part)
+            case SiteEffectsQuery(site=site):
+                return self._origins.effects(site)
 
     def _take(self, request: Request) -> None:
         match request:
@@ -367,15 +351,15 @@ class Session:
         self._parts = {part.key: part.xml for part in parts}
         self._sites = {site.id: site for site in sites}
         self._told = expansion
-        self._good = self._good_run(root, record, expansion.evaluator)
+        self._keep_good(root, record, expansion.evaluator)
         self._fault, self._chain_to = "", evaluation.chain_to
         if not reason:
             builder = self._site_builder
             self._live = LiveRun(evaluation, record, index, builder.reads, builder.files)
         return expansion
 
-    def _good_run(self, root: OutputElement, record: RunRecord, evaluator: str) -> GoodRun:
-        return GoodRun(
+    def _keep_good(self, root: OutputElement, record: RunRecord, evaluator: str) -> None:
+        self._good = GoodRun(
             root,
             record,
             evaluator,
@@ -385,6 +369,7 @@ class Session:
             self._store.kept(self._good.store if self._good else None),
             self._sites.keys(),
         )
+        self._origins = Origins(self._good)
 
     def _is_new(self, site: Site) -> bool:
         """Whether a site is told: it changed, or who moved it with the edits may have it wrong."""

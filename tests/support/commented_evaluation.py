@@ -17,9 +17,9 @@ from studio.description.expressions.guards import text_of
 from studio.description.syntax.source_tree import SourceComment, SourceText
 
 if TYPE_CHECKING:
+    from studio.description.evaluator.graph import Scope
     from studio.description.evaluator.macros import MacroTable
     from studio.description.evaluator.output_tree import ChildNode, Node
-    from studio.description.evaluator.scopes import Scope
 
 _CLEANED_FIRST: Final = frozenset({"xacro:property", "xacro:macro", "xacro:if", "xacro:unless"})
 """Tags that drop the comments before them, then evaluate; most do it the other way round."""

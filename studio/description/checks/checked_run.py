@@ -12,8 +12,8 @@ from studio.problems import Problem, Severity
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
+    from studio.description.evaluator.graph import Binding
     from studio.description.evaluator.output_tree import OutputElement
-    from studio.description.evaluator.run_record import Binding
     from studio.description.syntax.source_tree import SourceElement, SourceTree
     from studio.problems import Fix, Place
 

@@ -15,8 +15,7 @@ from studio.description.values import Checked, ReadRobot
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from studio.description.evaluator.recovering import RecoveredRun
-    from studio.description.origins.good_run import GoodRun
+    from studio.description.evaluator.runs import GoodRun, RecoveredRun
     from studio.problems import Place, Problem
 
 

@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from studio.description.checks.checked_run import CheckedRun
+    from studio.description.evaluator.graph import Binding
     from studio.description.evaluator.output_tree import OutputElement
-    from studio.description.evaluator.run_record import Binding
     from studio.problems import Fix, Problem
 
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, cast
 
+from studio.description.evaluator.graph import Cell, Scope, ScopeView
 from studio.description.evaluator.macros import Macro, MacroTable
 from studio.description.evaluator.output_tree import CallFrame, OutputElement
-from studio.description.evaluator.scopes import Cell, Scope, ScopeView
 from studio.description.evaluator.walk import (
     bound_cell,
     import_namespaces,

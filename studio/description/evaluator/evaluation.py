@@ -14,11 +14,9 @@ from studio.description.evaluator.calls import (
     define_macro,
     insert_block,
 )
-from studio.description.evaluator.graph import Role
+from studio.description.evaluator.graph import Argument, Cell, Role, Scope, ScopeView
 from studio.description.evaluator.macros import MacroTable
 from studio.description.evaluator.output_tree import OutputElement
-from studio.description.evaluator.scopes import Cell, Scope, ScopeView, literal_value, truth_of
-from studio.description.evaluator.texts import Argument
 from studio.description.evaluator.walk import (
     Walk,
     attribute_text,
@@ -32,6 +30,7 @@ from studio.description.evaluator.walk import (
 from studio.description.expressions.guards import MUTATING, text_of
 from studio.description.faults import Fault, Refusal, Unsupported
 from studio.description.syntax.source_tree import SourceElement
+from studio.description.syntax.templates import literal_value, truth_of
 from studio.description.values import SiteKind
 
 if TYPE_CHECKING:
@@ -247,7 +246,7 @@ def _namespace(
     if not text:
         return macros, scope
     name = text_of(run.texts.consumed(text, scope, ("xacro:include", "ns")))
-    macros_in, scope_in = MacroTable(), Scope(run.texts, scope, is_namespace=True)
+    macros_in, scope_in = MacroTable(), Scope(run.texts, scope, node.origin)
     macros.put(name, macros_in)
     warn_hidden(run, name)
     scope.cells[name] = Cell(name, scope, ScopeView(scope_in))

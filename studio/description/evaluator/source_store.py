@@ -12,9 +12,16 @@ from itertools import islice
 from typing import TYPE_CHECKING, Any, Final, Protocol
 
 from studio.description.faults import Fault, Refusal, misnamed
+from studio.description.syntax.recovery import RECOVERABLE, recover
 from studio.description.syntax.source_tree import SourceError, SourceTree, parse_source
 from studio.description.syntax.yaml_reading import read_yaml
 from studio.errors import EditError, OutsideRootsError, UnreadableFileError
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from studio.description.syntax.source_tree import SourceTree
+    from studio.description.syntax.xml_faults import XmlFault
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
@@ -229,3 +236,32 @@ def _unreadable(path: str, sentence: str) -> Fault:
 def _is_text(path: str) -> bool:
     """Whether a message can carry a path: Linux allows names of any bytes."""
     return path == path.encode("utf-8", "replace").decode()
+
+
+class RecoveringStore(SourceStore):
+    """The texts of another store, of which it reads the broken ones, too."""
+
+    def __init__(self, store: SourceStore) -> None:
+        super().__init__(store._roots, {})
+        self._data, self._trees = dict(store._data), dict(store._trees)
+        self.faults: dict[str, tuple[XmlFault, ...]] = {}
+        """What is wrong, by file."""
+
+    def tree(self, path: str) -> SourceTree:
+        """As `SourceStore.tree`, and never a fault because the XML is broken."""
+        try:
+            return super().tree(path)
+        except Fault as fault:
+            if fault.code not in RECOVERABLE:
+                raise
+            return self._recovered(path, fault)
+
+    def _recovered(self, path: str, fault: Fault) -> SourceTree:
+        real, data = self.read(path)
+        try:
+            recovered = recover(real, data)
+        except SourceError:
+            raise fault from None
+        self.faults[real] = recovered.faults
+        self._trees[real] = recovered.tree
+        return recovered.tree

@@ -27,8 +27,8 @@ from studio.description.evaluator.source_store import SourceStore
 from studio.description.evaluator.substitution import evaluate, find_package, variable
 from studio.description.expressions.bounds import Budget, Limits, made, too_large
 from studio.description.expressions.expressions import compile_expression, helpers_of
-from studio.description.expressions.guarded_functions import guarded_functions
 from studio.description.expressions.guards import METHODS, check_printable
+from studio.description.expressions.symbols import guarded_functions
 from studio.description.faults import Fault, Refusal, Unsupported, problem_of
 from studio.description.syntax.params import PARAMS_LIMIT, parameter
 from studio.description.syntax.source_tree import SourceError, parse_source

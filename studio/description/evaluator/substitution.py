@@ -7,10 +7,9 @@ from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, Protocol
 
-from studio.description.evaluator.symbols import SAFE_BUILTINS
 from studio.description.expressions.expressions import compile_expression, helpers_of
-from studio.description.expressions.guarded_functions import MATH, counted_functions
 from studio.description.expressions.guards import text_of
+from studio.description.expressions.symbols import MATH, SAFE_BUILTINS, counted_functions
 from studio.description.faults import Fault, Refusal, misnamed, shorten
 from studio.packages.near_files import is_misspelt
 

@@ -7,25 +7,29 @@ import re
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, Final, cast
 
-from studio.description.evaluator.graph import Readable, Record, Role
-from studio.description.evaluator.run_record import YamlReads
-from studio.description.evaluator.scopes import Cell, Scope, literal_value
+from studio.description.evaluator.graph import Argument, Record, Role, YamlReads
 from studio.description.evaluator.substitution import find_package, substitute
-from studio.description.evaluator.symbols import make_symbols, pure_names
-from studio.description.evaluator.yaml_values import Reader, wrap
+from studio.description.evaluator.yaml_values import Reader, YamlMapping, wrap
 from studio.description.expressions.bounds import Budget, Limits, is_lasting
 from studio.description.expressions.expressions import Expression, compile_expression, helpers_of
 from studio.description.expressions.guards import SIZE_LIMIT, text_of
+from studio.description.expressions.symbols import make_symbols, pure_names
 from studio.description.faults import Fault, Refusal, misnamed, shorten
-from studio.description.syntax.templates import Cut, segments_of
+from studio.description.syntax.templates import Cut, literal_value, segments_of
 from studio.problems import Problem, Severity
 
 if TYPE_CHECKING:
     from collections.abc import Generator, Iterable, Iterator
 
-    from studio.description.evaluator.graph import Consumer, Sink
-    from studio.description.evaluator.run_record import Binding, Input, YamlScalar
-    from studio.description.evaluator.scopes import Replay
+    from studio.description.evaluator.graph import (
+        Cell,
+        Consumer,
+        Input,
+        NameReplay,
+        Scope,
+        Sink,
+        YamlValue,
+    )
     from studio.description.evaluator.source_store import SourceStore
     from studio.description.syntax.source_tree import SourceElement
     from studio.description.values import ReadPolicy
@@ -93,32 +97,6 @@ _SEVERITIES: Final = {
 }
 
 
-class Argument(Readable):
-    """One arg: its value, and the first declaration, once the run has come by it."""
-
-    __slots__ = ("binding", "compared", "declarations", "is_given", "name", "record", "value")
-
-    def __init__(self, name: str, value: str, *, is_given: bool) -> None:
-        super().__init__()
-        self.name, self.value, self.is_given = name, value, is_given
-        self.binding: Binding | None = None
-        self.record: Record | None = None
-        """The evaluation of its default; None when it is given or stands as it is written."""
-        self.compared: dict[str, None] = {}
-        """As `Binding.compared`, from before its declaration."""
-        self.declarations: list[Binding] = []
-        """All of them, those without effect too."""
-
-    def declared_by(self, binding: Binding) -> None:
-        """Note a declaration; the first one takes over what was noted so far."""
-        if binding not in self.declarations:
-            self.declarations.append(binding)
-            binding.holders.append(self)
-        if self.binding is None:
-            binding.compared.update(self.compared)
-            self.binding = binding
-
-
 class Texts:
     """Evaluates texts for one run. `at` is the element being worked on, for places of faults."""
 
@@ -133,7 +111,7 @@ class Texts:
         self.at: SourceElement | None = None
         self.symbols = make_symbols(self)
         self.helpers = helpers_of(budget.steps)
-        self.replay: Replay | None = None
+        self.replay: NameReplay | None = None
         self.evaluations = 0
         """How many have ended; numbers the records."""
         self.asked_at: dict[str, float] = {}
@@ -234,10 +212,10 @@ class Texts:
 
     def note(self, one: Input) -> None:
         """A value of a YAML file was read by the text under way."""
-        self._now.reads.append(cast("YamlScalar", one))
+        self._now.reads.append(cast("YamlValue", one))
 
     @contextmanager
-    def replayed(self, replay: Replay) -> Generator[None]:
+    def replayed(self, replay: NameReplay) -> Generator[None]:
         """Evaluate texts once more, each behind `replay_from`."""
         before = self._now, self.files, self.at
         self.at, self.replay = None, replay
@@ -330,6 +308,10 @@ class Texts:
         if os.path.isabs(path):  # noqa: PTH117 - texts, as xacro joins them
             return path
         return os.path.join(os.path.dirname(self.files[-1]), path)  # noqa: PTH118, PTH120
+
+    def dotify(self, items: dict[Any, Any]) -> Any:  # noqa: ANN401
+        """A mapping whose keys are read with dots, too."""
+        return YamlMapping(items, None, ())
 
     def load_yaml(self, path: str) -> Any:  # noqa: ANN401
         """The values of a YAML file, every read of them noted."""

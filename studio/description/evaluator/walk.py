@@ -11,22 +11,21 @@ import re
 from abc import ABC, abstractmethod
 from typing import TYPE_CHECKING, Any, Final, cast
 
-from studio.description.evaluator.graph import Role
+from studio.description.evaluator.graph import Argument, Binding, Role
 from studio.description.evaluator.output_tree import OutputElement, macro_calls
-from studio.description.evaluator.run_record import Binding
-from studio.description.evaluator.scopes import literal_value
-from studio.description.evaluator.texts import Argument, Texts
+from studio.description.evaluator.texts import Texts
 from studio.description.expressions.bounds import Budget, Limits
 from studio.description.expressions.guards import text_of
 from studio.description.faults import Fault, shorten
 from studio.description.syntax.source_tree import SourceComment, SourceElement, SourceText
+from studio.description.syntax.templates import literal_value
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from studio.description.evaluator.graph import Cell, Scope
     from studio.description.evaluator.macros import MacroTable
     from studio.description.evaluator.output_tree import CallFrame, ChildNode, Node
-    from studio.description.evaluator.scopes import Cell, Scope
     from studio.description.evaluator.source_store import SourceStore
     from studio.description.values import ReadPolicy, SiteKind
     from studio.problems import Place

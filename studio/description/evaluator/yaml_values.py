@@ -6,13 +6,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, SupportsIndex, cast
 
-from studio.description.evaluator.run_record import YamlReads, YamlScalar
+from studio.description.evaluator.graph import YamlReads, YamlValue
 from studio.description.expressions.guards import METHODS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
 
-    from studio.description.evaluator.run_record import Input
+    from studio.description.evaluator.graph import Input
     from studio.description.syntax.yaml_spans import KeyPath
 
 
@@ -28,7 +28,7 @@ class Reader:
         """The value at a path was read."""
         value = self.reads.values.get(path)
         if value is None:
-            value = self.reads.values[path] = YamlScalar(self.reads.path, path)
+            value = self.reads.values[path] = YamlValue(self.reads.path, path)
         self._note(value)
 
     def touch_all(self, path: KeyPath) -> None:

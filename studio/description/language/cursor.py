@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from studio.description.editing.editor_text import EditorText
-    from studio.description.evaluator.scopes import Scope
+    from studio.description.evaluator.graph import Scope
     from studio.description.language.questions import SubjectKind, TextPlace
     from studio.description.language.reading import Reading
     from studio.description.language.token_at import Segment, Tag, Token

@@ -6,7 +6,7 @@ import re
 from functools import cached_property
 from typing import TYPE_CHECKING, Final
 
-from studio.description.language.questions import Parameter, TextPlace
+from studio.description.language.questions import Parameter
 from studio.description.language.subject import printed
 from studio.description.syntax.attribute_spans import attribute_spans, character_offsets
 from studio.description.syntax.params import name_in_params, read_parameters
@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from studio.description.evaluator.output_tree import OutputElement
-    from studio.description.language.reading import Reading
     from studio.description.language.watched_run import Included, Trace
     from studio.description.syntax.params import Default
     from studio.description.syntax.source_tree import SourceElement
@@ -138,24 +137,6 @@ def _parameter(name: str, defaults: Mapping[str, Default]) -> Parameter:
     forwards = default.forward if default else False
     kind = ("value", "block", "blocks")[min(stars, 2)]
     return Parameter(name.lstrip("*"), kind, text, forwards)
-
-
-def place_of(reading: Reading, element: SourceElement, attribute: str = "name") -> TextPlace:
-    """Where the text of an attribute stands; without one, where its element begins."""
-    tree = element.tree
-    try:
-        span = attribute_spans(tree.data, element.offset).get(attribute)
-    except EditError:
-        span = None
-    if span is None:
-        return reading.place(tree.path, element.offset)
-    return reading.place(tree.path, span.start, span.end)
-
-
-def parameter_place(reading: Reading, macro: SourceElement, name: str) -> TextPlace:
-    """Where a macro names its parameter."""
-    named = parameter_bytes(macro, name)
-    return reading.place(macro.tree.path, *named) if named else place_of(reading, macro)
 
 
 def parameter_bytes(macro: SourceElement, name: str) -> tuple[int, int] | None:

@@ -9,9 +9,7 @@ from typing import TYPE_CHECKING, Final
 from studio.description.language.definitions import (
     documentation_of,
     parameter_documentation,
-    parameter_place,
     parameters_of,
-    place_of,
 )
 from studio.description.language.named_files import existing, is_text, package_folder
 from studio.description.language.questions import Meaning, TextPlace
@@ -122,8 +120,8 @@ def places_of(subject: Subject, reading: Reading) -> tuple[TextPlace, ...]:
 
 def _place(element: SourceElement, subject: Subject, reading: Reading) -> TextPlace:
     if element.tag == "xacro:macro" and subject.kind in _OF_MACROS:
-        return parameter_place(reading, element, subject.name)
-    return place_of(reading, element, "ns" if subject.kind is Kind.NAMESPACE else "name")
+        return reading.parameter_place(element, subject.name)
+    return reading.element_place(element, "ns" if subject.kind is Kind.NAMESPACE else "name")
 
 
 def _yaml_scalars(subject: Subject, reading: Reading) -> list[YamlScalar]:

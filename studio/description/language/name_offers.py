@@ -5,8 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any, Final
 
-from studio.description.evaluator.scopes import Namespace
-from studio.description.evaluator.symbols import PURE_SYMBOLS, SAFE_BUILTINS
+from studio.description.expressions.symbols import PURE_SYMBOLS, SAFE_BUILTINS, Namespace
 from studio.description.language.offers import Offer, Snippet, plain, written
 from studio.description.language.questions import SubjectKind as Kind
 from studio.description.language.subject import MISSING, found_in, found_of, keys_below, printed
@@ -16,7 +15,7 @@ from studio.description.syntax.params import read_parameters
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from studio.description.evaluator.scopes import Scope
+    from studio.description.evaluator.graph import Scope
     from studio.description.language.cursor import Cursor
     from studio.description.language.token_at import Segment
     from studio.description.language.uses import Chain

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
-from studio.description.language.definitions import documentation_of, parameters_of, place_of
+from studio.description.language.definitions import documentation_of, parameters_of
 from studio.description.language.questions import (
     Outline,
     OutlineFile,
@@ -76,7 +76,7 @@ def _macro(name: str, element: SourceElement, reading: Reading) -> OutlineMacro:
     return OutlineMacro(
         name=name,
         parameters=parameters_of(element.attributes.get("params", "")),
-        place=place_of(reading, element),
+        place=reading.element_place(element),
         doc=documentation_of(element),
         calls=seen.call_counts.get(element, 0) if seen else 0,
         called_at=tuple(_start(one, reading) for one in list(callers)[:_CALLS_SHOWN]),
@@ -98,7 +98,7 @@ def _value(element: SourceElement, reading: Reading) -> OutlineValue:
     return OutlineValue(
         kind=SubjectKind.ARG if is_arg else SubjectKind.PROPERTY,
         name=name,
-        place=place_of(reading, element),
+        place=reading.element_place(element),
         text=element.attributes.get(which, ""),
         values=tuple(map(printed, binding.values)) if binding else (),
         doc=site.widget.help if site else documentation_of(element),

@@ -11,15 +11,16 @@ from typing import TYPE_CHECKING, Final
 
 from studio.description.evaluator.source_store import SourceStore
 from studio.description.faults import Fault
-from studio.description.language.definitions import Definitions
+from studio.description.language.definitions import Definitions, parameter_bytes
 from studio.description.language.questions import TextPlace
 from studio.description.language.watched_run import Trace, WatchedRun
-from studio.description.syntax.attribute_spans import text_encoding
+from studio.description.syntax.attribute_spans import attribute_spans, text_encoding
+from studio.errors import EditError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from studio.description.origins.good_run import GoodRun
+    from studio.description.evaluator.runs import GoodRun
     from studio.description.syntax.source_tree import SourceElement, SourceTree
     from studio.description.values import ReadPolicy, Site
 
@@ -303,6 +304,22 @@ class Reading:
         drift = self._drift(file, old)
         moved = drift.to_new(start)
         return self.places(file).place(moved, None if end is None else moved + end - start)
+
+    def element_place(self, element: SourceElement, attribute: str = "name") -> TextPlace:
+        """Where the text of an attribute stands; without one, where its element begins."""
+        tree = element.tree
+        try:
+            span = attribute_spans(tree.data, element.offset).get(attribute)
+        except EditError:
+            span = None
+        if span is None:
+            return self.place(tree.path, element.offset)
+        return self.place(tree.path, span.start, span.end)
+
+    def parameter_place(self, macro: SourceElement, name: str) -> TextPlace:
+        """Where a macro names its parameter."""
+        named = parameter_bytes(macro, name)
+        return self.place(macro.tree.path, *named) if named else self.element_place(macro)
 
     def places(self, file: str) -> TextPlaces:
         """Places in the text of now."""

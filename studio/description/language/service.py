@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 
 from studio.description.editing.editor_text import EditorText
-from studio.description.faults import Fault
 from studio.description.language.completion import completions_at
 from studio.description.language.cursor import Cursor
 from studio.description.language.meaning import meaning_of, subject_at, yaml_subject_at
@@ -22,15 +21,13 @@ from studio.description.language.questions import (
 from studio.description.language.reading import Reading
 from studio.description.language.references import UsesBook, references_to
 from studio.description.language.renaming import renaming_of
-from studio.description.values import NoReply
-from studio.errors import EditError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from studio.description.evaluator.runs import GoodRun
     from studio.description.evaluator.source_store import SourceStore
     from studio.description.language.questions import LanguageQuery, LanguageReply
-    from studio.description.origins.good_run import GoodRun
     from studio.description.values import ReadPolicy, Site
 
 
@@ -51,23 +48,20 @@ class LanguageService:
         arguments: Mapping[str, str],
         good: GoodRun | None,
         sites: Mapping[str, Site],
-    ) -> LanguageReply | NoReply:
-        """Answer a question, from the last run that worked and the text as it is now."""
-        reading = self._reading
-        try:
-            texts = {} if isinstance(query, OutlineQuery) else {query.file: query.text}
-            reading.begin(texts, arguments, sites)
-            if isinstance(query, CompletionQuery):
-                reading.follow(good)
-            else:
-                reading.watch(good)
-            return self._reply(query)
-        except EditError as error:
-            return NoReply(str(error))
-        except Fault as fault:
-            return NoReply(fault.sentence)
-        except Exception as error:  # noqa: BLE001 - a question may not cost the process its robot
-            return NoReply(f"The question could not be answered: {type(error).__name__}: {error}")
+    ) -> LanguageReply:
+        """Answer a question, from the last run that worked and the text as it is now.
+
+        Raises:
+            EditError: The question's place is not in the text, or its renaming is refused.
+            Fault: A text that it needs cannot be read.
+        """
+        texts = {} if isinstance(query, OutlineQuery) else {query.file: query.text}
+        self._reading.begin(texts, arguments, sites)
+        if isinstance(query, CompletionQuery):
+            self._reading.follow(good)
+        else:
+            self._reading.watch(good)
+        return self._reply(query)
 
     def _reply(self, query: LanguageQuery) -> LanguageReply:
         if isinstance(query, OutlineQuery):

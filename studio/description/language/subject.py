@@ -5,18 +5,18 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Final, cast
 
-from studio.description.evaluator.scopes import Namespace, ScopeView
+from studio.description.evaluator.graph import ScopeView
 from studio.description.evaluator.yaml_values import origin_of
 from studio.description.expressions.guards import text_of
+from studio.description.expressions.symbols import Namespace
 from studio.description.faults import Fault, shorten
 from studio.description.language.questions import SubjectKind, TextPlace
-from studio.description.language.watched_run import WatchedTexts
 from studio.description.values import SiteKind
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from studio.description.evaluator.scopes import Cell, Scope
+    from studio.description.evaluator.graph import Cell, Scope
     from studio.description.language.uses import Chain, Key
     from studio.description.syntax.source_tree import SourceElement
     from studio.description.syntax.yaml_spans import KeyPath
@@ -108,8 +108,7 @@ def found_of(name: str, cell: Cell) -> Found:
 
 def _bringing(view: ScopeView) -> tuple[SourceElement, ...]:
     """The include that a namespace comes from."""
-    run = view.scope.run
-    element = run.brought_by.get(view.scope) if isinstance(run, WatchedTexts) else None
+    element = view.scope.included_by
     return (element,) if element is not None else ()
 
 

@@ -17,12 +17,10 @@ from studio.description.syntax.templates import Cut
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from studio.description.evaluator.graph import Argument, Binding, Scope, YamlReads
     from studio.description.evaluator.macros import MacroTable
     from studio.description.evaluator.output_tree import Node, OutputElement
-    from studio.description.evaluator.run_record import Binding, YamlReads
-    from studio.description.evaluator.scopes import Scope
     from studio.description.evaluator.source_store import SourceStore
-    from studio.description.evaluator.texts import Argument
     from studio.description.expressions.bounds import Budget
     from studio.description.syntax.source_tree import SourceTree
     from studio.description.values import ReadPolicy
@@ -96,8 +94,6 @@ class WatchedTexts(Texts):
     def __init__(self, store: SourceStore, policy: ReadPolicy, budget: Budget, seen: Seen) -> None:
         super().__init__(store, policy, budget)
         self._seen = seen.evaluated
-        self.brought_by: dict[Scope, SourceElement] = {}
-        """The includes that made the scopes of namespaces."""
 
     def _segment(self, cut: Cut, text: str, scope: Scope) -> Any:  # noqa: ANN401
         value = super()._segment(cut, text, scope)
@@ -181,8 +177,6 @@ class WatchedRun(Evaluation):
     def _note_include(self, root: SourceElement, scope: Scope) -> None:
         # One element may bring several files, one after the other.
         del self._include_numbers[len(self._around) :]
-        if scope.is_namespace:
-            self._watched.brought_by.setdefault(scope, self._around[-1])
         includes = self._seen.includes
         if len(includes) < INCLUDES_KEPT:
             includes.append(

@@ -15,14 +15,12 @@ from studio.description.origins.tracing import (
     written_at,
 )
 from studio.description.syntax.source_tree import SourceText
-from studio.description.values import NoReply
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
+    from studio.description.evaluator.graph import Input
     from studio.description.evaluator.output_tree import OutputElement
-    from studio.description.evaluator.run_record import Input
-    from studio.description.origins.good_run import GoodRun
     from studio.description.origins.tracing import Inputs, Trace
     from studio.description.syntax.source_tree import SourceElement
 
@@ -64,19 +62,6 @@ class _Shaped(NamedTuple):
 
     effect: Effect
     text: _Text
-
-
-def site_effects(run: GoodRun, site: str) -> SiteEffects | NoReply:
-    """What a text shapes, by its site id.
-
-    Raises:
-        Fault: The run cannot be repeated.
-    """
-    if run.evaluator != "studio":
-        return NoReply("xacro itself expanded this robot: it does not tell what a text shapes.")
-    if site not in run.sites:
-        return NoReply("That text is no longer there: choose it again.")
-    return run.readers.effects_of(site)
 
 
 class Readers:

@@ -6,8 +6,7 @@ import re
 from itertools import islice
 from typing import TYPE_CHECKING, Final
 
-from studio.description.evaluator.output_tree import part_keys
-from studio.description.evaluator.run_record import Input, YamlScalar
+from studio.description.evaluator.graph import Input, YamlValue
 from studio.description.origins.origin_values import (
     InputKind,
     OriginAttribute,
@@ -29,15 +28,15 @@ from studio.description.sites.quantities import quantity_of_attribute
 from studio.description.syntax.attribute_spans import attribute_spans
 from studio.description.syntax.params import param_defaults
 from studio.description.syntax.source_tree import SourceText
-from studio.description.values import NoReply, SiteKind
+from studio.description.values import SiteKind
 from studio.errors import EditError
 from studio.problems import Place
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable, Iterator, Set
 
     from studio.description.evaluator.output_tree import CallFrame, OutputElement
-    from studio.description.origins.good_run import GoodRun
+    from studio.description.origins.tracing import Trace
     from studio.description.syntax.source_tree import SourceElement
 
 
@@ -111,26 +110,24 @@ _KINDS: Final = {
 _GOVERNING_ATTRIBUTES: Final = ("value", "filename", "macro", "xacro:name", "name")
 
 
-def part_origin(run: GoodRun, part: str) -> PartOrigin | NoReply:
-    """Where a part comes from, by its key.
+def part_origin(part: str, element: OutputElement, trace: Trace, sites: Set[str]) -> PartOrigin:
+    """Where a part of a traced run comes from.
 
-    Raises:
-        Fault: The run cannot be repeated.
+    Args:
+        part: Its key.
+        element: It, as it came out.
+        trace: The run.
+        sites: Ids of the texts that can be edited.
     """
-    if run.evaluator != "studio":
-        return NoReply("xacro itself expanded this robot: it does not tell where parts come from.")
-    element = dict(part_keys(run.trace.root)).get(part)
-    if element is None:
-        return NoReply(f'The robot has no part "{part}": it may be gone since.')
-    return _Origins(run).of_part(part, element)
+    return _Collector(trace, sites).of_part(part, element)
 
 
-class _Origins:
+class _Collector:
     """Collects what is behind one part; each input once."""
 
-    def __init__(self, run: GoodRun) -> None:
-        self._run, self._trace = run, run.trace
-        self._yaml = YamlSites(run.trace.yaml)
+    def __init__(self, trace: Trace, sites: Set[str]) -> None:
+        self._trace, self._sites = trace, sites
+        self._yaml = YamlSites(trace.yaml)
         self._numbers: dict[Input, int] = {}
         self._is_cut = False
 
@@ -224,9 +221,9 @@ class _Origins:
     def _number(self, one: Input) -> int | None:
         if one in self._numbers:
             return self._numbers[one]
-        if isinstance(one, YamlScalar) and self._yaml.draft_of(one) is None:
+        if isinstance(one, YamlValue) and self._yaml.draft_of(one) is None:
             return None
-        if not isinstance(one, TracedBinding | Given | YamlScalar):
+        if not isinstance(one, TracedBinding | Given | YamlValue):
             return None
         if len(self._numbers) >= INPUTS_KEPT:
             self._is_cut = True
@@ -245,7 +242,7 @@ class _Origins:
         match one:
             case TracedBinding():
                 return self._binding(one)
-            case YamlScalar():
+            case YamlValue():
                 return self._scalar(one)
             case Given():
                 value = _cut(one.value)
@@ -268,7 +265,7 @@ class _Origins:
             inputs=self._all(one.inputs),
         )
 
-    def _scalar(self, one: YamlScalar) -> OriginInput:
+    def _scalar(self, one: YamlValue) -> OriginInput:
         draft = self._yaml.draft_of(one)
         assert draft is not None
         text = _cut(draft.text)
@@ -284,7 +281,7 @@ class _Origins:
         )
 
     def _known(self, site: str) -> str:
-        return site if site in self._run.sites else ""
+        return site if site in self._sites else ""
 
 
 def _frames(frame: CallFrame | None) -> list[CallFrame]:

@@ -14,10 +14,9 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeAlias
 
 from studio.description.evaluator.evaluation import Evaluation
+from studio.description.evaluator.graph import Argument, Binding, Cell, Input, YamlValue
 from studio.description.evaluator.output_tree import OutputElement
-from studio.description.evaluator.run_record import Binding, Input, YamlScalar
-from studio.description.evaluator.scopes import Cell
-from studio.description.evaluator.texts import Argument, Texts
+from studio.description.evaluator.texts import Texts
 from studio.description.evaluator.yaml_values import Reader, wrap
 from studio.description.expressions.bounds import Limits
 from studio.description.sites.editable_texts import draft_yaml
@@ -28,11 +27,9 @@ from studio.description.values import SiteKind
 if TYPE_CHECKING:
     from collections.abc import Generator, Iterator, Mapping
 
-    from studio.description.evaluator.graph import Record
+    from studio.description.evaluator.graph import Record, Scope, YamlReads
     from studio.description.evaluator.macros import MacroTable
     from studio.description.evaluator.output_tree import CallFrame, Node
-    from studio.description.evaluator.run_record import YamlReads
-    from studio.description.evaluator.scopes import Scope
     from studio.description.evaluator.source_store import SourceStore
     from studio.description.expressions.bounds import Budget
     from studio.description.sites.editable_texts import Draft
@@ -155,7 +152,7 @@ class _TracedTexts(Texts):
     def _inputs(self, record: Record) -> Iterator[Input]:
         """What a text read, as inputs; a file that it opened is none."""
         for one in record.reads:
-            if isinstance(one, YamlScalar):
+            if isinstance(one, YamlValue):
                 yield one
             elif isinstance(one, Argument) and one.binding is None:
                 yield self.given.setdefault(one, Given(one.name, one.value))
@@ -366,7 +363,7 @@ class YamlSites:
         self._yaml = yaml
         self._files: dict[str, _YamlFile] = {}
 
-    def draft_of(self, scalar: YamlScalar) -> Draft | None:
+    def draft_of(self, scalar: YamlValue) -> Draft | None:
         """Where a value that was read is written; None for a mapping or a list."""
         file = self._file(scalar.document)
         return file.drafts.get(path_as_written(scalar.path, file.written, file.aliases))

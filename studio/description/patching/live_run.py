@@ -10,9 +10,8 @@ import logging
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
-from studio.description.evaluator.run_record import YamlScalar
-from studio.description.evaluator.scopes import Cell, literal_value
-from studio.description.evaluator.texts import Argument, pure_value
+from studio.description.evaluator.graph import Argument, Cell, YamlValue
+from studio.description.evaluator.texts import pure_value
 from studio.description.evaluator.yaml_values import replace_item, rewrite
 from studio.description.faults import Fault
 from studio.description.patching.propagation import (
@@ -23,6 +22,7 @@ from studio.description.patching.propagation import (
     is_same,
 )
 from studio.description.patching.text_edits import TextEdits
+from studio.description.syntax.templates import literal_value
 from studio.description.syntax.yaml_reading import scalar_of
 from studio.description.values import SiteKind
 
@@ -30,8 +30,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
     from studio.description.evaluator.evaluation import Evaluation
+    from studio.description.evaluator.graph import Binding
     from studio.description.evaluator.output_tree import OutputElement, OutputIndex
-    from studio.description.evaluator.run_record import Binding, RunRecord
+    from studio.description.evaluator.runs import RunRecord
     from studio.description.sites.editable_texts import Draft, FileDrafts
     from studio.description.sites.sites import RunReads
     from studio.description.values import Edit
@@ -174,7 +175,7 @@ class _Work:
         for holder in self._propagation.changed:
             self._touch_bindings(holder)
         for read in self._detaching.unlinked:
-            if isinstance(read, YamlScalar):
+            if isinstance(read, YamlValue):
                 self._run.reads.readers_changed(read)
                 self._touch_site(read)
             elif isinstance(read, Cell | Argument):
@@ -191,7 +192,7 @@ class _Work:
             if binding is not None and binding.kind is not None:
                 self._touch_site(binding)
 
-    def _touch_site(self, one: Binding | YamlScalar) -> None:
+    def _touch_site(self, one: Binding | YamlValue) -> None:
         path, site = self._run.reads.site_of(one, self._run.files)
         if site is not None:
             self.sites[site] = path

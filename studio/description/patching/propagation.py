@@ -17,21 +17,20 @@ import math
 import re
 from typing import TYPE_CHECKING, Any, Final, cast
 
-from studio.description.evaluator.graph import Record, Role, behind
-from studio.description.evaluator.run_record import YamlReads
-from studio.description.evaluator.scopes import Cell, Scope, literal_value, truth_of
+from studio.description.evaluator.graph import Cell, Record, Role, Scope, YamlReads, behind
 from studio.description.expressions.bounds import is_lasting
 from studio.description.expressions.guards import text_of
 from studio.description.faults import Fault, Refusal
 from studio.description.syntax.source_tree import SourceText
+from studio.description.syntax.templates import literal_value, truth_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from contextlib import AbstractContextManager
 
-    from studio.description.evaluator.graph import Readable
+    from studio.description.evaluator.graph import Argument, MadeElement, Readable
     from studio.description.evaluator.output_tree import OutputElement, OutputIndex
-    from studio.description.evaluator.texts import Argument, Texts
+    from studio.description.evaluator.texts import Texts
 
 
 _SIMPLE: Final = frozenset({int, str, bool, type(None)})
@@ -195,7 +194,7 @@ class Propagation:
                 record.value = value
                 self.put(argument, text_of(value))
 
-    def _write(self, record: Record, elements: list[OutputElement], text: str) -> None:
+    def _write(self, record: Record, elements: list[MadeElement], text: str) -> None:
         if text == record.value:
             return
         if "$" in text or "$" in record.value or record.consumer is None:
@@ -206,7 +205,7 @@ class Propagation:
             if element.makers.get(name) is record:
                 self.write(element, name, text)
 
-    def write(self, element: OutputElement, name: str, text: str) -> None:
+    def write(self, element: MadeElement, name: str, text: str) -> None:
         """Give an attribute that came out another text.
 
         Raises:
@@ -215,7 +214,7 @@ class Propagation:
         if name.startswith("xmlns") or (name == "name" and element in self._index.keys):
             raise PatchRefused(f"{name} is more than a value")
         element.attributes = {**element.attributes, name: text}
-        part = self._index.part_of.get(element)
+        part = self._index.part_of.get(cast("OutputElement", element))
         if part is not None:
             self.parts[part] = None
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Final, NamedTuple, Protocol, TypeAlias
 
-from studio.description.evaluator.run_record import YamlScalar
+from studio.description.evaluator.graph import YamlValue
 from studio.description.sites.editable_texts import Draft, FileDrafts, draft_xml, draft_yaml
 from studio.description.sites.quantities import parse_number
 from studio.description.sites.widgets import infer_widget, keep_range
@@ -18,8 +18,8 @@ from studio.description.values import Site, SiteKind
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
-    from studio.description.evaluator.graph import Consumer
-    from studio.description.evaluator.run_record import Binding, Input, RunRecord, YamlReads
+    from studio.description.evaluator.graph import Binding, Consumer, Input, YamlReads
+    from studio.description.evaluator.runs import RunRecord
     from studio.description.syntax.yaml_spans import KeyPath
     from studio.description.values import Widget
 
@@ -141,10 +141,10 @@ class RunReads:
         return self._bindings.get((path, draft.ordinal, draft.attribute, name), [])
 
     def site_of(
-        self, one: Binding | YamlScalar, files: Mapping[str, FileDrafts]
+        self, one: Binding | YamlValue, files: Mapping[str, FileDrafts]
     ) -> tuple[str, str | None]:
         """The file and site id of what was read; None when it is no site."""
-        if isinstance(one, YamlScalar):
+        if isinstance(one, YamlValue):
             path = one.document
             return path, self._inputs_of(path, files[path]).site_of(one.path)
         path, ordinal, attribute, name = _key(one)

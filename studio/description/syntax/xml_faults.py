@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, Protocol
 from xml.parsers.expat import ErrorString, errors
 
 from studio.problems import Place
@@ -13,7 +13,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from xml.parsers.expat import ExpatError
 
-    from studio.description.syntax.source_tree import SourceElement
     from studio.problems import Fix
 
 
@@ -42,9 +41,14 @@ _IN_COMMENT: Final = re.compile(rb"<!--(?!.*-->)", re.DOTALL)
 _IN_TAG: Final = re.compile(rb"<([\w:.-]+)([^<]*)$")
 
 
-def sentence_of(
-    error: ExpatError, data: bytes, byte: int, still_open: Sequence[SourceElement]
-) -> str:
+class Element(Protocol):
+    """An element as it was begun."""
+
+    tag: str
+    line: int
+
+
+def sentence_of(error: ExpatError, data: bytes, byte: int, still_open: Sequence[Element]) -> str:
     """One sentence on what is wrong and what to do.
 
     Args:
@@ -79,7 +83,7 @@ def cause_of(error: ExpatError, data: bytes, byte: int) -> int:
     return byte - tag.length
 
 
-def _mismatch(data: bytes, byte: int, innermost: SourceElement) -> str:
+def _mismatch(data: bytes, byte: int, innermost: Element) -> str:
     closing = re.match(rb"(?:</)?([^\s>]{1,80})", data[byte : byte + 82])
     name = closing[1].decode("utf-8", "replace") if closing else "…"
     return (
@@ -87,7 +91,7 @@ def _mismatch(data: bytes, byte: int, innermost: SourceElement) -> str:
     )
 
 
-def _unfinished(still_open: Sequence[SourceElement]) -> str:
+def _unfinished(still_open: Sequence[Element]) -> str:
     if not still_open:
         return "The file ends before its root element does: close every tag."
     innermost = still_open[-1]

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from studio.description.evaluator.graph import Role, behind
-from studio.description.evaluator.run_record import YamlScalar
-from studio.description.evaluator.scopes import Cell
-from studio.description.evaluator.texts import Argument
+from studio.description.evaluator.graph import Argument, Cell, Role, YamlValue, behind
 from tests.support.descriptions import evaluation_of, policy_for, robot, write
 
 if TYPE_CHECKING:
@@ -44,7 +41,7 @@ def names(found: list[Readable]) -> set[str]:
         match one:
             case Cell() | Argument():
                 said.add(one.name)
-            case YamlScalar():
+            case YamlValue():
                 said.add(".".join(map(str, one.path)))
             case _:
                 pass

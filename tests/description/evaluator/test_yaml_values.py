@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from studio.description.evaluator.run_record import YamlReads
+from studio.description.evaluator.graph import YamlReads
 from studio.description.evaluator.yaml_values import Reader, wrap
 from studio.description.expressions.expressions import HELPERS, compile_expression
 from studio.description.syntax.yaml_reading import read_yaml
 
 if TYPE_CHECKING:
-    from studio.description.evaluator.run_record import Input
+    from studio.description.evaluator.graph import Input
     from studio.description.syntax.yaml_spans import KeyPath
 
 TEXT = b"arm:\n  links: [{length: 0.5}, {length: 0.7}]\n  name: left\nmass: 3\n"

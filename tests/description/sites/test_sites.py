@@ -24,7 +24,7 @@ from studio.description.values import (
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from studio.description.evaluator.run_record import RunRecord
+    from studio.description.evaluator.runs import RunRecord
 
 ROVER = """\
 <robot name="rover" xmlns:xacro="http://www.ros.org/wiki/xacro">

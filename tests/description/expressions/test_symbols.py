@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from studio.description.expressions.bounds import Budget, Limits
-from studio.description.expressions.guarded_functions import (
+from studio.description.expressions.symbols import (
     MATH,
     bounded_range,
     bounded_round,

@@ -1,56 +1,68 @@
-"""A run of texts that are broken, as far as they can be read: for checks, and for a first look."""
+"""What runs leave behind: of a good run its record and its texts, of broken texts what can be read.
+
+`sites` builds sites from a record, `origins` and `language` answer questions from a good run.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from studio.description.evaluator.evaluation import Evaluation
-from studio.description.evaluator.source_store import SourceStore
+from studio.description.evaluator.source_store import RecoveringStore, SourceStore
 from studio.description.faults import Fault, Unsupported, shorten
-from studio.description.syntax.recovery import RECOVERABLE, recover
+from studio.description.syntax.recovery import recover
 from studio.description.syntax.source_tree import SourceError
 from studio.problems import Problem, Severity
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Set
 
+    from studio.description.evaluator.graph import Binding, YamlReads
     from studio.description.evaluator.output_tree import OutputElement
-    from studio.description.syntax.source_tree import SourceTree
+    from studio.description.syntax.source_tree import SourceElement, SourceTree
     from studio.description.syntax.xml_faults import XmlFault
     from studio.description.values import ReadPolicy
     from studio.problems import Place
 
-_SENTENCE_LIMIT = 480
+_SENTENCE_LIMIT: Final = 480
 
 
-class RecoveringStore(SourceStore):
-    """The texts of another store, of which it reads the broken ones, too."""
+@dataclass(slots=True)
+class RunRecord:
+    """One finished run. `trees` and `yaml` are keyed by absolute path, symlinks resolved."""
 
-    def __init__(self, store: SourceStore) -> None:
-        super().__init__(store._roots, {})
-        self._data, self._trees = dict(store._data), dict(store._trees)
-        self.faults: dict[str, tuple[XmlFault, ...]] = {}
-        """What is wrong, by file."""
+    entry: str
+    trees: Mapping[str, SourceTree]
+    files: tuple[str, ...]
+    """Every file read, in order, the entry first, YAML included."""
+    includes: tuple[tuple[str, str], ...]
+    """(includer, included) pairs, in order, once each."""
+    bindings: tuple[Binding, ...]
+    """In the order in which the run met them."""
+    yaml: Mapping[str, YamlReads]
+    part_keys: Mapping[SourceElement, tuple[str, ...]]
+    """Which parts each source element came out in; an element that is in no part is missing."""
+    arguments: Mapping[str, str]
+    """Values of all args as strings: given ones and defaults."""
+    warnings: tuple[Problem, ...]
 
-    def tree(self, path: str) -> SourceTree:
-        """As `SourceStore.tree`, and never a fault because the XML is broken."""
-        try:
-            return super().tree(path)
-        except Fault as fault:
-            if fault.code not in RECOVERABLE:
-                raise
-            return self._recovered(path, fault)
 
-    def _recovered(self, path: str, fault: Fault) -> SourceTree:
-        real, data = self.read(path)
-        try:
-            recovered = recover(real, data)
-        except SourceError:
-            raise fault from None
-        self.faults[real] = recovered.faults
-        self._trees[real] = recovered.tree
-        return recovered.tree
+@dataclass(frozen=True, slots=True)
+class GoodRun:
+    """What a run read and what came out of it; the session's texts may have changed since."""
+
+    root: OutputElement
+    record: RunRecord
+    evaluator: str
+    """As in `Expansion`."""
+    entry: str
+    arguments: Mapping[str, str]
+    policy: ReadPolicy
+    store: SourceStore
+    """The texts as they were, for another run of them."""
+    sites: Set[str]
+    """Ids of the texts that can be edited."""
 
 
 @dataclass(frozen=True, slots=True)
