@@ -16,9 +16,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Generator
 
     from studio.ros.graph.graph import Graph
-    from studio.ros.node.executor import Executor
-    from studio.ros.node.future import Future
+    from studio.ros.node.executors import Executor
     from studio.ros.node.node import Node
+    from studio.ros.node.task import Future
     from studio.ros.types.library import TypeLibrary
 
 
@@ -69,7 +69,7 @@ def acting(
         NoRouterError: None answers, and none may be started.
     """
     from studio.ros.node.context import Context
-    from studio.ros.node.executor import SingleThreadedExecutor
+    from studio.ros.node.executors import SingleThreadedExecutor
     from studio.ros.node.node import Node
 
     with opened_wire(options) as wire:

@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 
     from studio.cli.acting import Actor
     from studio.cli.verbs import Verbs
-    from studio.ros.action.client_goal import ClientGoalHandle
-    from studio.ros.node.future import Future
+    from studio.ros.action.client import ClientGoalHandle
+    from studio.ros.node.task import Future
     from studio.ros.types.classes import MessageValue
 
 _CANCEL_TIMEOUT_S = 5.0
@@ -51,7 +51,7 @@ def add_send_goal(verbs: Verbs) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     from studio.ros.action.client import ActionClient
-    from studio.ros.remote.known_types import known_action
+    from studio.ros.type_lookup import known_action
     from studio.ros.types.convert import from_yaml
 
     name = full_name(options.action_name)
@@ -85,7 +85,7 @@ def _follow(
     interrupt: _Interrupt,
     log: _ServerLog,
 ) -> int:
-    from studio.ros.action.states import GoalStatus
+    from studio.ros.action.protocol import GoalStatus
 
     if not goal.accepted:
         print("Goal was rejected.")
@@ -183,7 +183,7 @@ class _ServerLog:
 
     def __init__(self, actor: Actor, action: str) -> None:
         from studio.ros.names import logger_name
-        from studio.ros.node.rosout import ROSOUT
+        from studio.ros.node.logger import ROSOUT
 
         self._actor, self._since_ns = actor, time.time_ns()
         self._servers = [one.path for one in actor.graph.action_servers(action)]

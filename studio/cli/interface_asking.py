@@ -36,7 +36,7 @@ def _asked(options: argparse.Namespace, name: str) -> TypeLibrary | None:
     """Ask the nodes that use a type; None when there are none, or none says what it is."""
     from studio.cli.acting import acting
     from studio.cli.learning import learn_type
-    from studio.ros.remote.known_types import users_of
+    from studio.ros.type_lookup import users_of
 
     if any(is_pasted(path) for path in options.interfaces):
         return None  # what was pasted is read, and cannot be again

@@ -17,7 +17,7 @@ def learn_type(actor: Actor, endpoints: Iterable[GraphEndpoint]) -> None:
 
     Why one did not is said on stderr; whether the type is known is seen by who needs it.
     """
-    from studio.ros.remote.known_types import learn_from_any
+    from studio.ros.type_lookup import learn_from_any
 
     learn_from_any(actor.node, endpoints, say_aside)
 

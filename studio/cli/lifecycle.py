@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     import argparse
 
     from studio.cli.acting import Actor
-    from studio.ros.remote.lifecycle import LifecycleClient
+    from studio.ros.lifecycle.client import LifecycleClient
 
 _TYPES = "lifecycle_msgs/srv"
 
@@ -53,7 +53,7 @@ def _nodes(options: argparse.Namespace) -> None:
 
 
 def _state(actor: Actor, node: str) -> str:
-    from studio.ros.remote.lifecycle import LifecycleClient
+    from studio.ros.lifecycle.client import LifecycleClient
 
     with LifecycleClient(actor.node, node) as remote:
         state = remote.state()
@@ -77,7 +77,7 @@ def _get(options: argparse.Namespace) -> int:
 
 
 def _list(options: argparse.Namespace) -> int:
-    from studio.ros.remote.lifecycle import LifecycleClient
+    from studio.ros.lifecycle.client import LifecycleClient
 
     with acting(options) as actor:
         node = node_asked_for(actor, options)
@@ -92,7 +92,7 @@ def _list(options: argparse.Namespace) -> int:
 
 
 def _set(options: argparse.Namespace) -> int:
-    from studio.ros.remote.lifecycle import LifecycleClient
+    from studio.ros.lifecycle.client import LifecycleClient
 
     with acting(options) as actor:
         node = node_asked_for(actor, options)

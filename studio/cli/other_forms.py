@@ -61,7 +61,7 @@ def _class_as_told(actor: Actor, end: GraphEndpoint) -> type[MessageValue]:
     Raises:
         StudioError: It does not tell, or not the truth.
     """
-    from studio.ros.remote.waiting import asked
+    from studio.ros.node.spinning import call_service
     from studio.ros.types.type_descriptions import (
         DESCRIPTION_SERVICE,
         DESCRIPTION_SERVICE_TYPE,
@@ -74,7 +74,7 @@ def _class_as_told(actor: Actor, end: GraphEndpoint) -> type[MessageValue]:
     client = actor.node.create_client(actor.types.service(DESCRIPTION_SERVICE_TYPE), service)
     try:
         request = client.srv_type.Request(type_name=end.type_name, type_hash=end.type_hash)
-        response = asked(actor.node, client, request)
+        response = call_service(actor.node, client, request)
     finally:
         actor.node.destroy_client(client)
     return _made(read_description(response.type_description, end.type_name, end.type_hash), end)

@@ -18,8 +18,8 @@ from studio.errors import WireError
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from studio.ros.parameter_client import ParameterClient
     from studio.ros.parameters.parameter import Parameter
-    from studio.ros.remote.parameters import ParameterClient
     from studio.ros.types.classes import MessageValue
 
     Use = Callable[[ParameterClient, argparse.Namespace], int]
@@ -66,7 +66,7 @@ def _pattern(text: str) -> re.Pattern[str]:
 
 def _add_of_node(verbs: Verbs, name: str, use: Use, summary: str) -> argparse.ArgumentParser:
     def run(options: argparse.Namespace) -> int:
-        from studio.ros.remote.parameters import ParameterClient
+        from studio.ros.parameter_client import ParameterClient
 
         with acting(options) as actor:
             node = node_asked_for(actor, options)
@@ -82,7 +82,7 @@ def _add_of_node(verbs: Verbs, name: str, use: Use, summary: str) -> argparse.Ar
 
 
 def _list(options: argparse.Namespace) -> int:
-    from studio.ros.remote.parameters import ParameterClient
+    from studio.ros.parameter_client import ParameterClient
 
     with acting(options) as actor:
         if options.node_name is None:
@@ -114,7 +114,7 @@ def _lines(remote: ParameterClient, options: argparse.Namespace) -> list[str]:
 
 
 def _get(remote: ParameterClient, options: argparse.Namespace) -> int:
-    from studio.ros.parameters.values import ParameterType
+    from studio.ros.parameters.parameter import ParameterType
 
     found = remote.get([options.parameter_name])
     if not found or found[0].type_ is ParameterType.NOT_SET:
@@ -133,8 +133,7 @@ def _label(parameter: Parameter) -> str:
 
 
 def _set(remote: ParameterClient, options: argparse.Namespace) -> int:
-    from studio.ros.parameters.parameter import Parameter
-    from studio.ros.parameters.values import read_value
+    from studio.ros.parameters.parameter import Parameter, read_value
 
     value = read_value(options.value.strip())
     (result,) = remote.set([Parameter(options.parameter_name, value=value)]) or [None]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from studio.ros.parameters.values import ParameterType
+from studio.ros.parameters.parameter import ParameterType
 
 
 def description_lines(descriptor: Any) -> list[str]:  # noqa: ANN401  # of the node's distribution

@@ -45,7 +45,7 @@ def _seconds(text: str) -> float:
 
 
 def _run(options: argparse.Namespace) -> int:
-    from studio.ros.remote.known_types import known_service
+    from studio.ros.type_lookup import known_service
     from studio.ros.types.convert import from_yaml
 
     name = full_name(options.service_name)

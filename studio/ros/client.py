@@ -20,16 +20,13 @@ from studio.ros.lifecycle import (
     TransitionCallbackReturn,
 )
 from studio.ros.messages import action, message, service
-from studio.ros.node.clock import Clock
+from studio.ros.node.clock import Clock, ClockType, Time
 from studio.ros.node.context import Context
 from studio.ros.node.context import default_context as get_default_context
-from studio.ros.node.executor import Executor, SingleThreadedExecutor
-from studio.ros.node.future import Future
+from studio.ros.node.executors import Executor, MultiThreadedExecutor, SingleThreadedExecutor
 from studio.ros.node.logger import LoggingSeverity, get_logger
-from studio.ros.node.multi_threaded import MultiThreadedExecutor
 from studio.ros.node.node import Node
 from studio.ros.node.publisher import Publisher
-from studio.ros.node.rate import Rate
 from studio.ros.node.service import Service
 from studio.ros.node.service_client import Client
 from studio.ros.node.signals import SignalHandlerOptions
@@ -46,9 +43,8 @@ from studio.ros.node.spinning import (
     try_shutdown,
 )
 from studio.ros.node.subscription import Subscription
-from studio.ros.node.task import Task
-from studio.ros.node.time import ClockType, Time
-from studio.ros.node.timer import Timer
+from studio.ros.node.task import Future, Task
+from studio.ros.node.timer import Rate, Timer
 from studio.ros.node.work import (
     CallbackGroup,
     MutuallyExclusiveCallbackGroup,

@@ -11,7 +11,7 @@ import pytest
 from studio.cli import main
 from studio.ros.messages import action as action_type
 from studio.ros.messages import service
-from studio.ros.node.future import Future
+from studio.ros.node.task import Future
 from studio.ros.node.work import ReentrantCallbackGroup
 from tests.support.command_line import comes_to, started, studio
 from tests.support.demos import node_at, running_demo

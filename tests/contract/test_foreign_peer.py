@@ -17,8 +17,8 @@ from tests.support.wire import wait_until
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator
 
-    from studio.ros.node.info import MessageInfo
     from studio.ros.node.node import Node
+    from studio.ros.node.samples import MessageInfo
 
 pytestmark = pytest.mark.network
 LATCHED = QoSProfile(depth=3, durability=DurabilityPolicy.TRANSIENT_LOCAL)

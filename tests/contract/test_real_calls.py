@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from studio.ros.action.client import ActionClient
+from studio.ros.action.protocol import GoalStatus
 from studio.ros.action.server import ActionServer, CancelResponse, GoalResponse
-from studio.ros.action.states import GoalStatus
+from studio.ros.lifecycle.client import LifecycleClient
 from studio.ros.messages import action, message, service
-from studio.ros.node.future import Future
+from studio.ros.node.task import Future
 from studio.ros.node.work import ReentrantCallbackGroup
+from studio.ros.parameter_client import ParameterClient
 from studio.ros.parameters.parameter import Parameter
-from studio.ros.remote.lifecycle import LifecycleClient
-from studio.ros.remote.parameters import ParameterClient
 from tests.support.command_line import started, studio
 from tests.support.demos import call, heard, node_at
 from tests.support.ros2_peer import RealNode, RealNodes, real_node, real_nodes, ros2

@@ -12,7 +12,7 @@ import pytest
 
 from studio.ros.client import Context, Node
 from studio.ros.messages import message
-from studio.ros.node.inbox import BLINK_NS
+from studio.ros.node.samples import BLINK_NS
 from studio.ros.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 from studio.ros.tokens import gid_of
 from tests.support.demos import heard, node_at, spun
@@ -22,7 +22,7 @@ from tests.support.wire import open_test_session, wait_until
 if TYPE_CHECKING:
     from collections.abc import Generator
 
-    from studio.ros.node.info import MessageInfo
+    from studio.ros.node.samples import MessageInfo
     from studio.ros.node.subscription import Subscription
 
 pytestmark = pytest.mark.network

@@ -16,7 +16,7 @@ import pytest
 from studio.ros.attachment import Attachment
 from studio.ros.client import ExternalShutdownException, QoSProfile, ReliabilityPolicy
 from studio.ros.messages import message
-from studio.ros.node.executor import SingleThreadedExecutor
+from studio.ros.node.executors import SingleThreadedExecutor
 from studio.ros.node.node import Node
 from studio.ros.tokens import DataKey
 from studio.ros.wire.zenoh import declare_publisher

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from studio.ros.action import ActionServer, GoalResponse
 from studio.ros.client import Context, Node, Parameter
 from studio.ros.messages import message, shared_types
-from studio.ros.node.future import Future
+from studio.ros.node.task import Future
 from studio.ros.node.work import ReentrantCallbackGroup
 from studio.ros.types.type_descriptions import DESCRIPTION_SERVICE_PARAMETER
 from tests.support.demos import node_at, running

@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Generator
 
     from studio.ros.action import ClientGoalHandle, ServerGoalHandle
-    from studio.ros.node.future import Future
     from studio.ros.node.node import Node
+    from studio.ros.node.task import Future
     from studio.ros.types.library import ActionType
 
 FIBONACCI = "example_interfaces/action/Fibonacci"

@@ -12,7 +12,7 @@ from tests.support.display_messages import NOW_NS
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from studio.ros.node.info import MessageInfo, TakeBytes
+    from studio.ros.node.samples import MessageInfo, RawCallback
 
 NODE = GraphNode("ab", 0, "", "/", "talker", "/talker")
 
@@ -44,12 +44,12 @@ class HeardTopics:
     """Whoever hears a topic takes what is said on it."""
 
     def __init__(self) -> None:
-        self.takers: dict[str, TakeBytes] = {}
+        self.takers: dict[str, RawCallback] = {}
         self.asked: list[tuple[str, str, QoSProfile]] = []
         self.before_hearing: Callable[[], None] = lambda: None
 
     def hear(
-        self, type_name: str, topic: str, take: TakeBytes, qos: QoSProfile
+        self, type_name: str, topic: str, take: RawCallback, qos: QoSProfile
     ) -> Callable[[], None]:
         """As the link does."""
         self.before_hearing()

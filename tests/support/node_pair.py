@@ -6,7 +6,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from studio.ros.node.context import Context
-from studio.ros.node.executor import Executor, SingleThreadedExecutor
+from studio.ros.node.executors import Executor, SingleThreadedExecutor
 from studio.ros.node.node import Node
 from tests.support.wire import PATIENCE_S, open_test_session, running_router
 

@@ -18,7 +18,7 @@ from studio.protocol.robot import AnimateJoints, RandomizeJoints, ZeroJoints
 from studio.protocol.saving import Reload, Save
 from studio.protocol.texts import GetUrdf, Urdf
 from studio.ros.attachment import Attachment
-from studio.ros.node.inbox import RawSample
+from studio.ros.node.samples import RawSample
 from studio.scene.connection import SUBPROTOCOL
 
 if TYPE_CHECKING:

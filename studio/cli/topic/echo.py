@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from studio.cli.verbs import Verbs
-    from studio.ros.node.info import MessageInfo
+    from studio.ros.node.samples import MessageInfo
     from studio.ros.types.classes import MessageValue
 
 _LENGTH = 128

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from studio.ros.node.endpoint import Endpoint
+from studio.ros.node.base import Endpoint
 from studio.ros.node.subscription import Subscription
 from studio.ros.tokens import EndpointKind, EndpointToken
 from studio.ros.types.classes import make_class

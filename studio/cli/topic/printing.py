@@ -12,7 +12,7 @@ from studio.ros.types.convert import Brevity, to_csv, to_yaml
 if TYPE_CHECKING:
     import argparse
 
-    from studio.ros.node.info import MessageInfo
+    from studio.ros.node.samples import MessageInfo
     from studio.ros.node.subscription import Losses
 
 _END = "---"

@@ -16,7 +16,7 @@ from studio.live.connection.telling import JointsOut, RobotOut
 from studio.live.connection.topic_rates import TopicRates
 from studio.ros.messages import types_of
 from studio.ros.node.context import Context
-from studio.ros.node.executor import SingleThreadedExecutor
+from studio.ros.node.executors import SingleThreadedExecutor
 from studio.ros.node.node import Node
 from studio.ros.wire.session import RouterWatch, open_wire
 
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from studio.robot.kinematics import Kinematics
     from studio.robot.values import Robot
     from studio.ros.graph.graph import Graph
-    from studio.ros.node.info import TakeBytes
+    from studio.ros.node.samples import RawCallback
     from studio.ros.node.subscription import MessageCallback
     from studio.ros.qos import QoSProfile
     from studio.ros.types.classes import MessageValue
@@ -189,7 +189,7 @@ class WireLink:
         return self._subscribed(type_name, topic, take, qos)
 
     def hear(
-        self, type_name: str, topic: str, take: TakeBytes, qos: QoSProfile
+        self, type_name: str, topic: str, take: RawCallback, qos: QoSProfile
     ) -> Callable[[], None]:
         """Hear a topic's messages as bytes, in the thread of the link; gives what ends that.
 

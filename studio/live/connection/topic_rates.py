@@ -7,8 +7,7 @@ import time
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Final
 
-from studio.ros.node.arrivals import Flow
-from studio.ros.node.tally import Tally
+from studio.ros.node.topic_statistics import Flow, TopicStatistics
 from studio.ros.tokens import EndpointKind
 
 if TYPE_CHECKING:
@@ -31,7 +30,7 @@ _MEASURED_S: Final = 2.0
 class _Heard:
     """A topic that is heard, and how it came when that was asked last."""
 
-    tally: Tally
+    tally: TopicStatistics
     flow: Flow = field(default_factory=Flow)
     began_s: float = field(default_factory=time.monotonic)
 
@@ -86,7 +85,7 @@ class TopicRates:
         if heard is None:
             if len(self._heard) >= TOPICS_MAX or not self._is_published(topic):
                 return None
-            heard = self._heard[topic] = _Heard(Tally(self._context, topic, KEPT_S))
+            heard = self._heard[topic] = _Heard(TopicStatistics(self._context, topic, KEPT_S))
         heard.flow = heard.tally.flow()
         return heard.flow
 

@@ -13,7 +13,7 @@ from studio.ros.qos import QoSProfile, ReliabilityPolicy
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from studio.ros.node.info import MessageInfo
+    from studio.ros.node.samples import MessageInfo
 
 CLOCK_TYPE: Final = "rosgraph_msgs/msg/Clock"
 CLOCK_QOS: Final = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from studio.displays.display import TopicRole
     from studio.live.displays.display_list import Listening
     from studio.ros.graph.endpoints import GraphEndpoint
-    from studio.ros.node.info import MessageInfo, TakeBytes
+    from studio.ros.node.samples import MessageInfo, RawCallback
     from studio.ros.types.library import TypeLibrary
 
 _DEPTH_MAX: Final = 1_000
@@ -31,7 +31,7 @@ class Hearing(Protocol):
     """What an ear needs of the connection."""
 
     def hear(
-        self, type_name: str, topic: str, take: TakeBytes, qos: QoSProfile
+        self, type_name: str, topic: str, take: RawCallback, qos: QoSProfile
     ) -> Callable[[], None]:
         """Hear a topic's messages as bytes; gives what ends that."""
         ...

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from studio.live.displays.own_frames import PosedRobot
     from studio.live.displays.placing import Pose
     from studio.ros.graph.endpoints import GraphEndpoint
-    from studio.ros.node.info import MessageInfo, TakeBytes
+    from studio.ros.node.samples import MessageInfo, RawCallback
     from studio.tf.columns import TransformColumns
     from studio.tf.frames_now import FramesNow
     from studio.tf.report import FrameReport
@@ -242,7 +242,7 @@ class FramesDesk:
             return None, str(error)
         return TfPose(wxyz=pose.wxyz, xyz=pose.xyz, chain=chain), ""
 
-    def _taker(self, graph: KnowsPublishers, *, static: bool) -> TakeBytes:
+    def _taker(self, graph: KnowsPublishers, *, static: bool) -> RawCallback:
         codec, epoch = TransformCodec(), self._epoch
 
         def take(data: bytes, info: MessageInfo) -> None:

@@ -9,7 +9,7 @@ import time
 from typing import TYPE_CHECKING, Any, Final
 
 from studio.live.panels.requests import wire_name
-from studio.ros.remote.known_types import known_message
+from studio.ros.type_lookup import known_message
 from studio.ros.types.convert import from_dict
 
 if TYPE_CHECKING:

@@ -88,7 +88,7 @@ class GoalStatusDesk:
 def _views(newest: Any, own: frozenset[str]) -> tuple[GoalStatusView, ...]:  # noqa: ANN401 - see _Ear
     if newest is None:
         return ()
-    from studio.ros.action.states import GoalStatus  # noqa: PLC0415 - takes its time
+    from studio.ros.action.protocol import GoalStatus  # noqa: PLC0415 - takes its time
 
     found = [
         GoalStatusView(

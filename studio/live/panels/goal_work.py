@@ -21,9 +21,9 @@ from studio.live.panels.requests import (
     wire_name,
 )
 from studio.ros.action.client import ActionClient
-from studio.ros.action.states import GoalStatus
+from studio.ros.action.protocol import GoalStatus
 from studio.ros.names import full_type_name
-from studio.ros.remote.known_types import known_action
+from studio.ros.type_lookup import known_action
 from studio.ros.types.convert import from_yaml, to_json
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
     from studio.live.connection.link import WireLink
     from studio.protocol.goals import SendGoal
-    from studio.ros.action.client_goal import ClientGoalHandle
+    from studio.ros.action.client import ClientGoalHandle
     from studio.ros.types.library import ActionType
 
 FOREVER_S: Final = 365 * 24 * 3600.0

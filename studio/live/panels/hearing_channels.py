@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 from studio.errors import StudioError, UnknownTypeError
 from studio.live.panels.hearing_frames import Chunk, chunk_of
 from studio.protocol.hearing import DEPTH_MAX, Heard
-from studio.ros.node.overhearing import Overheard
+from studio.ros.node.subscription import RawSubscription
 from studio.ros.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 
 if TYPE_CHECKING:
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from studio.live.connection.link import WireLink
     from studio.protocol.hearing import Hear, HeardState
     from studio.ros.graph.endpoints import GraphEndpoint
-    from studio.ros.node.inbox import RawSample
+    from studio.ros.node.samples import RawSample
 
 _KEPT_BYTES: Final = 16 << 20
 """Of a latched topic, for those who come later."""
@@ -62,7 +62,7 @@ class Channel:
         self.state = self._told("not_connected")
         self._link: WireLink | None = None
         self._way: Way | None = None
-        self._heard: Overheard | None = None
+        self._heard: RawSubscription | None = None
         self._waiting: list[RawSample] = []
         self._due_s = 0.0
         self._lost_before = 0
@@ -135,7 +135,7 @@ class Channel:
         if way is None:
             return
         try:
-            self._heard = Overheard(
+            self._heard = RawSubscription(
                 link.node, self.wish.topic, way.type_name, way.type_hash, way.qos
             )
             if self.is_at_once:

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Final
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from studio.ros.node.inbox import RawSample
+    from studio.ros.node.samples import RawSample
 
 VERSION: Final = 1
 LARGE_BYTES: Final = 256 << 10

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from studio.live.connection.desk import WireDesk
     from studio.live.connection.link import WireLink
     from studio.ros.graph.graph import Graph
-    from studio.ros.remote.lifecycle import LifecycleClient
+    from studio.ros.lifecycle.client import LifecycleClient
 
 _SERVICE: Final = "/get_state"
 _TYPE: Final = "lifecycle_msgs/srv/GetState"
@@ -122,7 +122,7 @@ def _managed_names(graph: Graph) -> list[str]:
 
 
 def _client(link: WireLink, name: str, timeout_s: float = _ANSWER_S) -> LifecycleClient:
-    from studio.ros.remote.lifecycle import LifecycleClient  # noqa: PLC0415 - imports zenoh
+    from studio.ros.lifecycle.client import LifecycleClient  # noqa: PLC0415 - imports zenoh
 
     return LifecycleClient(link.node, name, timeout_s)
 

@@ -50,7 +50,7 @@ class LogDesk:
 
     def _hear(self, link: WireLink) -> Callable[[], None]:
         """Hear it as it is sent: nodes keep what they said for those who come late."""
-        from studio.ros.node.rosout import ROSOUT  # noqa: PLC0415 - imports zenoh
+        from studio.ros.node.logger import ROSOUT  # noqa: PLC0415 - imports zenoh
         from studio.ros.qos import qos_profile_rosout_default  # noqa: PLC0415
 
         qos = qos_profile_rosout_default

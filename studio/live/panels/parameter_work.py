@@ -10,11 +10,9 @@ from typing import TYPE_CHECKING, Any, Final, cast
 from studio.errors import CommandError, InvalidParameterTypeError, NoAnswerError, NotServedError
 from studio.live.panels.requests import SERVER_PATIENCE_S, came_true, known_in_time, wire_name
 from studio.protocol.parameters import ParameterRefusal, ParameterView
+from studio.ros.parameter_client import AsyncParameterClient
 from studio.ros.parameters.files import read_parameters, write_parameters
-from studio.ros.parameters.messages import value_of
-from studio.ros.parameters.parameter import Parameter
-from studio.ros.parameters.values import ParameterType, read_value
-from studio.ros.remote.async_parameters import AsyncParameterClient
+from studio.ros.parameters.parameter import Parameter, ParameterType, read_value, value_of
 from studio.ros.types.convert import plain_json
 from studio.ros.types.yaml_texts import read_yaml
 
@@ -22,7 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
     from studio.live.connection.link import WireLink
-    from studio.ros.node.future import Future
+    from studio.ros.node.task import Future
     from studio.ros.types.classes import MessageValue
 
 _ANSWER_S: Final = 5.0

@@ -12,7 +12,7 @@ from studio.live.panels.requests import wire_name
 from studio.ros.cdr import codec_of
 from studio.ros.names import full_type_name
 from studio.ros.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
-from studio.ros.remote.known_types import known_message
+from studio.ros.type_lookup import known_message
 from studio.ros.types.convert import from_dict, from_yaml
 from studio.ros.types.yaml_texts import read_yaml
 

@@ -12,7 +12,7 @@ from studio.ros.qos import DurabilityPolicy
 if TYPE_CHECKING:
     from studio.live.connection.desk import WireDesk
     from studio.live.connection.link import WireLink
-    from studio.ros.node.arrivals import Flow
+    from studio.ros.node.topic_statistics import Flow
 
 _State: TypeAlias = Literal["waiting", "live", "silent", "latched"]
 

@@ -21,7 +21,7 @@ from studio.errors import (
     WireError,
 )
 from studio.ros.names import check_full_name, full_type_name
-from studio.ros.remote.known_types import known_service
+from studio.ros.type_lookup import known_service
 from studio.ros.types.convert import from_yaml, to_json
 
 if TYPE_CHECKING:
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
     from studio.live.connection.link import WireLink
     from studio.protocol.calls import CallService
-    from studio.ros.node.future import Future
+    from studio.ros.node.task import Future
 
 SHOWN_CHARACTERS: Final = 60_000
 """Of a reply, a result and the like: more is not read by anybody."""

@@ -71,7 +71,7 @@ def _ask(link: WireLink | None, name: str) -> str:
     """Ask the nodes that use it; why it is not known then, empty: it is. In a thread."""
     if link is None:
         return _NOBODY
-    from studio.ros.remote.known_types import learn_from_any  # noqa: PLC0415
+    from studio.ros.type_lookup import learn_from_any  # noqa: PLC0415
 
     said: list[str] = []
     learn_from_any(link.node, _others(link, name), said.append)
@@ -86,14 +86,14 @@ def _ask(link: WireLink | None, name: str) -> str:
 def _texts(link: WireLink | None, name: str) -> dict[str, str]:
     if link is None:
         return {}
-    from studio.ros.remote.known_types import texts_of_any  # noqa: PLC0415
+    from studio.ros.type_lookup import texts_of_any  # noqa: PLC0415
 
     return texts_of_any(link.node, _others(link, name))
 
 
 def _others(link: WireLink, name: str) -> list[GraphEndpoint]:
     """One endpoint of each node that uses a type, of a few nodes; not the studio's own."""
-    from studio.ros.remote.known_types import users_of  # noqa: PLC0415
+    from studio.ros.type_lookup import users_of  # noqa: PLC0415
 
     others = {one.node: one for one in users_of(link.graph, name) if one.node.zid != link.zid}
     return list(others.values())[:_NODES_MAX]

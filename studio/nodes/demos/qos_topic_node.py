@@ -12,7 +12,7 @@ import studio.ros.client as rclpy
 from studio.nodes.demos.running import until_stopped
 from studio.ros.client import DurabilityPolicy, Node, QoSProfile, ReliabilityPolicy
 from studio.ros.messages.std_msgs.msg import String
-from studio.ros.qos_overriding_options import QoSOverridingOptions, QoSPolicyKind
+from studio.ros.node.qos_overriding_options import QoSOverridingOptions, QoSPolicyKind
 
 
 class QoSTopicNode(Node):

@@ -1,4 +1,4 @@
-"""ActionClient: sends goals and hears how they go, by rclpy's names."""
+"""ActionClient: sends goals and follows them, by rclpy's names."""
 
 from __future__ import annotations
 
@@ -7,16 +7,20 @@ import time
 from collections import OrderedDict
 from typing import TYPE_CHECKING, Any
 
-from studio.errors import ActionServerGoneError, DroppedError, NotServedError
-from studio.ros.action.client_goal import ClientGoalHandle, waited
-from studio.ros.action.goal_ids import goal_id_message, goal_id_of, new_goal_id
-from studio.ros.action.names import ActionNames
-from studio.ros.action.qos import FEEDBACK_QOS, ActionQos
-from studio.ros.action.result_wait import ResultWait
-from studio.ros.action.states import GoalStatus
+from studio.errors import ActionServerGoneError, DroppedError, NotServedError, WireError
+from studio.ros.action.protocol import (
+    FEEDBACK_QOS,
+    ActionNames,
+    ActionQos,
+    GoalStatus,
+    goal_id_message,
+    goal_id_of,
+    new_goal_id,
+)
 from studio.ros.cdr import check_kind
-from studio.ros.node.future import Future
 from studio.ros.node.service_client import SERVICE_TIMEOUT_S
+from studio.ros.node.task import Future
+from studio.ros.node.work import ReentrantCallbackGroup
 from studio.ros.qos import (
     QoSProfile,
     qos_profile_action_status_default,
@@ -30,14 +34,89 @@ if TYPE_CHECKING:
     from studio.ros.node.node import Node
     from studio.ros.node.service_client import Client
     from studio.ros.node.subscription import Subscription
+    from studio.ros.node.timer import Timer
     from studio.ros.node.work import CallbackGroup
     from studio.ros.types.classes import MessageValue
     from studio.ros.types.library import ActionType
 
+LOOK_S = 0.5
+RETURNS_WITHIN_S = 10.0
+"""A server whose router is back shows itself again before long."""
+TRIES_MAX = 20
 RESULT_TIMEOUT_S = 365 * 24 * 3600.0
 """A goal may take as long as it likes: the end of its server ends the wait."""
 GOALS_KEPT_MAX = 1_000
 """The last goals sent: of these feedback and status are heard."""
+
+
+class ClientGoalHandle:
+    """A goal that a server took or refused."""
+
+    def __init__(self, client: ActionClient, goal_id: MessageValue, response: MessageValue) -> None:
+        self._client = client
+        self._goal_id = goal_id
+        self._response = response
+        self._status = GoalStatus.UNKNOWN
+
+    @property
+    def goal_id(self) -> MessageValue:
+        """Its id, a unique_identifier_msgs/msg/UUID."""
+        return self._goal_id
+
+    @property
+    def stamp(self) -> MessageValue:
+        """When it was accepted, by the server's clock."""
+        return self._response.stamp
+
+    @property
+    def accepted(self) -> bool:
+        """Whether the server took it."""
+        return bool(self._response.accepted)
+
+    @property
+    def status(self) -> GoalStatus:
+        """How far it is, as the server told last."""
+        return self._status
+
+    def told(self, status: GoalStatus) -> None:
+        """Take note of its status; of the client. It never goes back."""
+        self._status = max(self._status, status) if not self._status.is_over else self._status
+
+    def cancel_goal_async(self) -> Future[Any]:
+        """Ask that it end; becomes an action_msgs/srv/CancelGoal response.
+
+        An error of the future says that the server is gone.
+        """
+        return self._client.cancel_goal(self)
+
+    def cancel_goal(self) -> Any:  # noqa: ANN401  # a CancelGoal response
+        """Ask that it end and wait for the answer; never within a callback.
+
+        Raises:
+            ActionServerGoneError: The server ended.
+        """
+        return wait_for_future(self.cancel_goal_async())
+
+    def get_result_async(self) -> Future[Any]:
+        """Ask for its result; becomes a response with `status` and `result`.
+
+        An error of the future says that the server is gone.
+        """
+        return self._client.get_result(self)
+
+    def get_result(self) -> Any:  # noqa: ANN401  # a GetResult response
+        """Wait for its result; never within a callback.
+
+        Raises:
+            ActionServerGoneError: The server ended.
+        """
+        return wait_for_future(self.get_result_async())
+
+    def __repr__(self) -> str:
+        return (
+            f"ClientGoalHandle(id={bytes(self._goal_id.uuid).hex()}, accepted={self.accepted}, "
+            f"status={self._status.name})"
+        )
 
 
 class ActionClient:
@@ -135,7 +214,7 @@ class ActionClient:
         Raises:
             ActionServerGoneError: The server ended.
         """
-        handle: ClientGoalHandle = waited(self.send_goal_async(goal, **options))
+        handle: ClientGoalHandle = wait_for_future(self.send_goal_async(goal, **options))
         return handle.get_result() if handle.accepted else None
 
     def cancel_goal(self, goal: ClientGoalHandle) -> Future[Any]:
@@ -252,3 +331,100 @@ class ActionClient:
         for goal, status in goals:
             if goal is not None:
                 goal.told(GoalStatus(status))
+
+
+class ResultWait:
+    """Waits as long as the goal takes, or until its server is gone.
+
+    A question ends without an answer when the server ends, and when the router does: then it is
+    asked anew once router and server are there again, since the goal went on meanwhile.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        client: Client,
+        request: MessageValue,
+        follow: Callable[[Any], Any],
+        action_name: str,
+    ) -> None:
+        self._node = node
+        self._client = client
+        self._request = request
+        self._follow = follow
+        self._gone = ActionServerGoneError(action_name)
+        self._asked: Future[Any] | None = None
+        self._looking: Timer | None = None
+        self._router_was_away = False
+        self._patience_until_s = 0.0
+        self._tries_left = TRIES_MAX
+        self.answer: Future[Any] = Future(executor=node.executor)
+        self._ask()
+        self.answer.listen(self._end)
+
+    def _ask(self) -> None:
+        try:
+            asked = self._asked = self._client.call_async(self._request)
+        except WireError as error:
+            self.answer.set_exception(error)
+            return
+        asked.listen(lambda: self._settle(asked))
+
+    def _settle(self, asked: Future[Any]) -> None:
+        error = asked.exception()
+        if self.answer.done():
+            return
+        if asked.cancelled():
+            self.answer.cancel()
+        elif isinstance(error, NotServedError):
+            self._look_for_server()
+        elif error is not None:
+            self.answer.set_exception(error)
+        else:
+            self.answer.set_result(self._follow(asked.result()))
+
+    def _look_for_server(self) -> None:
+        self._tries_left -= 1
+        if self._tries_left <= 0:
+            self.answer.set_exception(self._gone)
+            return
+        self._stay_patient()
+        self._looking = self._node.create_timer(
+            LOOK_S, self._look, callback_group=ReentrantCallbackGroup()
+        )
+
+    def _look(self) -> None:
+        if self.answer.done():  # it was given up while the look was being prepared
+            self._stop_looking()
+        if self.answer.done() or not self._stay_patient():
+            return
+        if self._client.service_is_ready():
+            self._stop_looking()
+            self._ask()
+        elif not self._router_was_away or time.monotonic() > self._patience_until_s:
+            self._stop_looking()
+            self.answer.set_exception(self._gone)
+
+    def _stay_patient(self) -> bool:
+        """Take note of a router that is away; whether one is there."""
+        is_there = self._node.wire.is_connected
+        if not is_there:
+            self._router_was_away = True
+            self._patience_until_s = time.monotonic() + RETURNS_WITHIN_S
+        return is_there
+
+    def _stop_looking(self) -> None:
+        looking, self._looking = self._looking, None
+        if looking is not None:
+            self._node.destroy_timer(looking)
+
+    def _end(self) -> None:
+        self._stop_looking()
+        if self._asked is not None:
+            self._asked.cancel()
+
+
+def wait_for_future(future: Future[Any]) -> Any:  # noqa: ANN401
+    """Block until a future is done, while somebody else spins the node."""
+    future.wait()
+    return future.result()

@@ -1,33 +1,31 @@
-"""ActionServer: takes goals, works on them and tells how they go, by rclpy's names."""
+"""ActionServer: accepts goals, executes them and reports on them, by rclpy's names."""
 
 from __future__ import annotations
 
 import asyncio
+import inspect
 import threading
 import traceback
+from collections import deque
+from enum import IntEnum
 from typing import TYPE_CHECKING, Any
 
 from studio.errors import MessageValueError
-from studio.ros.action.answers import (
-    CancelResponse,
-    GoalResponse,
-    called,
-    default_cancel_callback,
-    default_goal_callback,
-    default_handle_accepted_callback,
+from studio.ros.action.protocol import (
+    FEEDBACK_QOS,
+    ActionNames,
+    ActionQos,
+    CancelCode,
+    GoalEvent,
+    GoalStatus,
+    can_follow,
+    goal_id_of,
+    goals_to_cancel,
 )
-from studio.ros.action.cancelling import CancelCode, goals_meant
-from studio.ros.action.goal_ids import goal_id_of
-from studio.ros.action.names import ActionNames
-from studio.ros.action.qos import FEEDBACK_QOS, ActionQos
-from studio.ros.action.server_goal import ServerGoalHandle
-from studio.ros.action.server_goals import ServerGoals
-from studio.ros.action.states import GoalEvent, GoalStatus, can_follow
+from studio.ros.action.server_goal import ServerGoalHandle, ServerGoals
 from studio.ros.cdr import check_kind
-from studio.ros.node.future import Future
-from studio.ros.node.later import Later
-from studio.ros.node.time import stamp_ns
-from studio.ros.node.work import ReentrantCallbackGroup
+from studio.ros.node.clock import stamp_ns
+from studio.ros.node.work import ReentrantCallbackGroup, Work
 from studio.ros.qos import (
     QoSProfile,
     qos_profile_action_status_default,
@@ -36,7 +34,7 @@ from studio.ros.qos import (
 from studio.ros.types.classes import definition_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Coroutine
 
     from studio.ros.node.node import Node
     from studio.ros.node.service import Service
@@ -47,6 +45,43 @@ if TYPE_CHECKING:
 RESULT_TIMEOUT_S = 900
 # Of a callback of the user's; what it awaits may be cancelled, which is no Exception.
 _RAISED = (Exception, asyncio.CancelledError)
+
+
+class GoalResponse(IntEnum):
+    """Whether a goal is taken."""
+
+    REJECT = 1
+    ACCEPT = 2
+
+
+class CancelResponse(IntEnum):
+    """Whether a goal will end when it is asked to."""
+
+    REJECT = 1
+    ACCEPT = 2
+
+
+def default_goal_callback(goal_request: object) -> GoalResponse:
+    """Take every goal."""
+    del goal_request
+    return GoalResponse.ACCEPT
+
+
+def default_handle_accepted_callback(goal_handle: ServerGoalHandle) -> None:
+    """Begin to work on a goal at once."""
+    goal_handle.execute()
+
+
+def default_cancel_callback(cancel_request: object) -> CancelResponse:
+    """Let no goal end before its time."""
+    del cancel_request
+    return CancelResponse.REJECT
+
+
+async def call_or_await(callback: Callable[..., Any], *arguments: object) -> Any:  # noqa: ANN401
+    """Call a function or coroutine function, and give what it returns."""
+    result = callback(*arguments)
+    return await result if inspect.isawaitable(result) else result
 
 
 class ActionServer:
@@ -100,7 +135,7 @@ class ActionServer:
             action_type.FeedbackMessage, names.feedback, qos.feedback
         )
         self._status = node.create_publisher(self._status_type, names.status, qos.status)
-        self._later = Later()
+        self._later = CoroutineQueue()
         node.add_work(self._later)
         self._services = self._serve(names, qos, callback_group)
         node.on_destroy(self.destroy)
@@ -152,10 +187,6 @@ class ActionServer:
             goal.result.set_result(self._type.Result())
         for publisher in (self._feedback, self._status):
             self._node.destroy_publisher(publisher)
-
-    def new_future(self) -> Future[Any]:
-        """Make what becomes the result of a goal; of goals."""
-        return Future()
 
     def execute(
         self, goal: ServerGoalHandle, callback: Callable[[ServerGoalHandle], Any] | None
@@ -236,7 +267,7 @@ class ActionServer:
     async def _on_cancel(self, request: MessageValue, response: MessageValue) -> MessageValue:
         goals = {goal.known.goal_id: goal for goal in self._goals.all()}
         asked = request.goal_info
-        meant, code = goals_meant(
+        meant, code = goals_to_cancel(
             [goal.known for goal in goals.values()],
             goal_id_of(asked.goal_id),
             stamp_ns(asked.stamp),
@@ -265,14 +296,14 @@ class ActionServer:
     async def _decide(self, callback: Callable[[Any], Any], about: object) -> Any:  # noqa: ANN401
         """Ask a callback of the user's; one that raises says no."""
         try:
-            return await called(callback, about)
+            return await call_or_await(callback, about)
         except _RAISED as error:
             self._say_raised(callback, error)
             return None
 
     async def _begin(self, goal: ServerGoalHandle) -> None:
         try:
-            await called(self._accepted_callback, goal)
+            await call_or_await(self._accepted_callback, goal)
         except _RAISED as error:
             self._say_raised(self._accepted_callback, error)
             if goal.status is GoalStatus.ACCEPTED:
@@ -283,7 +314,7 @@ class ActionServer:
         self, goal: ServerGoalHandle, callback: Callable[[ServerGoalHandle], Any]
     ) -> None:
         try:
-            result = await called(callback, goal)
+            result = await call_or_await(callback, goal)
         except _RAISED as error:
             self._say_raised(callback, error)
             self._end(goal, None)
@@ -314,3 +345,48 @@ class ActionServer:
         name = getattr(callback, "__name__", "a callback")
         said = "".join(traceback.format_exception(error)[-2:]).strip()
         self._node.get_logger().error(f"Error raised in {name} of the action: {said}")
+
+
+class CoroutineQueue(Work):
+    """Keeps coroutines until they are begun, beside each other and in their order.
+
+    Between two `spin_once` nobody spins a node: what is handed in then must not be lost.
+    """
+
+    def __init__(self) -> None:
+        super().__init__(ReentrantCallbackGroup())
+        self._waiting: deque[Coroutine[Any, Any, Any]] = deque()
+        self._destroyed = False
+
+    def add(self, coroutine: Coroutine[Any, Any, Any]) -> None:
+        """Have a coroutine carried out; from any thread. After the end it is closed."""
+        self._waiting.append(coroutine)
+        if self._destroyed:
+            self._close_waiting()
+        else:
+            self.announce()
+
+    @property
+    def is_ready(self) -> bool:
+        """Whether one was not begun."""
+        return bool(self._waiting)
+
+    def take(self) -> Callable[[], object] | None:
+        """Give the oldest."""
+        coroutine = self._oldest()
+        return None if coroutine is None else lambda: coroutine
+
+    def destroy(self) -> None:
+        """Close those that were not begun."""
+        self._destroyed = True
+        self._close_waiting()
+
+    def _close_waiting(self) -> None:
+        while (coroutine := self._oldest()) is not None:
+            coroutine.close()
+
+    def _oldest(self) -> Coroutine[Any, Any, Any] | None:
+        try:
+            return self._waiting.popleft()
+        except IndexError:
+            return None

@@ -1,19 +1,43 @@
-"""ServerGoalHandle: a goal as the server that accepted it sees it, by rclpy's names."""
+"""ServerGoalHandle: a goal as its server sees it, and the goals that a server knows."""
 
 from __future__ import annotations
 
 import threading
-from typing import TYPE_CHECKING, Any
+import time
+from typing import TYPE_CHECKING, Any, Protocol
 
-from studio.ros.action.cancelling import KnownGoal
-from studio.ros.action.states import GoalEvent, GoalStatus, next_status
+from studio.ros.action.protocol import GoalEvent, GoalStatus, KnownGoal, next_status
+from studio.ros.node.task import Future
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from studio.ros.action.server import ActionServer
-    from studio.ros.node.future import Future
     from studio.ros.types.classes import MessageValue
+
+GOALS_KEPT_MAX = 1_000
+"""Of those that are over: a client that sends without end costs no more memory."""
+
+
+class GoalServer(Protocol):
+    """What a goal needs of its server."""
+
+    def execute(
+        self, goal: ServerGoalHandle, callback: Callable[[ServerGoalHandle], Any] | None
+    ) -> None:
+        """Carry out the work on a goal, with the server's callback or another one."""
+        ...
+
+    def publish_feedback(self, goal: ServerGoalHandle, feedback: MessageValue) -> None:
+        """Publish how far a goal is."""
+        ...
+
+    def publish_status(self) -> None:
+        """Publish the states of all goals."""
+        ...
+
+    def forget(self, goal: ServerGoalHandle) -> None:
+        """Remove a goal."""
+        ...
 
 
 class ServerGoalHandle:
@@ -25,7 +49,7 @@ class ServerGoalHandle:
     """
 
     def __init__(
-        self, server: ActionServer, info: MessageValue, request: MessageValue, accepted_ns: int
+        self, server: GoalServer, info: MessageValue, request: MessageValue, accepted_ns: int
     ) -> None:
         self._server = server
         self._info = info
@@ -33,7 +57,7 @@ class ServerGoalHandle:
         self._accepted_ns = accepted_ns
         self._status = GoalStatus.ACCEPTED
         self._lock = threading.Lock()
-        self.result: Future[MessageValue] = server.new_future()
+        self.result: Future[MessageValue] = Future()
         self.ended_s: float | None = None
 
     @property
@@ -127,3 +151,58 @@ class ServerGoalHandle:
     def destroy(self) -> None:
         """Forget it before its time."""
         self._server.forget(self)
+
+
+class ServerGoals:
+    """Goals by their ids; any thread may ask."""
+
+    def __init__(
+        self, result_timeout_s: float, clock_s: Callable[[], float] = time.monotonic
+    ) -> None:
+        self._result_timeout_s = result_timeout_s
+        self._clock_s = clock_s
+        self._goals: dict[bytes, ServerGoalHandle] = {}
+        self._lock = threading.Lock()
+
+    def add(self, goal_id: bytes, make: Callable[[], ServerGoalHandle]) -> ServerGoalHandle | None:
+        """Take up a goal, None when one of that id is known already."""
+        with self._lock:
+            self._drop_old()
+            if goal_id in self._goals:
+                return None
+            made = self._goals[goal_id] = make()
+            return made
+
+    def find(self, goal_id: bytes) -> ServerGoalHandle | None:
+        """Give a goal by its id."""
+        with self._lock:
+            self._drop_old()
+            return self._goals.get(goal_id)
+
+    def all(self) -> list[ServerGoalHandle]:
+        """Give every goal in the order in which they were accepted."""
+        with self._lock:
+            self._drop_old()
+            return list(self._goals.values())
+
+    def end(self, goal: ServerGoalHandle) -> None:
+        """Begin the time for which a goal that is over is kept."""
+        with self._lock:
+            goal.ended_s = self._clock_s()
+
+    def remove(self, goal: ServerGoalHandle) -> None:
+        """Forget a goal; again is harmless."""
+        with self._lock:
+            self._goals.pop(bytes(goal.goal_id.uuid), None)
+
+    def _drop_old(self) -> None:
+        oldest_s = self._clock_s() - self._result_timeout_s
+        over = [
+            (goal.ended_s, goal_id)
+            for goal_id, goal in self._goals.items()
+            if goal.ended_s is not None
+        ]
+        too_many = len(over) - GOALS_KEPT_MAX
+        for place, (ended_s, goal_id) in enumerate(sorted(over)):
+            if place < too_many or ended_s <= oldest_s:
+                del self._goals[goal_id]

@@ -1,8 +1,12 @@
 """Managed nodes: transitions in, states and events out, on both ends."""
 
-from studio.ros.lifecycle.entities import LifecyclePublisher, LifecycleState, ManagedEntity
-from studio.ros.lifecycle.node import LifecycleNode
-from studio.ros.lifecycle.states import StateId, TransitionCallbackReturn
+from studio.ros.lifecycle.machine import StateId, TransitionCallbackReturn
+from studio.ros.lifecycle.node import (
+    LifecycleNode,
+    LifecyclePublisher,
+    LifecycleState,
+    ManagedEntity,
+)
 
 __all__ = [
     "LifecycleNode",

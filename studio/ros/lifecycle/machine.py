@@ -1,19 +1,89 @@
-"""LifecycleMachine: the state of a managed node and the way through its transitions."""
+"""The state machine of managed nodes, by the numbers and labels of lifecycle_msgs."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
+from enum import Enum, IntEnum
 
 from studio.errors import TransitionError
-from studio.ros.lifecycle.states import (
-    ASKED,
-    CALLBACKS,
-    FOLLOWING,
-    StateId,
-    Transition,
-    TransitionCallbackReturn,
-)
 
+
+class StateId(IntEnum):
+    """The states: 1 to 4 are those a node stays in, from 10 on it is between two of them."""
+
+    UNKNOWN = 0
+    UNCONFIGURED = 1
+    INACTIVE = 2
+    ACTIVE = 3
+    FINALIZED = 4
+    CONFIGURING = 10
+    CLEANINGUP = 11
+    SHUTTINGDOWN = 12
+    ACTIVATING = 13
+    DEACTIVATING = 14
+    ERRORPROCESSING = 15
+
+    @property
+    def label(self) -> str:
+        """The word for it on the wire."""
+        return self.name.lower()
+
+
+class TransitionCallbackReturn(Enum):
+    """How the work of a transition went, by rclpy's names."""
+
+    SUCCESS = "transition_success"
+    FAILURE = "transition_failure"
+    ERROR = "transition_error"
+
+
+@dataclass(frozen=True, slots=True)
+class Transition:
+    """A way from one state to another; those without a label that users know follow a callback."""
+
+    id: int
+    label: str
+    start: StateId
+    goal: StateId
+
+
+_S = StateId
+ASKED = (
+    Transition(1, "configure", _S.UNCONFIGURED, _S.CONFIGURING),
+    Transition(2, "cleanup", _S.INACTIVE, _S.CLEANINGUP),
+    Transition(3, "activate", _S.INACTIVE, _S.ACTIVATING),
+    Transition(4, "deactivate", _S.ACTIVE, _S.DEACTIVATING),
+    Transition(5, "shutdown", _S.UNCONFIGURED, _S.SHUTTINGDOWN),
+    Transition(6, "shutdown", _S.INACTIVE, _S.SHUTTINGDOWN),
+    Transition(7, "shutdown", _S.ACTIVE, _S.SHUTTINGDOWN),
+)
+"""What others may ask of a node."""
+
+_ENDS = (
+    (_S.CONFIGURING, 10, _S.INACTIVE, _S.UNCONFIGURED, _S.ERRORPROCESSING),
+    (_S.CLEANINGUP, 20, _S.UNCONFIGURED, _S.INACTIVE, _S.ERRORPROCESSING),
+    (_S.ACTIVATING, 30, _S.ACTIVE, _S.INACTIVE, _S.ERRORPROCESSING),
+    (_S.DEACTIVATING, 40, _S.INACTIVE, _S.ACTIVE, _S.ERRORPROCESSING),
+    (_S.SHUTTINGDOWN, 50, _S.FINALIZED, _S.FINALIZED, _S.ERRORPROCESSING),
+    (_S.ERRORPROCESSING, 60, _S.UNCONFIGURED, _S.FINALIZED, _S.FINALIZED),
+)
+FOLLOWING = tuple(
+    Transition(number + step, result.value, start, goals[step])
+    for start, number, *goals in _ENDS
+    for step, result in enumerate(TransitionCallbackReturn)
+)
+"""What follows from how a callback went."""
+TRANSITIONS = (*ASKED, *FOLLOWING)
+CALLBACKS = {
+    _S.CONFIGURING: "on_configure",
+    _S.CLEANINGUP: "on_cleanup",
+    _S.SHUTTINGDOWN: "on_shutdown",
+    _S.ACTIVATING: "on_activate",
+    _S.DEACTIVATING: "on_deactivate",
+    _S.ERRORPROCESSING: "on_error",
+}
+"""The callback that does the work of a state between two others."""
 RunCallback = Callable[[str, StateId], TransitionCallbackReturn]
 """Runs `on_configure` and so on with the state before; what it raises counts as ERROR."""
 TellTransition = Callable[[Transition], None]

@@ -4,15 +4,11 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from studio.errors import ParameterFileError, RosArgumentError
+from studio.errors import RosArgumentError
 from studio.ros.names import expand
 from studio.ros.node.logger import LoggingSeverity
-from studio.ros.parameters.files import read_parameters
-from studio.ros.parameters.parameter import Parameter
-from studio.ros.types.yaml_texts import read_yaml
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -23,6 +19,10 @@ BEGIN, END = "--ros-args", "--"
 _RULE = re.compile(r"(?:(?P<node>[A-Za-z0-9_/]+):)?(?P<from>[^:=]+):=(?P<to>.*)", re.DOTALL)
 _NAMES = {"__node", "__name"}
 _SWITCHES = re.compile(r"--(enable|disable)-(rosout-logs|stdout-logs|external-lib-logs)")
+_WITH_VALUE = {
+    "-r", "--remap", "-p", "--param", "--params-file", "--log-level", "-e", "--enclave",
+    "--log-config-file",
+}  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,27 +100,10 @@ class NodeArguments:
                 return expand(rule.target, node.namespace, node.name)
         return full_name
 
-    def overrides(self, path: str) -> list[Parameter]:
-        """Give the parameters that were said at the start to the node of a full name.
-
-        Raises:
-            ParameterFileError: A file cannot be read, or is none of parameters.
-            InvalidParameterTypeError: A value is of no type that parameters have.
-            RosArgumentError: A value is no YAML.
-        """
-        found: dict[str, Parameter] = {}
-        for file in self.files:
-            found |= {one.name: one for one in read_parameters(_text_of(file), path, file)}
-        for rule in self.parameters:
-            found[rule.source] = Parameter(rule.source, value=_value(rule))
-        return list(found.values())
-
-
-def _value(rule: Rule) -> Any:  # noqa: ANN401 - whatever YAML holds
-    try:
-        return read_yaml(rule.target, "its value")
-    except ValueError as error:
-        raise RosArgumentError(f"{rule.source}:={rule.target}", str(error)) from None
+    @property
+    def values(self) -> list[tuple[str, str]]:
+        """Names of parameters, each with its value in YAML."""
+        return [(rule.source, rule.target) for rule in self.parameters]
 
 
 def parse_arguments(words: Sequence[str]) -> RosArguments:
@@ -147,12 +130,6 @@ def parse_arguments(words: Sequence[str]) -> RosArguments:
             case _:  # -e, --enclave and --log-config-file change nothing that there is here
                 pass
     return RosArguments(tuple(rest), tuple(remaps), tuple(parameters), tuple(files), tuple(levels))
-
-
-_WITH_VALUE = {
-    "-r", "--remap", "-p", "--param", "--params-file", "--log-level", "-e", "--enclave",
-    "--log-config-file",
-}  # fmt: skip
 
 
 def _options(words: Sequence[str], rest: list[str]) -> Iterator[tuple[str, str]]:
@@ -189,10 +166,3 @@ def _level(text: str) -> tuple[str, LoggingSeverity]:
         raise RosArgumentError(
             f"--log-level {text}", "a level is debug, info, warn, error or fatal"
         ) from None
-
-
-def _text_of(file: str) -> str:
-    try:
-        return Path(file).read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise ParameterFileError(file, f"it cannot be read ({error})") from None

@@ -1,4 +1,4 @@
-"""NodeBase: the name of a node on the wire, its work, and its end."""
+"""NodeBase: a node's name on the wire, its work and its end, and what it asks about others."""
 
 from __future__ import annotations
 
@@ -8,26 +8,26 @@ from typing import TYPE_CHECKING
 
 from studio.errors import DestroyedError
 from studio.ros.names import as_namespace, check_node_name, expand, logger_name
-from studio.ros.node.clock import Clock
+from studio.ros.node.clock import Clock, ClockType
 from studio.ros.node.drain import Source
-from studio.ros.node.endpoint import Endpoint
 from studio.ros.node.logger import Logger, get_logger
-from studio.ros.node.time import ClockType
 from studio.ros.node.work import MutuallyExclusiveCallbackGroup
 from studio.ros.qos import as_profile
-from studio.ros.tokens import EndpointKind, EndpointToken, NodeToken
+from studio.ros.tokens import DataKey, EndpointKind, EndpointToken, NodeToken, gid_of
 from studio.ros.wire.zenoh import declare_token
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from studio.ros.graph.graph import Graph
+    from studio.ros.graph.endpoints import GraphEndpoint
+    from studio.ros.graph.graph import Graph, NamesAndTypes
     from studio.ros.node.arguments import NodeArguments
     from studio.ros.node.context import Context
-    from studio.ros.node.executor import Executor
+    from studio.ros.node.executors import Executor
     from studio.ros.node.work import CallbackGroup, Work
     from studio.ros.qos import QoSProfile
     from studio.ros.wire.session import WireSession
+    from studio.ros.wire.zenoh import Declaration
 
 
 class NodeBase:
@@ -199,6 +199,50 @@ class NodeBase:
         if not self._wire.zenoh.is_closed():
             self._shown.undeclare()
 
+    def get_node_names(self) -> list[str]:
+        """Name all nodes without their namespaces."""
+        return [node.name for node in self.graph.nodes()]
+
+    def get_node_names_and_namespaces(self) -> list[tuple[str, str]]:
+        """Give name and namespace of all nodes."""
+        return [(node.name, node.namespace) for node in self.graph.nodes()]
+
+    def get_fully_qualified_node_names(self) -> list[str]:
+        """Give the full names of all nodes."""
+        return [node.path for node in self.graph.nodes()]
+
+    def get_topic_names_and_types(self) -> NamesAndTypes:
+        """Give all topics, each with its types."""
+        return self.graph.topics()
+
+    def get_service_names_and_types(self) -> NamesAndTypes:
+        """Give all services, each with its types."""
+        return self.graph.services()
+
+    def get_publishers_info_by_topic(self, topic_name: str) -> list[GraphEndpoint]:
+        """Give who publishes a topic."""
+        return self.graph.publishers(self.resolve_topic_name(topic_name))
+
+    def get_subscriptions_info_by_topic(self, topic_name: str) -> list[GraphEndpoint]:
+        """Give who subscribes to a topic."""
+        return self.graph.subscriptions(self.resolve_topic_name(topic_name))
+
+    def count_publishers(self, topic_name: str) -> int:
+        """Count who publishes a topic."""
+        return self._count(EndpointKind.PUBLISHER, topic_name)
+
+    def count_subscribers(self, topic_name: str) -> int:
+        """Count who subscribes to a topic."""
+        return self._count(EndpointKind.SUBSCRIPTION, topic_name)
+
+    def count_services(self, service_name: str) -> int:
+        """Count who serves a service."""
+        return self._count(EndpointKind.SERVICE, service_name)
+
+    def count_clients(self, service_name: str) -> int:
+        """Count who calls a service."""
+        return self._count(EndpointKind.CLIENT, service_name)
+
     def endpoint(
         self,
         kind: EndpointKind,
@@ -227,3 +271,36 @@ class NodeBase:
     def _refuse_destroyed(self) -> None:
         if self._destroyed:
             raise DestroyedError(f"node {self._token.path}")
+
+    def _count(self, kind: EndpointKind, name: str) -> int:
+        return self.graph.count(kind, self.resolve_topic_name(name))
+
+
+class Endpoint:
+    """A token on the wire and the key it stands for.
+
+    Attributes:
+        token: As it is shown to all.
+        gid: The 16 bytes that name it in every sample.
+        key: The data key.
+        graph: Gives who is there.
+    """
+
+    def __init__(self, wire: WireSession, token: EndpointToken, graph: Callable[[], Graph]) -> None:
+        self.wire, self.graph = wire, graph
+        self.token = token
+        self.gid = gid_of(str(token))
+        self.key = str(DataKey(wire.domain, token.name, token.type_name, token.type_hash))
+        self._shown: Declaration | None = None
+
+    def show(self) -> None:
+        """Show the token, after what it stands for was declared."""
+        self._shown = declare_token(self.wire.zenoh, str(self.token))
+
+    def hide(self, *declared: Declaration) -> None:
+        """Take back the token, then what it stands for; nothing when the session is closed."""
+        shown, self._shown = self._shown, None
+        if shown is None or self.wire.zenoh.is_closed():
+            return
+        for one in (shown, *declared):
+            one.undeclare()

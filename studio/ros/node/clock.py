@@ -1,78 +1,137 @@
-"""Clock: the time of the system, a steady one, or that of ROS, which /clock may tell."""
+"""Clock and Time: instants of the system, of a steady clock or of ROS, which /clock may set."""
 
 from __future__ import annotations
 
+import operator
 import threading
 import time
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, overload
 
 from studio.ros.duration import NANOSECONDS, Duration
+from studio.ros.messages import message
 from studio.ros.node.context import default_context
-from studio.ros.node.time import ClockType, Time
+from studio.ros.qos import QoSProfile, ReliabilityPolicy
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from studio.ros.node.context import Context
+    from studio.ros.types.classes import MessageValue
 
 _LOOK_S = 0.1
+CLOCK_TOPIC = "/clock"
+CLOCK_QOS = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 
 
-class ClockChange(IntEnum):
-    """What a jump changed besides the time."""
+class ClockType(IntEnum):
+    """What an instant counts from."""
 
-    ROS_TIME_NO_CHANGE = 1
-    ROS_TIME_ACTIVATED = 2
-    ROS_TIME_DEACTIVATED = 3
-    SYSTEM_TIME_NO_CHANGE = 4
-
-
-@dataclass(frozen=True, slots=True)
-class TimeJump:
-    """A step of a clock that was told from outside; `delta` is below zero for one backwards."""
-
-    clock_change: ClockChange
-    delta: Duration
+    UNINITIALIZED = 0
+    ROS_TIME = 1
+    SYSTEM_TIME = 2
+    STEADY_TIME = 3
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class JumpThreshold:
-    """Which jumps to be told of; None for none of that direction."""
+class Time:
+    """An instant; instants of different clocks are neither compared nor subtracted."""
 
-    min_forward: Duration | None = None
-    min_backward: Duration | None = None
-    on_clock_change: bool = True
-
-    def is_met_by(self, jump: TimeJump) -> bool:
-        """Whether a jump is one of these."""
-        if jump.clock_change in {
-            ClockChange.ROS_TIME_ACTIVATED,
-            ClockChange.ROS_TIME_DEACTIVATED,
-        }:
-            return self.on_clock_change
-        forward, backward = self.min_forward, self.min_backward
-        return (forward is not None and jump.delta >= forward > Duration()) or (
-            backward is not None and jump.delta <= backward < Duration()
-        )
-
-
-class JumpHandle:
-    """What keeps a callback on jumps; `unregister` ends it."""
+    __slots__ = ("_clock_type", "_nanoseconds")
 
     def __init__(
         self,
-        clock: Clock,
-        threshold: JumpThreshold,
-        before: Callable[[], None] | None,
-        after: Callable[[TimeJump], None] | None,
+        *,
+        seconds: float = 0,
+        nanoseconds: int = 0,
+        clock_type: ClockType = ClockType.SYSTEM_TIME,
     ) -> None:
-        self._clock, self.threshold, self.before, self.after = clock, threshold, before, after
+        total_ns = int(seconds * NANOSECONDS) + int(nanoseconds)
+        if total_ns < 0:
+            raise ValueError("an instant is not before zero")
+        self._nanoseconds, self._clock_type = total_ns, clock_type
 
-    def unregister(self) -> None:
-        """Be told no more; again is harmless."""
-        self._clock.forget(self)
+    @property
+    def nanoseconds(self) -> int:
+        """Since the zero of its clock."""
+        return self._nanoseconds
+
+    @property
+    def clock_type(self) -> ClockType:
+        """The kind of clock that told it."""
+        return self._clock_type
+
+    def seconds_nanoseconds(self) -> tuple[int, int]:
+        """Whole seconds, and the nanoseconds that are left."""
+        return divmod(self._nanoseconds, NANOSECONDS)
+
+    def to_msg(self) -> MessageValue:
+        """Give it as a builtin_interfaces/msg/Time."""
+        seconds, rest_ns = self.seconds_nanoseconds()
+        return message("builtin_interfaces/msg/Time")(sec=seconds, nanosec=rest_ns)
+
+    @classmethod
+    def from_msg(cls, msg: MessageValue, clock_type: ClockType = ClockType.ROS_TIME) -> Time:
+        """Read a builtin_interfaces/msg/Time.
+
+        Raises:
+            ValueError: It is before zero.
+        """
+        return cls(seconds=0, nanoseconds=stamp_ns(msg), clock_type=clock_type)
+
+    def __add__(self, other: Duration) -> Time:
+        return self._moved(other.nanoseconds)
+
+    __radd__ = __add__
+
+    @overload
+    def __sub__(self, other: Time) -> Duration: ...
+    @overload
+    def __sub__(self, other: Duration) -> Time: ...
+    def __sub__(self, other: Time | Duration) -> Time | Duration:
+        if isinstance(other, Time):
+            self._same_clock(other)
+            return Duration(nanoseconds=self._nanoseconds - other._nanoseconds)
+        return self._moved(-other.nanoseconds)
+
+    def __eq__(self, other: object) -> bool:
+        return self._compared(other, operator.eq) if isinstance(other, Time) else NotImplemented
+
+    def __lt__(self, other: Time) -> bool:
+        return self._compared(other, operator.lt)
+
+    def __le__(self, other: Time) -> bool:
+        return self._compared(other, operator.le)
+
+    def __gt__(self, other: Time) -> bool:
+        return self._compared(other, operator.gt)
+
+    def __ge__(self, other: Time) -> bool:
+        return self._compared(other, operator.ge)
+
+    def __hash__(self) -> int:
+        return hash((self._nanoseconds, self._clock_type))
+
+    def __repr__(self) -> str:
+        return f"Time(nanoseconds={self._nanoseconds}, clock_type={self._clock_type.name})"
+
+    def _moved(self, by_ns: int) -> Time:
+        return Time(nanoseconds=self._nanoseconds + by_ns, clock_type=self._clock_type)
+
+    def _compared(self, other: Time, compare: Callable[[int, int], bool]) -> bool:
+        self._same_clock(other)
+        return compare(self._nanoseconds, other._nanoseconds)
+
+    def _same_clock(self, other: Time) -> None:
+        if self._clock_type is not other._clock_type:
+            raise TypeError(
+                f"instants of {self._clock_type.name} and {other._clock_type.name} do not compare"
+            )
+
+
+def stamp_ns(stamp: MessageValue) -> int:
+    """Give a builtin_interfaces/msg/Time in nanoseconds."""
+    return stamp.sec * NANOSECONDS + stamp.nanosec
 
 
 class Clock:
@@ -204,3 +263,104 @@ class Clock:
             delta_ns = now_ns - before_ns
             change = ClockChange.ROS_TIME_NO_CHANGE if was_told else ClockChange.ROS_TIME_ACTIVATED
         return TimeJump(change, Duration(nanoseconds=delta_ns))
+
+
+class ClockChange(IntEnum):
+    """What a jump changed besides the time."""
+
+    ROS_TIME_NO_CHANGE = 1
+    ROS_TIME_ACTIVATED = 2
+    ROS_TIME_DEACTIVATED = 3
+    SYSTEM_TIME_NO_CHANGE = 4
+
+
+@dataclass(frozen=True, slots=True)
+class TimeJump:
+    """A step of a clock that was told from outside; `delta` is below zero for one backwards."""
+
+    clock_change: ClockChange
+    delta: Duration
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class JumpThreshold:
+    """Which jumps to be told of; None for none of that direction."""
+
+    min_forward: Duration | None = None
+    min_backward: Duration | None = None
+    on_clock_change: bool = True
+
+    def is_met_by(self, jump: TimeJump) -> bool:
+        """Whether a jump is one of these."""
+        if jump.clock_change in {
+            ClockChange.ROS_TIME_ACTIVATED,
+            ClockChange.ROS_TIME_DEACTIVATED,
+        }:
+            return self.on_clock_change
+        forward, backward = self.min_forward, self.min_backward
+        return (forward is not None and jump.delta >= forward > Duration()) or (
+            backward is not None and jump.delta <= backward < Duration()
+        )
+
+
+class JumpHandle:
+    """What keeps a callback on jumps; `unregister` ends it."""
+
+    def __init__(
+        self,
+        clock: Clock,
+        threshold: JumpThreshold,
+        before: Callable[[], None] | None,
+        after: Callable[[TimeJump], None] | None,
+    ) -> None:
+        self._clock, self.threshold, self.before, self.after = clock, threshold, before, after
+
+    def unregister(self) -> None:
+        """Be told no more; again is harmless."""
+        self._clock.forget(self)
+
+
+class TimeSource:
+    """Follows /clock; until it tells something, the time is zero, as in rclpy."""
+
+    def __init__(
+        self,
+        clock: Clock,
+        subscribe: Callable[[Callable[[MessageValue], None]], Callable[[], object]],
+    ) -> None:
+        """Make one that follows nothing yet.
+
+        Args:
+            clock: What is told the time.
+            subscribe: Subscribes to /clock with a callback, and returns what ends that.
+        """
+        self._clock, self._subscribe = clock, subscribe
+        self._unsubscribe: Callable[[], object] | None = None
+
+    @property
+    def ros_time_is_active(self) -> bool:
+        """Whether /clock is followed."""
+        return self._unsubscribe is not None
+
+    @ros_time_is_active.setter
+    def ros_time_is_active(self, active: bool) -> None:
+        if active == self.ros_time_is_active:
+            return
+        if active:
+            self._follow()
+        else:
+            self._leave()
+
+    def _follow(self) -> None:
+        self._clock.tell(0)
+        self._unsubscribe = self._subscribe(self._told)
+
+    def _leave(self) -> None:
+        unsubscribe, self._unsubscribe = self._unsubscribe, None
+        if unsubscribe is not None:
+            unsubscribe()
+        self._clock.tell(None)
+
+    def _told(self, clock: MessageValue) -> None:
+        if self._unsubscribe is not None:
+            self._clock.tell(max(0, stamp_ns(clock.clock)))

@@ -1,4 +1,4 @@
-"""Logger: what nodes say, written to the terminal as rclpy does, and published on /rosout."""
+"""Logger: what nodes log on the terminal and on /rosout, and the services that set its levels."""
 
 from __future__ import annotations
 
@@ -9,14 +9,25 @@ from dataclasses import dataclass
 from enum import IntEnum
 from typing import TYPE_CHECKING
 
+from studio.errors import DestroyedError
 from studio.ros.duration import NANOSECONDS
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from types import FrameType
 
+    from studio.ros.types.classes import MessageValue
+    from studio.ros.types.library import TypeLibrary
+
 _COLOURS = {30: "\033[33m", 40: "\033[31m", 50: "\033[31m", 10: "\033[32m"}
 _PLAIN = "\033[0m"
+_Place = tuple[str, int]
+_loggers: dict[str, Logger] = {}
+LEVELS_MAX = 1_000
+"""Loggers with a level of their own: peers may invent names."""
+NAME_CHARACTERS_MAX = 255
+ROSOUT = "/rosout"
+LOG_TYPE = "rcl_interfaces/msg/Log"
 
 
 class LoggingSeverity(IntEnum):
@@ -41,9 +52,6 @@ class Entry:
     file: str
     function: str
     line: int
-
-
-_Place = tuple[str, int]
 
 
 class _Families:
@@ -166,9 +174,6 @@ class Logger:
             return True
 
 
-_loggers: dict[str, Logger] = {}
-
-
 def get_logger(name: str = "") -> Logger:
     """Give the logger of a name, the same each time."""
     with _families.lock:
@@ -222,3 +227,73 @@ def _say(entry: Entry) -> None:
     sys.stderr.flush()
     for listener in _families.listeners_of(entry.name):
         listener(entry)
+
+
+class LoggerServices:
+    """The callbacks of `get_logger_levels` and `set_logger_levels`."""
+
+    def __init__(self, types: TypeLibrary) -> None:
+        self._level = types.message("rcl_interfaces/msg/LoggerLevel")
+        self._result = types.message("rcl_interfaces/msg/SetLoggerLevelsResult")
+
+    def get_levels(self, request: MessageValue, response: MessageValue) -> MessageValue:
+        """Answer with the levels of loggers, 0 where a logger has none of its own."""
+        response.levels = [
+            self._level(name=name, level=int(own_level(name))) for name in request.names
+        ]
+        return response
+
+    def set_levels(self, request: MessageValue, response: MessageValue) -> MessageValue:
+        """Set the levels of loggers, and answer for each whether it was set."""
+        response.results = [self._set_one(one) for one in request.levels]
+        return response
+
+    def _set_one(self, wanted: MessageValue) -> MessageValue:
+        refusal = _refusal(wanted.name, int(wanted.level))
+        if refusal is not None:
+            return self._result(successful=False, reason=refusal)
+        get_logger(wanted.name).set_level(int(wanted.level))
+        return self._result(successful=True)
+
+
+def _refusal(name: str, level: int) -> str | None:
+    if level not in set(LoggingSeverity):
+        return f"{level} is no level: give 0, 10, 20, 30, 40 or 50."
+    if len(name) > NAME_CHARACTERS_MAX:
+        return f"A logger has a name of at most {NAME_CHARACTERS_MAX} characters."
+    if name not in own_levels() and len(own_levels()) >= LEVELS_MAX:
+        return f"{LEVELS_MAX} loggers have a level of their own already."
+    return None
+
+
+class RosoutPublisher:
+    """Publishes what a logger and its children log, until it is stopped."""
+
+    def __init__(
+        self, types: TypeLibrary, logger: Logger, publish: Callable[[MessageValue], None]
+    ) -> None:
+        self._log = types.message(LOG_TYPE)
+        self._stamp = types.message("builtin_interfaces/msg/Time")
+        self._send = publish
+        self.stop = listen_to(logger.name, self._publish)
+
+    def _publish(self, entry: Entry) -> None:
+        seconds, rest_ns = divmod(entry.time_ns, NANOSECONDS)
+        said = self._log(
+            stamp=self._stamp(sec=seconds, nanosec=rest_ns),
+            level=int(entry.severity),
+            name=entry.name,
+            msg=_sendable(entry.text),
+            file=entry.file,
+            function=entry.function,
+            line=entry.line,
+        )
+        try:
+            self._send(said)
+        except DestroyedError:
+            self.stop()
+
+
+def _sendable(text: str) -> str:
+    """Replace what UTF-8 has no bytes for, such as in names of files: a log never fails."""
+    return text.encode(errors="replace").decode()

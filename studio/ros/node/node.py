@@ -6,22 +6,21 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from studio.ros.duration import NANOSECONDS
+from studio.ros.node.base import NodeBase
+from studio.ros.node.clock import CLOCK_QOS, CLOCK_TOPIC, TimeSource
 from studio.ros.node.context import default_context
-from studio.ros.node.events import CountEvent, events_of
-from studio.ros.node.graph_queries import GraphQueries
-from studio.ros.node.guard import GuardCondition
-from studio.ros.node.logger_services import LoggerServices
+from studio.ros.node.event_handler import CountEvent, events_of
+from studio.ros.node.logger import LOG_TYPE, ROSOUT, LoggerServices, RosoutPublisher
 from studio.ros.node.publisher import Publisher
-from studio.ros.node.qos_overrides import overridden
-from studio.ros.node.rate import Rate
-from studio.ros.node.rosout import RosoutPublisher
+from studio.ros.node.qos_overriding_options import override_qos
 from studio.ros.node.service import Service
 from studio.ros.node.service_client import SERVICE_TIMEOUT_S, Client
 from studio.ros.node.subscription import Subscription
-from studio.ros.node.time_source import TimeSource
-from studio.ros.node.timer import Timer
-from studio.ros.parameters.messages import DESCRIPTOR
-from studio.ros.parameters.of_node import USE_SIM_TIME, NodeParameters
+from studio.ros.node.timer import Rate, Timer
+from studio.ros.node.work import GuardCondition, ReentrantCallbackGroup
+from studio.ros.parameters.files import read_overrides
+from studio.ros.parameters.node_parameters import USE_SIM_TIME, NodeParameters
+from studio.ros.parameters.parameter import DESCRIPTOR
 from studio.ros.qos import (
     QoSProfile,
     qos_profile_rosout_default,
@@ -39,18 +38,18 @@ from studio.ros.types.type_descriptions import (
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
-    from studio.ros.event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks
     from studio.ros.node.clock import Clock
     from studio.ros.node.context import Context
+    from studio.ros.node.event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks
+    from studio.ros.node.qos_overriding_options import QoSOverridingOptions
     from studio.ros.node.subscription import MessageCallback
     from studio.ros.node.work import CallbackGroup, Work
     from studio.ros.parameters.parameter import Parameter
-    from studio.ros.qos_overriding_options import QoSOverridingOptions
     from studio.ros.types.classes import MessageValue
     from studio.ros.types.library import ServiceKind
 
 
-class Node(GraphQueries, NodeParameters):
+class Node(NodeBase, NodeParameters):
     """One node; `destroy_node` takes back all that is its own.
 
     Rooms above this one build on it by: `wire` (the session), `graph`, `context`, `add_work`
@@ -82,21 +81,25 @@ class Node(GraphQueries, NodeParameters):
         self._rosout: RosoutPublisher | None = None  # Ctrl-C may come before there is one
         self.on_destroy(self._destroy_publishers)
         if enable_rosout:
-            self._rosout = RosoutPublisher(self, rosout_qos_profile)
-        self._time_source = TimeSource(self)
-        said = {one.name: one for one in parameter_overrides or ()}
-        said |= {one.name: one for one in arguments.overrides(self.get_fully_qualified_name())}
+            types = self._wire.types
+            publisher = self.create_publisher(types.message(LOG_TYPE), ROSOUT, rosout_qos_profile)
+            self._rosout = RosoutPublisher(types, self.get_logger(), publisher.publish)
+        self._time_source = TimeSource(self._clock, self._subscribe_clock)
+        overrides = {one.name: one for one in parameter_overrides or ()}
+        path = self.get_fully_qualified_name()
+        given = read_overrides(arguments.files, arguments.values, path)
+        overrides |= {one.name: one for one in given}
         self.open_parameters(
             self,
             self._wire.types,
-            overrides=said.values(),
+            overrides=overrides.values(),
             allow_undeclared=allow_undeclared_parameters,
             declare_overrides=automatically_declare_parameters_from_overrides,
             serve=start_parameter_services,
         )
         self._describe_types()
         if enable_logger_service:
-            LoggerServices(self, self._wire.types)
+            self._serve_logger_levels()
         self._follow_sim_time(list(self.get_parameters([USE_SIM_TIME])))
         self.add_post_set_parameters_callback(self._follow_sim_time)
 
@@ -121,7 +124,7 @@ class Node(GraphQueries, NodeParameters):
         """
         kind = EndpointKind.PUBLISHER
         type_name = check_same_type(self._wire.types, msg_type)
-        qos = overridden(self, kind, topic, qos_profile, qos_overriding_options)
+        qos = self._overridden(kind, topic, qos_profile, qos_overriding_options)
         endpoint = self.endpoint(kind, type_name, topic, qos)
         publisher = publisher_class(endpoint, msg_type)
         self._keep_publisher(publisher)
@@ -151,7 +154,7 @@ class Node(GraphQueries, NodeParameters):
         """
         kind = EndpointKind.SUBSCRIPTION
         type_name = check_same_type(self._wire.types, msg_type)
-        qos = overridden(self, kind, topic, qos_profile, qos_overriding_options)
+        qos = self._overridden(kind, topic, qos_profile, qos_overriding_options)
         endpoint = self.endpoint(kind, type_name, topic, qos)
         group = callback_group or self._default_group
         subscription = Subscription(endpoint, msg_type, callback, group, raw=raw)
@@ -230,7 +233,10 @@ class Node(GraphQueries, NodeParameters):
 
     def create_rate(self, frequency: float, clock: Clock | None = None) -> Rate:
         """Make a rate of so many beats a second; it sleeps only while the node spins."""
-        rate = Rate(self, frequency, clock)
+        if frequency <= 0:
+            raise ValueError("a rate is above 0 Hz")
+        timer = self.create_timer(1.0 / frequency, None, clock=clock)
+        rate = Rate(timer, self._context, self.get_logger(), self.destroy_timer)
         self._rates.append(rate)
         return rate
 
@@ -303,6 +309,36 @@ class Node(GraphQueries, NodeParameters):
                 f"~/{DESCRIPTION_SERVICE}",
                 partial(fill_description, types),
             )
+
+    def _serve_logger_levels(self) -> None:
+        """Let other nodes read and set from which level on loggers of this process write."""
+        types, services = self._wire.types, LoggerServices(self._wire.types)
+        for kind, callback in (("get", services.get_levels), ("set", services.set_levels)):
+            service = types.service(f"rcl_interfaces/srv/{kind.title()}LoggerLevels")
+            self.create_service(service, f"~/{kind}_logger_levels", callback)
+
+    def _overridden(
+        self,
+        kind: EndpointKind,
+        topic: str,
+        qos: QoSProfile | int,
+        options: QoSOverridingOptions | None,
+    ) -> QoSProfile | int:
+        if options is None:
+            return qos
+        endpoint = (kind, self.resolve_topic_name(topic))
+        return override_qos(self, self._wire.types, endpoint, qos, options)
+
+    def _subscribe_clock(self, callback: Callable[[MessageValue], None]) -> Callable[[], object]:
+        # The clock goes on beside callbacks that wait for it, where there are threads for both.
+        subscription = self.create_subscription(
+            self._wire.types.message("rosgraph_msgs/msg/Clock"),
+            CLOCK_TOPIC,
+            callback,
+            CLOCK_QOS,
+            callback_group=ReentrantCallbackGroup(),
+        )
+        return partial(self.destroy_subscription, subscription)
 
     def _follow_sim_time(self, parameters: list[Parameter]) -> None:
         for parameter in parameters:

@@ -14,7 +14,7 @@ from studio.ros.types.classes import definition_of
 from studio.ros.wire.zenoh import declare_publisher
 
 if TYPE_CHECKING:
-    from studio.ros.node.endpoint import Endpoint
+    from studio.ros.node.base import Endpoint
     from studio.ros.node.work import Work
     from studio.ros.qos import QoSProfile
     from studio.ros.types.classes import MessageValue

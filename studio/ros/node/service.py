@@ -23,7 +23,7 @@ from studio.ros.wire.zenoh import ZError, declare_queryable
 if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine
 
-    from studio.ros.node.endpoint import Endpoint
+    from studio.ros.node.base import Endpoint
     from studio.ros.node.work import CallbackGroup
     from studio.ros.qos import QoSProfile
     from studio.ros.types.library import ServiceKind

@@ -21,7 +21,7 @@ from studio.errors import (
 )
 from studio.ros.attachment import packed, unpack
 from studio.ros.cdr import check_kind, codec_of
-from studio.ros.node.future import Future
+from studio.ros.node.task import Future
 from studio.ros.node.work import Work
 from studio.ros.types.classes import definition_of
 from studio.ros.wire.zenoh import (
@@ -36,8 +36,7 @@ from studio.ros.wire.zenoh import (
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from studio.ros.node.endpoint import Endpoint
-    from studio.ros.node.node import Node
+    from studio.ros.node.base import Endpoint, NodeBase
     from studio.ros.node.work import CallbackGroup
     from studio.ros.qos import QoSProfile
     from studio.ros.types.classes import MessageValue
@@ -77,7 +76,7 @@ class Client(Work):
         endpoint: Endpoint,
         srv_type: ServiceKind,
         group: CallbackGroup,
-        node: Node,
+        node: NodeBase,
         timeout_s: float = SERVICE_TIMEOUT_S,
     ) -> None:
         super().__init__(group)

@@ -1,4 +1,4 @@
-"""Spinning: joining and leaving the wire, and carrying out a node's work, as rclpy's functions."""
+"""The functions of rclpy: init, shutdown, spin, and waiting for the answer of a service."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ import threading
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, Self
 
-from studio.errors import ExternalShutdownException
+from studio.errors import ExternalShutdownException, NoAnswerError, NotServedError
 from studio.ros.node.arguments import parse_arguments
 from studio.ros.node.context import Context, default_context
-from studio.ros.node.executor import Executor, SingleThreadedExecutor
+from studio.ros.node.executors import Executor, SingleThreadedExecutor
 from studio.ros.node.logger import get_logger
 from studio.ros.node.node import Node
 from studio.ros.node.signals import SignalHandlerOptions, handlers
@@ -20,14 +20,17 @@ from studio.ros.wire.settings import wire_settings
 if TYPE_CHECKING:
     from collections.abc import Generator, Sequence
 
-    from studio.ros.node.future import Future
+    from studio.ros.node.service_client import Client
+    from studio.ros.node.task import Future
+    from studio.ros.types.classes import MessageValue
     from studio.ros.wire.settings import WireSettings
 
 _lock = threading.Lock()
 _executors: dict[Context, Executor] = {}
+ANSWER_TIMEOUT_S = 5.0
 
 
-class Joined:
+class InitContextManager:
     """What `init` gives: `with init():` shuts down at its end."""
 
     def __init__(self, context: Context) -> None:
@@ -48,7 +51,7 @@ def init(
     signal_handler_options: SignalHandlerOptions | None = None,
     settings: WireSettings | None = None,
     router: str = "auto",
-) -> Joined:
+) -> InitContextManager:
     """Join the wire; nodes are made after.
 
     Args:
@@ -77,7 +80,7 @@ def init(
     handlers.install(joined, options)
     atexit.register(joined.shutdown)
     joined.init(given, router)
-    return Joined(joined)
+    return InitContextManager(joined)
 
 
 def ok(*, context: Context | None = None) -> bool:
@@ -119,7 +122,7 @@ def spin(node: Node, executor: Executor | None = None) -> None:
     Raises:
         ExternalShutdownException: The process was told to end.
     """
-    with _carried_out_by(node, executor) as chosen:
+    with _spun_by(node, executor) as chosen:
         chosen.spin()
 
 
@@ -131,7 +134,7 @@ def spin_once(
     Raises:
         ExternalShutdownException: The process was told to end.
     """
-    with _carried_out_by(node, executor) as chosen:
+    with _spun_by(node, executor) as chosen:
         chosen.spin_once(timeout_sec)
 
 
@@ -146,7 +149,7 @@ def spin_until_future_complete(
     Raises:
         ExternalShutdownException: The process was told to end.
     """
-    with _carried_out_by(node, executor) as chosen:
+    with _spun_by(node, executor) as chosen:
         chosen.spin_until_future_complete(future, timeout_sec)
 
 
@@ -181,7 +184,7 @@ def spinning(*nodes: Node, executor: Executor | None = None) -> Generator[Execut
 
 
 @contextmanager
-def _carried_out_by(node: Node, executor: Executor | None) -> Generator[Executor]:
+def _spun_by(node: Node, executor: Executor | None) -> Generator[Executor]:
     """Lend a node to an executor; one that it had before is given it back."""
     before = node.executor
     chosen = executor or before or get_global_executor(node.context)
@@ -193,3 +196,35 @@ def _carried_out_by(node: Node, executor: Executor | None) -> Generator[Executor
             chosen.remove_node(node)
             if before is not None and before is not chosen:
                 before.add_node(node)
+
+
+def call_service(
+    node: Node, client: Client, request: MessageValue, timeout_s: float = ANSWER_TIMEOUT_S
+) -> Any:  # noqa: ANN401  # a response of the service
+    """Wait until a service is there, ask it and give its answer.
+
+    Raises:
+        NotServedError: No node serves it in time, or that node ended.
+        NoAnswerError: The answer does not come in time.
+    """
+    if not client.wait_for_service(timeout_sec=timeout_s):
+        raise NotServedError("service", client.srv_name)
+    return wait_for_answer(node, client.call_async(request), client.srv_name, timeout_s)
+
+
+def wait_for_answer(
+    node: Node, future: Future[Any], name: str, timeout_s: float = ANSWER_TIMEOUT_S
+) -> Any:  # noqa: ANN401  # what the future becomes
+    """Wait for a future: a node that nobody spins is spun meanwhile.
+
+    Raises:
+        NoAnswerError: It is not known in time; it is cancelled then.
+    """
+    if node.executor is None:
+        spin_until_future_complete(node, future, timeout_sec=timeout_s)
+    else:
+        future.wait(timeout_s)
+    if not future.done():
+        future.cancel()
+        raise NoAnswerError("service", name, timeout_s)
+    return future.result()

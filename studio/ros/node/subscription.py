@@ -1,4 +1,4 @@
-"""Subscription: takes in the samples of a topic, counts what was lost, and calls back."""
+"""Subscription: receives the samples of a topic, counts what was lost, and calls back."""
 
 from __future__ import annotations
 
@@ -6,24 +6,29 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, Final, Self
 
 from studio.errors import AttachmentError, CdrError
 from studio.ros.attachment import unpack
 from studio.ros.cdr import codec_of
-from studio.ros.node.future import Future
-from studio.ros.node.inbox import Inbox, RawSample
-from studio.ros.node.info import MessageInfo, info_of, wants_info
 from studio.ros.node.logger import get_logger
-from studio.ros.node.sequences import Gaps
+from studio.ros.node.samples import (
+    Gaps,
+    MessageInfo,
+    RawSample,
+    SampleQueue,
+    message_info,
+    wants_info,
+)
+from studio.ros.node.task import Future
 from studio.ros.node.work import Work
 from studio.ros.qos import DEPTH_DEFAULT, DurabilityPolicy, HistoryPolicy, ReliabilityPolicy
 from studio.ros.tokens import EndpointKind
 from studio.ros.wire.zenoh import SAMPLES_WAITING_MAX, declare_subscription
 
 if TYPE_CHECKING:
-    from studio.ros.node.endpoint import Endpoint
-    from studio.ros.node.events import CountEvent
+    from studio.ros.node.base import Endpoint, NodeBase
+    from studio.ros.node.event_handler import CountEvent
     from studio.ros.node.work import CallbackGroup
     from studio.ros.qos import QoSProfile
     from studio.ros.types.classes import MessageValue
@@ -34,6 +39,7 @@ RING = 4_096
 
 MessageCallback = Callable[[Any], object] | Callable[[Any, MessageInfo], object]
 """Takes a message, or its bytes where they are raw; and what came with it, if it has two."""
+_NEVER_READ: Final = "std_msgs/msg/Empty"
 
 
 @dataclass(slots=True)
@@ -85,7 +91,7 @@ class Subscription(Work):
         self._codec = codec_of(msg_type)
         self._losses, self._gaps = Losses(), Gaps()
         depth, ring = _sizes(endpoint.token.qos)
-        self._inbox = Inbox(depth)
+        self._inbox = SampleQueue(depth)
         self._arrived: Future[None] | None = None
         self.events: list[Work] = []
         self.lost_event: CountEvent | None = None
@@ -200,7 +206,7 @@ class Subscription(Work):
             self._say_malformed(error)
             return None
         if self._wants_info:
-            return callback(message, info_of(sample))
+            return callback(message, message_info(sample))
         return callback(message)
 
     def _decoded(self, sample: RawSample) -> MessageValue | None:
@@ -239,3 +245,51 @@ def _declared(endpoint: Endpoint, ring: int) -> Incoming[Sample]:
         reliable=qos.reliability is not ReliabilityPolicy.BEST_EFFORT,
         wanted=(qos.depth or DEPTH_DEFAULT) if latched else None,
     )
+
+
+class RawSubscription:
+    """Hears until `close`; making and closing it may wait, so do it in a thread.
+
+    Its token is shown as that of any subscription: some drivers publish only while one is there.
+
+    Args:
+        node: Whose subscription it is.
+        topic: In full.
+        type_name: Of its messages; it need not be known here.
+        type_hash: As a publisher shows it; None is that of the known type.
+        qos: How it is heard.
+
+    Raises:
+        RosNameError: The topic cannot be named so.
+        UnknownTypeError: No hash was given, and the type is not known.
+    """
+
+    def __init__(
+        self, node: NodeBase, topic: str, type_name: str, type_hash: str | None, qos: QoSProfile
+    ) -> None:
+        self._node = node
+        kind = EndpointKind.SUBSCRIPTION
+        endpoint = node.endpoint(kind, type_name, topic, qos, type_hash)
+        never_read = node.wire.types.message(_NEVER_READ)
+        group = node.default_callback_group
+        self._subscription = Subscription(endpoint, never_read, None, group, raw=True)
+        node.add_work(self._subscription)
+
+    @property
+    def lost(self) -> int:
+        """Messages that were sent and did not come here, or not in time."""
+        losses = self._subscription.losses
+        return losses.lost + losses.overwritten
+
+    def wait_for(self, on_arrival: Callable[[], object]) -> None:
+        """Have what comes be told at once, in another thread: `on_arrival` must be quick."""
+        self._subscription.on_arrival = on_arrival
+        self._node.context.drain.wait_for(self._subscription)
+
+    def take(self) -> list[RawSample]:
+        """Take what came since it was asked for last."""
+        return self._subscription.take_all()
+
+    def close(self) -> None:
+        """Hear it no more."""
+        self._node.remove_work(self._subscription)

@@ -1,17 +1,183 @@
-"""Task: a function or coroutine that an executor carries out, step by step."""
+"""Future, a result that is set once, and Task, a function that an executor carries out."""
 
 from __future__ import annotations
 
 import asyncio
 import inspect
-from typing import TYPE_CHECKING, Any
-
-from studio.ros.node.future import Future
+import logging
+import threading
+from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar, cast
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Coroutine
+    from collections.abc import Callable, Coroutine, Generator
 
-    from studio.ros.node.executor import Executor
+
+ResultT = TypeVar("ResultT")
+
+logger = logging.getLogger(__name__)
+
+
+class TaskExecutor(Protocol):
+    """What futures and tasks need of the executor that carries them out."""
+
+    @property
+    def is_shut_down(self) -> bool:
+        """Whether it carries out no more."""
+        ...
+
+    def create_task(self, callback: Callable[..., object], *args: Any) -> object:  # noqa: ANN401
+        """Carry out a function."""
+        ...
+
+    def resume(self, task: Task) -> None:
+        """Go on with a task; from any thread."""
+        ...
+
+
+class Future(Generic[ResultT]):
+    """A result or an exception, set once by any thread; the names are rclpy's.
+
+    `await` works in a callback that an executor carries out, and in asyncio.
+    """
+
+    def __init__(self, *, executor: TaskExecutor | None = None) -> None:
+        self._executor = executor
+        self._changed = threading.Condition()
+        self._done = self._cancelled = False
+        self._result: ResultT | None = None
+        self._exception: BaseException | None = None
+        self._callbacks: list[Callable[[Any], object]] = []
+        self._listeners: list[Callable[[], object]] = []
+
+    def done(self) -> bool:
+        """Whether it is known, or cancelled."""
+        return self._done
+
+    def cancelled(self) -> bool:
+        """Whether it was cancelled."""
+        return self._cancelled
+
+    def cancel(self) -> None:
+        """Give it up: whoever waits is told; nothing when it is known."""
+        self._settle(cancelled=True)
+
+    def result(self) -> ResultT:
+        """Give the result, None while it is not known; an exception is raised."""
+        if self._exception is not None:
+            raise self._exception
+        return cast("ResultT", self._result)
+
+    def exception(self) -> BaseException | None:
+        """Give the exception, None without."""
+        return self._exception
+
+    def set_result(self, result: ResultT) -> None:
+        """Set what it is; nothing when it was cancelled or known before."""
+        self._settle(result=result)
+
+    def set_exception(self, exception: BaseException) -> None:
+        """Set why it will not be known."""
+        self._settle(exception=exception)
+
+    def add_done_callback(self, callback: Callable[[Any], object]) -> None:
+        """Call back with this future when it is done, by the executor where there is one."""
+        with self._changed:
+            if not self._done:
+                self._callbacks.append(callback)
+                return
+        self._call_back(callback)
+
+    def remove_done_callback(self, callback: Callable[[Any], object]) -> bool:
+        """Do not call back; whether it was to be called."""
+        with self._changed:
+            if callback not in self._callbacks:
+                return False
+            self._callbacks.remove(callback)
+            return True
+
+    def listen(self, listener: Callable[[], object]) -> None:
+        """Tell at once when it is done, in the thread that settles it; it must not wait."""
+        with self._changed:
+            if not self._done:
+                self._listeners.append(listener)
+                return
+        listener()
+
+    def unlisten(self, listener: Callable[[], object]) -> None:
+        """Tell no more; harmless when it was told, or was never to be."""
+        with self._changed:
+            if listener in self._listeners:
+                self._listeners.remove(listener)
+
+    def wait(self, timeout_s: float | None = None) -> bool:
+        """Block until it is done, or that long; whether it is. Never within a callback."""
+        with self._changed:
+            return self._changed.wait_for(lambda: self._done, timeout_s)
+
+    def __await__(self) -> Generator[Any, None, ResultT]:
+        if not self._done and _in_asyncio():
+            yield from self._wait_in_loop()
+        while not self._done:
+            yield self
+        if self._cancelled:
+            raise asyncio.CancelledError
+        return self.result()
+
+    def _wait_in_loop(self) -> Generator[Any, None, None]:
+        loop = asyncio.get_running_loop()
+        there: asyncio.Future[None] = loop.create_future()
+
+        def tell() -> None:
+            if not there.done():
+                there.set_result(None)
+
+        def listener() -> None:
+            if not loop.is_closed():
+                loop.call_soon_threadsafe(tell)
+
+        self.listen(listener)
+        try:
+            yield from there.__await__()
+        finally:  # a wait that was given up leaves nothing behind
+            self.unlisten(listener)
+
+    def _settle(
+        self,
+        *,
+        result: ResultT | None = None,
+        exception: BaseException | None = None,
+        cancelled: bool = False,
+    ) -> None:
+        with self._changed:
+            if self._done:
+                return
+            self._result, self._exception, self._cancelled = result, exception, cancelled
+            self._done = True
+            callbacks, self._callbacks = self._callbacks, []
+            listeners, self._listeners = self._listeners, []
+            self._changed.notify_all()
+        for listener in listeners:
+            listener()
+        for callback in callbacks:
+            self._call_back(callback)
+
+    def _call_back(self, callback: Callable[[Any], object]) -> None:
+        executor = self._executor
+        if executor is not None and not executor.is_shut_down:
+            executor.create_task(callback, self)
+            return
+        try:
+            callback(self)
+        except Exception:  # the thread that settles it is nobody's who called back
+            logger.exception("a callback of a future failed")
+
+
+def _in_asyncio() -> bool:
+    try:
+        asyncio.get_running_loop()
+    except RuntimeError:
+        return False
+    return True
 
 
 class Task(Future[Any]):
@@ -19,7 +185,7 @@ class Task(Future[Any]):
 
     def __init__(
         self, handler: Callable[..., object] | Coroutine[Any, Any, Any], *args: Any,  # noqa: ANN401
-        executor: Executor, **named: Any,  # noqa: ANN401
+        executor: TaskExecutor, **named: Any,  # noqa: ANN401
     ) -> None:  # fmt: skip
         super().__init__(executor=executor)
         self._home = executor

@@ -1,4 +1,4 @@
-"""Timer: is ready once in every period, and does not drift."""
+"""Timer, which calls back once in every period, and Rate, which sleeps until the next one."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import threading
 import time
 from typing import TYPE_CHECKING
 
+from studio.errors import DestroyedError, ExternalShutdownException
 from studio.ros.duration import NANOSECONDS, Duration
 from studio.ros.node.clock import ClockType, JumpThreshold
 from studio.ros.node.work import Work
@@ -14,7 +15,11 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from studio.ros.node.clock import Clock, TimeJump
+    from studio.ros.node.context import Context
+    from studio.ros.node.logger import Logger
     from studio.ros.node.work import CallbackGroup
+
+_PATIENCE_S = 2.0
 
 
 class Timer(Work):
@@ -145,3 +150,50 @@ class Timer(Work):
 
 def _nothing() -> None:
     return
+
+
+class Rate:
+    """Beats by a timer that whoever spins the node carries out: without spinning it sleeps on.
+
+    A beat that came before `sleep` counts, so that a loop of `spin_once` and `sleep` keeps time.
+    """
+
+    def __init__(
+        self, timer: Timer, context: Context, logger: Logger, forget: Callable[[Timer], object]
+    ) -> None:
+        """Sleep until a timer calls back; `forget` takes the timer from its node at the end."""
+        self._beat = threading.Event()
+        self._timer: Timer | None = timer
+        self._context, self._logger, self._forget = context, logger, forget
+        self._patience_s = 2 * timer.timer_period_ns / NANOSECONDS + _PATIENCE_S
+        timer.callback = self._beat.set
+        context.on_end(self._beat.set)
+
+    def sleep(self) -> None:
+        """Sleep until the next beat.
+
+        Raises:
+            DestroyedError: The rate was destroyed.
+            ExternalShutdownException: The process was told to end.
+        """
+        while not self._beat.wait(self._patience_s):
+            self._logger.warning(
+                "Nobody spins this node, so that its rate sleeps on: call spin_once in the loop, "
+                "or spin in a thread.",
+                once=True,
+            )
+        self._beat.clear()
+        if not self._context.ok():
+            self._beat.set()
+            raise ExternalShutdownException
+        if self._timer is None:
+            self._beat.set()
+            raise DestroyedError("rate")
+
+    def destroy(self) -> None:
+        """Beat no more; who sleeps is woken."""
+        timer, self._timer = self._timer, None
+        if timer is not None:
+            self._forget(timer)
+            self._context.forget_end(self._beat.set)
+        self._beat.set()

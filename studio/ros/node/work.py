@@ -1,4 +1,4 @@
-"""Work: what an executor carries out piece by piece, and the groups that keep pieces apart."""
+"""Work, which an executor carries out piece by piece, and the callback groups that part it."""
 
 from __future__ import annotations
 
@@ -121,3 +121,27 @@ class Work:
 
     def destroy(self) -> None:
         """Take back what was declared; again is harmless."""
+
+
+class GuardCondition(Work):
+    """Calls back once after it was triggered, however often that was."""
+
+    def __init__(self, callback: Callable[[], object], group: CallbackGroup) -> None:
+        super().__init__(group)
+        self.callback = callback
+        self._triggered = False
+
+    @property
+    def is_ready(self) -> bool:
+        """Whether it was triggered."""
+        return self._triggered
+
+    def trigger(self) -> None:
+        """Set it off; from any thread."""
+        self._triggered = True
+        self.announce()
+
+    def take(self) -> Callable[[], object] | None:
+        """Give the callback, once for all triggers."""
+        triggered, self._triggered = self._triggered, False
+        return self.callback if triggered else None

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
-from studio.errors import InvalidParameterTypeError, ParameterFileError
-from studio.ros.parameters.parameter import Parameter
-from studio.ros.parameters.values import ParameterType
+from studio.errors import InvalidParameterTypeError, ParameterFileError, RosArgumentError
+from studio.ros.parameters.parameter import Parameter, ParameterType
 from studio.ros.types.classes import shown
 from studio.ros.types.yaml_texts import read_yaml, write_yaml
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterable, Iterator, Mapping
 
 PARAMETERS_KEY = "ros__parameters"
 LEVELS_MAX = 64
@@ -54,6 +54,43 @@ def read_parameters(
             for name, value in _flat(values, "", where, 0):
                 found[name] = _made(name, value, where)
     return list(found.values())
+
+
+def read_overrides(
+    files: Iterable[str], values: Iterable[tuple[str, str]], node: str
+) -> list[Parameter]:
+    """Return the parameters that a command line gives to the node of that full name.
+
+    Args:
+        files: Of parameters, the last one counts.
+        values: Names and values in YAML, which come before those of files.
+        node: Its full name.
+
+    Raises:
+        ParameterFileError: A file cannot be read, or is none of parameters.
+        InvalidParameterTypeError: A value is of no type that parameters have.
+        RosArgumentError: A value is no YAML.
+    """
+    found: dict[str, Parameter] = {}
+    for file in files:
+        found |= {one.name: one for one in read_parameters(_text_of(file), node, file)}
+    for name, text in values:
+        found[name] = Parameter(name, value=_value(name, text))
+    return list(found.values())
+
+
+def _text_of(file: str) -> str:
+    try:
+        return Path(file).read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise ParameterFileError(file, f"it cannot be read ({error})") from None
+
+
+def _value(name: str, text: str) -> Any:  # noqa: ANN401 - whatever YAML holds
+    try:
+        return read_yaml(text, "its value")
+    except ValueError as error:
+        raise RosArgumentError(f"{name}:={text}", str(error)) from None
 
 
 def _insert(tree: dict[str, Any], name: str, value: object) -> None:

@@ -1,8 +1,10 @@
-"""ParameterStore: the parameters that a node declared, with their types, ranges and values."""
+"""ParameterStore: the parameters of a node with their types, ranges, values and callbacks."""
 
 from __future__ import annotations
 
+import math
 import threading
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -15,18 +17,118 @@ from studio.errors import (
     ParameterNotDeclaredError,
     ParameterUninitializedError,
 )
-from studio.ros.parameters.callbacks import ParameterCallbacks
-from studio.ros.parameters.messages import ParameterMessages, usual_messages
-from studio.ros.parameters.parameter import Parameter
-from studio.ros.parameters.ranges import misfit
-from studio.ros.parameters.values import ParameterType
+from studio.ros.parameters.parameter import (
+    Parameter,
+    ParameterMessages,
+    ParameterType,
+    usual_messages,
+)
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
+    from collections.abc import Mapping
 
     from studio.ros.types.classes import MessageValue
 
+PreSetCallback = Callable[[list["Parameter"]], list["Parameter"]]
+OnSetCallback = Callable[[list["Parameter"]], Any]
+"""It gives a SetParametersResult; anything with `successful` and `reason` is taken."""
+PostSetCallback = Callable[[list["Parameter"]], None]
+_TOLERANCE = 1e-9
 NAME_CHARACTERS_MAX = 1_000
+_DESCRIPTOR_FIELDS = (
+    "description",
+    "additional_constraints",
+    "read_only",
+    "dynamic_typing",
+    "floating_point_range",
+    "integer_range",
+)
+
+
+class ParameterCallbacks:
+    """The callbacks of a node; those added last are asked first, as in rclpy."""
+
+    def __init__(self) -> None:
+        self.pre_set: list[PreSetCallback] = []
+        self.on_set: list[OnSetCallback] = []
+        self.post_set: list[PostSetCallback] = []
+
+    def before(self, parameters: list[Parameter]) -> list[Parameter]:
+        """Let callbacks change what is to be set."""
+        for callback in self.pre_set:
+            parameters = list(callback(parameters))
+        return parameters
+
+    def ask(self, parameters: list[Parameter], agreed: MessageValue) -> Any:  # noqa: ANN401
+        """Give the first refusal; `agreed` is the result that means that there was none."""
+        for callback in self.on_set:
+            result = callback(parameters)
+            if not getattr(result, "successful", False):
+                return _refusal(result, agreed)
+        return agreed
+
+    def after(self, parameters: Iterable[Parameter]) -> None:
+        """Tell that parameters were set."""
+        for callback in self.post_set:
+            callback(list(parameters))
+
+
+def _refusal(result: Any, agreed: MessageValue) -> MessageValue:  # noqa: ANN401
+    # A callback without a return statement refuses everything: say so, it is a usual slip.
+    reason = getattr(result, "reason", "the callback of the node returned no SetParametersResult")
+    return type(agreed)(successful=False, reason=reason or "the callback of the node refused it")
+
+
+def range_violation(parameter: Parameter, descriptor: MessageValue) -> str | None:
+    """Say in rclpy's words why a value is outside the range of a descriptor, None if it is not.
+
+    The ends of a range are always taken; a step counts from its lower end, 0 is none.
+    """
+    if parameter.type_ is ParameterType.INTEGER and descriptor.integer_range:
+        return _integer_violation(parameter, descriptor.integer_range[0])
+    if parameter.type_ is ParameterType.DOUBLE and descriptor.floating_point_range:
+        return _double_violation(parameter, descriptor.floating_point_range[0])
+    return None
+
+
+def _integer_violation(parameter: Parameter, span: MessageValue) -> str | None:
+    value, low, high = parameter.value, *_ends(span)
+    if value in (low, high):
+        return None
+    if not low < value < high:
+        return f"Parameter {parameter.name} out of range. Min: {low}, Max: {high}, value: {value}"
+    if span.step and (value - low) % span.step:
+        return (
+            f"The parameter value for {parameter.name} is not a valid step. "
+            f"Min: {low}, max: {high}, value: {value}, step: {span.step}"
+        )
+    return None
+
+
+def _double_violation(parameter: Parameter, span: MessageValue) -> str | None:
+    value, low, high = parameter.value, *_ends(span)
+    if _close(value, low) or _close(value, high):
+        return None
+    if not low < value < high:
+        # rclpy has a full stop after "range" for integers alone.
+        return f"Parameter {parameter.name} out of range Min: {low}, Max: {high}, value: {value}"
+    steps = (value - low) / span.step if span.step > 0 else math.inf
+    if math.isfinite(steps) and not _close(value, low + round(steps) * span.step):
+        return (
+            f"The parameter value for {parameter.name} is not close enough to a valid step. "
+            f"Min: {low}, max: {high}, value: {value}, step: {span.step}"
+        )
+    return None
+
+
+def _ends(span: MessageValue) -> tuple[Any, Any]:
+    """Give the lower end and the upper one, which a descriptor may have in either order."""
+    low, high = span.from_value, span.to_value
+    return (high, low) if high < low else (low, high)
+
+
+def _close(one: float, other: float) -> bool:
+    return math.isclose(one, other, rel_tol=_TOLERANCE, abs_tol=_TOLERANCE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -292,7 +394,7 @@ class ParameterStore:
             raise InvalidParameterTypeError(
                 parameter.name, f"it is {_words(descriptor)}, {kind.words} was given"
             )
-        reason = misfit(parameter, descriptor)
+        reason = range_violation(parameter, descriptor)
         if reason is not None:
             raise InvalidParameterValueError(parameter.name, reason)
 
@@ -309,16 +411,6 @@ class ParameterStore:
                 known.descriptor.type = int(parameter.type_)
         for parameter in step.deleted:
             del self._declared[parameter.name]
-
-
-_DESCRIPTOR_FIELDS = (
-    "description",
-    "additional_constraints",
-    "read_only",
-    "dynamic_typing",
-    "floating_point_range",
-    "integer_range",
-)
 
 
 def _default(name: str, value: object) -> Parameter:

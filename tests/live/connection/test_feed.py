@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from studio.ros.client import Node
-    from studio.ros.node.info import MessageInfo
+    from studio.ros.node.samples import MessageInfo
 
 pytestmark = pytest.mark.network
 

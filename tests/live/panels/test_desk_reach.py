@@ -13,7 +13,7 @@ from studio.protocol.calls import CallService
 from studio.protocol.goals import CancelGoal, SendGoal
 from studio.protocol.publishing import Drive, Publish, StopPublishing
 from studio.ros.action import ActionServer
-from studio.ros.node.future import Future
+from studio.ros.node.task import Future
 from studio.ros.node.work import ReentrantCallbackGroup
 from tests.support.bridged import Bridged, bridged
 from tests.support.demos import heard, node_at

@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 
 from studio.live.panels.hearing_frames import LARGE_BYTES, Tick, chunk_of, frame_of, frame_parts
 from studio.ros.attachment import Attachment
-from studio.ros.node.inbox import RawSample
+from studio.ros.node.samples import RawSample
 from tests.support.hearers import Came, read_frame
 
 PAYLOADS = st.lists(st.binary(max_size=40), max_size=6)

@@ -11,9 +11,9 @@ from studio.ros.action import (
     GoalResponse,
     GoalStatus,
 )
-from studio.ros.action.cancelling import CancelCode
+from studio.ros.action.protocol import CancelCode
 from studio.ros.node.context import Context
-from studio.ros.node.executor import SingleThreadedExecutor
+from studio.ros.node.executors import SingleThreadedExecutor
 from studio.ros.node.node import Node
 from studio.ros.qos import qos_profile_action_status_default
 from tests.support.goals import FIBONACCI, Held, action_pair, finished
@@ -32,7 +32,9 @@ def accept_cancel(goal: ServerGoalHandle) -> CancelResponse:
 
 
 def kind_of(goal: ServerGoalHandle) -> ActionType:
-    return goal._server.action_type  # pyright: ignore[reportPrivateUsage]
+    server = goal._server  # pyright: ignore[reportPrivateUsage]
+    assert isinstance(server, ActionServer)
+    return server.action_type
 
 
 def count_up(goal: ServerGoalHandle) -> object:

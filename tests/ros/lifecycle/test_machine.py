@@ -5,8 +5,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from studio.errors import TransitionError
-from studio.ros.lifecycle.machine import LifecycleMachine
-from studio.ros.lifecycle.states import StateId, Transition, TransitionCallbackReturn
+from studio.ros.lifecycle.machine import (
+    LifecycleMachine,
+    StateId,
+    Transition,
+    TransitionCallbackReturn,
+)
 
 SUCCESS, FAILURE, ERROR = TransitionCallbackReturn
 

@@ -7,16 +7,23 @@ import pytest
 from studio.errors import ParameterFileError, RosArgumentError
 from studio.ros.node.arguments import NodeArguments, parse_arguments
 from studio.ros.node.logger import LoggingSeverity
+from studio.ros.parameters.files import read_overrides
 from studio.ros.tokens import NodeToken
 
 if TYPE_CHECKING:
     from pathlib import Path
+
+    from studio.ros.parameters.parameter import Parameter
 
 TALKER = NodeToken(0, "z", 0, "/ns", "talker")
 
 
 def of_talker(*words: str) -> NodeArguments:
     return parse_arguments(["--ros-args", *words]).of_node("talker")
+
+
+def overrides_of(arguments: NodeArguments) -> list[Parameter]:
+    return read_overrides(arguments.files, arguments.values, "/ns/talker")
 
 
 def test_words_outside_of_ros_args_are_left():
@@ -50,7 +57,7 @@ def test_the_first_remapping_that_fits_counts():
 
 def test_parameters_are_read_as_yaml_and_the_last_one_counts():
     said = of_talker("-p", "a:=1", "-p", "talker:b:=[1.5, 2.5]", "-p", "a:=-2", "-p", "other:c:=1")
-    assert {one.name: one.value for one in said.overrides("/ns/talker")} == {
+    assert {one.name: one.value for one in overrides_of(said)} == {
         "a": -2,
         "b": [1.5, 2.5],
     }
@@ -60,13 +67,13 @@ def test_files_of_parameters_come_before_single_ones(tmp_path: Path):
     file = tmp_path / "values.yaml"
     file.write_text("/ns/talker:\n  ros__parameters:\n    a: 1\n    b: two\n")
     said = of_talker("--params-file", str(file), "-p", "a:=3")
-    assert {one.name: one.value for one in said.overrides("/ns/talker")} == {"a": 3, "b": "two"}
+    assert {one.name: one.value for one in overrides_of(said)} == {"a": 3, "b": "two"}
 
 
 def test_a_file_of_parameters_that_is_not_there_is_named(tmp_path: Path):
     said = of_talker("--params-file", str(tmp_path / "none.yaml"))
     with pytest.raises(ParameterFileError, match=r"none\.yaml"):
-        said.overrides("/ns/talker")
+        overrides_of(said)
 
 
 def test_levels_of_logging_are_read():
@@ -84,7 +91,7 @@ def test_what_is_said_to_a_node_counts_before_what_is_said_to_all():
     all_nodes = parse_arguments(["--ros-args", "-r", "a:=all", "-p", "p:=2"])
     said = own.before(all_nodes).of_node("talker")
     assert said.remapped("/ns/a", TALKER) == "/ns/own"
-    assert [one.value for one in said.overrides("/ns/talker")] == [1]
+    assert [one.value for one in overrides_of(said)] == [1]
 
 
 @pytest.mark.parametrize(
@@ -98,9 +105,9 @@ def test_words_that_ros_does_not_know_are_refused(words: list[str]):
 def test_a_value_that_is_no_yaml_is_told_with_its_argument(tmp_path: Path):
     said = of_talker("-p", "rate:=[1")
     with pytest.raises(RosArgumentError, match=r'"rate:=\[1" is not understood: its value is no Y'):
-        said.overrides("/ns/talker")
+        overrides_of(said)
     file = tmp_path / "p.yaml"
     file.write_text("a:\n  b: [\n")
     with pytest.raises(ParameterFileError) as caught:
-        of_talker("--params-file", str(file)).overrides("/ns/talker")
+        overrides_of(of_talker("--params-file", str(file)))
     assert str(caught.value).startswith(f"{file}: it is no YAML (line 3, column 1: expected")

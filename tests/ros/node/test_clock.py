@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.ros.duration import Duration
-from studio.ros.node.clock import Clock, ClockChange, JumpThreshold, TimeJump
-from studio.ros.node.time import ClockType, Time
+from studio.ros.node.clock import Clock, ClockChange, ClockType, JumpThreshold, Time, TimeJump
 from tests.support.node_pair import context_at
 from tests.support.wire import running_router
 

@@ -10,7 +10,7 @@ from studio.ros.duration import Duration
 from studio.ros.messages import message
 from studio.ros.node.clock import Clock
 from studio.ros.node.context import Context
-from studio.ros.node.executor import SingleThreadedExecutor
+from studio.ros.node.executors import SingleThreadedExecutor
 from studio.ros.node.node import Node
 from studio.ros.wire.settings import WireSettings
 from tests.support.node_pair import context_at

@@ -56,7 +56,7 @@ def test_what_is_no_level_is_refused(asking: Node):
 
 def test_names_without_end_are_refused(asking: Node, monkeypatch: pytest.MonkeyPatch):
     assert "at most 255 characters" in set_level(asking, "n" * 256, 10).reason
-    monkeypatch.setattr("studio.ros.node.logger_services.LEVELS_MAX", 0)
+    monkeypatch.setattr("studio.ros.node.logger.LEVELS_MAX", 0)
     assert "have a level of their own already" in set_level(asking, "chatty.invented", 10).reason
 
 

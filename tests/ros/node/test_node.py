@@ -19,8 +19,8 @@ from tests.support.wire import open_test_session, wait_until
 if TYPE_CHECKING:
     from collections.abc import Generator
 
+    from studio.ros.node.base import Endpoint
     from studio.ros.node.context import Context
-    from studio.ros.node.endpoint import Endpoint
     from studio.ros.types.classes import MessageValue
 
 String = message("std_msgs/msg/String")

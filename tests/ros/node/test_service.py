@@ -12,8 +12,8 @@ from studio.errors import MessageValueError, NotServedError
 from studio.ros.attachment import Attachment, unpack
 from studio.ros.cdr import codec_of
 from studio.ros.messages import service
-from studio.ros.node.future import Future
 from studio.ros.node.spinning import spinning
+from studio.ros.node.task import Future
 from studio.ros.node.work import ReentrantCallbackGroup
 from studio.ros.qos import QoSProfile
 from studio.ros.wire.zenoh import declare_querier

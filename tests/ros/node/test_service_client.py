@@ -17,8 +17,8 @@ from studio.errors import (
 from studio.ros.attachment import Attachment
 from studio.ros.cdr import codec_of
 from studio.ros.messages import message, service
-from studio.ros.node.future import Future
 from studio.ros.node.spinning import spinning
+from studio.ros.node.task import Future
 from studio.ros.node.work import ReentrantCallbackGroup
 from studio.ros.wire.zenoh import declare_queryable
 from tests.support.node_pair import node_pair, spin_until

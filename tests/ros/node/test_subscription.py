@@ -23,9 +23,9 @@ from tests.support.wire import wait_until
 if TYPE_CHECKING:
     from collections.abc import Generator
 
-    from studio.ros.node.info import MessageInfo
     from studio.ros.node.node import Node
     from studio.ros.node.publisher import Publisher
+    from studio.ros.node.samples import MessageInfo
     from studio.ros.node.subscription import Subscription
     from studio.ros.types.classes import MessageValue
 

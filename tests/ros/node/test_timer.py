@@ -2,8 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from studio.ros.node.clock import Clock
-from studio.ros.node.time import ClockType
+from studio.ros.node.clock import Clock, ClockType
 from studio.ros.node.timer import Timer
 from studio.ros.node.work import MutuallyExclusiveCallbackGroup
 

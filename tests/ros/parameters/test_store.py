@@ -12,8 +12,7 @@ from studio.errors import (
     ParameterNotDeclaredError,
     ParameterUninitializedError,
 )
-from studio.ros.parameters.messages import usual_messages
-from studio.ros.parameters.parameter import Parameter
+from studio.ros.parameters.parameter import Parameter, usual_messages
 from studio.ros.parameters.store import ParameterChange, ParameterStore
 from studio.ros.types.library import TypeLibrary
 

@@ -1,0 +1,185 @@
+"""Events of publishers and subscriptions, such as a match, and callbacks on them, as in rclpy."""
+
+from __future__ import annotations
+
+import threading
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from studio.errors import UnsupportedEventTypeError
+from studio.ros.node.work import Work
+from studio.ros.tokens import EndpointKind
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from studio.ros.graph.endpoints import GraphEndpoint
+    from studio.ros.node.base import Endpoint
+    from studio.ros.node.work import CallbackGroup
+
+
+class MatchedInfo(NamedTuple):
+    """How many are at the other end; the changes are those since the callback before."""
+
+    total_count: int
+    total_count_change: int
+    current_count: int
+    current_count_change: int
+
+
+class CountInfo(NamedTuple):
+    """How often it happened; the change is that since the callback before."""
+
+    total_count: int
+    total_count_change: int
+
+
+QoSPublisherMatchedInfo = QoSSubscriptionMatchedInfo = MatchedInfo
+QoSMessageLostInfo = IncompatibleTypeInfo = CountInfo
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _EventCallbacks:
+    """What either end of a topic tells.
+
+    `incompatible_qos` is never called: Zenoh carries samples between any profiles.
+
+    Raises:
+        UnsupportedEventTypeError: A callback is given for what Zenoh does not tell.
+    """
+
+    incompatible_qos: Callable[[object], object] | None = None
+    liveliness: Callable[[object], object] | None = None
+    deadline: Callable[[object], object] | None = None
+    matched: Callable[[MatchedInfo], object] | None = None
+    incompatible_type: Callable[[CountInfo], object] | None = None
+    use_default_callbacks: bool = True
+
+    def __post_init__(self) -> None:
+        _refuse(deadline=self.deadline, liveliness=self.liveliness)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PublisherEventCallbacks(_EventCallbacks):
+    """What a publisher tells."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SubscriptionEventCallbacks(_EventCallbacks):
+    """What a subscription tells: also that messages were lost."""
+
+    message_lost: Callable[[CountInfo], object] | None = None
+
+
+def _refuse(**callbacks: Callable[[object], object] | None) -> None:
+    for event, callback in callbacks.items():
+        if callback is not None:
+            raise UnsupportedEventTypeError(event)
+
+
+class CountEvent(Work):
+    """Calls back when something was counted; what happens meanwhile is told at once."""
+
+    def __init__(self, callback: Callable[[Any], object], group: CallbackGroup) -> None:
+        super().__init__(group)
+        self.callback = callback
+        self._lock = threading.Lock()
+        self._total = self._told = 0
+
+    @property
+    def is_ready(self) -> bool:
+        """Whether there is something to tell."""
+        return self._total != self._told
+
+    def count(self, more: int) -> None:
+        """Take note that it happened so many times more; from any thread."""
+        with self._lock:
+            self._total += more
+        self.announce()
+
+    def take(self) -> Callable[[], object] | None:
+        """Give what calls back."""
+        with self._lock:
+            total, change = self._total, self._total - self._told
+            self._told = total
+        return partial(self.callback, CountInfo(total, change)) if change else None
+
+
+class MatchEvent(Work):
+    """Calls back when those at the other end of a topic become others.
+
+    Of those with the same type it tells how many are there, of others how many there were in all.
+    """
+
+    def __init__(
+        self,
+        callback: Callable[[Any], object],
+        group: CallbackGroup,
+        endpoint: Endpoint,
+        *,
+        same_type: bool,
+    ) -> None:
+        super().__init__(group)
+        self.callback = callback
+        self._token, self._graph = endpoint.token, endpoint.graph()
+        self._same_type = same_type
+        self._lock = threading.Lock()
+        self._there: frozenset[str] = frozenset()
+        self._total = self._told_total = self._told_current = 0
+        self._stop = self._graph.on_change(self._look)
+        self._look()
+
+    @property
+    def is_ready(self) -> bool:
+        """Whether there is something to tell."""
+        came = self._total != self._told_total
+        return came or (self._same_type and len(self._there) != self._told_current)
+
+    def take(self) -> Callable[[], object] | None:
+        """Give what calls back."""
+        with self._lock:
+            if not self.is_ready:
+                return None
+            total, current = self._total, len(self._there)
+            came, change = total - self._told_total, current - self._told_current
+            self._told_total, self._told_current = total, current
+        if self._same_type:
+            return partial(self.callback, MatchedInfo(total, came, current, change))
+        return partial(self.callback, CountInfo(total, came))
+
+    def destroy(self) -> None:
+        """Look no more."""
+        self._stop()
+
+    def _look(self) -> None:
+        found = frozenset(one.token for one in self._others() if self._is_meant(one))
+        with self._lock:
+            self._total += len(found - self._there)
+            self._there = found
+        if self.is_ready:
+            self.announce()
+
+    def _others(self) -> list[GraphEndpoint]:
+        if self._token.kind is EndpointKind.PUBLISHER:
+            return self._graph.subscriptions(self._token.name)
+        return self._graph.publishers(self._token.name)
+
+    def _is_meant(self, other: GraphEndpoint) -> bool:
+        return (other.type_name == self._token.type_name) is self._same_type
+
+
+def events_of(
+    callbacks: PublisherEventCallbacks | SubscriptionEventCallbacks | None,
+    endpoint: Endpoint,
+    group: CallbackGroup,
+) -> list[Work]:
+    """Make the events that both ends tell, of those that have a callback."""
+    if callbacks is None:
+        return []
+    pairs = ((callbacks.matched, True), (callbacks.incompatible_type, False))
+    return [
+        MatchEvent(callback, group, endpoint, same_type=same_type)
+        for callback, same_type in pairs
+        if callback is not None
+    ]

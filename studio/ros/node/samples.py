@@ -1,0 +1,178 @@
+"""Samples between Zenoh and a callback: the queue of a subscription, lost samples, message info."""
+
+from __future__ import annotations
+
+import inspect
+import threading
+from collections import deque
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias, TypedDict
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from studio.ros.attachment import Attachment
+
+BLINK_NS = 20_000_000
+SAMPLES_MAX = 4_096
+SENDERS_MAX = 10_000
+LATE_MAX = 256
+"""How many missing samples of one sender may still come late."""
+RawCallback: TypeAlias = "Callable[[bytes, MessageInfo], None]"
+"""Takes a message as it came, and what came with it."""
+
+
+class RawSample(NamedTuple):
+    """A sample as it came; one is made for each, for which a tuple takes the least time.
+
+    `payload` is CDR, `attachment` tells number, time and sender, `received_ns` when it was taken
+    out of the ring, since the Unix epoch.
+    """
+
+    payload: bytes
+    attachment: Attachment
+    received_ns: int
+
+
+class SampleQueue:
+    """Keeps the last `depth` samples, and those of the last blink of 20 ms.
+
+    The drain looks every 2 ms and threads take turns: what came a moment ago is no backlog,
+    however fast its sender is, so that a reader that keeps up loses nothing. A depth of 1 means
+    the newest and nothing else.
+
+    Attributes:
+        samples: Those that wait, the oldest first; whoever takes one out takes it from the left.
+        overwritten: How many fell out.
+    """
+
+    def __init__(self, depth: int) -> None:
+        self._depth = depth
+        self._most = max(depth, SAMPLES_MAX)
+        self._blink_ns = BLINK_NS if depth > 1 else 0
+        self.samples: deque[RawSample] = deque()
+        self._lock = threading.Lock()
+        self.overwritten = 0
+
+    def __len__(self) -> int:
+        return len(self.samples)
+
+    def post(self, samples: list[RawSample]) -> None:
+        """Put in what came since the last look; what is too old falls out."""
+        with self._lock:
+            waiting = self.samples
+            waiting.extend(samples)
+            since_ns = waiting[-1].received_ns - self._blink_ns if waiting else 0
+            while len(waiting) > self._depth and (
+                waiting[0].received_ns <= since_ns or len(waiting) > self._most
+            ):
+                waiting.popleft()
+                self.overwritten += 1
+
+    def take(self) -> RawSample | None:
+        """Take the oldest out."""
+        try:
+            return self.samples.popleft()
+        except IndexError:
+            return None
+
+    def take_all(self) -> list[RawSample]:
+        """Take all out, the oldest first."""
+        with self._lock:
+            taken = list(self.samples)
+            self.samples.clear()
+        return taken
+
+
+@dataclass(slots=True)
+class _Sender:
+    """Where a sender is: its highest number, when that was sent, and what may still come."""
+
+    last: int
+    last_ns: int
+    missing: dict[int, None] = field(default_factory=dict[int, None])
+
+
+class Gaps:
+    """Counts what is missing between the numbers of each sender's samples.
+
+    A sample that comes late, by its number and its time, is missing no more. One with a lower
+    number that was sent later is of a sender that began anew, which is no gap. Only the last
+    senders are remembered: a peer that invents one for every sample costs no more.
+    """
+
+    def __init__(self) -> None:
+        self._senders: dict[bytes, _Sender] = {}
+        self.lost = 0
+
+    def count(self, attachment: Attachment) -> int:
+        """Take note of a sample, and give how many of its sender are missing before it."""
+        sequence, source_time_ns, gid = attachment
+        sender = self._senders.get(gid)
+        if sender is None:
+            self._meet(gid, _Sender(sequence, source_time_ns))
+            return 0
+        missing = sequence - sender.last - 1
+        if not missing:
+            sender.last, sender.last_ns = sequence, source_time_ns
+            return 0
+        if missing < 0 and source_time_ns <= sender.last_ns:
+            self._came_late(sender, sequence)
+            return 0
+        if missing > 0:
+            self._miss(sender, sequence)
+        else:
+            sender.missing.clear()
+        sender.last, sender.last_ns = sequence, source_time_ns
+        return max(0, missing)
+
+    def _meet(self, gid: bytes, sender: _Sender) -> None:
+        self._senders[gid] = sender
+        if len(self._senders) > SENDERS_MAX:
+            del self._senders[next(iter(self._senders))]
+
+    def _miss(self, sender: _Sender, sequence: int) -> None:
+        """Count what lies between, and remember the newest of it."""
+        self.lost += sequence - sender.last - 1
+        first = max(sender.last + 1, sequence - LATE_MAX)
+        sender.missing |= dict.fromkeys(range(first, sequence))
+        while len(sender.missing) > LATE_MAX:
+            del sender.missing[next(iter(sender.missing))]
+
+    def _came_late(self, sender: _Sender, sequence: int) -> None:
+        if sequence in sender.missing:
+            del sender.missing[sequence]
+            self.lost -= 1
+
+
+class MessageInfo(TypedDict):
+    """Times are since the Unix epoch; the GID names the publisher, as in its token."""
+
+    source_timestamp: int
+    received_timestamp: int
+    publication_sequence_number: int
+    reception_sequence_number: int | None
+    publisher_gid: bytes
+
+
+def message_info(sample: RawSample) -> MessageInfo:
+    """Tell what came with a sample."""
+    attachment = sample.attachment
+    return MessageInfo(
+        source_timestamp=attachment.source_time_ns,
+        received_timestamp=sample.received_ns,
+        publication_sequence_number=attachment.sequence,
+        reception_sequence_number=None,
+        publisher_gid=attachment.gid,
+    )
+
+
+def wants_info(callback: Callable[..., object]) -> bool:
+    """Whether a callback takes the message and what came with it: it must have two arguments."""
+    try:
+        inspect.signature(callback).bind(object())
+    except TypeError:
+        return True
+    except ValueError:  # of built-in functions nothing is known
+        return False
+    return False
