@@ -1,1 +1,1 @@
-"""What RViz calls displays: each makes a Drawing of the messages of its topics."""
+"""RViz's displays: each takes the messages of its topics and returns a Drawing of them."""

@@ -1,22 +1,24 @@
-"""Catalogue: all displays there are, by RViz's names and by the messages that they draw."""
+"""Catalogue: all displays, by RViz's names and by the messages that they draw."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
-from studio.displays.accel import AccelDisplay
 from studio.displays.axes import AxesDisplay
 from studio.displays.effort import EffortDisplay
-from studio.displays.fluid_pressure import FluidPressureDisplay
 from studio.displays.grid import GridDisplay
 from studio.displays.grid_cells import GridCellsDisplay
-from studio.displays.illuminance import IlluminanceDisplay
 from studio.displays.image import ImageDisplay
 from studio.displays.imu import ImuDisplay
 from studio.displays.laser_scan import LaserScanDisplay
 from studio.displays.map import MapDisplay
-from studio.displays.marker import MarkerDisplay
-from studio.displays.marker_array import MarkerArrayDisplay
+from studio.displays.markers.display import MarkerArrayDisplay, MarkerDisplay
+from studio.displays.measurement import (
+    FluidPressureDisplay,
+    IlluminanceDisplay,
+    RelativeHumidityDisplay,
+    TemperatureDisplay,
+)
 from studio.displays.odometry import OdometryDisplay
 from studio.displays.path import PathDisplay
 from studio.displays.point import PointStampedDisplay
@@ -26,12 +28,9 @@ from studio.displays.pose import PoseDisplay
 from studio.displays.pose_array import PoseArrayDisplay
 from studio.displays.pose_with_covariance import PoseWithCovarianceDisplay
 from studio.displays.range import RangeDisplay
-from studio.displays.relative_humidity import RelativeHumidityDisplay
 from studio.displays.robot_model import RobotModelDisplay
-from studio.displays.temperature import TemperatureDisplay
 from studio.displays.tf import TfDisplay
-from studio.displays.twist import TwistDisplay
-from studio.displays.wrench import WrenchDisplay
+from studio.displays.vectors import AccelDisplay, TwistDisplay, WrenchDisplay
 from studio.errors import DisplayError
 
 if TYPE_CHECKING:
@@ -73,7 +72,7 @@ _BY_KIND: Final = {one.KIND: one for one in DISPLAYS}
 
 
 def display_of_kind(kind: str) -> type[Display]:
-    """The display of RViz's name, with or without a package before it, as `rviz_imu_plugin/Imu`.
+    """Return the display of an RViz name, with or without its package, as `rviz_imu_plugin/Imu`.
 
     Raises:
         DisplayError: There is none.
@@ -87,9 +86,10 @@ def display_of_kind(kind: str) -> type[Display]:
 
 
 def displays_of_type(type_name: str, topic: str = "") -> tuple[type[Display], ...]:
-    """Those whose main topic has messages of a type, the best first; none when nothing draws it.
+    """Return the displays whose main topic has messages of a type, the best first.
 
-    A text may be anything: what draws texts is there for topics with the name of its first one.
+    A std_msgs/String may be anything: a display of strings is for topics that are named like its
+    `FIRST_TOPIC`.
     """
     return tuple(
         one
@@ -99,7 +99,7 @@ def displays_of_type(type_name: str, topic: str = "") -> tuple[type[Display], ..
 
 
 def _types_of(display: type[Display]) -> tuple[str, ...]:
-    """What one looks for: of transforms there is one buffer, which serves TF and all others."""
+    """Return the types that a display draws; TF subscribes to none, since one buffer serves all."""
     if issubclass(display, TfDisplay):
         return display.OF_TYPES
     return display.TOPICS[0].types if display.TOPICS else ()

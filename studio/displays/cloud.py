@@ -1,13 +1,12 @@
-"""Cloud: points that have a place, and what else their message says of each."""
+"""Points of one message: their positions, their other fields, and which of too many are shown."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from functools import lru_cache
+from typing import TYPE_CHECKING, Final, Protocol
 
 import numpy as np
-
-from studio.displays.spreading import spread, spread_among
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -15,15 +14,50 @@ if TYPE_CHECKING:
     from studio.displays.display import Status
     from studio.displays.drawing import Sweep
 
+# Multiples of the golden ratio, taken modulo 1, fill the circle evenly however many there are, and
+# those below a threshold lie evenly among the numbers. A lower threshold keeps a part of the same.
+_GOLDEN: Final = np.uint32(2_654_435_769)
+_CIRCLE: Final = 1 << 32
+# More than are asked for come of the threshold, so that cutting meets the number exactly.
+_SLACK: Final = 16
+
+
+@lru_cache(maxsize=8)
+def evenly(count: int, limit: int) -> NDArray[np.intp]:
+    """Choose `limit` of the numbers below `count`, ascending; all when there are no more."""
+    if count <= limit:
+        chosen = np.arange(count)
+    else:
+        chosen = np.flatnonzero(_keys(count) < _threshold(count, limit))[:limit]
+    chosen.setflags(write=False)
+    return chosen
+
+
+def evenly_among(kept: NDArray[np.bool_], limit: int) -> NDArray[np.intp]:
+    """Choose at most `limit` of the places that are kept, ascending; all when there are no more."""
+    count = int(np.count_nonzero(kept))
+    if count <= limit:
+        return np.flatnonzero(kept)
+    return np.flatnonzero(kept & (_keys(kept.size) < _threshold(count, limit)))[:limit]
+
+
+def _threshold(count: int, limit: int) -> np.uint32:
+    return np.uint32(min((limit + _SLACK) * _CIRCLE // count, _CIRCLE - 1))
+
+
+@lru_cache(maxsize=4)
+def _keys(count: int) -> NDArray[np.uint32]:
+    return np.arange(count, dtype=np.uint32) * _GOLDEN
+
 
 class Channels(Protocol):
-    """What a message says of its points, by raw point."""
+    """The other fields of the points of a message, by the index of the point in the message."""
 
     names: tuple[str, ...]
 
     @property
     def size_bytes(self) -> int:
-        """Of what is kept of the message."""
+        """Memory that the message takes."""
         ...
 
     def numbers(self, name: str, raw: NDArray[np.intp] | None) -> NDArray[np.float32] | None:
@@ -92,13 +126,13 @@ def kept(
         finite = whole or np.isfinite(positions[:, 0] + positions[:, 1] + positions[:, 2])
     if not whole:
         available = int(np.count_nonzero(finite))
-        chosen = spread_among(finite, limit)
+        chosen = evenly_among(finite, limit)
     elif available > limit:
-        chosen = spread(available, limit)
+        chosen = evenly(available, limit)
     return (positions if chosen is None else positions.take(chosen, axis=0)), chosen, available
 
 
-def stamp_of(header: object) -> int:
-    """The stamp of a header in ns since the epoch."""
-    stamp = getattr(header, "stamp")  # noqa: B009 - a std_msgs/Header of any distribution
-    return int(stamp.sec) * 1_000_000_000 + int(stamp.nanosec)
+def listed(names: tuple[str, ...]) -> str:
+    """Names within a sentence, cut where there are many."""
+    shown = ", ".join(name[:40] for name in names[:12])
+    return f"{shown} and {len(names) - 12} more" if len(names) > 12 else shown or "none"

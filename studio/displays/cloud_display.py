@@ -1,40 +1,274 @@
-"""Display of clouds: what scans and point clouds share, from the message to what still is seen."""
+"""The base of displays of points: RViz's properties, colours, and messages that decay."""
 
 from __future__ import annotations
 
 from abc import abstractmethod
 from collections import deque
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, ClassVar, Final
+from typing import TYPE_CHECKING, ClassVar, Final, cast
 
-from studio.displays.cloud_look import (
-    LOOK,
-    POINTS_AT_MOST,
-    POINTS_LIMIT,
-    colours_of,
-    needs_precision,
-    points_of,
-    too_many_bodies,
-)
-from studio.displays.display import Display, Status
-from studio.displays.drawing import NOTHING, Drawing, Placed
-from studio.displays.reading import reading
+import numpy as np
+
+from studio.displays.cloud import listed
+from studio.displays.colour_maps import COLOUR_MAPS, RAINBOW, mapped
+from studio.displays.display import Display, Limits, Status, reading_fields
+from studio.displays.drawing import BODIES_MAX, NOTHING, Drawing, Placed, Points
+from studio.displays.properties import Property, rgb_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    import numpy as np
     from numpy.typing import NDArray
 
     from studio.displays.cloud import Cloud
     from studio.displays.display import Received
-    from studio.displays.limits import Limits
-    from studio.displays.properties import Property, Value
+    from studio.displays.drawing import PointStyle
+    from studio.displays.properties import Value
     from studio.ros.types.library import TypeLibrary
 
+AUTOMATIC: Final = "Automatic"
+FLAT, AXIS, INTENSITY, RGB8, RGBF32 = "FlatColor", "AxisColor", "Intensity", "RGB8", "RGBF32"
+_POINTS: Final = "Points"
+_STYLES: Final = (_POINTS, "Squares", "Flat Squares", "Spheres", "Boxes", "Tiles")
+_BODIES: Final = ("Boxes", "Tiles")
+_WITH_MAP: Final = (AUTOMATIC, AXIS, INTENSITY)
+_WITH_CHANNEL: Final = (AUTOMATIC, INTENSITY)
+_CHANNEL: Final = "intensity"
+_OTHER_NAME: Final = "intensities"
 
+POINTS_AT_MOST: Final = "Points at most"
+POINTS_LIMIT: Final = 5_000_000
+
+CLOUD_PROPERTIES: Final = (
+    Property("Style", "choice", "Flat Squares", "How each point is drawn.", choices=_STYLES),
+    Property(
+        "Size (m)", "number", 0.01, "Size of each point.", low=0.0001, high=100.0, unit="m",
+        when=("Style", _STYLES[1:]),
+    ),
+    Property(
+        "Size (Pixels)", "number", 3.0, "Size of each point on the screen, near or far.",
+        low=1.0, high=100.0, unit="px", when=("Style", (_POINTS,)),
+    ),
+    Property("Alpha", "number", 1.0, "How opaque the points are.", low=0.0, high=1.0),
+    Property(
+        "Decay Time", "number", 0.0, "How long points stay; with 0 only the newest message does.",
+        low=0.0, high=3600.0, unit="s",
+    ),
+    Property(
+        "Position Transformer", "choice", "XYZ", "Where the place of a point comes from.",
+        choices=("XYZ",),
+    ),
+    Property(
+        "Color Transformer", "choice", AUTOMATIC,
+        "Where colours come from; by itself it takes the colours that are sent, else intensities, "
+        "else the height.",
+        choices=(AUTOMATIC, INTENSITY, AXIS, FLAT, RGB8, RGBF32),
+    ),
+    Property(
+        "Color", "colour", "#ffffff", "Of all points.", when=("Color Transformer", (FLAT,))
+    ),
+    Property(
+        "Axis", "choice", "Z", "The axis along which colours change, in the frame of the message.",
+        choices=("X", "Y", "Z"), when=("Color Transformer", (AUTOMATIC, AXIS)),
+    ),
+    Property(
+        "Autocompute Value Bounds", "switch", True,  # noqa: FBT003 - its first value
+        "Whether colours reach from the least to the greatest value along the axis.",
+        when=("Color Transformer", (AUTOMATIC, AXIS)),
+    ),
+    Property(
+        "Autocompute Value Bounds/Min Value", "number", -10.0, "Where colours begin.", unit="m",
+        when=("Autocompute Value Bounds", (False,)),
+    ),
+    Property(
+        "Autocompute Value Bounds/Max Value", "number", 10.0, "Where colours end.", unit="m",
+        when=("Autocompute Value Bounds", (False,)),
+    ),
+    Property(
+        "Channel Name", "text", _CHANNEL, "The field whose numbers give the colours.",
+        when=("Color Transformer", _WITH_CHANNEL),
+    ),
+    Property(
+        "Use rainbow", "switch", True,  # noqa: FBT003
+        "Whether colours come of a map, or lie between two.",
+        when=("Color Transformer", _WITH_CHANNEL),
+    ),
+    Property(
+        "Color Map", "choice", RAINBOW, "Which colours there are from the least to the greatest.",
+        choices=COLOUR_MAPS, when=("Color Transformer", _WITH_MAP),
+    ),
+    Property(
+        "Invert Rainbow", "switch", False,  # noqa: FBT003
+        "Whether the map begins with its last colour.", when=("Use rainbow", (True,)),
+    ),
+    Property("Min Color", "colour", "#000000", "Of the least.", when=("Use rainbow", (False,))),
+    Property("Max Color", "colour", "#ffffff", "Of the greatest.", when=("Use rainbow", (False,))),
+    Property(
+        "Autocompute Intensity Bounds", "switch", True,  # noqa: FBT003
+        "Whether colours reach from the least to the greatest number of the message.",
+        when=("Color Transformer", _WITH_CHANNEL),
+    ),
+    Property(
+        "Min Intensity", "number", 0.0, "Where colours begin.",
+        when=("Autocompute Intensity Bounds", (False,)),
+    ),
+    Property(
+        "Max Intensity", "number", 4096.0, "Where colours end.",
+        when=("Autocompute Intensity Bounds", (False,)),
+    ),
+    Property(
+        POINTS_AT_MOST, "whole", Limits().points,
+        "Of more points as many are drawn, spread evenly, and older messages are left out.",
+        low=1000, high=POINTS_LIMIT,
+    ),
+)  # fmt: skip
+
+_WHITE: Final = np.full(3, 255, dtype=np.uint8)
 _SIZE: Final = "Size (m)"
 _WITHOUT_COLOUR: Final = {"Style", _SIZE, "Size (Pixels)", "Alpha", "Decay Time", POINTS_AT_MOST}
+
+
+def points_of(
+    cloud: Cloud, colours: NDArray[np.uint8], values: Mapping[str, Value], *, precise: bool
+) -> Points:
+    """The shape of a cloud in its colours."""
+    style = str(values["Style"])
+    return Points(
+        cloud.positions,
+        colours,
+        size_m=float(values["Size (m)"]),
+        style=cast("PointStyle", style.lower()),
+        opacity=float(values["Alpha"]),
+        precise=precise,
+        size_px=float(values["Size (Pixels)"]) if style == _POINTS else 0.0,
+    )
+
+
+def too_many_bodies(count: int, values: Mapping[str, Value]) -> Status | None:
+    """Return a status if so many points cannot be drawn in the style that was chosen."""
+    style = str(values["Style"])
+    if style not in _BODIES or count <= BODIES_MAX:
+        return None
+    sentence = (
+        f"{count:,} points are drawn as squares: as {style.lower()} there may be {BODIES_MAX:,}."
+    )
+    return Status("ok", "thinned", sentence, ("Style", "Flat Squares"))
+
+
+def needs_precision(positions: NDArray[np.float32], size_m: float) -> bool:
+    """Whether half precision would move a point by a part of its size that is seen.
+
+    Between 8 and 16 m its steps are 8 mm, and twice that from one power of two to the next: as wide
+    as half a point they are seen as stripes.
+    """
+    if not len(positions):
+        return False
+    farthest_m = float(max(positions.max(), -positions.min()))
+    if farthest_m <= 0.0:
+        return False
+    step_m = 2.0 ** (np.floor(np.log2(farthest_m)) - 10)
+    return bool(step_m > size_m / 2)
+
+
+def colours_of(
+    cloud: Cloud, values: Mapping[str, Value]
+) -> tuple[NDArray[np.uint8], Status | None]:
+    """Colours of the points, shape (N, 3), or (3,) when all have one.
+
+    Returns:
+        The colours, white where there are none, and a status if something is wrong with them.
+    """
+    wanted = str(values["Color Transformer"])
+    if wanted == AUTOMATIC:
+        return _automatic(cloud, values), None
+    if wanted == FLAT:
+        return np.array(rgb_of(values["Color"]), dtype=np.uint8), None
+    if wanted == AXIS:
+        return _by_axis(cloud, values), None
+    if wanted == INTENSITY:
+        found = _by_channel(cloud, values)
+        return (found, None) if found is not None else (_WHITE, _no_channel(cloud, values))
+    sent = cloud.channels.colours if wanted == RGB8 else cloud.channels.float_colours
+    found = sent(cloud.raw)
+    return (found, None) if found is not None else (_WHITE, _no_colours(cloud, wanted))
+
+
+def _automatic(cloud: Cloud, values: Mapping[str, Value]) -> NDArray[np.uint8]:
+    """As RViz chooses; where RViz finds nothing and draws white, height is seen on any ground."""
+    found = cloud.channels.colours(cloud.raw)
+    if found is None:
+        found = cloud.channels.float_colours(cloud.raw)
+    if found is None:
+        found = _by_channel(cloud, values)
+    return _by_axis(cloud, values) if found is None else found
+
+
+def _by_axis(cloud: Cloud, values: Mapping[str, Value]) -> NDArray[np.uint8]:
+    along = cloud.positions[:, "XYZ".index(str(values["Axis"]))]
+    given = None
+    if not values["Autocompute Value Bounds"]:
+        name = "Autocompute Value Bounds"
+        given = float(values[f"{name}/Min Value"]), float(values[f"{name}/Max Value"])
+    return mapped(_shares(along, given), str(values["Color Map"]))
+
+
+def _by_channel(cloud: Cloud, values: Mapping[str, Value]) -> NDArray[np.uint8] | None:
+    name = str(values["Channel Name"])
+    numbers = cloud.numbers(name)
+    if numbers is None and name == _CHANNEL:
+        numbers = cloud.numbers(_OTHER_NAME)
+    if numbers is None:
+        return None
+    given = None
+    if not values["Autocompute Intensity Bounds"]:
+        given = float(values["Min Intensity"]), float(values["Max Intensity"])
+    shares = _shares(numbers, given)
+    if values["Use rainbow"]:
+        inverted = bool(values["Invert Rainbow"])
+        return mapped(shares, str(values["Color Map"]), inverted=inverted)
+    low, high = (
+        np.array(rgb_of(values[one]), dtype=np.float32) for one in ("Min Color", "Max Color")
+    )
+    between = np.nan_to_num(np.clip(shares, 0, 1))[:, None]
+    return np.rint(low + between * (high - low)).astype(np.uint8)
+
+
+def _shares(
+    numbers: NDArray[np.float32], given: tuple[float, float] | None
+) -> NDArray[np.floating]:
+    """Where each number lies between the bounds, 0 to 1; numbers that are all alike are at 0."""
+    low, high = _bounds(numbers) if given is None else given
+    if low == high:
+        return np.zeros(len(numbers), dtype=np.float32)
+    with np.errstate(all="ignore"):
+        return (numbers - np.float32(low)) * np.float32(1.0 / (high - low))
+
+
+def _bounds(numbers: NDArray[np.float32]) -> tuple[float, float]:
+    """The least and the greatest number that is one."""
+    if not len(numbers):
+        return 0.0, 0.0
+    with np.errstate(invalid="ignore"):
+        low, high = float(numbers.min()), float(numbers.max())
+    if np.isfinite(low) and np.isfinite(high):
+        return low, high
+    finite = numbers[np.isfinite(numbers)]
+    return (float(finite.min()), float(finite.max())) if len(finite) else (0.0, 0.0)
+
+
+def _no_channel(cloud: Cloud, values: Mapping[str, Value]) -> Status:
+    names = cloud.channels.names
+    other = next((one for one in names if one not in "xyz"), None)
+    mend = ("Channel Name", other) if other else ("Color Transformer", AXIS)
+    name = str(values["Channel Name"])[:60]
+    sentence = f'The messages have no field "{name}": they have {listed(names)}.'
+    return Status("warn", "unknown_field", sentence, mend)
+
+
+def _no_colours(cloud: Cloud, wanted: str) -> Status:
+    fields = '"rgb" or "rgba"' if wanted == RGB8 else '"r", "g" and "b" of floats'
+    sentence = f"The messages have no fields {fields}: they have {listed(cloud.channels.names)}."
+    return Status("warn", "unknown_field", sentence, ("Color Transformer", AUTOMATIC))
 
 
 @dataclass(slots=True, eq=False)
@@ -46,13 +280,13 @@ class _Kept:
     cloud: Cloud
     colours: NDArray[np.uint8] | None = None
     placed: Placed | None = None
-    said: Status | None = None
+    remark: Status | None = None
 
 
 class CloudDisplay(Display):
     """Keeps the newest cloud, and those before it until they decayed; derived classes read one."""
 
-    PROPERTIES: ClassVar[tuple[Property, ...]] = LOOK
+    PROPERTIES: ClassVar[tuple[Property, ...]] = CLOUD_PROPERTIES
 
     def __init__(self, types: TypeLibrary, values: Mapping[str, Value] | None = None) -> None:
         super().__init__(types, values)
@@ -70,9 +304,9 @@ class CloudDisplay(Display):
         """
 
     def take(self, received: Received, role: str = "") -> None:
-        """Take in a message; how long it is seen, the decay time says."""
+        """Take a message; it is seen until its decay time is over."""
         del role
-        with reading(received.type_name):
+        with reading_fields(received.type_name):
             cloud = self.read(received, self.limits)
         if not self._decay_ns():
             self._kept.clear()
@@ -113,12 +347,12 @@ class CloudDisplay(Display):
         return self._drawing
 
     def statuses(self) -> tuple[Status, ...]:
-        """What is to be said of the newest cloud, and what is left out."""
+        """Return what is odd about the newest cloud, and what is left out."""
         if not self._kept:
             return ()
         newest = self._kept[-1]
         bodies = too_many_bodies(newest.cloud.count, self.values)
-        found = [newest.cloud.nothing, newest.said, self._transparent(), *self._thinned(), bodies]
+        found = [newest.cloud.nothing, newest.remark, self._transparent(), *self._thinned(), bodies]
         return tuple(one for one in found if one is not None)
 
     def _placed(self, one: _Kept) -> Placed | None:
@@ -126,8 +360,8 @@ class CloudDisplay(Display):
             return None
         if one.placed is None:
             if one.colours is None:
-                one.colours, one.said = colours_of(one.cloud, self.values)
-            # Once asked for it stays: a cloud that reaches now here, now there would be sent anew.
+                one.colours, one.remark = colours_of(one.cloud, self.values)
+            # Once needed it stays: a cloud near the limit would otherwise be sent again and again.
             self._precise |= needs_precision(one.cloud.positions, float(self.values[_SIZE]))
             shape = points_of(one.cloud, one.colours, self.values, precise=self._precise)
             cloud = one.cloud
@@ -164,7 +398,7 @@ class CloudDisplay(Display):
             self._left_out += 1
 
     def _read_anew(self, points: int) -> None:
-        """Show another number of points, also of what came before: a map may come only once."""
+        """Show another number of points, of kept messages too: a map may come only once."""
         self.limit(replace(self.limits, points=points))
         for one in self._kept:
             one.cloud, one.colours = self.read(one.received, self.limits), None

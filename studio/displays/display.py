@@ -1,19 +1,20 @@
-"""Display: takes the messages of its topics and keeps what is to be seen of them."""
+"""The base of all displays: its settings, the topics it subscribes to, its drawing and statuses."""
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, Final, Literal, NamedTuple, TypeAlias
 
 from studio.displays.drawing import NOTHING, Drawing
-from studio.displays.limits import Limits
 from studio.displays.properties import UPDATE_INTERVAL
-from studio.errors import DisplayPropertyError
+from studio.errors import DisplayMessageError, DisplayPropertyError
 from studio.ros.cdr import Codec
+from studio.ros.duration import NANOSECONDS
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Generator, Mapping
 
     from studio.displays.properties import Property, Value
     from studio.ros.types.library import TypeLibrary
@@ -22,13 +23,31 @@ Reason: TypeAlias = Literal[
     "no_points", "not_finite", "out_of_range", "transparent", "empty", "bad_message",
     "no_mesh", "unknown_field", "no_camera_info", "unsupported", "thinned", "not_connected_frame",
 ]  # fmt: skip
-"""Why nothing, or not everything, is seen, as far as the display itself can know."""
-
+"""Why nothing, or not everything, is seen, as far as the display itself knows."""
 _TRANSPORTS: Final = {"compressed", "compressedDepth", "ffmpeg", "theora", "zstd"}
 
 
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """At most so much of one display.
+
+    Attributes:
+        points: Of a cloud, with those of before that have not decayed.
+        messages: Of before that have not decayed.
+        kept_bytes: Of their messages.
+        cells: Of a map.
+        pixels: Of a camera's picture.
+    """
+
+    points: int = 300_000
+    messages: int = 200
+    kept_bytes: int = 256 << 20
+    cells: int = 16_000_000
+    pixels: int = 400_000
+
+
 class Received(NamedTuple):
-    """One message as it came."""
+    """One message as it was received."""
 
     type_name: str
     """As `sensor_msgs/msg/LaserScan`."""
@@ -40,7 +59,7 @@ class Received(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class TopicRole:
-    """One of the topics that a display listens to.
+    """One of the topics that a display subscribes to.
 
     Attributes:
         name: Of the role: empty for the main one; else as `updates`, and the topic is beside it.
@@ -48,9 +67,9 @@ class TopicRole:
         beside: What follows the name of the main topic, as `_updates`; with a leading slash the
             last part of the main topic's name is replaced, as by `/camera_info`.
         newest_only: Whether only the newest message counts; else every one does.
-        reliable: Whether messages are asked for reliably at first.
-        latched: Whether messages from before are asked for at first.
-        depth: How many are kept for a display that is late.
+        reliable: Whether the first subscription asks for reliable delivery.
+        latched: Whether the first subscription is transient local: it asks for earlier messages.
+        depth: How many messages are kept for a display that is slow.
     """
 
     name: str
@@ -62,10 +81,10 @@ class TopicRole:
     depth: int = 5
 
     def topic(self, main: str) -> str:
-        """The topic of this role beside a main one.
+        """Return the topic of this role beside a main one.
 
-        Pictures of a transport lie one name deeper, as `/camera/image/compressed`: what is beside
-        the picture is meant.
+        Pictures of a transport are one name deeper, as `/camera/image/compressed`; the topic is
+        beside the picture itself.
         """
         if not self.beside.startswith("/"):
             return main + self.beside
@@ -76,13 +95,13 @@ class TopicRole:
 
 
 class Status(NamedTuple):
-    """What a display has to say of what it shows."""
+    """A remark of a display on what it shows."""
 
     level: Literal["ok", "warn", "error"]
     reason: Reason | None
     sentence: str
     mend: tuple[str, Value] | None = None
-    """A property and the value that would show it."""
+    """A property and the value that would make it visible."""
 
 
 class Display(ABC):
@@ -99,10 +118,10 @@ class Display(ABC):
     TOPICS: ClassVar[tuple[TopicRole, ...]] = ()
     """The main one first; empty for a display without messages."""
     FIRST_TOPIC: ClassVar[str] = ""
-    """What is listened to when nobody chose a topic."""
+    """The topic to subscribe to when none was chosen."""
     PROPERTIES: ClassVar[tuple[Property, ...]] = ()
     SETTINGS_MAX: ClassVar[int] = 1000
-    """How many properties are kept: some displays have more with what comes, as links."""
+    """How many properties are kept; some displays get more with their messages, as links."""
 
     def __init__(self, types: TypeLibrary, values: Mapping[str, Value] | None = None) -> None:
         self._types = types
@@ -126,24 +145,24 @@ class Display(ABC):
         self.changed(name)
 
     def roles(self) -> tuple[TopicRole, ...]:
-        """What it listens to as it is set now."""
+        """Return the topics to subscribe to with the properties as they are set."""
         return self.TOPICS
 
     @property
     def interval_ns(self) -> int:
-        """How long what is drawn stays where it is, whatever /tf tells."""
+        """How long what is drawn stays where it is, whatever arrives on /tf."""
         return round(float(self.values.get(UPDATE_INTERVAL.name, 0.0)) * 1e9)
 
     def changed(self, name: str) -> None:
-        """A property has another value, or all (empty): what was drawn may look different."""
+        """React to a new value of a property, or of all of them (empty)."""
         del name
 
     def properties(self) -> tuple[Property, ...]:
-        """What can be set now: of some displays more than at first, as namespaces of markers."""
+        """Return what can be set now: namespaces of markers, for example, come with messages."""
         return self.PROPERTIES
 
     def limit(self, limits: Limits) -> None:
-        """Show at most so much of what comes from now on."""
+        """Apply these limits to all messages from now on."""
         self.limits = limits
 
     def take(self, received: Received, role: str = "") -> None:
@@ -160,10 +179,10 @@ class Display(ABC):
 
     @abstractmethod
     def draw(self, now_ns: int) -> Drawing:
-        """What is to be seen now, ns since the epoch: unchanged parts are the same objects."""
+        """Return what is seen now, ns since the epoch; unchanged parts are the same objects."""
 
     def statuses(self) -> tuple[Status, ...]:
-        """What is to be said of it; empty when all is well."""
+        """Return what the user should know; empty when all is well."""
         return ()
 
     def decode(self, received: Received) -> Any:  # noqa: ANN401 - of the type that it names
@@ -197,16 +216,16 @@ class StillDisplay(Display):
         self._drawing: Drawing | None = None
 
     def changed(self, name: str) -> None:
-        """Draw anew."""
+        """Draw again."""
         del name
         self.redraw()
 
     def redraw(self) -> None:
-        """What was drawn does not hold any more."""
+        """Drop what was drawn, so that it is drawn again."""
         self._drawing = None
 
     def draw(self, now_ns: int) -> Drawing:
-        """What is to be seen."""
+        """Return the drawing, made again only after `redraw`."""
         del now_ns
         if self._drawing is None:
             self._drawing = self._drawn()
@@ -214,3 +233,32 @@ class StillDisplay(Display):
 
     def _drawn(self) -> Drawing:
         return NOTHING
+
+
+def frame_and_stamp(header: Any) -> tuple[str, int]:  # noqa: ANN401 - a message
+    """Return the frame of a std_msgs/Header and its stamp, ns since the epoch."""
+    return header.frame_id, header.stamp.sec * NANOSECONDS + header.stamp.nanosec
+
+
+def stamp_ns_of(header: object) -> int:
+    """Return the stamp of a std_msgs/Header, ns since the epoch."""
+    stamp = getattr(header, "stamp")  # noqa: B009 - a std_msgs/Header of any distribution
+    return int(stamp.sec) * 1_000_000_000 + int(stamp.nanosec)
+
+
+@contextmanager
+def reading_fields(type_name: str) -> Generator[None]:
+    """Read the fields of a message within this context.
+
+    Raises:
+        DisplayMessageError: A field is missing or of another kind, because the type was defined
+            here with other fields than in ROS.
+    """
+    try:
+        yield
+    except (AttributeError, TypeError, ValueError, IndexError) as error:
+        reason = (
+            f"it is known here with other fields than ROS gives it ({error}): take back the text "
+            "that says so"
+        )
+        raise DisplayMessageError(type_name, reason) from error

@@ -1,16 +1,16 @@
-"""Drawings: what a display wants to be seen, as plain values in the frames of its messages.
+"""Drawings: what a display shows, as plain values in the frames of its messages.
 
-A drawing maps paths to `Placed` groups, and a group maps names to shapes. Whoever draws compares by
-identity: a shape that is the very same object as before is not sent again, so a display keeps the
-objects that did not change. Arrays belong to the shape: nobody writes into them afterwards.
+A drawing maps paths to `Placed` groups, and a group maps names to shapes. The scene compares by
+identity: it sends a shape only if it is another object than before, so a display keeps the objects
+that did not change. Nobody writes into the arrays of a shape once it is drawn.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
-from studio.displays.link_parts import LinkParts
+from studio.robot.textured import mesh_uris
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -18,25 +18,59 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from studio.robot.values import Link, Robot
+
 Rgb: TypeAlias = tuple[int, int, int]
 """sRGB, 0 to 255."""
 Xyz: TypeAlias = tuple[float, float, float]
 """m."""
 Wxyz: TypeAlias = tuple[float, float, float, float]
 """A quaternion of length 1."""
-
 FIXED_FRAME: Final = "<Fixed Frame>"
-"""RViz's name of whatever the fixed frame is; `Placed.frame` may be it, too."""
-
+"""RViz's name of the fixed frame; `Placed.frame` may be it, too."""
 NO_TURN: Wxyz = (1.0, 0.0, 0.0, 0.0)
 ORIGIN: Xyz = (0.0, 0.0, 0.0)
-
 BODIES_MAX: Final = 20_000
 """More points than this are no boxes or tiles: one costs a hundred times as much as a square."""
-
-
 PointStyle: TypeAlias = Literal["points", "squares", "flat squares", "spheres", "boxes", "tiles"]
 """RViz's names."""
+Drawing: TypeAlias = "Mapping[str, Placed]"
+"""By path: words with slashes between, unique within the display."""
+NOTHING: Drawing = {}
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LinkParts:
+    """A link of a robot: its visuals, collision shapes, mass and inertia.
+
+    Attributes:
+        link: What it is made of.
+        robot: Whose link it is: materials are named there.
+        visual: Whether its visuals are shown.
+        collision: Whether its collision shapes are.
+        mass: Whether its mass is, as a ball of lead.
+        inertia: Whether its inertia is, as a box.
+        opacity: 1 is opaque.
+    """
+
+    link: Link
+    robot: Robot
+    visual: bool = True
+    collision: bool = False
+    mass: bool = False
+    inertia: bool = False
+    opacity: float = 1.0
+
+    def mesh_uris(self) -> frozenset[str]:
+        """Of the files that it is drawn with."""
+        drawn = self.link if self.visual else replace(self.link, visuals=())
+        return frozenset(mesh_uris(drawn, collisions=self.collision))
+
+
+def link_frame(link: str, tf_prefix: str) -> str:
+    """Return the frame of a link on /tf; as in RViz, a slash separates it from the prefix."""
+    prefix = tf_prefix.strip("/")
+    return f"{prefix}/{link}" if prefix else link
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -283,9 +317,3 @@ class Placed:
     follows: bool = False
     turns: bool = True
     sweep: Sweep | None = None
-
-
-Drawing: TypeAlias = "Mapping[str, Placed]"
-"""By path: words with slashes between, unique within the display."""
-
-NOTHING: Drawing = {}

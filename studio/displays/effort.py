@@ -7,13 +7,10 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 import numpy as np
 
 from studio.displays.colour_maps import RAINBOW, mapped
-from studio.displays.display import Status, TopicRole
-from studio.displays.drawing import NO_TURN, Arrows, Lines, Placed
-from studio.displays.history import Entry, HistoryDisplay, frame_and_stamp
-from studio.displays.link_parts import frame_of
-from studio.displays.pose_look import length, switch
-from studio.displays.properties import Property
-from studio.displays.reading import reading
+from studio.displays.display import Status, TopicRole, frame_and_stamp, reading_fields
+from studio.displays.drawing import NO_TURN, Arrows, Lines, Placed, link_frame
+from studio.displays.history import Entry, HistoryDisplay
+from studio.displays.properties import Property, length, switch
 from studio.displays.turning import FAR, drawable, shortest_turn, turned
 from studio.errors import DisplayMessageError, RobotError
 from studio.robot.urdf_text import robot_from_urdf
@@ -49,7 +46,7 @@ _CIRCLE_RAD: Final = np.arange(30) * (2.0 * np.pi / 32)
 
 
 class Efforts(NamedTuple):
-    """What a message says: names of joints, and how hard each pushes, N m; shape (N,)."""
+    """Names of joints and the effort of each, N m; shape (N,)."""
 
     joints: tuple[str, ...]
     efforts: Floats
@@ -65,7 +62,7 @@ class Ring(NamedTuple):
 
 
 class EffortDisplay(HistoryDisplay[Efforts]):
-    """Draws the last efforts about the axes that a robot description tells."""
+    """Draws the last efforts about the axes of the joints of a robot description."""
 
     KIND = "Effort"
     DOC = "How hard the joints of a robot push, as arrows round their axes."
@@ -90,7 +87,7 @@ class EffortDisplay(HistoryDisplay[Efforts]):
         self._robot: Robot | None = None
 
     def properties(self) -> tuple[Property, ...]:
-        """Also a switch for each joint that can have a ring."""
+        """Return a switch, too, for each joint that can have a ring."""
         joints = () if self._robot is None else self._robot.joints.values()
         turning = (one.name for one in joints if one.type in _ROUND)
         return (*self.PROPERTIES, *(_switch_of(name) for name in turning))
@@ -133,7 +130,7 @@ class EffortDisplay(HistoryDisplay[Efforts]):
         }
 
     def statuses(self) -> tuple[Status, ...]:
-        """Also that it is not known where the joints are."""
+        """Return a status, too, if it is unknown where the joints are."""
         newest = self.newest
         if newest is None:
             return super().statuses()
@@ -144,7 +141,7 @@ class EffortDisplay(HistoryDisplay[Efforts]):
         return super().statuses()
 
     def _described(self, received: Received) -> Robot:
-        with reading(received.type_name):
+        with reading_fields(received.type_name):
             text = str(self.decode(received).data)
         if len(text) > _DESCRIPTION_LETTERS_MAX:
             reason = f"a robot description of {len(text):,} letters is too long"
@@ -157,8 +154,10 @@ class EffortDisplay(HistoryDisplay[Efforts]):
 
     def _rings(self, content: Efforts) -> list[Ring]:
         joints = {} if self._robot is None else self._robot.joints
-        told = dict(zip(content.joints, content.efforts.tolist(), strict=True))
-        found = ((joints.get(name), effort) for name, effort in told.items() if abs(effort) <= FAR)
+        efforts = dict(zip(content.joints, content.efforts.tolist(), strict=True))
+        found = (
+            (joints.get(name), effort) for name, effort in efforts.items() if abs(effort) <= FAR
+        )
         made = [
             self._ring_of(joint, effort)
             for joint, effort in found
@@ -173,7 +172,7 @@ class EffortDisplay(HistoryDisplay[Efforts]):
             return None
         most = joint.limit.effort if joint.limit is not None else 0.0
         share = min(abs(effort) / most, 1.0) if 0 < most <= FAR else abs(effort)
-        frame = frame_of(joint.child, str(self.values["TF Prefix"]))
+        frame = link_frame(joint.child, str(self.values["TF Prefix"]))
         return Ring(frame, axis / size, effort, share + _LEAST)
 
     def _ring(self, ring: Ring) -> dict[str, Shape]:

@@ -9,10 +9,8 @@ import numpy as np
 from studio.displays.display import TopicRole
 from studio.displays.drawing import Triangles
 from studio.displays.history import Entry, HistoryDisplay
-from studio.displays.polygon import RVIZ_GREEN
-from studio.displays.pose_look import NOT_FINITE, colour_of, colour_properties
-from studio.displays.properties import rgb_of
-from studio.displays.rows import chosen_rows
+from studio.displays.poses import NOT_FINITE, chosen_rows
+from studio.displays.properties import RVIZ_GREEN, colour_of, colour_properties, rgb_of
 from studio.displays.turning import FAR, drawable
 from studio.ros.columns.poses import GRID_CELLS, read_grid_cells
 

@@ -1,16 +1,14 @@
-"""HistoryDisplay: a display of one topic that keeps what its last messages say."""
+"""HistoryDisplay: the base of displays that draw the last messages of one topic."""
 
 from __future__ import annotations
 
 from abc import abstractmethod
 from collections import deque
-from typing import TYPE_CHECKING, Any, ClassVar, Generic, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, ClassVar, Generic, NamedTuple, TypeVar
 
-from studio.displays.display import Status, StillDisplay
+from studio.displays.display import Status, StillDisplay, reading_fields
 from studio.displays.drawing import NOTHING, Placed
-from studio.displays.reading import reading
 from studio.errors import StudioError
-from studio.ros.duration import NANOSECONDS
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -42,8 +40,8 @@ class _Kept(NamedTuple, Generic[Content]):
 class HistoryDisplay(StillDisplay, Generic[Content]):
     """Keeps the last messages, each drawn in its own frame at its own stamp.
 
-    Derived classes read a message into an `Entry` and make shapes of its content. What is to be
-    said of the newest message they `warn` or `refuse` while they read it.
+    Derived classes read a message into an `Entry` and make shapes of its content. While they read
+    it they `warn` about it, or `refuse` it.
     """
 
     KEEPS: ClassVar[str] = ""
@@ -56,7 +54,7 @@ class HistoryDisplay(StillDisplay, Generic[Content]):
         self._points = 0
         self._too_many_points = False
         self._groups: dict[str, Mapping[str, Placed]] = {}
-        self._told: tuple[Status, ...] = ()
+        self._remarks: tuple[Status, ...] = ()
 
     def take(self, received: Received, role: str = "") -> None:
         """Take in a message; one that cannot be drawn leaves what was drawn before.
@@ -65,19 +63,19 @@ class HistoryDisplay(StillDisplay, Generic[Content]):
             StudioError: It cannot be read.
         """
         del role
-        before, self._told = self._told, ()
+        before, self._remarks = self._remarks, ()
         try:
-            with reading(received.type_name):
+            with reading_fields(received.type_name):
                 entry = self.read(received)
         except StudioError:
-            self._told = before
+            self._remarks = before
             raise
         if entry is not None:
             self._keep(entry)
 
     @abstractmethod
     def read(self, received: Received) -> Entry[Content] | None:
-        """What is kept of a message; None leaves all as it is.
+        """Return what to keep of a message; None leaves everything as it is.
 
         Raises:
             StudioError: It cannot be read.
@@ -85,38 +83,38 @@ class HistoryDisplay(StillDisplay, Generic[Content]):
 
     @abstractmethod
     def shapes(self, content: Content) -> Mapping[str, Shape]:
-        """What is seen of a content with the properties as they are."""
+        """Return the shapes of a content, with the properties as they are set."""
 
     def groups(self, entry: Entry[Content]) -> Mapping[str, Placed]:
-        """What is seen of a message, by names below its path; most have one without a name."""
+        """Return the groups of a message by their names below its path; "" is the path itself."""
         return {"": self.placed(entry, self.shapes(entry.content))}
 
     def points_in(self, content: Content) -> int:
-        """How many points a message holds, of which a display shows no more than its limits say."""
+        """Return how many points a message holds; the limits of the display count them."""
         del content
         return 1
 
     def sizes(self) -> tuple[str, ...]:
-        """Measures of what is drawn, by name; where all are 0 nothing may be seen of a message."""
+        """Return the properties that give a size; where all are 0 a message may be invisible."""
         return ()
 
     def placed(self, entry: Entry[Content], shapes: Mapping[str, Shape]) -> Placed:
-        """Where the shapes of a message are."""
+        """Place the shapes of a message."""
         return Placed(entry.frame, entry.stamp_ns, shapes)
 
     def refuse(self, reason: Reason, sentence: str) -> None:
-        """Say of the newest message why it cannot be drawn: `read` gives None then."""
-        self._told = (Status("error", reason, sentence),)
+        """Report why the newest message cannot be drawn; `read` then returns None."""
+        self._remarks = (Status("error", reason, sentence),)
 
     def thin(self, sentence: str) -> None:
-        """Say of the newest message how much of it is drawn."""
-        self._told = (*self._told, Status("ok", "thinned", sentence))
+        """Report how much of the newest message is drawn."""
+        self._remarks = (*self._remarks, Status("ok", "thinned", sentence))
 
     def warn(
         self, reason: Reason | None, sentence: str, mend: tuple[str, Value] | None = None
     ) -> None:
-        """Say of the newest message what is odd, or why not all of it is seen."""
-        self._told = (*self._told, Status("warn", reason, sentence, mend))
+        """Report what is odd about the newest message, or why not all of it is seen."""
+        self._remarks = (*self._remarks, Status("warn", reason, sentence, mend))
 
     def changed(self, name: str) -> None:
         """Draw anew, with the new value."""
@@ -130,15 +128,15 @@ class HistoryDisplay(StillDisplay, Generic[Content]):
         self._free.clear()
         self._points, self._too_many_points = 0, False
         self._groups.clear()
-        self._told = ()
+        self._remarks = ()
         super().reset()
 
     def statuses(self) -> tuple[Status, ...]:
-        """What is to be said of the newest message, and what is transparent or of no size."""
-        return (*self._told, *self._crowded(), *self.transparent(), *self._of_no_size())
+        """Return the remarks on the newest message, and what is transparent or of no size."""
+        return (*self._remarks, *self._crowded(), *self.transparent(), *self._of_no_size())
 
     def _crowded(self) -> tuple[Status, ...]:
-        """That fewer messages are kept than are wished."""
+        """Return a status if fewer messages are kept than were asked for."""
         if not self._too_many_points:
             return ()
         sentence = (
@@ -148,7 +146,7 @@ class HistoryDisplay(StillDisplay, Generic[Content]):
         return (Status("ok", "thinned", sentence),)
 
     def transparent(self) -> tuple[Status, ...]:
-        """One status for each opacity that is 0 and counts."""
+        """Return one status for each opacity that is 0 and has an effect."""
         clear = (one for one in self.PROPERTIES if self._is_clear(one) and self._counts(one))
         return tuple(
             Status(
@@ -159,7 +157,7 @@ class HistoryDisplay(StillDisplay, Generic[Content]):
         )  # fmt: skip
 
     def _of_no_size(self) -> tuple[Status, ...]:
-        """That nothing of the newest message is seen since its measures are set to 0."""
+        """Return a status if nothing of the newest message is seen because its sizes are 0."""
         newest, names = self.newest, self.sizes()
         if newest is None or not names or any(map(self.number, names)):
             return ()
@@ -178,7 +176,7 @@ class HistoryDisplay(StillDisplay, Generic[Content]):
         return one.name.lower().endswith("alpha") and self.values[one.name] == 0
 
     def _counts(self, one: Property) -> bool:
-        """Whether a property means something with the values of the others."""
+        """Whether a property has an effect with the values of the others."""
         if one.when is None:
             return True
         name, values = one.when
@@ -193,14 +191,14 @@ class HistoryDisplay(StillDisplay, Generic[Content]):
 
     @property
     def newest(self) -> Entry[Content] | None:
-        """What was kept last."""
+        """The entry of the newest message that was kept."""
         return self._kept[-1].entry if self._kept else None
 
     def _keep(self, entry: Entry[Content]) -> None:
         self._points += self.points_in(entry.content)
         self._too_many_points = False
         self._drop_oldest(room_for=1)
-        # The path of what was dropped is taken again: there its shapes are updated, not made anew.
+        # The path of a dropped message is used again, so that the scene updates its shapes.
         path = self._free.pop() if self._free else str(len(self._kept))
         self._kept.append(_Kept(path, entry))
         self.redraw()
@@ -227,8 +225,3 @@ class HistoryDisplay(StillDisplay, Generic[Content]):
                 if placed.shapes:
                     drawn[f"{path}/{name}" if name else path] = placed
         return drawn or NOTHING
-
-
-def frame_and_stamp(header: Any) -> tuple[str, int]:  # noqa: ANN401 - a message
-    """The frame of a std_msgs/Header and its stamp, ns since the epoch."""
-    return header.frame_id, header.stamp.sec * NANOSECONDS + header.stamp.nanosec

@@ -1,4 +1,4 @@
-"""Image: what a camera sees, at the far end of what its camera info says that it can see."""
+"""Image: the picture of a camera, at the far end of the frustum that its camera info gives."""
 
 from __future__ import annotations
 
@@ -9,13 +9,10 @@ from typing import TYPE_CHECKING, Any, ClassVar, Final, NamedTuple
 
 import numpy as np
 
-from studio.displays.cloud import stamp_of
-from studio.displays.compressed_images import read_compressed
-from studio.displays.display import Status, StillDisplay, TopicRole
+from studio.displays.display import Status, StillDisplay, TopicRole, reading_fields, stamp_ns_of
 from studio.displays.drawing import NOTHING, Frustum, Placed
-from studio.displays.image_encodings import read_image
+from studio.displays.image_encodings import read_compressed, read_image
 from studio.displays.properties import Property, rgb_of
-from studio.displays.reading import reading
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -37,7 +34,7 @@ _SKEWED: Final = 0.05
 
 
 class _View(NamedTuple):
-    """What a camera info says."""
+    """The field of view that a camera info gives."""
 
     fov_y_rad: float
     aspect: float
@@ -81,12 +78,12 @@ class ImageDisplay(StillDisplay):
         self.reset()
 
     def reset(self) -> None:
-        """Forget picture and camera."""
+        """Forget the picture and the camera info."""
         self._pixels: NDArray[Any] | None = None
         self._shaded: NDArray[np.uint8] | None = None
         self._frame, self._stamp_ns = "", 0
         self._view: _View | None = None
-        self._heard_info = False
+        self._has_info = False
         self._ranges: deque[tuple[float, float]] = deque(maxlen=_WINDOW_MAX)
         self.redraw()
 
@@ -97,13 +94,13 @@ class ImageDisplay(StillDisplay):
         self.redraw()
 
     def take(self, received: Received, role: str = "") -> None:
-        """Take in a picture, or what is known of the camera.
+        """Take a picture or a camera info.
 
         Raises:
             StudioError: It cannot be read, or is of an unknown encoding.
         """
         message = self.decode(received)
-        with reading(received.type_name):
+        with reading_fields(received.type_name):
             if role == _INFO:
                 self._take_info(message)
             else:
@@ -111,7 +108,7 @@ class ImageDisplay(StillDisplay):
 
     def _take_picture(self, type_name: str, message: Any) -> None:  # noqa: ANN401
         read = read_compressed if type_name == _COMPRESSED else read_image
-        pixels, stamp_ns = read(message, self.limits.pixels), stamp_of(message.header)
+        pixels, stamp_ns = read(message, self.limits.pixels), stamp_ns_of(message.header)
         self._pixels, self._frame, self._stamp_ns = pixels, message.header.frame_id, stamp_ns
         self._shaded = None
         if _is_numbers(pixels):
@@ -119,7 +116,7 @@ class ImageDisplay(StillDisplay):
         self.redraw()
 
     def statuses(self) -> tuple[Status, ...]:
-        """Why no picture is seen, or not where the camera looks."""
+        """Return why no picture is seen, or not where the camera points."""
         if self._pixels is None:
             return ()
         if not self._pixels.size:
@@ -129,8 +126,8 @@ class ImageDisplay(StillDisplay):
 
     def _take_info(self, info: Any) -> None:  # noqa: ANN401 - a sensor_msgs/CameraInfo
         view = view_of(info)
-        if view != self._view or not self._heard_info:
-            self._view, self._heard_info = view, True
+        if view != self._view or not self._has_info:
+            self._view, self._has_info = view, True
             self.redraw()
 
     def _drawn(self) -> Drawing:
@@ -177,9 +174,11 @@ class ImageDisplay(StillDisplay):
 
     def _no_view(self) -> Status | None:
         if self._view is None:
-            said = "says no focal length" if self._heard_info else "has not come"
+            found = "says no focal length" if self._has_info else "has not come"
             degrees = round(math.degrees(_GUESSED_FOV_Y_RAD))
-            sentence = f"The camera info {said}: the angle of view is guessed as {degrees} degrees."
+            sentence = (
+                f"The camera info {found}: the angle of view is guessed as {degrees} degrees."
+            )
             return Status("warn", "no_camera_info", sentence)
         if self._view.skewed:
             sentence = (
@@ -196,7 +195,7 @@ class ImageDisplay(StillDisplay):
 
 
 def view_of(info: Any) -> _View | None:  # noqa: ANN401 - a sensor_msgs/CameraInfo
-    """How wide a camera sees: by its projection, else by the matrix of the raw picture.
+    """Return the field of view by the projection matrix, else by that of the raw picture.
 
     Returns:
         None when there is no focal length.

@@ -1,8 +1,10 @@
-"""Encodings of raw images: their bytes to red, green and blue, or to one number for each pixel."""
+"""Pixels of images: of raw ones in any encoding, and of JPEG and PNG. Displays' door to Pillow."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Final
+import io
+import warnings
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 import numpy as np
 
@@ -12,8 +14,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from numpy.typing import NDArray
+    from PIL import Image
 
-    Reader = Callable[["Raw"], NDArray[Any]]
+Reader: TypeAlias = "Callable[[Raw], NDArray[Any]]"
 
 _SIDE_MAX: Final = 65_536
 # Full range BT.601, as cameras send it over USB: red and blue from the two differences.
@@ -23,6 +26,12 @@ _RED_AT: Final = {"rggb": (0, 0), "grbg": (0, 1), "gbrg": (1, 0), "bggr": (1, 1)
 _TYPES: Final = {
     "8U": "u1", "8S": "i1", "16U": "u2", "16S": "i2", "32S": "i4", "32F": "f4", "64F": "f8",
 }  # fmt: skip
+_FORMATS: Final = ("JPEG", "PNG", "WEBP", "BMP", "TIFF")
+_PIXELS_MAX: Final = 64 << 20
+_DEPTH: Final = "compressedDepth"
+_PNG: Final = b"\x89PNG"
+# What compressed_depth_image_transport puts before its PNG: an enum and two floats.
+_HEADER_BYTES: Final = 12
 
 
 class Raw:
@@ -224,3 +233,61 @@ _READERS: Final[dict[str, Reader]] = {
     **{f"bayer_{pattern}8": _bayer(pattern, "u1") for pattern in _RED_AT},
     **{f"bayer_{pattern}16": _bayer(pattern, "u2") for pattern in _RED_AT},
 }
+
+
+def read_compressed(message: Any, pixels_max: int) -> NDArray[Any]:  # noqa: ANN401
+    """The pixels of a sensor_msgs/CompressedImage, thinned where there are too many.
+
+    Returns:
+        Shape (H, W, 3), uint8, colours; or (H, W), numbers without a colour.
+
+    Raises:
+        DisplayMessageError: It is no picture, of another kind, or too large.
+    """
+    format_name = str(message.format)
+    if _DEPTH in format_name:
+        return _depths(message.data, format_name, pixels_max)
+    return _unpacked(message.data, format_name, pixels_max)
+
+
+def _unpacked(data: NDArray[np.uint8], format_name: str, pixels_max: int) -> NDArray[Any]:
+    from PIL import Image  # noqa: PLC0415 - seldom needed
+
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", Image.DecompressionBombWarning)
+            with Image.open(io.BytesIO(data.tobytes()), formats=_FORMATS) as image:
+                return _pixels(image, pixels_max)
+    except (OSError, ValueError, SyntaxError, Image.DecompressionBombError, Warning) as error:
+        raise _error(f'its data is no JPEG or PNG (format "{format_name[:60]}"): {error}') from None
+
+
+def _depths(data: NDArray[np.uint8], format_name: str, pixels_max: int) -> NDArray[Any]:
+    """Depths from a PNG after a header; of floats it holds the inverse, in steps."""
+    if bytes(data[_HEADER_BYTES : _HEADER_BYTES + 4]) != _PNG:
+        raise _error(f'depths are read from PNG, and its format is "{format_name[:60]}"')
+    steps = _unpacked(data[_HEADER_BYTES:], format_name, pixels_max)
+    if not format_name.startswith("32FC1") or steps.ndim != 2:
+        return steps
+    near, far = np.frombuffer(bytes(data[4:_HEADER_BYTES]), dtype="<f4")
+    with np.errstate(all="ignore"):
+        depths = near / (steps.astype(np.float32) - far)
+    return np.where(steps > 0, depths, np.float32("nan"))
+
+
+def _pixels(image: Image.Image, pixels_max: int) -> NDArray[Any]:
+    width, height = image.size
+    if width * height > _PIXELS_MAX:
+        raise _error(f"it is {width:,} x {height:,} pixels large")
+    step = step_for(width * height, pixels_max)
+    # JPEG is unpacked at a half or a quarter of its size far quicker than as a whole.
+    image.draft("RGB" if image.mode != "L" else "L", (-(-width // step), -(-height // step)))
+    if image.mode not in ("L", "I", "F") and not image.mode.startswith("I;16"):
+        image = image.convert("RGB")
+    pixels = np.asarray(image)
+    step = step_for(pixels.shape[0] * pixels.shape[1], pixels_max)
+    return np.ascontiguousarray(pixels[::step, ::step])
+
+
+def _error(reason: str) -> DisplayMessageError:
+    return DisplayMessageError("CompressedImage", reason.rstrip("."))

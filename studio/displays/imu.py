@@ -6,20 +6,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from studio.displays.display import Status, TopicRole
+from studio.displays.display import Status, TopicRole, frame_and_stamp
 from studio.displays.drawing import Arrows, Placed, Solids
-from studio.displays.history import Entry, HistoryDisplay, frame_and_stamp
-from studio.displays.pose_look import (
-    NO_TURN_SET,
-    NOT_FINITE,
-    Poses,
-    axes_shapes,
-    colour_of,
-    has_no_turn,
-    length,
-    switch,
-)
-from studio.displays.properties import Property, rgb_of
+from studio.displays.history import Entry, HistoryDisplay
+from studio.displays.poses import NO_TURN_SET, NOT_FINITE, Poses, axes_shapes, has_no_turn
+from studio.displays.properties import Property, colour_of, length, rgb_of, switch
 from studio.displays.turning import drawable, turned, unit_quaternions
 
 if TYPE_CHECKING:

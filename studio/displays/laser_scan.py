@@ -7,18 +7,16 @@ from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 import numpy as np
 
-from studio.displays.cloud import Cloud, stamp_of
+from studio.displays.cloud import Cloud, evenly_among
 from studio.displays.cloud_display import CloudDisplay
-from studio.displays.display import Status, TopicRole
+from studio.displays.display import Status, TopicRole, stamp_ns_of
 from studio.displays.drawing import Sweep
-from studio.displays.spreading import spread_among
 from studio.errors import DisplayMessageError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from studio.displays.display import Received
-    from studio.displays.limits import Limits
+    from studio.displays.display import Limits, Received
 
 _BEAMS_MAX: Final = 4_000_000
 _TURN_MAX_S: Final = 5.0
@@ -45,11 +43,11 @@ class LaserScanDisplay(CloudDisplay):
         with np.errstate(invalid="ignore"):
             returned = (scan.ranges >= scan.range_min) & (scan.ranges < scan.range_max)
         returned &= np.isfinite(scan.ranges)  # the least range may be infinite, too
-        chosen = spread_among(returned, limits.points)
+        chosen = evenly_among(returned, limits.points)
         rays = _rays(float(scan.angle_min), float(scan.angle_increment), len(scan.ranges))
         positions = rays.take(chosen, axis=0) * scan.ranges[chosen, None]
         return Cloud(
-            scan.header.frame_id, stamp_of(scan.header), positions, chosen,
+            scan.header.frame_id, stamp_ns_of(scan.header), positions, chosen,
             int(np.count_nonzero(returned)), _Beams(scan), _nothing(scan, len(chosen)),
             _sweep_of(scan, chosen),
         )  # fmt: skip
@@ -94,8 +92,8 @@ def _rays(first_rad: float, step_rad: float, count: int) -> NDArray[np.float32]:
 
 
 def _sweep_of(scan: Any, beams: NDArray[np.intp]) -> Sweep | None:  # noqa: ANN401
-    """When beams were sent, one after the other; None if all were at once, or nobody knows when."""
-    count, stamp_ns = len(scan.ranges), stamp_of(scan.header)
+    """Return when the beams were sent, one after the other; None if all at once, or unknown."""
+    count, stamp_ns = len(scan.ranges), stamp_ns_of(scan.header)
     took_s = float(scan.time_increment) * (count - 1)
     # The time of a turn is a part of a second; what is longer than all that is known is no time.
     if not stamp_ns or count < 2 or not 0.0 < abs(took_s) <= _TURN_MAX_S:

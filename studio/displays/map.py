@@ -1,34 +1,192 @@
-"""Map: an occupancy grid on the ground, in RViz's colours, and what changes of it."""
+"""Map: an occupancy grid as tiles of a picture on the ground, in RViz's colours."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 import numpy as np
 
-from studio.displays.cloud import stamp_of
-from studio.displays.display import Status, StillDisplay, TopicRole
-from studio.displays.drawing import NOTHING, Placed
-from studio.displays.grid_tiles import Sheet, Tiles, paint_of
-from studio.displays.map_palettes import SCHEMES, palette
+from studio.displays.display import Status, StillDisplay, TopicRole, reading_fields, stamp_ns_of
+from studio.displays.drawing import NOTHING, Picture, Placed
 from studio.displays.properties import Property
-from studio.displays.reading import reading
-from studio.displays.turning import drawable, unit_quaternions
+from studio.displays.turning import drawable, turned, unit_quaternions
 from studio.errors import DisplayMessageError
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterator, Mapping
 
     from numpy.typing import NDArray
 
     from studio.displays.display import Received
-    from studio.displays.drawing import Drawing
+    from studio.displays.drawing import Drawing, Wxyz, Xyz
     from studio.displays.properties import Value
     from studio.ros.types.library import TypeLibrary
 
+SCHEMES: Final = ("map", "costmap", "raw")
+_UNKNOWN: Final = (0x70, 0x89, 0x86)
+TILE_CELLS: Final = 1024
+"""Edge of a tile: every graphics card takes it, and a change within it is sent quickly."""
 _CELLS_MAX: Final = 256 << 20
 _UPDATES: Final = "updates"
+
+
+@cache
+def palette(scheme: str, threshold: int | None = None) -> NDArray[np.uint8]:
+    """Colours by the value of a cell, taken as an unsigned byte.
+
+    Args:
+        scheme: One of `SCHEMES`.
+        threshold: From which value on a cell is occupied, when there are only two colours.
+
+    Returns:
+        Shape (256, 4), RGBA, read-only.
+    """
+    colours = np.zeros((256, 4), dtype=np.uint8)
+    colours[:, 3] = 255
+    {"map": _map, "costmap": _costmap, "raw": _raw}[scheme](colours, threshold)
+    if scheme != "raw":
+        _illegal(colours)
+    colours.setflags(write=False)
+    return colours
+
+
+def _map(colours: NDArray[np.uint8], threshold: int | None) -> None:
+    if threshold is not None:
+        colours[:threshold, :3] = 255
+        colours[threshold:101, :3] = 0
+        return
+    colours[:101, :3] = (255 - 255 * np.arange(101) // 100)[:, None]
+
+
+def _costmap(colours: NDArray[np.uint8], threshold: int | None) -> None:
+    if threshold is not None:
+        colours[:threshold, :3] = (0, 0, 255)
+        colours[threshold:101, :3] = (255, 0, 0)
+        return
+    colours[0] = 0
+    costs = 255 * np.arange(1, 99) // 100
+    colours[1:99, 0], colours[1:99, 2] = costs, 255 - costs
+    colours[99, :3] = (0, 255, 255)
+    colours[100, :3] = (255, 0, 255)
+
+
+def _raw(colours: NDArray[np.uint8], threshold: int | None) -> None:
+    if threshold is not None:
+        colours[threshold:, :3] = 255
+        return
+    colours[:, :3] = np.arange(256)[:, None]
+
+
+def _illegal(colours: NDArray[np.uint8]) -> None:
+    """Values that no map has: green above 100, red to yellow below -1; and -1, which is unknown."""
+    colours[101:128, :3] = (0, 255, 0)
+    below = np.arange(127)
+    colours[128:255, 0], colours[128:255, 1], colours[128:255, 2] = 255, 255 * below // 126, 0
+    colours[255, :3] = _UNKNOWN
+
+
+@dataclass(frozen=True, slots=True)
+class Sheet:
+    """Where the cells of a map lie.
+
+    Attributes:
+        rows: Of cells, from the smallest y on.
+        columns: Of cells, from the smallest x on.
+        cell_m: Edge of a cell.
+        corner: Where the corner of the first cell is.
+        wxyz: How the map is turned about that corner.
+    """
+
+    rows: int
+    columns: int
+    cell_m: float
+    corner: Xyz
+    wxyz: Wxyz
+
+
+@dataclass(frozen=True, slots=True)
+class Paint:
+    """A colour for each value of a cell, shape (256, 4), and whether the map is behind all else."""
+
+    colours: NDArray[np.uint8]
+    behind: bool
+
+
+def paint_of(palette: NDArray[np.uint8], alpha: float, *, behind: bool) -> Paint:
+    """A palette, shape (256, 4), as opaque as `alpha` says."""
+    colours = palette.copy()
+    colours[:, 3] = np.rint(colours[:, 3] * alpha)
+    return Paint(colours, behind)
+
+
+class Tiles:
+    """The pictures of one map; those of cells that stayed are the same objects."""
+
+    def __init__(self) -> None:
+        self._sheet: Sheet | None = None
+        self._cells: NDArray[np.int8] = np.empty((0, 0), dtype=np.int8)
+        self._pictures: dict[str, Picture] = {}
+
+    def lay(self, sheet: Sheet, cells: NDArray[np.int8]) -> None:
+        """Take new cells, shape (rows, columns): pictures of the same ones stay."""
+        if sheet != self._sheet:
+            self._pictures.clear()
+        for name, part in _parts(sheet) if self._pictures else ():
+            if not np.array_equal(self._cells[part], cells[part]):
+                self._pictures.pop(name, None)
+        self._sheet, self._cells = sheet, cells
+
+    def rest_on(self, cells: NDArray[np.int8]) -> None:
+        """Use another array with the same values."""
+        self._cells = cells
+
+    def spoil(self, rows: slice, columns: slice) -> None:
+        """Forget the tiles of cells that were written over."""
+        if self._sheet is None:
+            return
+        for name, (own_rows, own_columns) in _parts(self._sheet):
+            if _overlap(rows, own_rows) and _overlap(columns, own_columns):
+                self._pictures.pop(name, None)
+
+    def repaint(self) -> None:
+        """Forget all tiles."""
+        self._pictures.clear()
+
+    def painted(self, paint: Paint) -> Mapping[str, Picture]:
+        """All pictures by name; those that are missing are painted."""
+        if self._sheet is None:
+            return {}
+        for name, part in _parts(self._sheet):
+            if name not in self._pictures:
+                self._pictures[name] = _picture(self._sheet, self._cells, part, paint)
+        return dict(self._pictures)
+
+
+def _parts(sheet: Sheet) -> Iterator[tuple[str, tuple[slice, slice]]]:
+    """Each tile's name and where its cells are."""
+    for row in range(0, sheet.rows, TILE_CELLS):
+        for column in range(0, sheet.columns, TILE_CELLS):
+            rows = slice(row, min(row + TILE_CELLS, sheet.rows))
+            columns = slice(column, min(column + TILE_CELLS, sheet.columns))
+            yield f"{row // TILE_CELLS}-{column // TILE_CELLS}", (rows, columns)
+
+
+def _overlap(one: slice, other: slice) -> bool:
+    return one.start < other.stop and other.start < one.stop
+
+
+def _picture(
+    sheet: Sheet, cells: NDArray[np.int8], part: tuple[slice, slice], paint: Paint
+) -> Picture:
+    rows, columns = part
+    shown = cells[part].view(np.uint8).copy()  # the cells are written over by updates
+    at = np.array([columns.start * sheet.cell_m, rows.start * sheet.cell_m, 0.0])
+    x, y, z = np.asarray(sheet.corner) + turned(np.array([sheet.wxyz]), at)[0]
+    size_m = (shown.shape[1] * sheet.cell_m, shown.shape[0] * sheet.cell_m)
+    at_xyz = float(x), float(y), float(z)
+    return Picture(shown, size_m, at_xyz, sheet.wxyz, paint.behind, paint.colours)
 
 
 @dataclass(slots=True, eq=False)
@@ -86,13 +244,13 @@ class MapDisplay(StillDisplay):
         self._tiles = Tiles()
 
     def take(self, received: Received, role: str = "") -> None:
-        """Take in a map, or a part of one; parts that come before any map are passed over.
+        """Take a map, or a part of one; parts that come before any map are ignored.
 
         Raises:
             StudioError: It cannot be read, or makes no sense.
         """
         message = self.decode(received)
-        with reading(received.type_name):
+        with reading_fields(received.type_name):
             if role != _UPDATES:
                 self._take_map(message)
             elif self._grid is not None:
@@ -140,7 +298,7 @@ class MapDisplay(StillDisplay):
         sheet = _sheet(message.info, shown, step)
         frame = message.header.frame_id or "map"
         self._tiles.lay(sheet, shown)
-        self._grid = _Grid(frame, stamp_of(message.header), cells, step, shown)
+        self._grid = _Grid(frame, stamp_ns_of(message.header), cells, step, shown)
 
     def _take_update(self, grid: _Grid, message: Any) -> None:  # noqa: ANN401
         part = _cells(message, message.data, "OccupancyGridUpdate")
@@ -152,8 +310,8 @@ class MapDisplay(StillDisplay):
                 f"its {columns:,} x {rows:,} cells at {x:,}, {y:,} reach beyond the map of "
                 f"{width:,} x {height:,}",
             )
-        # The two topics come as they like: what the map knows already would undo it.
-        if not part.size or 0 < stamp_of(message.header) < grid.stamp_ns:
+        # The two topics are not in order: an update older than the map would undo it.
+        if not part.size or 0 < stamp_ns_of(message.header) < grid.stamp_ns:
             return
         grid.cells = _own(grid.cells)
         grid.cells[y : y + rows, x : x + columns] = part
@@ -224,7 +382,7 @@ def _step(count: int, limit: int) -> int:
 
 
 def _pooled(cells: NDArray[np.int8], step: int) -> NDArray[np.int8]:
-    """The highest of each square of cells, so that no obstacle goes; unknown is below free."""
+    """Return the highest of each square of cells; unknown counts as less than free."""
     if step == 1 or not cells.size:
         return cells
     rows, columns = _starts(cells.shape[0], step), _starts(cells.shape[1], step)

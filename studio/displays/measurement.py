@@ -1,4 +1,4 @@
-"""MeasurementDisplay: one number that a sensor measured, as the colour of a point at its place."""
+"""Temperature, FluidPressure, Illuminance, RelativeHumidity: a number as the colour of a point."""
 
 from __future__ import annotations
 
@@ -8,16 +8,14 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
 
-from studio.displays.cloud import Cloud, stamp_of
-from studio.displays.cloud_display import CloudDisplay
-from studio.displays.cloud_look import INTENSITY, LOOK
-from studio.displays.display import Status
+from studio.displays.cloud import Cloud
+from studio.displays.cloud_display import CLOUD_PROPERTIES, INTENSITY, CloudDisplay
+from studio.displays.display import Status, TopicRole, stamp_ns_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from studio.displays.display import Received
-    from studio.displays.limits import Limits
+    from studio.displays.display import Limits, Received
     from studio.displays.properties import Property
 
 _AT_ORIGIN = np.zeros((1, 3), dtype=np.float32)
@@ -43,17 +41,17 @@ def measurement_properties(scale: Scale) -> tuple[Property, ...]:
         "Min Intensity": scale.low,
         "Max Intensity": scale.high,
     }
-    return tuple(replace(one, default=first.get(one.name, one.default)) for one in LOOK)
+    return tuple(replace(one, default=first.get(one.name, one.default)) for one in CLOUD_PROPERTIES)
 
 
 class MeasurementDisplay(CloudDisplay):
-    """Draws one point at the origin of the sensor; derived classes say which number it shows."""
+    """Draws one point at the origin of the sensor; derived classes return the number it shows."""
 
     SCALE: ClassVar[Scale]
 
     @abstractmethod
     def measured(self, message: Any) -> float:  # noqa: ANN401 - a message
-        """The number of a message."""
+        """Return the number of a message."""
 
     def read(self, received: Received, limits: Limits) -> Cloud:
         """A point, unless the number is none."""
@@ -63,7 +61,7 @@ class MeasurementDisplay(CloudDisplay):
         finite = bool(np.isfinite(number))
         return Cloud(
             message.header.frame_id,
-            stamp_of(message.header),
+            stamp_ns_of(message.header),
             _AT_ORIGIN if finite else _NO_POINTS,
             None,
             int(finite),
@@ -99,3 +97,59 @@ class _Channel:
     def float_colours(self, raw: NDArray[np.intp] | None) -> None:
         """None are sent."""
         del raw
+
+
+class TemperatureDisplay(MeasurementDisplay):
+    """Draws the newest temperature."""
+
+    KIND = "Temperature"
+    DOC = "A temperature, as the colour of a point."
+    TOPICS = (TopicRole("", ("sensor_msgs/msg/Temperature",), newest_only=False),)
+    SCALE = Scale("temperature", 0.0, 100.0, inverted=True)
+    PROPERTIES = measurement_properties(SCALE)
+
+    def measured(self, message: Any) -> float:  # noqa: ANN401 - a message
+        """In degrees Celsius."""
+        return message.temperature
+
+
+class FluidPressureDisplay(MeasurementDisplay):
+    """Draws the newest pressure."""
+
+    KIND = "FluidPressure"
+    DOC = "The pressure of air or water, as the colour of a point."
+    TOPICS = (TopicRole("", ("sensor_msgs/msg/FluidPressure",), newest_only=False),)
+    SCALE = Scale("fluid_pressure", 98_000.0, 105_000.0)
+    PROPERTIES = measurement_properties(SCALE)
+
+    def measured(self, message: Any) -> float:  # noqa: ANN401 - a message
+        """In Pa."""
+        return message.fluid_pressure
+
+
+class IlluminanceDisplay(MeasurementDisplay):
+    """Draws the newest illuminance."""
+
+    KIND = "Illuminance"
+    DOC = "The brightness of light, as the colour of a point."
+    TOPICS = (TopicRole("", ("sensor_msgs/msg/Illuminance",), newest_only=False),)
+    SCALE = Scale("illuminance", 0.0, 1000.0)
+    PROPERTIES = measurement_properties(SCALE)
+
+    def measured(self, message: Any) -> float:  # noqa: ANN401 - a message
+        """In lx."""
+        return message.illuminance
+
+
+class RelativeHumidityDisplay(MeasurementDisplay):
+    """Draws the newest humidity."""
+
+    KIND = "RelativeHumidity"
+    DOC = "The humidity of air, as the colour of a point."
+    TOPICS = (TopicRole("", ("sensor_msgs/msg/RelativeHumidity",), newest_only=False),)
+    SCALE = Scale("relative_humidity", 0.0, 1.0)
+    PROPERTIES = measurement_properties(SCALE)
+
+    def measured(self, message: Any) -> float:  # noqa: ANN401 - a message
+        """From 0 to 1."""
+        return message.relative_humidity

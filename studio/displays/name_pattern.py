@@ -1,7 +1,7 @@
-"""NamePattern: a regular expression that looks at every letter once, whoever wrote it.
+"""NamePattern: a regular expression that reads every letter once, so that anybody may write it.
 
-Those of Python try ways one after the other, and a short pattern can keep them busy for years.
-Here all ways are gone at once, so the time is letters times steps.
+Python's `re` backtracks, and a short pattern can keep it busy for years. Here all alternatives are
+followed at once, so the time is letters times steps.
 """
 
 from __future__ import annotations
@@ -74,33 +74,33 @@ class NamePattern:
         is_first: bool,  # noqa: FBT001 - part of a key
         letter: str,
     ) -> frozenset[int] | None:
-        ways = self._followed(reached, is_first=is_first, is_last=False)
+        states = self._followed(reached, is_first=is_first, is_last=False)
         onwards = None
-        if len(self._steps) not in ways:
-            onwards = frozenset(way + 1 for way in ways if self._takes(way, letter))
+        if len(self._steps) not in states:
+            onwards = frozenset(state + 1 for state in states if self._takes(state, letter))
         if len(self._known) >= _KNOWN_MAX:
             self._known.clear()
         self._known[reached, is_first, letter] = onwards
         return onwards
 
-    def _takes(self, way: int, letter: str) -> bool:
-        step = self._steps[way]
+    def _takes(self, state: int, letter: str) -> bool:
+        step = self._steps[state]
         return isinstance(step, _Letters) and step.take(letter)
 
     def _followed(self, reached: frozenset[int], *, is_first: bool, is_last: bool) -> set[int]:
         """All steps that are reached without a letter, also when it all begins here."""
-        ways, rest = set[int](), [0, *reached]
+        states, rest = set[int](), [0, *reached]
         while rest:
-            way = rest.pop()
-            if way in ways:
+            state = rest.pop()
+            if state in states:
                 continue
-            ways.add(way)
-            step = self._steps[way] if way < len(self._steps) else None
+            states.add(state)
+            step = self._steps[state] if state < len(self._steps) else None
             if isinstance(step, _Fork):
-                rest += [way + step.first, way + step.second]
+                rest += [state + step.first, state + step.second]
             elif isinstance(step, _Edge) and (is_last if step.at_end else is_first):
-                rest.append(way + 1)
-        return ways
+                rest.append(state + 1)
+        return states
 
 
 class PatternProperty(Property):

@@ -7,18 +7,18 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
-from studio.displays import covariance_look
 from studio.displays.display import TopicRole
 from studio.displays.history import KEPT_MAX
-from studio.displays.pose_look import pose_properties
+from studio.displays.pose_with_covariance import COVARIANCE_PROPERTIES as COVARIANCE
+from studio.displays.pose_with_covariance import SpreadDisplay
+from studio.displays.poses import pose_properties
 from studio.displays.properties import Property
-from studio.displays.spread_display import SpreadDisplay
 from studio.displays.turning import angle_between_rad
 
 if TYPE_CHECKING:
-    from studio.displays.covariance_look import Spread
     from studio.displays.display import Received
     from studio.displays.history import Entry
+    from studio.displays.pose_with_covariance import Spread
 
 _UNDER: Final = "Shape/"
 _NOT_UNIT: Final = (
@@ -43,18 +43,18 @@ class OdometryDisplay(SpreadDisplay):
         Property("Keep", "whole", 100,
                  f"How many poses are shown; 0 shows all, up to {KEPT_MAX:,}.", 0, KEPT_MAX),
         *pose_properties(_UNDER),
-        *covariance_look.PROPERTIES,
+        *COVARIANCE,
     )  # fmt: skip
     KEEPS = "Keep"
     UNDER = _UNDER
 
     def read(self, received: Received) -> Entry[Spread] | None:
-        """The pose, unless it cannot be drawn or is where the last one is."""
+        """Return the pose, unless it cannot be drawn or is near the last one."""
         entry = super().read(received)
         return None if entry is None or self._is_near_the_newest(entry) else entry
 
     def takes_turn(self, turn: Any) -> bool:  # noqa: ANN401 - a message
-        """Refuses what is no quaternion of length 1."""
+        """Refuse what is no quaternion of length 1."""
         square = math.fsum(min(abs(part), 2.0) ** 2 for part in (turn.w, turn.x, turn.y, turn.z))
         is_unit = abs(square - 1.0) < _SQUARE_OFF_MAX
         if not is_unit:

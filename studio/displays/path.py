@@ -1,4 +1,4 @@
-"""PathDisplay: the way that a robot plans, or came."""
+"""Path: a planned or travelled path as a line, and its poses."""
 
 from __future__ import annotations
 
@@ -9,18 +9,26 @@ import numpy as np
 from studio.displays.display import TopicRole
 from studio.displays.drawing import Lines
 from studio.displays.history import Entry, HistoryDisplay
-from studio.displays.polygon import RVIZ_GREEN
-from studio.displays.pose_look import (
+from studio.displays.poses import (
     Poses,
     arrow_shapes,
     axes_shapes,
+    chosen_rows,
+    drawable_poses,
+    poses_of_chosen,
+)
+from studio.displays.properties import (
+    RVIZ_GREEN,
+    Property,
     colour_of,
     colour_properties,
     length,
+    rgb_of,
 )
 from studio.displays.properties import Property, rgb_of
 from studio.displays.rows import chosen_rows, drawable_poses, poses_of_chosen
 from studio.ros.columns.poses import PATH, read_path
+from studio.ros.fast.poses import PATH, read_path
 
 if TYPE_CHECKING:
     from studio.displays.display import Received
@@ -31,15 +39,15 @@ POSES_MAX: Final = 100_000
 _AXES, _ARROWS = ("Pose Style", ("Axes",)), ("Pose Style", ("Arrows",))
 
 
-class Way(NamedTuple):
+class Line(NamedTuple):
     """A path: its poses, and whether each is joined with the next, shape (N - 1,)."""
 
     poses: Poses
     joined: Flags
 
 
-class PathDisplay(HistoryDisplay[Way]):
-    """Draws the last paths as lines, and their poses if wished."""
+class PathDisplay(HistoryDisplay[Line]):
+    """Draws the last paths as lines, and their poses if a style is chosen."""
 
     KIND = "Path"
     DOC = "The way that a robot plans, or came."
@@ -65,7 +73,7 @@ class PathDisplay(HistoryDisplay[Way]):
     )  # fmt: skip
     KEEPS = "Buffer Length"
 
-    def read(self, received: Received) -> Entry[Way] | None:
+    def read(self, received: Received) -> Entry[Line] | None:
         """The poses; where some cannot be drawn the line is cut."""
         read = read_path(received.cdr)
         sound = drawable_poses(read.rows)
@@ -76,14 +84,14 @@ class PathDisplay(HistoryDisplay[Way]):
             return None
         if len(read.rows) == 1:
             self.warn("empty", "The path has a single pose: a line needs two.")
-        way = Way(poses_of_chosen(chosen, "poses", self), np.diff(chosen[:, 7]) == 0)
-        return Entry(read.frame, read.stamp_ns, way)
+        line = Line(poses_of_chosen(chosen, "poses", self), np.diff(chosen[:, 7]) == 0)
+        return Entry(read.frame, read.stamp_ns, line)
 
-    def points_in(self, content: Way) -> int:
+    def points_in(self, content: Line) -> int:
         """Its poses."""
         return len(content.poses)
 
-    def shapes(self, content: Way) -> dict[str, Shape]:
+    def shapes(self, content: Line) -> dict[str, Shape]:
         """The line, and its poses."""
         offset_m = np.array([self.number(f"Offset/{axis}") for axis in "XYZ"])
         moved = Poses(content.poses.xyz + offset_m, content.poses.wxyz)

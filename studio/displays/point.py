@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from studio.displays.display import TopicRole
+from studio.displays.display import TopicRole, frame_and_stamp
 from studio.displays.drawing import Solids
-from studio.displays.history import KEPT_MAX, Entry, HistoryDisplay, frame_and_stamp
-from studio.displays.pose_look import NOT_FINITE, colour_of, colour_properties, length
-from studio.displays.properties import Property, rgb_of
+from studio.displays.history import KEPT_MAX, Entry, HistoryDisplay
+from studio.displays.poses import NOT_FINITE
+from studio.displays.properties import Property, colour_of, colour_properties, length, rgb_of
 from studio.displays.turning import drawable
 
 if TYPE_CHECKING:

@@ -9,9 +9,8 @@ import numpy as np
 from studio.displays.display import TopicRole
 from studio.displays.drawing import Lines
 from studio.displays.history import Entry, HistoryDisplay
-from studio.displays.pose_look import colour_of, colour_properties
-from studio.displays.properties import rgb_of
-from studio.displays.rows import chosen_rows
+from studio.displays.poses import chosen_rows
+from studio.displays.properties import RVIZ_GREEN, colour_of, colour_properties, rgb_of
 from studio.displays.turning import drawable
 from studio.ros.columns.poses import POLYGON, read_polygon
 
@@ -20,7 +19,6 @@ if TYPE_CHECKING:
     from studio.displays.drawing import Shape
     from studio.displays.turning import Floats
 
-RVIZ_GREEN: Final = "#19ff00"
 CORNERS_MAX: Final = 100_000
 
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from studio.displays.display import TopicRole
-from studio.displays.history import Entry, HistoryDisplay, frame_and_stamp
-from studio.displays.pose_look import (
+from studio.displays.display import TopicRole, frame_and_stamp
+from studio.displays.history import Entry, HistoryDisplay
+from studio.displays.poses import (
     NO_TURN_SET,
     NOT_FINITE,
     Poses,

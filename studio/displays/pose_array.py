@@ -9,20 +9,23 @@ import numpy as np
 from studio.displays.display import TopicRole
 from studio.displays.drawing import Lines
 from studio.displays.history import Entry, HistoryDisplay
-from studio.displays.pose_look import (
-    RVIZ_RED,
+from studio.displays.poses import (
     Poses,
     Sizes,
     arrow_properties,
     axes_properties,
+    pose_shapes,
+    pose_sizes,
+    poses_of_rows,
+)
+from studio.displays.properties import (
+    RVIZ_RED,
+    Property,
     colour_of,
     colour_properties,
     length,
-    pose_shapes,
-    pose_sizes,
+    rgb_of,
 )
-from studio.displays.properties import Property, rgb_of
-from studio.displays.rows import poses_of_rows
 from studio.displays.turning import turned
 from studio.ros.columns.poses import POSE_ARRAY, read_pose_array
 

@@ -6,9 +6,13 @@ import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
+import numpy as np
+
 from studio.errors import DisplayPropertyError
 
 if TYPE_CHECKING:
+    from typing import Any
+
     from studio.displays.drawing import Rgb
 
 Value: TypeAlias = bool | int | float | str
@@ -17,6 +21,8 @@ PropertyKind: TypeAlias = Literal["switch", "whole", "number", "colour", "choice
 _COLOUR: Final = re.compile(r"#[0-9a-f]{6}")
 _TEXT_MAX: Final = 1000
 _NUMBER_MAX: Final = 1e15
+RVIZ_RED = "#ff1900"
+RVIZ_GREEN: Final = "#19ff00"
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,12 +33,12 @@ class Property:
         name: RViz's; parts of a group are named with slashes, as `Covariance/Position/Alpha`.
         kind: What it takes: a colour is written `#rrggbb`, a frame by its name on /tf.
         default: What it is at first.
-        doc: One sentence for who looks at it.
+        doc: One sentence for the user.
         low: Least number.
         high: Greatest number.
         unit: Of a number: m, s, px, or empty.
         choices: What a choice may be.
-        when: Another property and its values with which this one means something.
+        when: Another property, and those of its values with which this one has an effect.
     """
 
     name: str
@@ -46,7 +52,7 @@ class Property:
     when: tuple[str, tuple[Value, ...]] | None = None
 
     def checked(self, value: object) -> Value:
-        """The value as the property takes it: numbers are held within their range.
+        """Return the value as the property takes it: numbers are clipped to their range.
 
         Raises:
             DisplayPropertyError: It is of another kind.
@@ -68,7 +74,7 @@ class Property:
         if isinstance(value, bool) or not isinstance(value, int | float) or value != value:  # noqa: PLR0124
             raise DisplayPropertyError(self.name, "is a number", value)
         within = min(max(value, self.low), self.high)
-        if abs(within) > _NUMBER_MAX:  # JSON has no infinity: what is kept could not be read again
+        if abs(within) > _NUMBER_MAX:  # JSON has no infinity
             within = float(self.default)
         return int(within) if self.kind == "whole" else float(within)
 
@@ -91,10 +97,39 @@ UPDATE_INTERVAL: Final = Property(
     high=3600.0,
     unit="s",
 )
-"""Of displays that show where frames are."""
+"""Setting of displays that follow /tf."""
 
 
 def rgb_of(colour: Value) -> Rgb:
-    """The parts of a colour, 0 to 255."""
+    """Return red, green and blue of a colour, 0 to 255."""
     text = str(colour)
     return int(text[1:3], 16), int(text[3:5], 16), int(text[5:7], 16)
+
+
+def colour_properties(
+    colour: str, what: str, under: str = "", when: tuple[str, tuple[Value, ...]] | None = None
+) -> tuple[Property, Property]:
+    """Return the properties Color and Alpha of something."""
+    return (
+        Property(f"{under}Color", "colour", colour, f"Colour of the {what}.", when=when),
+        Property(f"{under}Alpha", "number", 1.0, f"How opaque the {what} is.", 0.0, 1.0, when=when),
+    )
+
+
+def length(
+    name: str, default: float, doc: str, when: tuple[str, tuple[Value, ...]] | None = None
+) -> Property:
+    """Return a property that is a length, m."""
+    return Property(name, "number", default, doc, low=0.0, high=1000.0, unit="m", when=when)
+
+
+def switch(
+    name: str, doc: str, *, on: bool, when: tuple[str, tuple[Value, ...]] | None = None
+) -> Property:
+    """Return a property that is on or off."""
+    return Property(name, "switch", on, doc, when=when)
+
+
+def colour_of(rgb: Rgb) -> Any:  # noqa: ANN401 - NDArray[np.uint8] of shape (3,)
+    """Return one colour for all points or bodies, as shapes take it."""
+    return np.array(rgb, dtype=np.uint8)

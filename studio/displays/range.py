@@ -7,11 +7,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from studio.displays.display import TopicRole
+from studio.displays.display import TopicRole, frame_and_stamp
 from studio.displays.drawing import Solids
-from studio.displays.history import KEPT_MAX, Entry, HistoryDisplay, frame_and_stamp
-from studio.displays.pose_look import colour_of
-from studio.displays.properties import Property, rgb_of
+from studio.displays.history import KEPT_MAX, Entry, HistoryDisplay
+from studio.displays.properties import Property, colour_of, rgb_of
 from studio.displays.turning import FAR
 
 if TYPE_CHECKING:

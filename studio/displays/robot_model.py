@@ -8,11 +8,9 @@ from typing import TYPE_CHECKING, ClassVar, Final, Literal, NamedTuple, cast
 
 import numpy as np
 
-from studio.displays.display import Received, Status, StillDisplay, TopicRole
-from studio.displays.drawing import NO_TURN, Axes, Placed
-from studio.displays.link_parts import LinkParts, frame_of
+from studio.displays.display import Received, Status, StillDisplay, TopicRole, reading_fields
+from studio.displays.drawing import NO_TURN, Axes, LinkParts, Placed, link_frame
 from studio.displays.properties import UPDATE_INTERVAL, Property
-from studio.displays.reading import reading
 from studio.errors import DisplayError, DisplayMessageError
 from studio.robot.values import Robot
 
@@ -53,7 +51,7 @@ class DescriptionSource(NamedTuple):
 
 
 class RobotModelDisplay(StillDisplay):
-    """Takes descriptions and settings; whoever reads descriptions shows it what robot they tell.
+    """Takes descriptions and settings; `show` gets the robot that was read from them.
 
     Attributes:
         description: The last text of the topic; empty before it came.
@@ -118,7 +116,7 @@ class RobotModelDisplay(StillDisplay):
 
     @property
     def source(self) -> DescriptionSource:
-        """Where the description is to come from."""
+        """Where the description is expected from."""
         kind = cast('Literal["Topic", "Parameter", "File", "Document"]', self.values[_SOURCE])
         match kind:
             case "Parameter":
@@ -130,7 +128,7 @@ class RobotModelDisplay(StillDisplay):
                 return DescriptionSource(kind)
 
     def show(self, robot: Robot) -> None:
-        """This is the robot from now on; of a very large one the first links are shown.
+        """Show this robot from now on; of a very large one the first links.
 
         Raises:
             DisplayError: It is more than can be drawn; then the one before stays.
@@ -155,7 +153,7 @@ class RobotModelDisplay(StillDisplay):
             DisplayMessageError: The text is no XML, or too long.
         """
         del role
-        with reading(received.type_name):
+        with reading_fields(received.type_name):
             text = str(self.decode(received).data)
         if len(text) > DESCRIPTION_MAX:
             reason = f"its text has {len(text)} letters, and {DESCRIPTION_MAX} are read"
@@ -169,7 +167,7 @@ class RobotModelDisplay(StillDisplay):
 
     def frame_of(self, link: str) -> str:
         """The frame of a link on /tf."""
-        return frame_of(link, str(self.values["TF Prefix"]))
+        return link_frame(link, str(self.values["TF Prefix"]))
 
     def statuses(self) -> tuple[Status, ...]:
         """What is wrong with the description, and why nothing of the robot is seen."""

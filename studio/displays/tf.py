@@ -1,4 +1,4 @@
-"""TF: all frames, their names, and arrows to their parents."""
+"""TF: the axes and names of all frames, and arrows to their parents; frames without news fade."""
 
 from __future__ import annotations
 
@@ -7,20 +7,15 @@ from typing import TYPE_CHECKING, ClassVar, Final, NamedTuple
 import numpy as np
 
 from studio.displays.display import Display, Status
-from studio.displays.drawing import NOTHING, Placed
-from studio.displays.frame_choice import BLACKLIST, FRAMES, PROPERTIES, WHITELIST, FrameChoice
-from studio.displays.frame_look import (
-    Shades,
-    arrows_to_parents,
-    faded_axes,
-    fresh_axes,
-    name_of,
-    shades_of,
-)
+from studio.displays.drawing import NOTHING, Axes, Placed, Rgb, Solids, Text
+from studio.displays.name_pattern import PatternProperty, pattern_of
 from studio.displays.properties import UPDATE_INTERVAL, Property
+from studio.displays.turning import turned
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+
+    from numpy.typing import NDArray
 
     from studio.displays.drawing import Drawing, Shape
     from studio.displays.properties import Value
@@ -28,11 +23,224 @@ if TYPE_CHECKING:
     from studio.ros.types.library import TypeLibrary
     from studio.tf.frames_now import FramesNow
 
+FRAMES: Final = "Frames"
+WHITELIST: Final = "Filter (whitelist)"
+BLACKLIST: Final = "Filter (blacklist)"
+
+FILTER_PROPERTIES: Final = (
+    PatternProperty(
+        WHITELIST, "text", "", "Only frames in whose names this pattern is found are shown."
+    ),
+    PatternProperty(
+        BLACKLIST, "text", "", "Frames in whose names this pattern is found are not shown."
+    ),
+    Property(FRAMES, "switch", default=True, doc="Shows all frames, or none."),
+)
+_NAMES_KEPT_MAX: Final = 50_000
+# At a scale of 1, m.
+_AXIS_LENGTH_M: Final = 0.2
+_AXIS_RADIUS_M: Final = 0.01
+_SHAFT_M: Final = 0.01
+_HEAD_M: Final = 0.04
+_HEAD_LENGTH_M: Final = 0.1
+_NEAR_M: Final = 0.001
+"""Parents that are nearer have no arrow."""
+_RED_GREEN_BLUE: Final = np.array([[255, 0, 0], [0, 255, 0], [0, 0, 255]], np.float64)
+_SHAFT: Final = np.array([204, 204, 76], np.float64)
+_HEAD: Final = np.array([255, 26, 153], np.float64)
+_WHITE: Final = np.array([255, 255, 255], np.float64)
+_GREY: Final = np.array([179, 179, 179], np.float64)
+_HALF: Final = 0.5**0.5
+_ALONG_AXES: Final = np.array(
+    [[_HALF, 0.0, _HALF, 0.0], [_HALF, -_HALF, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]]
+)
+"""Turns of z onto x, y and z."""
 NAMES_MAX: Final = 1000
 """Names are nodes of their own, and nobody could read more."""
 _PARTS: Final = ("Show Names", "Show Axes", "Show Arrows")
 _STILL: Final = 1e-6
-"""Of a place in m or of a part of a quaternion: who moved less stands still."""
+"""Of a position in m or of a part of a quaternion: a frame that moved less stands still."""
+
+
+class FrameChoice:
+    """Checks each name once, until a setting changes."""
+
+    def __init__(self, values: Mapping[str, Value]) -> None:
+        self._values = values
+        self._passes: dict[str, bool] = {}
+        self._last: tuple[tuple[str, ...], Flags] | None = None
+        self.changed()
+
+    def changed(self) -> None:
+        """Start again after a change of the settings."""
+        self._only = self._pattern(WHITELIST)
+        self._without = self._pattern(BLACKLIST)
+        self._passes.clear()
+        self._last = None
+
+    def of(self, names: tuple[str, ...]) -> Flags:
+        """Which of the names, (F,), are chosen."""
+        if self._last is None or self._last[0] is not names:
+            if len(self._passes) > _NAMES_KEPT_MAX:
+                self._passes.clear()
+            self._last = names, np.array([self._is_chosen(name) for name in names], np.bool_)
+        return self._last[1]
+
+    def _is_chosen(self, name: str) -> bool:
+        passes = self._passes.get(name)
+        if passes is None:
+            passes = self._passes[name] = self._is_checked(name) and self._is_let_through(name)
+        return passes
+
+    def _is_checked(self, name: str) -> bool:
+        return bool(self._values.get(f"{FRAMES}/{name}", self._values[FRAMES]))
+
+    def _is_let_through(self, name: str) -> bool:
+        if self._only is not None and not self._only.is_in(name):
+            return False
+        return self._without is None or not self._without.is_in(name)
+
+    def _pattern(self, name: str):  # noqa: ANN202 - as pattern_of gives it, or None
+        text = str(self._values[name])
+        return pattern_of(name, text) if text else None
+
+
+class Shades(NamedTuple):
+    """How far N frames have faded.
+
+    Attributes:
+        grey: Shape (N,): 0 has its colours, 1 is grey.
+        opacity: Shape (N,).
+    """
+
+    grey: Floats
+    opacity: Floats
+
+    @property
+    def fresh(self) -> NDArray[np.bool_]:
+        """Which have not faded at all."""
+        return self.grey == 0.0
+
+    def of(self, chosen: NDArray[np.bool_]) -> Shades:
+        """Those of some."""
+        return Shades(self.grey[chosen], self.opacity[chosen])
+
+
+def shades_of(ages_s: Floats, timeout_s: float, steps: int = 32) -> Shades:
+    """RViz's fading: a third of the time as they are, a third to grey, and a third to nothing.
+
+    It goes in steps, so that what fades slowly is not drawn anew all the time.
+    """
+    thirds = ages_s * 3.0 / timeout_s
+    grey = np.round((thirds - 1.0).clip(0.0, 1.0) * steps) / steps
+    opacity = np.round((3.0 - thirds).clip(0.0, 1.0) * steps) / steps
+    return Shades(grey, opacity)
+
+
+def fresh_axes(poses: Floats, scale: float, alpha: float) -> Axes:
+    """Crosses at poses (N, 7) of frames that have not faded."""
+    return Axes(
+        poses[:, 4:].astype(np.float32),
+        poses[:, :4].astype(np.float32),
+        _AXIS_LENGTH_M * scale,
+        _AXIS_RADIUS_M * scale,
+        alpha,
+    )
+
+
+def faded_axes(poses: Floats, shades: Shades, scale: float, alpha: float) -> Solids:
+    """Crosses at poses (N, 7), each axis a cylinder with a colour of its own."""
+    count = len(poses)
+    turns = np.repeat(poses[:, :4], 3, axis=0)
+    wxyz = _products(turns, np.tile(_ALONG_AXES, (count, 1)))
+    middles = turned(wxyz, np.array([0.0, 0.0, _AXIS_LENGTH_M * scale / 2]))
+    thick, long = 2 * _AXIS_RADIUS_M * scale, _AXIS_LENGTH_M * scale
+    grey = np.repeat(shades.grey, 3)
+    return Solids(
+        "cylinder",
+        (np.repeat(poses[:, 4:], 3, axis=0) + middles).astype(np.float32),
+        wxyz.astype(np.float32),
+        np.tile(np.array([thick, thick, long], np.float32), (3 * count, 1)),
+        _greyed(np.tile(_RED_GREEN_BLUE, (count, 1)), grey),
+        _opacities(np.repeat(shades.opacity, 3), alpha),
+    )
+
+
+def arrows_to_parents(
+    children: Floats, parents: Floats, shades: Shades, scale: float, alpha: float
+) -> dict[str, Solids]:
+    """Shafts and heads of arrows from places (N, 3) of children to those of their parents."""
+    ways = parents - children
+    lengths = np.sqrt(np.einsum("ij,ij->i", ways, ways))
+    far = lengths > _NEAR_M
+    if not far.any():
+        return {}
+    shades, children, lengths = shades.of(far), children[far], lengths[far]
+    along = ways[far] / lengths[:, None]
+    heads, shafts = _parts_of_arrows(lengths, _HEAD_LENGTH_M * scale)
+    opacities = _opacities(shades.opacity, alpha)
+    shaft = Solids(
+        "cylinder",
+        (children + along * (shafts / 2)[:, None]).astype(np.float32),
+        _turns_of_z(along),
+        _sizes(_SHAFT_M * scale, shafts),
+        _greyed(np.tile(_SHAFT, (len(along), 1)), shades.grey),
+        opacities,
+    )
+    # A cone stands on its tip, so it opens from the parent back to the child.
+    head = Solids(
+        "cone",
+        (children + along * lengths[:, None]).astype(np.float32),
+        _turns_of_z(-along),
+        _sizes(_HEAD_M * scale, heads),
+        _greyed(np.tile(_HEAD, (len(along), 1)), shades.grey),
+        opacities,
+    )
+    return {"shafts": shaft, "heads": head}
+
+
+def _parts_of_arrows(lengths_m: Floats, head_m: float) -> tuple[Floats, Floats]:
+    """Lengths of heads and shafts: short arrows have shorter heads, as RViz draws them."""
+    heads_m: Floats = np.where(lengths_m < head_m, head_m * lengths_m, head_m)
+    heads_m = np.minimum(heads_m, lengths_m)
+    return heads_m, lengths_m - heads_m
+
+
+def name_text(name: str, grey: float, opacity: float, height_m: float) -> Text:
+    """The name of a frame, at its origin; of height 0 it has one size on the screen."""
+    red, green, blue = (_WHITE + grey * (_GREY - _WHITE)).astype(int).tolist()
+    rgb: Rgb = (red, green, blue)
+    return Text(name, height_m=height_m, rgb=rgb, opacity=opacity)
+
+
+def _greyed(colors: Floats, grey: Floats) -> NDArray[np.uint8]:
+    return (colors + grey[:, None] * (_GREY - colors)).astype(np.uint8)
+
+
+def _opacities(opacities: Floats, alpha: float) -> NDArray[np.float32] | float:
+    return alpha if (opacities == 1.0).all() else (opacities * alpha).astype(np.float32)
+
+
+def _sizes(thick_m: float, lengths_m: Floats) -> NDArray[np.float32]:
+    sizes = np.full((len(lengths_m), 3), thick_m, np.float32)
+    sizes[:, 2] = lengths_m
+    return sizes
+
+
+def _turns_of_z(directions: Floats) -> NDArray[np.float32]:
+    """Unit quaternions (N, 4) that turn z onto directions (N, 3) on the shortest way."""
+    x, y, z = directions.T
+    turns = np.stack([1.0 + z, -y, x, np.zeros_like(z)], axis=1)
+    turns[z < -1.0 + 1e-9] = (0.0, 1.0, 0.0, 0.0)
+    return (turns / np.linalg.norm(turns, axis=1)[:, None]).astype(np.float32)
+
+
+def _products(first: Floats, second: Floats) -> Floats:
+    """Quaternions (N, 4): the turn `second`, then `first`."""
+    w, v = first[:, :1], first[:, 1:]
+    ow, ov = second[:, :1], second[:, 1:]
+    real = w * ow - np.einsum("ij,ij->i", v, ov)[:, None]
+    return np.concatenate([real, w * ov + ow * v + np.cross(v, ov)], axis=1)
 
 
 class _Seen(NamedTuple):
@@ -52,14 +260,14 @@ class _Seen(NamedTuple):
         )
 
     def stands_as(self, other: _Seen) -> bool:
-        """Whether no eye would tell where frames are from where they were."""
+        """Whether the frames are where they were, as far as anybody could see."""
         ours, theirs = self.frames, other.frames
         moved = np.abs(ours.wxyz_xyz - theirs.wxyz_xyz)
         return ours.fixed == theirs.fixed and bool(moved.max(initial=0.0) <= _STILL)
 
 
 class TfDisplay(Display):
-    """Draws frames that it is shown; it takes no messages, since one buffer serves all displays.
+    """Draws the frames given to `show`; it takes no messages, since one buffer serves all displays.
 
     Crosses and arrows are few nodes in the fixed frame. Each name is a group of its own that
     follows its frame, so that it is sent once.
@@ -68,7 +276,7 @@ class TfDisplay(Display):
     KIND = "TF"
     DOC = "Shows all frames with their names, and arrows to their parents."
     OF_TYPES: ClassVar[tuple[str, ...]] = ("tf2_msgs/msg/TFMessage",)
-    """Messages by which one finds this display."""
+    """Messages that this display shows, although it subscribes to none."""
     PROPERTIES: ClassVar[tuple[Property, ...]] = (
         Property("Show Names", "switch", default=True, doc="Writes the name of each frame."),
         Property("Show Axes", "switch", default=True, doc="Shows the axes of each frame."),
@@ -101,7 +309,7 @@ class TfDisplay(Display):
             unit="s",
         ),
         UPDATE_INTERVAL,
-        *PROPERTIES,
+        *FILTER_PROPERTIES,
     )
     SETTINGS_MAX = 25_000
 
@@ -149,7 +357,7 @@ class TfDisplay(Display):
         if self._rests(self._frames.fixed, now_ns):
             return self._drawing
         self._drawn_ns = now_ns
-        seen = self._look(self._frames)
+        seen = self._seen_of(self._frames)
         before, self._seen = self._seen, seen
         is_same = before is not None and seen.shows_what(before)
         if not is_same:
@@ -157,7 +365,7 @@ class TfDisplay(Display):
         if before is None or not is_same or not seen.stands_as(before):
             self._drawing = self._drawn(seen)
         else:
-            # Who creeps is drawn anew when he has come far enough from where he was drawn.
+            # A slow frame is drawn again once it is far enough from where it was drawn.
             self._seen = before
         return self._drawing
 
@@ -201,7 +409,7 @@ class TfDisplay(Display):
         words = f"Of {count} frames the names of {NAMES_MAX} are written: filter the others."
         return Status("warn", "unsupported", words)
 
-    def _look(self, frames: FramesNow) -> _Seen:
+    def _seen_of(self, frames: FramesNow) -> _Seen:
         shades = shades_of(frames.ages_s, float(self.values["Frame Timeout"]))
         drawable = np.abs(frames.wxyz_xyz).max(axis=1, initial=0.0) < 1e30
         shown = self._choice.of(frames.names) & frames.connected & drawable
@@ -248,7 +456,7 @@ class TfDisplay(Display):
         for row in _rows(seen.shown)[:NAMES_MAX]:
             name = seen.frames.names[row]
             opacity = alpha * float(seen.shades.opacity[row])
-            text = name_of(name, float(seen.shades.grey[row]), opacity, height_m)
+            text = name_text(name, float(seen.shades.grey[row]), opacity, height_m)
             path = f"names/{name}"
             before = self._names.get(path)
             is_same = before is not None and before.shapes["name"] == text

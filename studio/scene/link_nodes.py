@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final
 from studio.scene.layers import LAYERS, LinkContext
 
 if TYPE_CHECKING:
-    from studio.displays.link_parts import LinkParts
+    from studio.displays.drawing import LinkParts
     from studio.scene.geometry_drawing import MeshShelf
     from studio.scene.node import Node
 

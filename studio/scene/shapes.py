@@ -15,6 +15,7 @@ from studio.displays.drawing import (
     Frustum,
     GridLines,
     Lines,
+    LinkParts,
     MeshFile,
     Picture,
     Points,
@@ -23,7 +24,6 @@ from studio.displays.drawing import (
     Text,
     Triangles,
 )
-from studio.displays.link_parts import LinkParts
 from studio.errors import SceneError
 from studio.scene import node
 from studio.scene.arrow_nodes import arrows_of

@@ -11,10 +11,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from PIL import Image
 
+from studio.displays.display import Limits
 from studio.displays.drawing import Points
 from studio.displays.image import ImageDisplay
 from studio.displays.laser_scan import LaserScanDisplay
-from studio.displays.limits import Limits
 from studio.displays.map import MapDisplay
 from studio.displays.point_cloud2 import PointCloud2Display
 from studio.errors import StudioError

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from PIL import Image
 
+from studio.displays.display import Limits
 from studio.displays.image import ImageDisplay
 from studio.displays.laser_scan import LaserScanDisplay
-from studio.displays.limits import Limits
 from studio.displays.map import MapDisplay
 from studio.displays.point_cloud2 import PointCloud2Display
 from studio.ros.types.library import TypeLibrary

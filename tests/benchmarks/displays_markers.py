@@ -7,7 +7,7 @@ from itertools import cycle
 from typing import TYPE_CHECKING, Any
 
 from studio.displays.display import Received
-from studio.displays.marker_array import MarkerArrayDisplay
+from studio.displays.markers.display import MarkerArrayDisplay
 from studio.displays.markers.kinds import Kind
 from studio.ros.columns.markers import MarkerCodec
 from tests.benchmarks.report import Timings, judge, say

@@ -4,9 +4,8 @@ import pytest
 from numpy.testing import assert_array_equal
 
 from studio.displays.cloud_display import CloudDisplay
-from studio.displays.display import Status
+from studio.displays.display import Limits, Status
 from studio.displays.drawing import Drawing, Points
-from studio.displays.limits import Limits
 from studio.displays.point_cloud2 import PointCloud2Display
 from studio.errors import CdrError, DisplayMessageError
 from tests.support.clouds import FLOATS, cloud

@@ -5,8 +5,8 @@ from typing import Any
 
 import pytest
 
+from studio.displays.display import Limits
 from studio.displays.grid_cells import GridCellsDisplay
-from studio.displays.limits import Limits
 from tests.support.display_messages import STAMP_NS, TYPES, point, received
 from tests.support.drawn import only, said, shapes_of
 

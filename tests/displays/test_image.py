@@ -6,10 +6,9 @@ import pytest
 from numpy.testing import assert_array_equal
 from numpy.typing import NDArray
 
-from studio.displays.display import Received
+from studio.displays.display import Limits, Received
 from studio.displays.drawing import Frustum
 from studio.displays.image import ImageDisplay
-from studio.displays.limits import Limits
 from studio.errors import DisplayMessageError
 from tests.support.display_messages import NOW_NS, STAMP_NS, TYPES, received
 

@@ -5,10 +5,9 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
-from studio.displays.display import Received, Status
+from studio.displays.display import Limits, Received, Status
 from studio.displays.drawing import Points
 from studio.displays.laser_scan import LaserScanDisplay
-from studio.displays.limits import Limits
 from studio.errors import DisplayMessageError
 from tests.support.display_messages import NOW_NS, STAMP_NS, TYPES, received
 

@@ -5,11 +5,9 @@ import numpy as np
 import pytest
 from numpy.testing import assert_array_equal
 
-from studio.displays.display import Received, Status
+from studio.displays.display import Limits, Received, Status
 from studio.displays.drawing import Picture, Placed
-from studio.displays.grid_tiles import TILE_CELLS
-from studio.displays.limits import Limits
-from studio.displays.map import MapDisplay
+from studio.displays.map import TILE_CELLS, MapDisplay
 from studio.errors import DisplayMessageError
 from tests.support.display_messages import NOW_NS, STAMP_NS, TYPES, pose, received
 

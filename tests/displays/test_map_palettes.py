@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_array_equal
 
-from studio.displays.map_palettes import SCHEMES, palette
+from studio.displays.map import SCHEMES, palette
 
 UNKNOWN = 255
 GREEN, OCCUPIED = [0, 255, 0, 255], [0, 0, 0, 255]

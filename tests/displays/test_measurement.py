@@ -5,10 +5,12 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from studio.displays.fluid_pressure import FluidPressureDisplay
-from studio.displays.illuminance import IlluminanceDisplay
-from studio.displays.relative_humidity import RelativeHumidityDisplay
-from studio.displays.temperature import TemperatureDisplay
+from studio.displays.measurement import (
+    FluidPressureDisplay,
+    IlluminanceDisplay,
+    RelativeHumidityDisplay,
+    TemperatureDisplay,
+)
 from tests.support.display_messages import NOW_NS, STAMP_NS, TYPES, received
 from tests.support.drawn import only, plain, said
 

@@ -6,8 +6,8 @@ from typing import Any
 
 import pytest
 
+from studio.displays.display import Limits
 from studio.displays.drawing import Lines
-from studio.displays.limits import Limits
 from studio.displays.path import POSES_MAX, PathDisplay
 from tests.support.display_messages import NOW_NS, STAMP_NS, TYPES, pose, received
 from tests.support.drawn import only, plain, said, shapes_of

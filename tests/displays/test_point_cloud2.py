@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_array_equal
 
-from studio.displays.display import Status
+from studio.displays.display import Limits, Status
 from studio.displays.drawing import Points
-from studio.displays.limits import Limits
 from studio.displays.point_cloud2 import PointCloud2Display
 from tests.support.clouds import CLOUD, FLOATS, RGB, Layout, cloud
 from tests.support.display_messages import NOW_NS, STAMP_NS, TYPES

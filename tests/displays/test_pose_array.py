@@ -7,9 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from studio.displays.display import Received
+from studio.displays.display import Limits, Received
 from studio.displays.drawing import Lines
-from studio.displays.limits import Limits
 from studio.displays.pose_array import POSES_MAX, PoseArrayDisplay
 from tests.support.display_messages import NOW_NS, STAMP_NS, TYPES, pose, received
 from tests.support.drawn import assert_drawable, only, plain, said, shapes_of

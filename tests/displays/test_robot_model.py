@@ -4,8 +4,7 @@ import pytest
 
 from studio.displays import robot_model
 from studio.displays.display import Received
-from studio.displays.drawing import NOTHING, Axes
-from studio.displays.link_parts import LinkParts
+from studio.displays.drawing import NOTHING, Axes, LinkParts
 from studio.displays.robot_model import RobotModelDisplay
 from studio.errors import CdrError, DisplayError, DisplayMessageError, DisplayPropertyError
 from studio.robot.urdf_text import robot_from_urdf

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from studio.displays.display import Received
-from studio.displays.marker_array import MarkerArrayDisplay
+from studio.displays.markers.display import MarkerArrayDisplay
 from studio.ros.cdr import Codec
 from studio.ros.columns.markers import MarkerCodec
 from studio.ros.types.library import TypeLibrary

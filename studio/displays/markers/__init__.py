@@ -1,1 +1,1 @@
-"""Columns of markers in, a Drawing out: who is there, until when, and batches of what they show."""
+"""Columns of markers in, a Drawing out: which markers exist, until when, drawn in batches."""

@@ -6,16 +6,14 @@ import hashlib
 import heapq
 from dataclasses import fields, replace
 from itertools import islice
-from typing import TYPE_CHECKING, Final, cast
+from typing import TYPE_CHECKING, Final, TypeAlias, cast
 
 import numpy as np
 
 from studio.displays.drawing import NOTHING, MeshFile, Placed, Points, Text
-from studio.displays.markers.arrows import arrows_of
 from studio.displays.markers.kinds import Kind
-from studio.displays.markers.lists import lines_of, points_of, triangles_of
-from studio.displays.markers.singles import singles_of
-from studio.displays.markers.solids import solids_of
+from studio.displays.markers.lists import lines_of, points_of, singles_of, triangles_of
+from studio.displays.markers.solids import arrows_of, solids_of
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping
@@ -24,11 +22,10 @@ if TYPE_CHECKING:
 
     from studio.displays.drawing import Drawing, Shape
     from studio.displays.markers.kinds import Flags
-    from studio.displays.markers.naming import BatchKey
-    from studio.displays.markers.store import MarkerStore
+    from studio.displays.markers.store import BatchKey, MarkerStore
     from studio.displays.markers.table import Rows
 
-    Array = NDArray[np.float32] | NDArray[np.uint8]
+Array: TypeAlias = "NDArray[np.float32] | NDArray[np.uint8]"
 
 SHAPES_MAX: Final = 8192
 BATCHES_MAX: Final = 2048
@@ -154,7 +151,7 @@ def shapes_of(markers: Rows) -> dict[str, Shape]:
 
 
 def _named(shapes: Mapping[str, Shape], namespace: str | None) -> dict[str, Shape]:
-    """Names that no other namespace has, and that are plain words whatever its own is."""
+    """Return names that no other namespace has, and that are plain words whatever its own is."""
     mark = "rest"
     if namespace is not None:
         mark = hashlib.blake2b(namespace.encode(), digest_size=6).hexdigest()
@@ -162,7 +159,7 @@ def _named(shapes: Mapping[str, Shape], namespace: str | None) -> dict[str, Shap
 
 
 def _placed(place: _Place, parts: list[dict[str, Shape]], before: Placed | None) -> Placed:
-    """A group with those shapes of before that look the same; the one of before if all do."""
+    """Return a group with the earlier shapes that look the same; the earlier group if all do."""
     frame, stamp_ns, follows = place
     old: Mapping[str, Shape] = before.shapes if before is not None else {}
     shapes: dict[str, Shape] = {}
@@ -179,13 +176,13 @@ def _placed(place: _Place, parts: list[dict[str, Shape]], before: Placed | None)
 
 
 def _kept(shape: Shape, before: Shape | None) -> Shape:
-    """The shape of before if it looks the same, else one with those arrays of before that do."""
+    """Return the earlier shape if it looks the same, else a new one with the arrays that do."""
     if before is None or shape is before or type(shape) is not type(before):
         return shape
     if isinstance(shape, Text | MeshFile):
         return before if shape == before else shape
     if isinstance(shape, Points) and isinstance(before, Points) and before.precise:
-        # Once asked for it stays: points that reach now here, now there would be sent anew.
+        # Once needed it stays: points near the limit would otherwise be sent again and again.
         shape = replace(shape, precise=True)
     names = [one.name for one in fields(shape)]
     same = {name: getattr(before, name) for name in names if _same(shape, before, name)}

@@ -1,4 +1,4 @@
-"""Boxes, balls and cylinders of markers: each kind of a whole batch is one shape."""
+"""Boxes, spheres, cylinders and arrows of markers: each kind of a whole batch is one shape."""
 
 from __future__ import annotations
 
@@ -7,15 +7,21 @@ from typing import TYPE_CHECKING, Final, Literal, NamedTuple
 import numpy as np
 
 from studio.displays.drawing import Points, Solids
-from studio.displays.markers.colours import alphas_of, parts_of, rgb_of
-from studio.displays.markers.items import item_colors, placed_items
+from studio.displays.markers.items import (
+    alphas_of,
+    item_colors,
+    parts_of,
+    place,
+    placed_items,
+    rgb_of,
+)
 from studio.displays.markers.kinds import Kind
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from studio.displays.drawing import Shape
-    from studio.displays.markers.kinds import Flags, Floats
+    from studio.displays.markers.kinds import Flags, Floats, Whole
     from studio.displays.markers.table import Rows
 
 SolidKind = Literal["box", "sphere", "cylinder", "cone"]
@@ -30,6 +36,17 @@ MANY: Final = 2000
 """From so many equal boxes or balls on a list is drawn as a cloud of them."""
 _HALF_PRECISION: Final = 2.0**-10
 _SEEN_SHARE: Final = 0.05
+HEAD_SHARE: Final = 0.23
+"""Of the length, where the head's length is not given."""
+_HEAD_SHARE_OF_STRIPS: Final = 0.25
+_HEAD_BY_SHAFT: Final = 2.0
+_HALF: Final = np.sqrt(0.5)
+# From z to x: a quarter turn about y.
+_Z_TO_X: Final = np.array([_HALF, 0.0, _HALF, 0.0])
+# From z to -x, for arrows of negative length.
+_Z_TO_BACK: Final = np.array([_HALF, 0.0, -_HALF, 0.0])
+_HALF_TURN: Final = np.array([0.0, 1.0, 0.0, 0.0])
+_Z: Final = np.array([0.0, 0.0, 1.0])
 
 
 class Bodies(NamedTuple):
@@ -117,7 +134,7 @@ def _listed(markers: Rows) -> Bodies:
 
 
 def _are_clouds(lists: Rows) -> Flags:
-    """Which lists are of so many equal boxes or balls that a cloud is the better way."""
+    """Return which lists have so many equal boxes or balls that a cloud of points is better."""
     many = np.array([len(each.points) >= MANY for each in lists.items], dtype=np.bool_)
     even = (lists.scales == lists.scales[:, :1]).all(axis=1)
     upright = np.abs(lists.rotations_wxyz[:, 0]) >= 1.0
@@ -137,3 +154,138 @@ def _add_clouds(shapes: dict[str, Shape], name: str, lists: Rows) -> None:
             positions.astype(np.float32), rgb_of(rgba[part.chosen]), part.size_m, style,
             part.opacity, is_seen_in_half(positions, part.size_m),
         )  # fmt: skip
+
+
+class Arrow(NamedTuple):
+    """N arrows along the z axis of `wxyz`."""
+
+    tails: Floats
+    """Shape (N, 3), m in the frame."""
+    tips: Floats
+    """Shape (N, 3), m in the frame."""
+    wxyz: Floats
+    """Shape (N, 4)."""
+    shafts_m: Floats
+    """Shape (N, 2): diameters across x and y."""
+    heads_m: Floats
+    """Shape (N, 2)."""
+    head_lengths_m: Floats
+    """Shape (N,), at most the whole length."""
+    rgba: NDArray[np.float32]
+    """Shape (N, 4)."""
+
+
+def arrows_of(markers: Rows) -> dict[str, Shape]:
+    """Shafts and heads of all arrows."""
+    single = markers.of_types(Kind.ARROW)
+    between = np.array([len(each.points) == 2 for each in single.items], dtype=np.bool_)
+    strips = markers.of_types(Kind.ARROW_STRIP)
+    many = [
+        _by_pose(single.only(~between)),
+        _by_points(single.only(between), HEAD_SHARE),
+        _by_points(strips, _HEAD_SHARE_OF_STRIPS),
+    ]
+    whole = Arrow(*(np.concatenate(parts) for parts in zip(*many, strict=True)))
+    return _shapes(whole)
+
+
+def _by_pose(markers: Rows) -> Arrow:
+    """Along x from the pose on, scale.x long; the head is twice as thick as the shaft."""
+    lengths_m = markers.scales[:, 0]
+    along = np.zeros_like(markers.scales)
+    along[:, 0] = lengths_m
+    everyone = np.arange(len(lengths_m))
+    to_x = np.where(lengths_m[:, None] < 0, _Z_TO_BACK, _Z_TO_X)
+    # Turned so, x of the arrow is its height and y its width.
+    shafts_m = np.abs(markers.scales[:, [2, 1]])
+    return Arrow(
+        markers.positions,
+        place(markers, everyone, along),
+        products(markers.rotations_wxyz, to_x),
+        shafts_m,
+        _HEAD_BY_SHAFT * shafts_m,
+        HEAD_SHARE * np.abs(lengths_m),
+        markers.rgba,
+    )
+
+
+def _by_points(markers: Rows, head_share: float) -> Arrow:
+    """From each point to the next: scale.x is the shaft, y the head, and z the head's length."""
+    owners, tails, tips = _pairs(markers)
+    tails, tips = place(markers, owners, tails), place(markers, owners, tips)
+    lengths_m = np.linalg.norm(tips - tails, axis=1)
+    scales = markers.scales[owners]
+    given = np.clip(scales[:, 2], 0.0, lengths_m)
+    return Arrow(
+        tails,
+        tips,
+        _turns_from_z(tips - tails, lengths_m),
+        np.abs(scales[:, [0, 0]]),
+        np.abs(scales[:, [1, 1]]),
+        np.where(scales[:, 2] == 0, head_share * lengths_m, given),
+        markers.rgba[owners],
+    )
+
+
+def _pairs(markers: Rows) -> tuple[Whole, Floats, Floats]:
+    counts = [max(len(each.points) - 1, 0) for each in markers.items]
+    owners = np.repeat(np.arange(len(counts)), counts)
+    none = np.empty((0, 3))
+    tails = np.concatenate([none, *(each.points[:-1] for each in markers.items)])
+    tips = np.concatenate([none, *(each.points[1:] for each in markers.items)])
+    return owners, tails, tips
+
+
+def _shapes(arrows: Arrow) -> dict[str, Shape]:
+    lengths_m = np.linalg.norm(arrows.tips - arrows.tails, axis=1)
+    shaft_lengths_m = lengths_m - arrows.head_lengths_m
+    directions = arrows.tips - arrows.tails
+    directions = directions / np.where(lengths_m == 0, 1.0, lengths_m)[:, None]
+    middles = arrows.tails + directions * (shaft_lengths_m / 2)[:, None]
+    shafts = Bodies(middles, arrows.wxyz, _sized(arrows.shafts_m, shaft_lengths_m), arrows.rgba)
+    # A cone stands on its tip, and that of an arrow points ahead.
+    backwards = products(arrows.wxyz, np.broadcast_to(_HALF_TURN, arrows.wxyz.shape))
+    heads = Bodies(
+        arrows.tips, backwards, _sized(arrows.heads_m, arrows.head_lengths_m), arrows.rgba
+    )
+    shapes: dict[str, Shape] = {}
+    for name, kind, bodies in (("shafts", "cylinder", shafts), ("heads", "cone", heads)):
+        made = solids("cylinder" if kind == "cylinder" else "cone", _solid(bodies))
+        if made is not None:
+            shapes[name] = made
+    return shapes
+
+
+def _sized(diameters_m: Floats, lengths_m: Floats) -> Floats:
+    return np.concatenate((diameters_m, lengths_m[:, None]), axis=1)
+
+
+def _solid(bodies: Bodies) -> Bodies:
+    """Those of any length and thickness: an arrow may be all shaft, or all head."""
+    kept = (bodies.scales[:, 2] > 0) & (bodies.scales[:, :2] > 0).any(axis=1)
+    return Bodies(bodies.positions[kept], bodies.wxyz[kept], bodies.scales[kept], bodies.rgba[kept])
+
+
+def products(one: Floats, other: Floats) -> Floats:
+    """Turns `other` followed by `one`, both (N, 4) of length 1."""
+    w, x, y, z = one.T
+    a, b, c, d = other.T
+    return np.stack(
+        (
+            w * a - x * b - y * c - z * d,
+            w * b + x * a + y * d - z * c,
+            w * c - x * d + y * a + z * b,
+            w * d + x * c - y * b + z * a,
+        ),
+        axis=1,
+    )
+
+
+def _turns_from_z(directions: Floats, lengths_m: Floats) -> Floats:
+    """Quaternions (N, 4) from the z axis to directions (N, 3) on the shortest way."""
+    units = directions / np.where(lengths_m == 0, 1.0, lengths_m)[:, None]
+    units[lengths_m == 0] = _Z
+    turns = np.stack((1 + units[:, 2], -units[:, 1], units[:, 0], np.zeros(len(units))), axis=1)
+    opposite = units[:, 2] < -1 + 1e-12
+    turns[opposite] = _HALF_TURN
+    return turns / np.linalg.norm(turns, axis=1, keepdims=True)

@@ -1,4 +1,4 @@
-"""MarkerStore: who is there, by namespace and id, and until when."""
+"""MarkerStore: which markers exist, by namespace and id, and until when."""
 
 from __future__ import annotations
 
@@ -6,16 +6,12 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 
 import numpy as np
 
-from studio.displays.markers.filling import Filling
-from studio.displays.markers.kinds import Action
-from studio.displays.markers.naming import BatchKey, Naming, batch_keys
-from studio.displays.markers.problems import Problem
-from studio.displays.markers.sequence import outcome_of
+from studio.displays.markers.kinds import Action, Key, Problem
 from studio.displays.markers.table import FOR_EVER, NO_BATCH, MarkerTable
 from studio.displays.turning import drawable
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable, Sequence
 
     from numpy.typing import NDArray
 
@@ -23,7 +19,13 @@ if TYPE_CHECKING:
     from studio.displays.markers.naming import Named
     from studio.displays.markers.sequence import Key
     from studio.ros.columns.markers import MarkerColumns
+    from studio.ros.fast.marker_columns import MarkerColumns, MarkerTexts
 
+_KEPT: Final = 4
+_BYTES_KEPT_MAX: Final = 1 << 20
+STAMPS_MAX: Final = 256
+"""Of one message: of more, those that are close to each other are taken for one."""
+_CLOSE_NS: Final = 10_000_000
 MARKERS_MAX: Final = 50_000
 NAMESPACES_MAX: Final = 1000
 APART_MAX: Final = 32
@@ -33,6 +35,171 @@ REFUSED_MAX: Final = 1000
 _LIFETIME_LEAST_NS: Final = 100_000
 _ACTIONS: Final = np.array(list(Action), dtype=np.int32)
 _ADD: Final = int(Action.ADD)
+
+
+class BatchKey(NamedTuple):
+    """What markers have in common that are drawn together."""
+
+    frame: str
+    """Without a leading slash, as RViz looks it up."""
+    stamp_ns: int
+    """0 for those that follow their frame: the newest transform counts."""
+    follows: bool
+    namespace: str | None
+    """None: any of those that are not drawn apart."""
+
+
+class Named(NamedTuple):
+    """The names of M markers, made once for texts that come again."""
+
+    texts: tuple[MarkerTexts, ...]
+    namespaces: list[str]
+    """Of each."""
+    pairs: NDArray[np.int64]
+    """Shape (M,): the same number where frame and namespace are the same."""
+    nameless: Flags
+    """Shape (M,): which name no frame."""
+
+
+class Naming:
+    """Remembers the last messages: a publisher sends the same names over and over."""
+
+    def __init__(self) -> None:
+        self._known: list[Named] = []
+
+    def named(self, texts: tuple[MarkerTexts, ...]) -> Named:
+        """Number the frames and namespaces of a message."""
+        for known in self._known:
+            if known.texts is texts:
+                return known
+        made = _named(texts)
+        if sum(len(one.mesh_file_data) for one in texts) < _BYTES_KEPT_MAX:
+            self._known = [made, *self._known[: _KEPT - 1]]
+        return made
+
+
+def _named(texts: tuple[MarkerTexts, ...]) -> Named:
+    numbers: dict[tuple[str, str], int] = {}
+    pairs = [numbers.setdefault((one.frame, one.namespace), len(numbers)) for one in texts]
+    return Named(
+        texts,
+        [one.namespace for one in texts],
+        np.array(pairs, dtype=np.int64),
+        np.array([one.frame in ("", "/") for one in texts], dtype=np.bool_),
+    )
+
+
+def batch_keys(
+    columns: MarkerColumns, named: Named, chosen: Whole, is_apart: Callable[[str], bool]
+) -> tuple[list[BatchKey], Whole]:
+    """Sort markers into batches.
+
+    Args:
+        columns: Of a message.
+        named: Of the same message.
+        chosen: Shape (M,): which of its markers, at least one.
+        is_apart: Whether a namespace is drawn apart from others.
+
+    Returns:
+        Keys, some of them perhaps the same, and which of them each marker (M,) has.
+    """
+    locked = columns.frame_locked[chosen]
+    stamps_ns = few_stamps(np.where(locked, 0, columns.stamps_ns[chosen]))
+    codes = 2 * named.pairs[chosen] + locked
+    if stamps_ns.min() != stamps_ns.max():
+        distinct, moments = np.unique(stamps_ns, return_inverse=True)
+        codes = codes * len(distinct) + moments
+    _, first, inverse = np.unique(codes, return_index=True, return_inverse=True)
+    keys: list[BatchKey] = []
+    for at in first.tolist():
+        text = columns.texts[int(chosen[at])]
+        frame = text.frame.removeprefix("/")
+        namespace = text.namespace if is_apart(text.namespace) else None
+        keys.append(BatchKey(frame, int(stamps_ns[at]), bool(locked[at]), namespace))
+    return keys, inverse
+
+
+def few_stamps(stamps_ns: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Stamps (N,) of one message; if there are too many, groups of them have that of the first.
+
+    A publisher that stamps each marker as it makes it needs no transform for each: stamps within
+    10 ms become one, or within more if they span a longer time.
+    """
+    distinct = np.unique(stamps_ns)
+    if len(distinct) <= STAMPS_MAX:
+        return stamps_ns
+    least, span_ns = int(distinct[0]), int(distinct[-1]) - int(distinct[0])
+    width_ns = max(_CLOSE_NS, span_ns // STAMPS_MAX + 1)
+    groups = (distinct - least) // width_ns
+    _, first, inverse = np.unique(groups, return_index=True, return_inverse=True)
+    return distinct[first][inverse][np.searchsorted(distinct, stamps_ns)]
+
+
+class Outcome(NamedTuple):
+    """What is to be done, in this order."""
+
+    clears_all: bool
+    """Whether all markers are deleted first."""
+    cleared: list[str]
+    """Namespaces whose markers are all deleted."""
+    deleted: list[Key]
+    added: Whole
+    """Shape (A,): which markers of the message exist afterwards; their keys differ."""
+    twice: Key | None
+    """One that the message holds more than once."""
+
+
+def outcome_of(
+    namespaces: Sequence[str], ids: NDArray[np.int32], actions: NDArray[np.int32], taken: Flags
+) -> Outcome:
+    """Find what the actions of one message come to: the last add or delete of each marker counts.
+
+    Args:
+        namespaces: Of the M markers.
+        ids: Shape (M,).
+        actions: Shape (M,).
+        taken: Shape (M,): those that count.
+    """
+    clears_all, cleared, begin = _clears(namespaces, actions, taken)
+    named = np.flatnonzero(taken & ((actions == Action.ADD) | (actions == Action.DELETE)))
+    named = named[named > begin]
+    last: dict[Key, int] = {}
+    places: list[int] = named.tolist()
+    for at, marker_id in zip(places, ids[named].tolist(), strict=True):
+        last[(namespaces[at], marker_id)] = at
+    twice = _duplicate(namespaces, ids, named) if len(last) < len(named) else None
+    adds = actions == Action.ADD
+    if cleared or not adds[named].all():
+        kept = [at for key, at in last.items() if adds[at] and at > cleared.get(key[0], -1)]
+        deleted = [key for key, at in last.items() if not adds[at]]
+    else:
+        kept, deleted = list(last.values()), []
+    return Outcome(clears_all, list(cleared), deleted, np.array(sorted(kept), np.intp), twice)
+
+
+def _clears(
+    namespaces: Sequence[str], actions: NDArray[np.int32], taken: Flags
+) -> tuple[bool, dict[str, int], int]:
+    """Return whether all is deleted, where each namespace is last, and the last such place."""
+    clears_all, cleared, begin = False, dict[str, int](), -1
+    for at in np.flatnonzero(taken & (actions == Action.DELETE_ALL)).tolist():
+        if namespaces[at]:
+            cleared[namespaces[at]] = at
+        else:
+            clears_all, begin = True, at
+            cleared.clear()
+    return clears_all, cleared, begin
+
+
+def _duplicate(namespaces: Sequence[str], ids: NDArray[np.int32], named: Whole) -> Key | None:
+    seen: set[Key] = set()
+    places: list[int] = named.tolist()
+    for at in places:
+        key = (namespaces[at], int(ids[at]))
+        if key in seen:
+            return key
+        seen.add(key)
+    return None
 
 
 class _LastAdd(NamedTuple):
@@ -46,12 +213,12 @@ class _LastAdd(NamedTuple):
 
 
 class MarkerStore:
-    """Takes messages in, and tells which batches of markers are to be drawn anew.
+    """Takes messages, and returns which batches of markers have to be drawn again.
 
     Attributes:
         table: Of the markers.
         batches: Those that hold a marker, by number; a number is never given out twice.
-        heard: Namespaces in the order in which they were heard of first; a bounded number.
+        namespaces_so_far: In the order of their first markers; a bounded number.
         refused: What is wrong with markers that were not taken in; a bounded number.
         twice: A marker that the last message held more than once.
     """
@@ -59,7 +226,7 @@ class MarkerStore:
     def __init__(self) -> None:
         self.table = MarkerTable()
         self.batches: dict[int, BatchKey] = {}
-        self.heard: dict[str, None] = {}
+        self.namespaces_so_far: dict[str, None] = {}
         self.refused: dict[Key, Problem] = {}
         self.twice: Key | None = None
         self._rows: dict[Key, int] = {}
@@ -67,7 +234,6 @@ class MarkerStore:
         self._counts: dict[int, int] = {}
         self._dirty: set[int] = set()
         self._next_number = 0
-        self._filling = Filling(self.table)
         self._next_end_ns = FOR_EVER
         self._naming = Naming()
         self._apart: set[str] = set()
@@ -103,7 +269,7 @@ class MarkerStore:
             self._add(columns, named, outcome.added, received_ns)
 
     def expire(self, now_ns: int) -> None:
-        """Let those go whose lifetime is over."""
+        """Delete the markers whose lifetime is over."""
         if now_ns < self._next_end_ns:
             return
         ends_ns = self.table.expires_ns[: self.table.size]
@@ -112,7 +278,7 @@ class MarkerStore:
         self._next_end_ns = int(self.table.expires_ns.min())
 
     def take_dirty(self) -> set[int]:
-        """Which batches are to be drawn anew since this was asked; those that are gone are not."""
+        """Return the batches that changed since the last call; deleted ones are not among them."""
         dirty, self._dirty = self._dirty, set()
         return dirty
 
@@ -121,7 +287,7 @@ class MarkerStore:
         return {namespace for namespace, _ in self._rows}
 
     def _taken(self, columns: MarkerColumns, named: Named) -> Flags:
-        """Which markers are looked at: RViz passes over others, whatever they ask for."""
+        """Return which markers count; RViz ignores the others, whatever their action."""
         finite = np.ones(len(columns.texts), dtype=np.bool_)
         rgba = columns.colors_rgba.astype(np.float64)
         for numbers in (columns.positions, columns.rotations_wxyz, columns.scales, rgba):
@@ -153,7 +319,6 @@ class MarkerStore:
         if rows:
             self._deletions += 1
             gone = np.array(rows, dtype=np.intp)
-            self._filling.forget(gone)
             self._leave(gone)
             self.table.free(rows)
 
@@ -170,7 +335,7 @@ class MarkerStore:
         self._put_all(columns, named, rows, added, received_ns)
 
     def _rows_again(self, columns: MarkerColumns, named: Named, taken: Flags) -> Whole | None:
-        """The rows of a message that says again of the very same markers what they are now."""
+        """Return the rows of a message that has the very same markers as the last one."""
         last = self._last
         if (
             last is None
@@ -189,7 +354,7 @@ class MarkerStore:
     ) -> None:
         if not len(rows):
             return
-        changed = self._filling.fill(columns, named, rows, added)
+        changed = self.table.fill(columns, named.nameless, rows, added)
         self._put_ends(columns.lifetimes_ns[added], rows, received_ns)
         self._put_batches(batch_keys(columns, named, added, self._is_apart), rows, changed)
 
@@ -201,7 +366,7 @@ class MarkerStore:
             self._next_end_ns = min(self._next_end_ns, soonest_ns)
 
     def _rows_for(self, keys: list[Key], added: Whole) -> tuple[Whole, Whole]:
-        """Rows of the table for markers, new ones where none were, and who has got one."""
+        """Return the rows of markers, new ones where needed, and which markers got one."""
         rows = [self._rows.get(key, NO_BATCH) for key in keys]
         for at, row in enumerate(rows):
             if row == NO_BATCH:
@@ -249,9 +414,9 @@ class MarkerStore:
         return number
 
     def _is_apart(self, namespace: str) -> bool:
-        """Whether a namespace is drawn by itself: those that were heard of first are."""
-        if len(self.heard) < NAMESPACES_MAX:
-            self.heard.setdefault(namespace)
+        """Whether a namespace is drawn by itself, as the first ones are."""
+        if len(self.namespaces_so_far) < NAMESPACES_MAX:
+            self.namespaces_so_far.setdefault(namespace)
         if len(self._apart) < APART_MAX:
             self._apart.add(namespace)
         return namespace in self._apart

@@ -1,4 +1,4 @@
-"""MarkerTable: every marker that is there, one row for each, as columns that grow."""
+"""MarkerTable: one row for each marker that exists, as columns that grow, filled from messages."""
 
 from __future__ import annotations
 
@@ -8,21 +8,36 @@ from typing import TYPE_CHECKING, Final, NamedTuple, TypeVar
 
 import numpy as np
 
-from studio.displays.markers.problems import NOT_DRAWN, Problem
+from studio.displays.markers.kinds import (
+    COLOURED_POINTS,
+    NOT_DRAWN,
+    Columns,
+    Kind,
+    Problem,
+    problems_of,
+)
+from studio.displays.turning import unit_quaternions
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from numpy.typing import NDArray
 
-    from studio.displays.markers.kinds import Floats, Whole
-    from studio.displays.markers.sequence import Key
+    from studio.displays.markers.kinds import Flags, Floats, Key, Whole
+    from studio.ros.fast.marker_columns import MarkerColumns, MarkerTexts
 
 FOR_EVER: Final = np.iinfo(np.int64).max
 NO_BATCH: Final = -1
 _ROWS_AT_FIRST: Final = 64
 _NOBODY: Final = ("", 0)
 N = TypeVar("N", bound=np.generic)
+POINTS_MAX: Final = 2_000_000
+WORDS_MAX: Final = 2000
+_MESH_SCHEMES: Final = ("package://", "file://")
+_WORDED: Final = np.array([Kind.TEXT, Kind.MESH], dtype=np.int32)
+# Members of an IntEnum are slow to look up in a loop.
+_CLEAR, _EMPTY_TEXT = int(Problem.CLEAR), int(Problem.EMPTY_TEXT)
+_NO_MESH, _FOREIGN_MESH = int(Problem.NO_MESH), int(Problem.FOREIGN_MESH)
 
 
 class Items(NamedTuple):
@@ -108,6 +123,7 @@ class MarkerTable:
 
     def __init__(self) -> None:
         self.size = 0
+        self._points_in_all = 0
         self.batch = np.full(_ROWS_AT_FIRST, NO_BATCH, dtype=np.int64)
         self.types = np.zeros(_ROWS_AT_FIRST, dtype=np.int32)
         self.expires_ns = np.full(_ROWS_AT_FIRST, FOR_EVER, dtype=np.int64)
@@ -124,7 +140,7 @@ class MarkerTable:
         self._free: list[int] = []
 
     def take_row(self, key: Key) -> int:
-        """Give out the first free row: who comes again in the same order gets the same rows."""
+        """Return the first free row, so that markers in the same order get the same rows."""
         if self._free:
             row = heapq.heappop(self._free)
         else:
@@ -137,6 +153,7 @@ class MarkerTable:
     def free(self, rows: Iterable[int]) -> None:
         """Take rows back."""
         for row in rows:
+            self._points_in_all -= int(self.points[row])
             self.batch[row] = NO_BATCH
             self.expires_ns[row] = FOR_EVER
             self.problems[row], self.points[row] = Problem.NONE, 0
@@ -161,6 +178,100 @@ class MarkerTable:
             self.embedded[rows],
         )  # fmt: skip
 
+    def fill(self, columns: MarkerColumns, nameless: Flags, rows: Whole, added: Whole) -> Flags:
+        """Write markers into their rows.
+
+        Args:
+            columns: Of a message.
+            nameless: Shape (M,): which markers of the message name no frame.
+            rows: Shape (A,), each another.
+            added: Shape (A,): which markers of the message.
+
+        Returns:
+            Shape (A,): which may look different now.
+        """
+        changed = self._put(columns, rows, added)
+        self._put_items(columns, rows, added)
+        self._put_words(columns, rows, added)
+        self._put_problems(columns, nameless, rows, added)
+        return changed
+
+    def _put(self, columns: MarkerColumns, rows: Whole, added: Whole) -> Flags:
+        """Store the numbers of fixed count; return which markers may look different now."""
+        types = columns.types[added]
+        turns = unit_quaternions(columns.rotations_wxyz[added])[0]
+        changed = (self.types[rows] != types) | np.isin(types, _WORDED) | (self.points[rows] > 0)
+        changed |= columns.point_starts[added] != columns.point_starts[added + 1]
+        for kept, new in (
+            (self.positions, columns.positions[added]),
+            (self.rotations_wxyz, turns),
+            (self.scales, columns.scales[added]),
+        ):
+            changed |= (kept[rows] != new).any(axis=1)
+            kept[rows] = new
+        rgba = columns.colors_rgba[added]
+        changed |= (self.rgba[rows] != rgba).any(axis=1)
+        self.rgba[rows], self.types[rows] = rgba, types
+        return changed
+
+    def _put_items(self, columns: MarkerColumns, rows: Whole, added: Whole) -> None:
+        """Copy points: views would keep whole messages in memory for the sake of one marker."""
+        begins, ends = columns.point_starts[added], columns.point_starts[added + 1]
+        touched = np.flatnonzero((begins != ends) | (self.points[rows] > 0))
+        rows, added = rows[touched], added[touched]
+        self._points_in_all -= int(self.points[rows].sum())
+        runs: list[list[int]] = np.stack(
+            (
+                rows, columns.types[added], begins[touched], ends[touched],
+                columns.point_color_starts[added], columns.point_color_starts[added + 1],
+            )
+        ).T.tolist()  # fmt: skip
+        counts: list[int] = []
+        for row, *run in runs:
+            items = _items_of(columns, *run, room=POINTS_MAX - self._points_in_all)
+            self.items[row] = items
+            counts.append(len(items.points))
+            self._points_in_all += counts[-1]
+        self.points[rows] = counts
+
+    def _put_words(self, columns: MarkerColumns, rows: Whole, added: Whole) -> None:
+        """Store texts and addresses of meshes, and what is wrong with them."""
+        types = columns.types[added]
+        self.problems[rows] = Problem.NONE
+        for kind in (Kind.TEXT, Kind.MESH):
+            places = np.flatnonzero(types == kind)
+            chosen: list[int] = added[places].tolist()
+            of_rows: list[int] = rows[places].tolist()
+            for row, at in zip(of_rows, chosen, strict=True):
+                self._put_word(row, columns.texts[at], is_mesh=kind is Kind.MESH)
+
+    def _put_word(self, row: int, texts: MarkerTexts, *, is_mesh: bool) -> None:
+        word = self.words[row] = (texts.mesh_resource if is_mesh else texts.text)[:WORDS_MAX]
+        self.embedded[row] = texts.mesh_use_embedded_materials
+        if is_mesh:
+            if not word.startswith(_MESH_SCHEMES):
+                self.problems[row] = _FOREIGN_MESH if word else _NO_MESH
+        elif not word.strip():
+            self.problems[row] = _EMPTY_TEXT
+
+    def _put_problems(
+        self, columns: MarkerColumns, nameless: Flags, rows: Whole, added: Whole
+    ) -> None:
+        counts = np.diff(columns.point_starts)[added]
+        colors = np.diff(columns.point_color_starts)[added]
+        numbers = Columns(
+            columns.types[added], columns.scales[added], columns.colors_rgba[added, 3],
+            counts, colors, nameless[added],
+        )  # fmt: skip
+        problems = np.maximum(problems_of(numbers), self.problems[rows])
+        problems[(counts > 0) & (self.points[rows] == 0)] = Problem.TOO_LARGE
+        coloured: list[int] = np.flatnonzero(colors).tolist()
+        for place in coloured:
+            rgba = self.items[int(rows[place])].rgba
+            if len(rgba) and not rgba[:, 3].any():
+                problems[place] = max(int(problems[place]), _CLEAR)
+        self.problems[rows] = problems
+
     def _grow(self) -> None:
         more = len(self.batch)
         self.batch = np.concatenate((self.batch, np.full(more, NO_BATCH, dtype=np.int64)))
@@ -180,3 +291,23 @@ class MarkerTable:
 
 def _doubled(column: NDArray[N]) -> NDArray[N]:
     return np.concatenate((column, np.zeros_like(column)))
+
+
+def _items_of(  # noqa: PLR0913 - numbers of one marker
+    columns: MarkerColumns, kind: int, begin: int, end: int, first: int, last: int, *, room: int
+) -> Items:
+    """The points of a marker from `begin` on and its colours from `first` on, if there is room."""
+    count = end - begin
+    if not 0 < count <= room:
+        return NO_ITEMS
+    points = columns.points[begin:end].copy()
+    if first == last or last - first not in _color_counts(kind, count):
+        return Items(points, NO_ITEMS.rgba)
+    return Items(points, np.nan_to_num(columns.point_colors_rgba[first:last]))
+
+
+def _color_counts(kind: int, points: int) -> tuple[int, ...]:
+    """How many colours make the points of a marker coloured; of triangles one each is enough."""
+    if kind == Kind.TRIANGLES:
+        return points, points // 3
+    return (points,) if kind in COLOURED_POINTS else ()

@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, rule
 
 from studio.displays.drawing import Lines, Points, Solids
-from studio.displays.marker_array import MarkerArrayDisplay
 from studio.displays.markers import batches as batches_module
 from studio.displays.markers.batches import shapes_of
+from studio.displays.markers.display import MarkerArrayDisplay
 from studio.displays.markers.kinds import Action, Kind
 from studio.displays.markers.store import APART_MAX
 from tests.support.markers import TYPES, array_of, marker, sentences, shapes_in

@@ -8,10 +8,9 @@ from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, rule
 
-from studio.displays.markers import filling
 from studio.displays.markers import store as store_module
-from studio.displays.markers.kinds import Action, Kind
-from studio.displays.markers.problems import Problem
+from studio.displays.markers import table as filling
+from studio.displays.markers.kinds import Action, Kind, Problem
 from studio.displays.markers.store import MarkerStore
 from tests.support.markers import columns_of, marker
 
@@ -193,13 +192,13 @@ def test_troubles_that_never_end_fill_no_memory():
     assert len(store.refused) == store_module.REFUSED_MAX
 
 
-def test_ever_new_namespaces_are_heard_of_up_to_a_bound_and_shown_all_the_same(
+def test_ever_new_namespaces_are_kept_up_to_a_bound_and_shown_all_the_same(
     monkeypatch: pytest.MonkeyPatch,
 ):
     monkeypatch.setattr(store_module, "NAMESPACES_MAX", 3)
     store = MarkerStore()
     store.take(columns_of(*(marker(Kind.CUBE, ns=f"n{each}") for each in range(5))), 0)
-    assert list(store.heard) == ["n0", "n1", "n2"]
+    assert list(store.namespaces_so_far) == ["n0", "n1", "n2"]
     assert len(store) == 5
 
 

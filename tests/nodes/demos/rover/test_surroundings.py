@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.displays.display import Received
-from studio.displays.marker_array import MarkerArrayDisplay
+from studio.displays.markers.display import MarkerArrayDisplay
 from studio.nodes.demos.rover.round_trip import RoundTrip
 from studio.nodes.demos.rover.surroundings import Surroundings
 from studio.nodes.robot_state_publisher import LATCHED
