@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
-from studio.robot.textured import mesh_uris
+from studio.robot.meshes.textured import mesh_uris
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

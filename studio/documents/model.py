@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from studio.documents.posing.joints import JointPositions
 from studio.robot.assembly import Assembly, Change
 from studio.robot.kinematics import Kinematics
-from studio.robot.textured import mesh_uris
+from studio.robot.meshes.textured import mesh_uris
 from studio.robot.values import Robot
 
 if TYPE_CHECKING:

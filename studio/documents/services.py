@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING, Final, TypeAlias
 
 from studio.description.client import DescriptionWorker
 from studio.live.connection.desk import WireDesk
-from studio.robot.meshes import MeshLibrary
-from studio.robot.pool import mesh_pool
-from studio.robot.validation import UrdfValidator
+from studio.robot.meshes.library import MeshLibrary
+from studio.robot.worker_client import UrdfValidator, mesh_pool
 
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable, Coroutine
@@ -18,7 +17,6 @@ if TYPE_CHECKING:
     from studio.settings import Settings
 
     Opened: TypeAlias = Callable[[float], Awaitable[None]]
-
 
 USED_LATER: Final = (
     *("studio.live.displays.drawing_room", "studio.live.displays.robot_models"),

@@ -18,7 +18,7 @@ import studio.ros.client as rclpy
 from studio.errors import ExternalShutdownException, SettingsError, StudioError, UnreadableFileError
 from studio.nodes.link_transforms import LinkTransforms
 from studio.nodes.state_pace import StatePace
-from studio.robot.urdf_text import robot_from_urdf
+from studio.robot.assembly import robot_from_urdf
 from studio.ros.client import Node
 from studio.ros.columns.transforms import TransformCodec
 from studio.ros.duration import NANOSECONDS
@@ -43,6 +43,7 @@ _DESCRIPTION: Final = "robot_description"
 _FREQUENCY: Final = "publish_frequency"
 _IGNORE: Final = "ignore_timestamp"
 _PREFIX: Final = "frame_prefix"
+_NAMES: Final = (_DESCRIPTION, _FREQUENCY, _IGNORE, _PREFIX)
 
 
 class RobotStatePublisher:
@@ -174,9 +175,6 @@ class RobotStateNode(Node):
         self._publisher.set_pace(values[_FREQUENCY], ignore_stamps=values[_IGNORE])
         self._publisher.set_prefix(values[_PREFIX])
         self._publisher.describe(values[_DESCRIPTION], robot)
-
-
-_NAMES: Final = (_DESCRIPTION, _FREQUENCY, _IGNORE, _PREFIX)
 
 
 def read_urdf(arguments: Sequence[str]) -> str:

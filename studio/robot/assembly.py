@@ -1,25 +1,30 @@
-"""Parts in, robot out: parses only what changed and says which links and joints did."""
+"""Parts in, robot out: parses only what changed, and returns which links and joints did."""
 
 from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
+from xml.etree.ElementTree import tostring
 
-from studio.problems import Problem, Severity
+from studio.description.values import Part
+from studio.errors import RobotError
+from studio.problems import Place, Problem, Severity
 from studio.robot.elements import ParsedElement, parse_element
 from studio.robot.structure import Structure
 from studio.robot.values import Joint, Link, Material, Robot, Visual
+from studio.robot.xml_tree import parse_tree
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable, Iterator, Mapping
+    from xml.etree.ElementTree import Element
 
-    from studio.description.values import Expansion, Part
+_KINDS = ("link", "joint", "material")
 
 
 @dataclass(frozen=True, slots=True)
 class Change:
-    """What `Assembly.apply` came to, against the robot before it."""
+    """The result of `Assembly.apply`, compared with the robot before it."""
 
     robot: Robot
     changed_links: frozenset[str]
@@ -35,7 +40,7 @@ class Change:
 
 @dataclass(frozen=True, slots=True)
 class _Element:
-    """A part as parsed, and the value that stands for it: while it is broken, its last good one."""
+    """A part as parsed, and its value: while it is broken, the last good one."""
 
     part: Part
     parsed: ParsedElement
@@ -57,15 +62,15 @@ class Assembly:
         self._elements: dict[str, _Element] = {}
         self._structure = Structure.of(self.robot)
         self._kept: Change | None = None
-        """What the last `apply` came to, unless it kept the robot before it."""
+        """The result of the last `apply`, unless it kept the robot before it."""
         self._resolved: dict[str, tuple[Link, tuple[Material | None, ...], Link]] = {}
 
     def rename(self, name: str) -> None:
-        """The robot's name from the next `apply` on."""
+        """Name the robot so from the next `apply` on."""
         self._name = name
 
     def part(self, key: str) -> Part | None:
-        """Where an element was written; keys as in `Part.key`."""
+        """Return the part of an element by its key, as in `Part.key`."""
         element = self._elements.get(key)
         return element.part if element else None
 
@@ -91,7 +96,7 @@ class Assembly:
         return _Element(part, parsed, before.value if keep and before else parsed.value)
 
     def _swapped(self, parsed: Mapping[str, _Element]) -> Change | None:
-        """Put values of other numbers in the place of old ones; None when it is not that simple.
+        """Replace values that differ in numbers only; return None when it is not that simple.
 
         What is dragged changes a few numbers sixty times a second: names, ties, materials and
         problems are then as they were, and nothing else need be looked at.
@@ -164,7 +169,7 @@ class Assembly:
                 yield _problem(Severity.ERROR, "bad-element", str(fault), element.part)
 
     def _written(self) -> tuple[Robot, list[Problem]]:
-        """The robot as its parts say, first of a name wins, materials resolved."""
+        """Return the robot of all parts: the first of a name wins, materials are resolved."""
         links: dict[str, Link] = {}
         joints: dict[str, Joint] = {}
         materials: dict[str, Material] = {}
@@ -225,16 +230,6 @@ class Assembly:
         )
 
 
-def assembled(expansion: Expansion) -> tuple[Robot, str]:
-    """The robot of a whole run, and what is wrong with it in a sentence, or an empty text."""
-    change = Assembly(expansion.robot_name).apply(expansion.part_order, expansion.changed_parts)
-    if change.kept_last_good:
-        fault = str(change.problems[0]) if change.problems else "It describes no robot."
-    else:
-        fault = str(expansion.warnings[0]) if expansion.is_recovered else ""
-    return change.robot, fault
-
-
 def _problem(severity: Severity, code: str, sentence: str, part: Part) -> Problem:
     return Problem(severity, code, sentence, part.place, macro_stack=part.calls, parts=(part.key,))
 
@@ -258,7 +253,7 @@ def _add_inline_materials(links: Iterable[Link], materials: dict[str, Material])
 
 
 def _lookup(visual: Visual, materials: Mapping[str, Material]) -> Material | None:
-    """What a visual is drawn in: a name that is defined wins over what stands beside it."""
+    """Return the material of a visual: a defined name wins over the colour beside it."""
     material = visual.material
     if material is None:
         return None
@@ -307,3 +302,31 @@ def _skeleton(robot: Robot) -> object:
 def _ties(joint: Joint) -> object:
     leader = joint.mimic and joint.mimic.joint
     return joint.name, joint.type, joint.parent, joint.child, leader
+
+
+def robot_from_urdf(text: str) -> Robot:
+    """Read an expanded URDF.
+
+    Raises:
+        RobotError: It is no robot, or ROS would reject it; the sentence names the first fault.
+    """
+    root = parse_tree(text)
+    if root.tag != "robot":
+        raise RobotError(f"It begins with <{root.tag}> and not with <robot>: it is no URDF.")
+    parts = tuple(_parts(root))
+    change = Assembly(root.get("name", "")).apply(tuple(part.key for part in parts), parts)
+    for problem in change.problems:
+        if problem.severity is Severity.ERROR:
+            raise RobotError(problem.sentence)
+    return change.robot
+
+
+def _parts(root: Element) -> Iterator[Part]:
+    """Return the elements under their keys; a repeated name gets a number behind it."""
+    seen: dict[str, int] = {}
+    for element in root:
+        if element.tag in _KINDS:
+            key = f"{element.tag}:{element.get('name', '')}"
+            seen[key] = seen.get(key, 0) + 1
+            numbered = key if seen[key] == 1 else f"{key}#{seen[key]}"
+            yield Part(numbered, tostring(element, encoding="unicode"), Place(""))

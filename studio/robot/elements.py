@@ -44,7 +44,7 @@ _COORDINATE_LIMIT = 1e12
 
 @dataclass(slots=True)
 class ParsedElement:
-    """What an element came to; `value` is None when it has no name or is of no known kind."""
+    """The value of an element, None when it has no name or is of no known kind; and its faults."""
 
     value: Link | Joint | Material | None = None
     faults: list[RobotError] = field(default_factory=list[RobotError])
@@ -217,7 +217,7 @@ def _read_joint(element: Element, parsed: ParsedElement) -> Joint:
 
 
 def _joint_type(element: Element) -> JointType:
-    """The type; what URDF does not know is drawn fixed, and the checks tell it."""
+    """Return the type; one that URDF does not know is drawn fixed, and the checks report it."""
     try:
         return JointType(element.get("type", "").strip())
     except ValueError:

@@ -12,12 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
-from studio.robot.rotations import (
-    cross_matrices,
-    matrix_from_rpy,
-    unit_vectors,
-    wxyz_from_matrices,
-)
+from studio.robot.rotations import cross_matrices, matrix_from_rpy, unit_vectors, wxyz_from_matrices
 from studio.robot.values import JointType
 
 if TYPE_CHECKING:
@@ -47,9 +42,9 @@ class Kinematics:
     def __init__(self, robot: Robot) -> None:
         self._robot = robot
         self._turned: tuple[Floats, Floats] | None = None
-        """The rotations of links that were asked for last, and their quaternions."""
+        """The last rotations of links, and their quaternions."""
         self._stood: tuple[Floats, Floats] | None = None
-        """The positions that were asked for last, and the poses in their parents at these."""
+        """The last positions, and the poses of links in their parents at them."""
         self.link_names = tuple(robot.links)
         joints = tuple(robot.joints.values())
         moving = [joint for joint in joints if joint.type in _MOVES]

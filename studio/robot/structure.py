@@ -20,20 +20,20 @@ _Shape: TypeAlias = tuple[frozenset[str], tuple[tuple[str, str, str, str], ...]]
 
 @dataclass(frozen=True, slots=True)
 class Structure:
-    """What the names, parents, children and leaders of a robot come to; numbers do not matter."""
+    """The tree that names, parents, children and mimicked joints make; numbers do not matter."""
 
     shape: _Shape
     findings: tuple[Finding, ...]
     dropped: frozenset[str]
     """Joints that hold nothing: a link of theirs is missing or already held by another joint."""
     freed: frozenset[str]
-    """Joints whose leader cannot be followed: they move by themselves."""
+    """Joints that mimic a joint which cannot be followed: they move by themselves."""
     broken: bool
     """No link, or joints in a cycle: there is nothing to draw."""
 
     @classmethod
     def of(cls, robot: Robot) -> Structure:
-        """Look at the whole tree."""
+        """Examine the whole tree."""
         findings: list[Finding] = []
         held = _held_joints(robot, findings)
         parents = {joint.child: joint.parent for joint in held.values()}
@@ -45,7 +45,7 @@ class Structure:
         return cls(_shape(robot), tuple(findings), dropped, freed, broken)
 
     def fits(self, robot: Robot) -> bool:
-        """True while the names and ties of `robot` are those that were looked at."""
+        """Whether the names and ties of `robot` are still those that were examined."""
         return self.shape == _shape(robot)
 
     def pruned(self, robot: Robot) -> Robot:

@@ -14,7 +14,7 @@ import yourdfpy
 
 from studio.errors import RobotError
 from studio.problems import Problem, Severity
-from studio.robot.requests import CheckAnswer
+from studio.robot.worker_client import CheckAnswer
 from studio.robot.xml_tree import parse_tree
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 _NAME = "unnamed_robot"
 logging.getLogger("yourdfpy.urdf").disabled = True
-"""It writes on the terminal of the studio; what it finds is told as problems."""
+"""It writes to the terminal of the studio; its findings become problems."""
 
 
 def check_urdf(text: str) -> CheckAnswer:
@@ -50,7 +50,7 @@ def check_urdf(text: str) -> CheckAnswer:
 
 
 def _clean(text: str, problems: list[Problem]) -> bytes:
-    """The text parsed and written again: no entities, no prefixes that nobody declares, a name.
+    """Return the text parsed and written again: no entities, no undeclared prefixes, with a name.
 
     yourdfpy's own parser would follow entities to files.
 
@@ -71,7 +71,7 @@ def _clean(text: str, problems: list[Problem]) -> bytes:
 
 
 def _broken_rules(robot: yourdfpy.URDF) -> Iterator[Problem]:
-    """The rules that each link and joint breaks: yourdfpy does not say which of them it means."""
+    """Return the rules that each link and joint breaks; yourdfpy does not name the part."""
     whole = robot.robot
     links, joints = list(whole.links), list(whole.joints)
     whole.links, whole.joints = [], []
@@ -92,7 +92,7 @@ def _of_part(kind: str, name: str, errors: Iterable[object]) -> Iterator[Problem
 
 
 def _errors(robot: yourdfpy.URDF) -> Iterable[object]:
-    """What `validate` found; yourdfpy offers no other way to get at it than a handler."""
+    """Return what `validate` finds; yourdfpy hands it to a handler only."""
     found: list[object] = []
 
     def keep(errors: Iterable[object]) -> bool:

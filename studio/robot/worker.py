@@ -10,11 +10,10 @@ from pathlib import Path
 from typing import assert_never
 
 from studio.errors import MeshError, PackageError, UnreadableFileError
-from studio.robot.mesh_blob import pack_mesh
-from studio.robot.mesh_cache import MeshCache
-from studio.robot.mesh_files import MeshFiles
-from studio.robot.mesh_reading import read_mesh, read_textured
-from studio.robot.requests import (
+from studio.robot.meshes.files import MeshFiles
+from studio.robot.meshes.loaded_mesh import MeshCache, pack_mesh
+from studio.robot.meshes.reading import read_mesh, read_textured
+from studio.robot.worker_client import (
     CheckAnswer,
     CheckRequest,
     MeshAnswer,

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from studio.robot.loaded_mesh import LoadedMesh
+    from studio.robot.meshes.loaded_mesh import LoadedMesh
     from studio.robot.values import Robot, Vector3
     from studio.scene.connection import Connection
     from studio.scene.displays import Value

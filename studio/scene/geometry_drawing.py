@@ -5,14 +5,14 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from studio.robot.textured import scale_of
+from studio.robot.meshes.textured import scale_of
 from studio.robot.values import Box, Cylinder, Mesh, Sphere
 from studio.scene import node
 from studio.scene.node import Look
 from studio.scene.pose import wxyz_and_position
 
 if TYPE_CHECKING:
-    from studio.robot.loaded_mesh import LoadedMesh
+    from studio.robot.meshes.loaded_mesh import LoadedMesh
     from studio.robot.values import Geometry, Material, Origin, Robot
     from studio.scene.node import Node, Rgb
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from studio.robot.textured import mesh_uris
+from studio.robot.meshes.textured import mesh_uris
 from studio.robot.values import Mesh, Robot
 from studio.scene import node
 from studio.scene.geometry_drawing import MeshShelf, draw
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from studio.robot.loaded_mesh import LoadedMesh
+    from studio.robot.meshes.loaded_mesh import LoadedMesh
     from studio.robot.values import Link, Vector3
     from studio.scene.graph import Graph
     from studio.scene.layers import Nodes

@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
-from studio.robot.inertia import inertia_box
-from studio.robot.textured import textured_uri
+from studio.robot.masses import inertia_box
+from studio.robot.meshes.textured import textured_uri
 from studio.robot.values import JointType
 from studio.scene import node
 from studio.scene.geometry_drawing import COLLISION_LOOK, draw, look_of

@@ -13,7 +13,7 @@ from viser import _messages
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from studio.robot.loaded_mesh import LoadedMesh
+    from studio.robot.meshes.loaded_mesh import LoadedMesh
     from studio.robot.values import Vector3
 
 Quaternion: TypeAlias = tuple[float, float, float, float]

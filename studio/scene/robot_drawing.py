@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from studio.robot.textured import mesh_uris
+from studio.robot.meshes.textured import mesh_uris
 from studio.robot.values import Robot
 from studio.scene import node
 from studio.scene.geometry_drawing import MeshShelf
@@ -16,7 +16,7 @@ from studio.scene.naming import ROBOT, link_node
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Set
 
-    from studio.robot.loaded_mesh import LoadedMesh
+    from studio.robot.meshes.loaded_mesh import LoadedMesh
     from studio.robot.values import Joint, Link, Vector3
     from studio.scene.graph import Graph
     from studio.scene.layers import Nodes

@@ -13,16 +13,12 @@ from studio.description.evaluator.stock_xacro import export_urdf
 from studio.errors import PackageError
 from studio.packages.uris import resolve_uri
 from studio.packages.workspace import open_location
-from studio.robot.checks.robot_checks import CheckedRobot, check_robot
-from studio.robot.textured import mesh_uris
+from studio.robot.checks.finding import CheckedRobot
+from studio.robot.checks.robot_checks import check_robot
+from studio.robot.meshes.textured import mesh_uris
 from tests.support.descriptions import policy_for
 from tests.support.expanded import Assembled, Expanded, expanded_robots
-from tests.support.independent_checks import (
-    inertia_faults,
-    missing_meshes,
-    packages,
-    root_faults,
-)
+from tests.support.independent_checks import inertia_faults, missing_meshes, packages, root_faults
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

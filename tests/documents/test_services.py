@@ -13,8 +13,8 @@ from studio.description.values import Checked, CheckQuery
 from studio.documents.document import Document
 from studio.documents.services import Services
 from studio.packages.workspace import open_location
-from studio.robot.meshes import MeshLibrary
-from studio.robot.pool import mesh_pool
+from studio.robot.meshes.library import MeshLibrary
+from studio.robot.worker_client import mesh_pool
 from studio.settings import Settings, mesh_worker_count
 from tests.support.checked import inertial, joint, link, robot
 from tests.support.meshes import stl

@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING
 from hypothesis import given
 from hypothesis import strategies as st
 
-from studio.robot.comparison import differences
-from studio.robot.difference_rows import Row
+from studio.robot.comparison import Row, differences
 from studio.robot.values import (
     Box,
     Collision,

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
+from studio.robot.comparison import whole_rows
 from studio.robot.kinematics import Kinematics
-from studio.robot.measures import Measures, box_around, measure, reach_m, whole_rows
+from studio.robot.measures import Measures, box_around, measure, reach_m
 from studio.robot.values import (
     Box,
     Inertial,

@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 
 from studio.displays.drawing import LinkParts
-from studio.robot.urdf_text import robot_from_urdf
+from studio.robot.assembly import robot_from_urdf
 from studio.scene.geometry_drawing import MeshShelf
 from studio.scene.link_nodes import link_nodes
 from tests.support.watched_scene import triangle

@@ -8,7 +8,8 @@ from xml.etree import ElementTree
 from studio.description.syntax.source_tree import parse_source
 from studio.description.values import Part
 from studio.robot.assembly import Assembly
-from studio.robot.checks.robot_checks import CheckedRobot, check_robot, robot_findings
+from studio.robot.checks.finding import CheckedRobot
+from studio.robot.checks.robot_checks import check_robot, robot_findings
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping

@@ -17,7 +17,7 @@ import numpy as np
 
 from studio.protocol.robot import GetFrames, GetMasses
 from studio.protocol.roles import Role
-from studio.robot.inertia import total
+from studio.robot.masses import total
 from tests.support.asked import ask_document
 from tests.support.open_documents import Ear, engine, opened
 from tests.support.yourdfpy_poses import poses_by_yourdfpy

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from studio.robot.mesh_files import MeshFiles
-from studio.robot.mesh_reading import read_mesh
+from studio.robot.meshes.files import MeshFiles
+from studio.robot.meshes.reading import read_mesh
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from studio.robot.loaded_mesh import LoadedMesh
+    from studio.robot.meshes.loaded_mesh import LoadedMesh
 
 TETRAHEDRON = np.array(
     [[[0, 0, 0], [0, 1, 0], [1, 0, 0]], [[0, 0, 0], [0, 0, 1], [0, 1, 0]],

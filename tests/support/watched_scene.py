@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from studio.robot.kinematics import Kinematics
-from studio.robot.loaded_mesh import LoadedMesh
+from studio.robot.meshes.loaded_mesh import LoadedMesh
 from studio.robot.values import Collision, Link, Material, Mesh, Origin, Robot, Visual
 from studio.scene import DocumentScene
 from tests.support.robots import rover

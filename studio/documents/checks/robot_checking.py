@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 from studio.documents.meshes.hidden_meshes import HiddenMeshes
 from studio.documents.meshes.near_meshes import NearMeshes
 from studio.errors import PackageError
-from studio.robot.checks.robot_checks import CheckedRobot, check_robot
+from studio.robot.checks.finding import CheckedRobot
+from studio.robot.checks.robot_checks import check_robot
 from studio.robot.values import Mesh
 
 if TYPE_CHECKING:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from studio.documents.document import Document
     from studio.problems import Problem
     from studio.robot.measures import Bounds
-    from studio.robot.meshes import MeshLibrary
+    from studio.robot.meshes.library import MeshLibrary
 
     _Stamp: TypeAlias = tuple[Path, int, int]
 

@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from studio.description.values import Part
     from studio.documents.document import Document
     from studio.problems import Problem
-    from studio.robot.loaded_mesh import LoadedMesh
-    from studio.robot.meshes import MeshLibrary
+    from studio.robot.meshes.library import MeshLibrary
+    from studio.robot.meshes.loaded_mesh import LoadedMesh
 
 
 class MeshDesk:

@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING
 
 from studio.errors import PackageError, PackageNotFoundError, RobotError, WorkerError
 from studio.problems import Fix, Problem, Severity
-from studio.robot.textured import split_textured
+from studio.robot.meshes.textured import split_textured
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
     from pathlib import Path
 
     from studio.errors import StudioError
-    from studio.robot.loaded_mesh import LoadedMesh
-    from studio.robot.meshes import MeshLibrary
+    from studio.robot.meshes.library import MeshLibrary
+    from studio.robot.meshes.loaded_mesh import LoadedMesh
 
 
 class MeshLoading:

@@ -11,8 +11,8 @@ from studio.description.syntax.source_tree import SourceError, parse_source
 from studio.errors import EditError
 from studio.packages.near_files import near_file
 from studio.problems import Fix, Replacement
-from studio.robot.mesh_reading import MESH_SUFFIXES
-from studio.robot.textured import split_textured
+from studio.robot.meshes.reading import MESH_SUFFIXES
+from studio.robot.meshes.textured import split_textured
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterator, Mapping

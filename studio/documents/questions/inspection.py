@@ -9,8 +9,10 @@ from studio.errors import PackageError, RobotError, WorkerError
 from studio.packages.uris import resolve_uri
 from studio.protocol.robot import Frames, LinkMassView, Masses, VolumeView
 from studio.robot.link_masses import link_mass
+from studio.protocol.inspection import Frames, LinkMassView, Masses, VolumeView
+from studio.robot.masses import link_mass
+from studio.robot.measures import mesh_volume, shapes_volume
 from studio.robot.values import Mesh
-from studio.robot.volumes import mesh_volume, shapes_volume
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -19,8 +21,11 @@ if TYPE_CHECKING:
     from studio.protocol.robot import GetFrames, GetMasses
     from studio.robot.link_masses import LinkMass
     from studio.robot.meshes import MeshLibrary
+    from studio.protocol.inspection import GetFrames, GetMasses
+    from studio.robot.masses import LinkMass
+    from studio.robot.measures import MeshVolumes, Volume
+    from studio.robot.meshes.library import MeshLibrary
     from studio.robot.values import Link, Robot
-    from studio.robot.volumes import MeshVolumes, Volume
 
 _KEPT: Final = 2_000
 """Volumes of meshes."""

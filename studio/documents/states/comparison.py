@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING, Final
 from studio.description.editing.variants import differing_names
 from studio.description.values import SiteKind
 from studio.protocol.variants import DifferenceView, InputDifference, shown
-from studio.robot.comparison import differences
-from studio.robot.measures import measure, whole_rows
+from studio.robot.comparison import differences, whole_rows
+from studio.robot.measures import measure
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from studio.documents.states.recipes import RecipeBook
     from studio.documents.states.second_robot import SecondRobot
-    from studio.robot.difference_rows import Row, Value
+    from studio.robot.comparison import Row, Value
     from studio.robot.measures import Bounds, Measures
 
 ROWS_SHOWN: Final = 1500

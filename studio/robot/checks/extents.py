@@ -1,9 +1,9 @@
-"""The boxes around what links look like and touch with, in each link's own frame."""
+"""The boxes around the visuals and collisions of links, in the frame of each link."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Final, TypeAlias
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
@@ -13,12 +13,9 @@ from studio.robot.rotations import matrix_from_rpy
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
 
-    from numpy.typing import NDArray
-
     from studio.robot.measures import Bounds
+    from studio.robot.rotations import Floats
     from studio.robot.values import Collision, Link, Visual
-
-    Floats: TypeAlias = NDArray[np.float64]
 
 _MARKER_M: Final = 0.01
 

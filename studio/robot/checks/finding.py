@@ -1,17 +1,57 @@
-"""What a check of the robot finds, and how it can be mended, before it is known where it stands."""
+"""The robot that a check gets, the findings it returns, and how a finding can be mended.
+
+A file of this folder with a function `findings(checked: CheckedRobot) -> Iterator[Finding]` is a
+check: `robot_checks` finds it by that name.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, TypeAlias
 
+from studio.robot.checks.extents import extents
+
 if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from studio.description.values import Part
     from studio.problems import Severity
+    from studio.robot.checks.extents import Extent
+    from studio.robot.measures import Bounds
+    from studio.robot.values import Robot
+
+
+@dataclass(frozen=True)
+class CheckedRobot:
+    """A robot as it is drawn, and what is known about its text and its meshes.
+
+    Attributes:
+        robot: As it is drawn.
+        part: Returns the element of a part key as it was written.
+        mesh_bounds: Returns the box of a mesh by its URI, unscaled; None while it is unknown.
+        source: Returns the bytes of a file as it is edited now; None when it cannot be read.
+    """
+
+    robot: Robot
+    part: Callable[[str], Part | None]
+    mesh_bounds: Callable[[str], Bounds | None]
+    source: Callable[[str], bytes | None]
+
+    @cached_property
+    def extents(self) -> Mapping[str, Extent]:
+        """The boxes around each link, by its name."""
+        return extents(self.robot.links.values(), self.mesh_bounds)
+
+    def xml(self, key: str) -> str:
+        """The URDF text of a part by its key; empty when it is not known."""
+        part = self.part(key)
+        return part.xml if part else ""
 
 
 @dataclass(frozen=True, slots=True)
 class SwapAttributes:
-    """Let two attributes of a child element change their texts, whatever these are."""
+    """Exchange the texts of two attributes of a child element."""
 
     label: str
     tag: str
@@ -21,7 +61,7 @@ class SwapAttributes:
 
 @dataclass(frozen=True, slots=True)
 class SetAttributes:
-    """Give attributes of elements below the part these texts; what is missing is put in.
+    """Set attributes of elements below the part; missing ones are added.
 
     `path` names the tags from the part's element down, `*` is any. Of several elements there,
     `where` picks those that have an attribute with that text as written.
@@ -37,7 +77,7 @@ class SetAttributes:
 
 @dataclass(frozen=True, slots=True)
 class AddChild:
-    """Write one more element, `xml`, as the last inside the part's own."""
+    """Add the element `xml` as the last child of the part's element."""
 
     label: str
     xml: str
@@ -45,7 +85,7 @@ class AddChild:
 
 @dataclass(frozen=True, slots=True)
 class RemoveChild:
-    """Take the only child with that tag away, with all that it holds."""
+    """Remove the only child with that tag, with its content."""
 
     label: str
     tag: str
@@ -59,7 +99,7 @@ class Finding:
     """One thing that is wrong with a part of the robot.
 
     `key` is the part (`link:<name>`, `joint:<name>`), empty for the robot as a whole; `others` are
-    parts that it touches as well.
+    further parts that are involved.
     """
 
     severity: Severity

@@ -1,26 +1,56 @@
-"""Checks of what links lack: a mass, something to touch with, or a root that has none."""
+"""Checks of what links lack: a mass, a collision shape, or a root without a mass."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from studio.problems import Severity
-from studio.robot.checks.bodies import rigid_bodies
 from studio.robot.checks.finding import Finding
-from studio.robot.values import Mesh
+from studio.robot.values import JointType, Mesh
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from studio.robot.checks.bodies import Body
+    from studio.robot.checks.finding import CheckedRobot
     from studio.robot.values import Joint, Link, Robot
 
 
-def presence_findings(robot: Robot) -> Iterator[Finding]:
-    """Moving bodies without mass or collision, and a root link with a mass.
+@dataclass(frozen=True, slots=True)
+class Body:
+    """Links that move as one, the one nearest to the root first; `mover` is None for a root's."""
 
-    Of a robot that has no mass, or no collision, at all that is said once: it is made to be seen.
+    links: tuple[Link, ...]
+    mover: Joint | None
+
+
+def rigid_bodies(robot: Robot) -> list[Body]:
+    """Every link of the robot in exactly one body; joints in a cycle belong to none."""
+    children: dict[str, list[Joint]] = {}
+    for joint in robot.joints.values():
+        children.setdefault(joint.parent, []).append(joint)
+    held = {joint.child for joint in robot.joints.values()}
+    waiting: list[tuple[str, Joint | None]] = [(n, None) for n in robot.links if n not in held]
+    found: list[Body] = []
+    while waiting:
+        first, mover = waiting.pop(0)
+        names = [first]
+        for name in names:  # grows while it is gone through
+            for joint in children.get(name, ()):
+                if joint.type is JointType.FIXED:
+                    names.append(joint.child)
+                else:
+                    waiting.append((joint.child, joint))
+        found.append(Body(tuple(robot.links[one] for one in names), mover))
+    return found
+
+
+def findings(checked: CheckedRobot) -> Iterator[Finding]:
+    """Return moving bodies without mass or collision, and a root link with a mass.
+
+    A robot that has no mass, or no collision, at all gets a single finding: it is made to be seen.
     """
+    robot = checked.robot
     bodies = rigid_bodies(robot)
     links = robot.links.values()
     moving = [(body, body.mover) for body in bodies if body.mover is not None]

@@ -3,51 +3,28 @@
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Final
+from collections.abc import Callable, Iterator
+from functools import cache
+from importlib import import_module
+from pkgutil import iter_modules
+from typing import TYPE_CHECKING, Final, TypeAlias
 
 from studio.problems import Problem
-from studio.robot.checks.extents import extents
-from studio.robot.checks.joint_types import type_findings
-from studio.robot.checks.likeness import likeness_findings
-from studio.robot.checks.limits import limit_findings
-from studio.robot.checks.masses import mass_findings
+from studio.robot import checks
 from studio.robot.checks.mending import Mender
-from studio.robot.checks.mesh_scale import mesh_scale_findings
-from studio.robot.checks.presence import presence_findings
-from studio.robot.checks.shapes import shape_findings
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from studio.robot.checks.finding import CheckedRobot, Finding
 
-    from studio.description.values import Part
-    from studio.robot.checks.finding import Finding
-    from studio.robot.measures import Bounds
-    from studio.robot.values import Robot
-
+Check: TypeAlias = Callable[["CheckedRobot"], Iterator["Finding"]]
 ALIKE_AT_MOST: Final = 200
-"""Findings of one code that are told one by one: nobody reads ten thousand."""
-
-
-@dataclass(frozen=True, slots=True)
-class CheckedRobot:
-    """A robot and what is known around it.
-
-    `part` gives the element of a part key as it was written, `mesh_bounds` the box of a mesh by
-    its URI, unscaled (None while it is not known), `source` the bytes of a file as it is edited
-    now (None when it cannot be read).
-    """
-
-    robot: Robot
-    part: Callable[[str], Part | None]
-    mesh_bounds: Callable[[str], Bounds | None]
-    source: Callable[[str], bytes | None]
+"""Findings of one code that are listed one by one: nobody reads ten thousand."""
 
 
 def check_robot(checked: CheckedRobot) -> tuple[Problem, ...]:
-    """Everything that is wrong with a robot itself, with a fix where one is safe.
+    """Return everything that is wrong with a robot, with a fix where one is safe.
 
-    What its names and ties come to is not looked at: `structure` does that.
+    The tree of links and joints is not checked here: `structure` does that.
     """
     mender = Mender(checked.source)
     found: list[Problem] = []
@@ -71,21 +48,16 @@ def _more(last: Finding, count: int) -> Problem:
 
 
 def robot_findings(checked: CheckedRobot) -> Iterator[Finding]:
-    """The findings of every check, before places and fixes are looked for."""
+    """Return the findings of every check, before places and fixes are looked up."""
+    for check in _checks():
+        yield from check(checked)
 
-    def xml_of(key: str) -> str:
-        part = checked.part(key)
-        return part.xml if part else ""
 
-    robot = checked.robot
-    found = extents(robot.links.values(), checked.mesh_bounds)
-    yield from type_findings(robot, xml_of)
-    yield from limit_findings(robot, xml_of)
-    yield from mass_findings(robot, found)
-    yield from likeness_findings(robot, found)
-    yield from presence_findings(robot)
-    yield from shape_findings(robot, found)
-    yield from mesh_scale_findings(robot, checked.mesh_bounds)
+@cache
+def _checks() -> tuple[Check, ...]:
+    """Return the function `findings` of every file in this folder that has one."""
+    modules = (import_module(f"{__package__}.{one.name}") for one in iter_modules(checks.__path__))
+    return tuple(module.findings for module in modules if hasattr(module, "findings"))
 
 
 def _problem(finding: Finding, checked: CheckedRobot, mender: Mender) -> Problem:

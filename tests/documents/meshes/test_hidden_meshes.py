@@ -4,8 +4,8 @@ import asyncio
 from typing import TYPE_CHECKING
 
 from studio.documents.meshes.hidden_meshes import HiddenMeshes
-from studio.robot.meshes import MeshLibrary
-from studio.robot.pool import mesh_pool
+from studio.robot.meshes.library import MeshLibrary
+from studio.robot.worker_client import mesh_pool
 from tests.support.checked import link, robot
 from tests.support.meshes import TETRAHEDRON, stl
 from tests.support.open_documents import engine, opened

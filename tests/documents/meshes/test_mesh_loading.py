@@ -5,13 +5,13 @@ from typing import TYPE_CHECKING
 
 from studio.documents.meshes.mesh_loading import MeshLoading, mesh_problem
 from studio.errors import PackageNotFoundError
-from studio.robot.meshes import MeshLibrary
-from studio.robot.pool import mesh_pool
+from studio.robot.meshes.library import MeshLibrary
+from studio.robot.worker_client import mesh_pool
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from studio.robot.loaded_mesh import LoadedMesh
+    from studio.robot.meshes.loaded_mesh import LoadedMesh
 
 TRIANGLE = """solid t
 facet normal 0 0 1

@@ -3,7 +3,8 @@ from __future__ import annotations
 import time
 from itertools import pairwise
 
-from studio.robot.checks.robot_checks import ALIKE_AT_MOST, CheckedRobot, check_robot
+from studio.robot.checks.finding import CheckedRobot
+from studio.robot.checks.robot_checks import ALIKE_AT_MOST, check_robot
 from studio.robot.values import (
     Box,
     Collision,

@@ -1,0 +1,172 @@
+"""Checks of joints: their types, limits and axes."""
+
+from __future__ import annotations
+
+from difflib import get_close_matches
+from typing import TYPE_CHECKING, Final
+
+from studio.errors import RobotError
+from studio.problems import Severity
+from studio.robot.checks.finding import AddChild, Finding, SetAttributes, SwapAttributes
+from studio.robot.values import JointType
+from studio.robot.xml_tree import parse_tree
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+    from xml.etree.ElementTree import Element
+
+    from studio.robot.checks.finding import CheckedRobot
+    from studio.robot.values import Joint, Limit, Robot
+
+_NEEDS_LIMIT: Final = {
+    JointType.REVOLUTE: AddChild(
+        "Add limits of ±1.57 rad", '<limit lower="-1.57" upper="1.57" effort="10" velocity="1"/>'
+    ),
+    JointType.PRISMATIC: AddChild(
+        "Add limits of 0 and 0.1 m", '<limit lower="0" upper="0.1" effort="10" velocity="0.1"/>'
+    ),
+}
+"""Types that need a limit, and one to begin with."""
+_MOST: Final = {
+    "effort": ("10", "the most that it pushes, in N m or N"),
+    "velocity": ("1", "the fastest that it goes, in rad/s or m/s"),
+}
+_HAS_AXIS: Final = frozenset(
+    {JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC, JointType.PLANAR}
+)
+_LIKENESS: Final = 0.6
+_OTHER_NAMES: Final = {
+    "hinge": JointType.REVOLUTE,
+    "rotary": JointType.REVOLUTE,
+    "rotational": JointType.REVOLUTE,
+    "slider": JointType.PRISMATIC,
+    "linear": JointType.PRISMATIC,
+    "wheel": JointType.CONTINUOUS,
+    "free": JointType.FLOATING,
+    "static": JointType.FIXED,
+}
+"""Names for joint types in other formats."""
+
+
+def findings(checked: CheckedRobot) -> Iterator[Finding]:
+    """Return what is wrong with the types, the limits and the axes of joints."""
+    yield from _of_types(checked.robot, checked.xml)
+    yield from _of_limits(checked.robot, checked.xml)
+
+
+def _of_limits(robot: Robot, xml_of: Callable[[str], str]) -> Iterator[Finding]:
+    """Return what is wrong with the limits and axes of the joints.
+
+    Args:
+        robot: As it is drawn.
+        xml_of: The element of a part as URDF text, by its key; empty when it is not known. Only
+            that tells an effort that is not written from one of 0.
+    """
+    for joint in robot.joints.values():
+        if joint.limit is None:
+            if joint.type in _NEEDS_LIMIT and "<limit" not in xml_of(_key(joint)):
+                yield _missing_limit(joint)
+        else:
+            yield from _range_findings(joint, joint.limit)
+            if not (joint.limit.effort and joint.limit.velocity):
+                yield from _unwritten(joint, xml_of(_key(joint)))
+        if joint.type in _HAS_AXIS and not any(joint.axis):
+            yield _zero_axis(joint)
+
+
+def _missing_limit(joint: Joint) -> Finding:
+    sentence = (
+        f'Joint "{joint.name}" is {joint.type} and has no <limit>, so that ROS rejects the robot: '
+        f"say how far it goes, or make it {_without_limit(joint)}."
+    )
+    mend = _NEEDS_LIMIT[joint.type]
+    return Finding(Severity.ERROR, "missing-limit", sentence, _key(joint), mend)
+
+
+def _without_limit(joint: Joint) -> str:
+    return "continuous" if joint.type is JointType.REVOLUTE else "fixed"
+
+
+def _range_findings(joint: Joint, limit: Limit) -> Iterator[Finding]:
+    if joint.type not in _NEEDS_LIMIT:
+        return
+    lower, upper = f"{limit.lower:.6g}", f"{limit.upper:.6g}"
+    if limit.lower > limit.upper:
+        sentence = (
+            f'Joint "{joint.name}" has a lower limit of {lower} above its upper one of {upper}: '
+            "no position lies between them, swap them."
+        )
+        mend = SwapAttributes("Swap the limits", "limit", "lower", "upper")
+        yield Finding(Severity.ERROR, "reversed-limits", sentence, _key(joint), mend)
+    elif limit.lower == limit.upper:
+        sentence = (
+            f'Joint "{joint.name}" is {joint.type} and cannot move, since both of its limits are '
+            f"{lower}: widen them, or make it fixed."
+        )
+        yield Finding(Severity.WARNING, "equal-limits", sentence, _key(joint))
+
+
+def _unwritten(joint: Joint, xml: str) -> Iterator[Finding]:
+    """Return an effort or velocity that the limit leaves out: urdfdom needs both."""
+    element = joint_element(xml)
+    limit = None if element is None else element.find("limit")
+    if limit is None:
+        return
+    for name, (text, meaning) in _MOST.items():
+        if limit.get(name) is None:
+            sentence = (
+                f'The <limit> of joint "{joint.name}" has no {name}, so that ROS rejects the '
+                f"robot: write {meaning}."
+            )
+            mend = SetAttributes(f'Add {name}="{text}"', ("limit",), ((name, text),))
+            yield Finding(Severity.ERROR, f"limit-without-{name}", sentence, _key(joint), mend)
+
+
+def joint_element(xml: str) -> Element | None:
+    """A part's text as an element; None when there is none or it cannot be read."""
+    try:
+        return parse_tree(xml) if xml else None
+    except RobotError:
+        return None
+
+
+def _zero_axis(joint: Joint) -> Finding:
+    sentence = (
+        f'Joint "{joint.name}" is {joint.type} and its axis is 0 0 0, which points nowhere: '
+        "write the direction that it turns about or slides along."
+    )
+    mend = SetAttributes('Write xyz="0 0 1"', ("axis",), (("xyz", "0 0 1"),))
+    return Finding(Severity.WARNING, "zero-axis", sentence, _key(joint), mend)
+
+
+def _key(joint: Joint) -> str:
+    return f"joint:{joint.name}"
+
+
+def _of_types(robot: Robot, xml_of: Callable[[str], str]) -> Iterator[Finding]:
+    """Return joints of no or an unknown type; `xml_of` as for the limits."""
+    for joint in robot.joints.values():
+        if joint.type is JointType.FIXED:
+            xml = xml_of(f"joint:{joint.name}")
+            if 'type="fixed"' not in xml and (element := joint_element(xml)) is not None:
+                written = element.get("type", "")
+                if written.strip() not in set(JointType):
+                    yield _unknown(joint, written)
+
+
+def _unknown(joint: Joint, written: str) -> Finding:
+    known = ", ".join(JointType)
+    what = f'is of type "{written}"' if written else "has no type"
+    meant = _meant(written)
+    todo = f'did you mean "{meant}"?' if meant else f"URDF knows {known}."
+    sentence = f'Joint "{joint.name}" {what}, so that ROS rejects the robot: {todo}'
+    mend = SetAttributes(f'Write type="{meant}"', (), (("type", meant),)) if meant else None
+    return Finding(Severity.ERROR, "joint-type", sentence, f"joint:{joint.name}", mend)
+
+
+def _meant(written: str) -> str:
+    """Return the type that was most likely meant; empty when that is unclear."""
+    word = written.strip().lower()
+    if word in _OTHER_NAMES:
+        return _OTHER_NAMES[word].value
+    return next(iter(get_close_matches(word, [*JointType], 1, _LIKENESS)), "")
