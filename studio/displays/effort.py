@@ -13,7 +13,7 @@ from studio.displays.history import Entry, HistoryDisplay
 from studio.displays.properties import Property, length, switch
 from studio.displays.turning import FAR, drawable, shortest_turn, turned
 from studio.errors import DisplayMessageError, RobotError
-from studio.robot.assembly import robot_from_urdf
+from studio.robot.urdf_text import robot_from_urdf
 from studio.robot.values import JointType
 
 if TYPE_CHECKING:

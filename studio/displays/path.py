@@ -25,10 +25,7 @@ from studio.displays.properties import (
     length,
     rgb_of,
 )
-from studio.displays.properties import Property, rgb_of
-from studio.displays.rows import chosen_rows, drawable_poses, poses_of_chosen
 from studio.ros.columns.poses import PATH, read_path
-from studio.ros.fast.poses import PATH, read_path
 
 if TYPE_CHECKING:
     from studio.displays.display import Received

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Final
 import studio.ros.client as rclpy
 from studio.errors import ExternalShutdownException, RobotError, SettingsError
 from studio.nodes.robot_state_publisher import LATCHED, read_urdf
-from studio.robot.assembly import robot_from_urdf
 from studio.robot.kinematics import Kinematics
+from studio.robot.urdf_text import robot_from_urdf
 from studio.ros.client import Node
 from studio.ros.messages import message
 from studio.ros.qos import QoSProfile

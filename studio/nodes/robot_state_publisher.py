@@ -18,7 +18,7 @@ import studio.ros.client as rclpy
 from studio.errors import ExternalShutdownException, SettingsError, StudioError, UnreadableFileError
 from studio.nodes.link_transforms import LinkTransforms
 from studio.nodes.state_pace import StatePace
-from studio.robot.assembly import robot_from_urdf
+from studio.robot.urdf_text import robot_from_urdf
 from studio.ros.client import Node
 from studio.ros.columns.transforms import TransformCodec
 from studio.ros.duration import NANOSECONDS

@@ -5,21 +5,16 @@ from __future__ import annotations
 import dataclasses
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
-from xml.etree.ElementTree import tostring
 
-from studio.description.values import Part
-from studio.errors import RobotError
-from studio.problems import Place, Problem, Severity
+from studio.problems import Problem, Severity
 from studio.robot.elements import ParsedElement, parse_element
 from studio.robot.structure import Structure
 from studio.robot.values import Joint, Link, Material, Robot, Visual
-from studio.robot.xml_tree import parse_tree
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
-    from xml.etree.ElementTree import Element
+    from collections.abc import Iterable, Mapping
 
-_KINDS = ("link", "joint", "material")
+    from studio.description.values import Expansion, Part
 
 
 @dataclass(frozen=True, slots=True)
@@ -230,6 +225,16 @@ class Assembly:
         )
 
 
+def assembled(expansion: Expansion) -> tuple[Robot, str]:
+    """The robot of a whole run, and what is wrong with it in a sentence, or an empty text."""
+    change = Assembly(expansion.robot_name).apply(expansion.part_order, expansion.changed_parts)
+    if change.kept_last_good:
+        fault = str(change.problems[0]) if change.problems else "It describes no robot."
+    else:
+        fault = str(expansion.warnings[0]) if expansion.is_recovered else ""
+    return change.robot, fault
+
+
 def _problem(severity: Severity, code: str, sentence: str, part: Part) -> Problem:
     return Problem(severity, code, sentence, part.place, macro_stack=part.calls, parts=(part.key,))
 
@@ -302,31 +307,3 @@ def _skeleton(robot: Robot) -> object:
 def _ties(joint: Joint) -> object:
     leader = joint.mimic and joint.mimic.joint
     return joint.name, joint.type, joint.parent, joint.child, leader
-
-
-def robot_from_urdf(text: str) -> Robot:
-    """Read an expanded URDF.
-
-    Raises:
-        RobotError: It is no robot, or ROS would reject it; the sentence names the first fault.
-    """
-    root = parse_tree(text)
-    if root.tag != "robot":
-        raise RobotError(f"It begins with <{root.tag}> and not with <robot>: it is no URDF.")
-    parts = tuple(_parts(root))
-    change = Assembly(root.get("name", "")).apply(tuple(part.key for part in parts), parts)
-    for problem in change.problems:
-        if problem.severity is Severity.ERROR:
-            raise RobotError(problem.sentence)
-    return change.robot
-
-
-def _parts(root: Element) -> Iterator[Part]:
-    """Return the elements under their keys; a repeated name gets a number behind it."""
-    seen: dict[str, int] = {}
-    for element in root:
-        if element.tag in _KINDS:
-            key = f"{element.tag}:{element.get('name', '')}"
-            seen[key] = seen.get(key, 0) + 1
-            numbered = key if seen[key] == 1 else f"{key}#{seen[key]}"
-            yield Part(numbered, tostring(element, encoding="unicode"), Place(""))

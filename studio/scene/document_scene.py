@@ -1,25 +1,22 @@
-"""The DocumentScene: the 3D view of one open document, shared by all who look at it."""
+"""The DocumentScene: the 3D view of one open document, shared by all of its pages."""
 
 from __future__ import annotations
 
 from copy import deepcopy
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
+from studio.errors import SceneError
 from studio.scene import node
-from studio.scene.connection import SUBPROTOCOL
-from studio.scene.displays import DISPLAY_DEFAULTS, checked
 from studio.scene.ghost import GhostDrawing
-from studio.scene.graph import Graph
-from studio.scene.host import forget_removed, make_server
+from studio.scene.graph import GRID, Graph, PoseWriter
+from studio.scene.host import SUBPROTOCOL, forget_removed, make_server
 from studio.scene.live_scene import LiveScene
-from studio.scene.naming import GRID
-from studio.scene.pose import rotated
-from studio.scene.pose_writer import PoseWriter
+from studio.scene.pages import standalone_page
 from studio.scene.robot_drawing import RobotDrawing
-from studio.scene.standalone import standalone_page
+from studio.tf.rotations import turned
 
 if TYPE_CHECKING:
     import asyncio
@@ -29,12 +26,66 @@ if TYPE_CHECKING:
 
     from studio.robot.meshes.loaded_mesh import LoadedMesh
     from studio.robot.values import Robot, Vector3
-    from studio.scene.connection import Connection
-    from studio.scene.displays import Value
+    from studio.scene.host import Connection
     from studio.scene.node import Quaternion
 
+Value: TypeAlias = bool | float | str
+
+DISPLAY_DEFAULTS: dict[str, dict[str, Value]] = {
+    "robot": {
+        "visual": True,
+        "collision": False,
+        "frames": False,
+        "names": False,
+        "axes": False,
+        "inertia": False,
+        "com": False,
+        "opacity": 1.0,
+    },
+    "grid": {
+        "visible": True,
+        "cell_m": 0.25,
+        "extent_m": 0.0,
+        "shadow": True,
+        "under_robot": True,
+    },
+    "ghost": {"visible": False, "beside": False, "opacity": 0.35},
+}
+"""By display, then setting. `axes` are the joint axes, `com` the centres of mass; a grid of extent
+0 has no end, and one that is not under the robot lies at the height of the root link. The ghost is
+the robot that this one is compared with; it may stand beside it."""
+
+_RANGES: dict[tuple[str, str], tuple[float, float]] = {
+    ("robot", "opacity"): (0.0, 1.0),
+    ("ghost", "opacity"): (0.05, 1.0),
+    ("grid", "cell_m"): (0.001, 1000.0),
+    ("grid", "extent_m"): (0.0, 100_000.0),
+}
 _BAD_VERSION = 1002
 _STEP_M = 1e-5
+
+
+def checked(display: str, name: str, value: Value) -> Value:
+    """The value as the display takes it: numbers within their range.
+
+    Raises:
+        SceneError: No such display or setting, or a value of another kind.
+    """
+    default = DISPLAY_DEFAULTS.get(display, {}).get(name)
+    if default is None:
+        raise SceneError(f'There is no setting "{name}" of a display "{display}".')
+    if isinstance(default, bool):
+        if not isinstance(value, bool):
+            raise SceneError(f"{display} {name} is on or off, not {value!r}.")
+        return value
+    return _within(display, name, value)
+
+
+def _within(display: str, name: str, value: Value) -> float:
+    if isinstance(value, bool | str) or value != value:  # noqa: PLR0124 - NaN is not itself
+        raise SceneError(f"{display} {name} is a number, not {value!r}.")
+    low, high = _RANGES[display, name]
+    return min(max(float(value), low), high)
 
 
 class DocumentScene:
@@ -50,7 +101,7 @@ class DocumentScene:
         self._poses = PoseWriter(self._graph)
         self._robot = RobotDrawing(self._graph, self._poses.forget)
         self.ghost = GhostDrawing(self._graph, self._robot.mesh)
-        """Another robot to compare with; nothing is drawn of it until it is shown one."""
+        """Another robot to compare with; empty until its `show` is called."""
         self.live = LiveScene(self._graph, self._robot.mesh, partial(forget_removed, self.viser))
         """What the document's displays draw."""
         self._settings = deepcopy(DISPLAY_DEFAULTS)
@@ -67,7 +118,7 @@ class DocumentScene:
         Args:
             robot: The whole robot as it is now.
             changed_links: Links whose visuals, collisions, inertial or used materials differ from
-                the robot shown before; None when it is not known, which looks at all of them.
+                the robot shown before; None when it is not known, which compares all of them.
                 Links that came or went and joints that changed are found by themselves. A link
                 that came stands at the origin until `set_poses`.
         """
@@ -80,11 +131,11 @@ class DocumentScene:
         return robots | self.live.missing_meshes()
 
     def mesh(self, uri: str) -> LoadedMesh | None:
-        """A mesh that came for the robot, the ghost or a display."""
+        """Return a loaded mesh of the robot, the ghost or a display."""
         return self._robot.mesh(uri) or self.ghost.mesh(uri) or self.live.mesh(uri)
 
     def provide_mesh(self, uri: str, mesh: LoadedMesh | None) -> None:
-        """Draw a mesh that came; None marks one that cannot be loaded by a box of wire."""
+        """Draw a loaded mesh; None marks one that cannot be loaded, drawn as a wire box."""
         self._robot.provide_mesh(uri, mesh)
         self.ghost.provide_mesh(uri, mesh)
         self.live.provide_mesh(uri, mesh)
@@ -103,7 +154,7 @@ class DocumentScene:
         self._shown_anew = False
 
     def place_robot(self, wxyz: Quaternion, position_m: Vector3) -> None:
-        """Put the root link of the robot there in the fixed frame, and all that is drawn of it.
+        """Place the root link of the robot in the fixed frame, and all that is drawn of it.
 
         The ground stays where it was laid when the fixed frame became another than the root's, or
         it would follow a robot that climbs or flies.
@@ -139,7 +190,7 @@ class DocumentScene:
     def flush(self) -> None:
         """Send what is queued now instead of with the next window of 1/60 s.
 
-        The ground follows: to look for it takes as long as to draw what an edit changed.
+        The ground follows: to find it takes as long as to draw what an edit changed.
         """
         self._server.flush()
         if self._must_settle:
@@ -156,9 +207,9 @@ class DocumentScene:
         """Serve viser's page over one accepted websocket until it or the document closes.
 
         Args:
-            connection: The websocket; its socket is closed by whoever accepted it.
-            allowed: Asked with the type name of each message from the page; a page that only
-                looks needs VIEWER_MESSAGES.
+            connection: The websocket; its socket is closed by the caller.
+            allowed: Whether the page may send a message of this type name; a read-only page needs
+                VIEWER_MESSAGES.
             subprotocol: What the websocket was accepted with; closed at once when it is not
                 SUBPROTOCOL, e.g. for an old page in a browser's cache.
         """
@@ -168,21 +219,21 @@ class DocumentScene:
         await self._server.serve(connection, allowed)
 
     def standalone_page(self, title: str, *, dark: bool) -> Callable[[], bytes]:
-        """Take the view as it is now; what is returned makes a page of it, in any thread."""
+        """Record the view; return a function that makes a page of it, in any thread."""
         low, high = self._robot.ground.bounds_m(*self._last_poses)
         centre: list[float] = ((low + high) / 2).tolist()
         size_m = float(np.linalg.norm(high - low))
         wxyz, (x, y, z) = self._root
-        dx, dy, dz = rotated(wxyz, (centre[0], centre[1], centre[2]))
+        dx, dy, dz = turned(wxyz, centre[0], centre[1], centre[2])
         at = (x + dx, y + dy, z + dz)
         return standalone_page(self.viser, title, at, size_m, dark=dark)
 
     def close(self) -> None:
-        """End all connections and forget everything."""
+        """Close all connections and forget everything."""
         self.viser.stop()
 
     def _settle(self) -> None:
-        """Lay the grid under the robot as it stands."""
+        """Lay the grid under the robot in its pose."""
         height_m = self._robot.ground.height_m(*self._last_poses) + self._root[1][2]
         if abs(height_m - self._height_m) > _STEP_M:
             self._height_m = height_m

@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING
 from studio.robot.meshes.textured import mesh_uris
 from studio.robot.values import Mesh, Robot
 from studio.scene import node
-from studio.scene.geometry_drawing import MeshShelf, draw
-from studio.scene.naming import GHOST, ghost_node
-from studio.scene.node import Look
-from studio.scene.pose import rotated
-from studio.scene.pose_writer import PoseWriter
+from studio.scene.graph import GHOST, PoseWriter, ghost_node
+from studio.scene.link_nodes import MeshShelf, geometry_node
+from studio.scene.node import Style
+from studio.tf.rotations import turned
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence, Set
@@ -23,18 +22,18 @@ if TYPE_CHECKING:
     from studio.robot.meshes.loaded_mesh import LoadedMesh
     from studio.robot.values import Link, Vector3
     from studio.scene.graph import Graph
-    from studio.scene.layers import Nodes
+    from studio.scene.link_nodes import Nodes
     from studio.scene.node import Node, Quaternion, Rgb
 
 GHOST_RGB: Rgb = (178, 108, 255)
 
 
 class GhostDrawing:
-    """Draws the visuals of a robot below `/ghost`: nobody clicks them, they throw no shadow.
+    """Draws the visuals of a robot below `/ghost`; they cannot be clicked and throw no shadow.
 
     Args:
         graph: Where the nodes go.
-        known: Gives a mesh that the robot beside it has already.
+        known: Returns a mesh that the robot beside it has already.
     """
 
     def __init__(self, graph: Graph, known: Callable[[str], LoadedMesh | None]) -> None:
@@ -50,7 +49,7 @@ class GhostDrawing:
 
     @property
     def links(self) -> Set[str]:
-        """Links that stand in the scene."""
+        """Links that are in the scene."""
         return self._drawn.keys()
 
     def show(self, robot: Robot) -> None:
@@ -105,11 +104,11 @@ class GhostDrawing:
                 self._draw(link)
 
     def mesh(self, uri: str) -> LoadedMesh | None:
-        """A mesh that came; None when it has not, or failed."""
+        """Return a loaded mesh; None when it is not loaded yet, or failed."""
         return self._shelf.get(uri)
 
     def missing_meshes(self) -> set[str]:
-        """URIs that it needs and that have not come."""
+        """Return the URIs of meshes that it needs and that are not loaded."""
         return {uri for uri in self._mesh_uris() if uri not in self._shelf}
 
     def provide_mesh(self, uri: str, mesh: LoadedMesh | None) -> None:
@@ -123,7 +122,7 @@ class GhostDrawing:
 
     def _put_root(self) -> None:
         wxyz, (x, y, z) = self._root_pose
-        dx, dy, dz = rotated(wxyz, self._offset_m)
+        dx, dy, dz = turned(wxyz, *self._offset_m)
         self._graph.put(GHOST, node.group(wxyz, (x + dx, y + dy, z + dz)))
 
     def _put_link(self, name: str) -> None:
@@ -150,13 +149,13 @@ class GhostDrawing:
         self._poses.forget(link)
 
     def _nodes(self, link: Link) -> Nodes:
-        look = Look(GHOST_RGB, self._opacity, shadow=False)
+        style = Style(GHOST_RGB, self._opacity, shadow=False)
         nodes: Nodes = {}
         for index, visual in enumerate(link.visuals):
             geometry = visual.geometry
             if isinstance(geometry, Mesh) and self._shelf.get(geometry.uri) is None:
                 continue  # the robot beside it has the sign for a missing one
-            drawn = draw(geometry, visual.origin, look, self._shelf, own_colors=False)
+            drawn = geometry_node(geometry, visual.origin, style, self._shelf, own_colors=False)
             if drawn is not None:
                 nodes[str(index)] = _one_sided(drawn)
         return nodes
@@ -171,5 +170,5 @@ class GhostDrawing:
 
 
 def _one_sided(drawn: Node) -> Node:
-    """Without the far side of a surface, which shows through and looks like a second one."""
+    """Return the node without back faces, which would show through like a second surface."""
     return replace(drawn, props={**drawn.props, "side": "front"})

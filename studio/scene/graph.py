@@ -1,16 +1,23 @@
-"""The Graph: what stands under which name now, told to viser by the smallest messages that do."""
+"""The Graph: which node has which name, and the smallest messages to viser that keep it so."""
 
 # pyright: reportPrivateUsage=false
+
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
+from urllib.parse import quote
 
+import numpy as np
 from viser import _messages
 
-from studio.scene import props
+from studio.scene import node as props
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Container, Sequence
     from contextlib import AbstractContextManager
+
+    from numpy.typing import NDArray
 
     from studio.robot.values import Vector3
     from studio.scene.host import HostedServer
@@ -33,10 +40,17 @@ _PROPS: dict[type[Any], type[Any]] = {
     _messages.ImageMessage: props.ImageProps,
     _messages.CameraFrustumMessage: props.CameraFrustumProps,
 }
+ROBOT = "/robot"
+GRID = "/grid"
+GHOST = "/ghost"
+LIVE = "/live"
+_KEPT = "!*'()"  # what encodeURIComponent of the page leaves as it is, beside quote's own
+STEP = 1e-6
+"""Absolute: metres, and parts of a unit quaternion; a smaller move is none."""
 
 
 def kinds_of_nodes() -> dict[type[Any], type[Any]]:
-    """The properties of each kind of node that is drawn."""
+    """Return the properties of each kind of node that is drawn."""
     return dict(_PROPS)
 
 
@@ -52,11 +66,11 @@ class Graph:
         return name in self._nodes
 
     def atomic(self) -> AbstractContextManager[None]:
-        """Within: all that is told reaches every page in one frame."""
+        """Within this context, all changes reach every page in one frame."""
         return self._server.atomic()
 
     def put(self, name: str, node: Node) -> None:
-        """Let `node` stand under `name`; what is as it was is not sent."""
+        """Give `node` the name `name`; what has not changed is not sent."""
         old = self._nodes.get(name)
         if old == node:
             return
@@ -74,41 +88,125 @@ class Graph:
         if old.position != node.position:
             self.shift(name, node.position)
         if old.visible is not node.visible:
-            self._tell(_messages.SetSceneNodeVisibilityMessage(name, node.visible))
+            self._queue(_messages.SetSceneNodeVisibilityMessage(name, node.visible))
 
     def drop(self, name: str) -> None:
         """Remove one node; its children are dropped before it."""
         if self._nodes.pop(name, None) is not None:
             del self._created[name]
-            self._tell(_messages.RemoveSceneNodeMessage(name))
+            self._queue(_messages.RemoveSceneNodeMessage(name))
 
     def turn(self, name: str, wxyz: Quaternion) -> None:
         """Turn a node in its parent."""
-        self._tell(_messages.SetOrientationMessage(name, wxyz))
+        self._queue(_messages.SetOrientationMessage(name, wxyz))
 
     def shift(self, name: str, position: Vector3) -> None:
         """Put a node at a place in its parent, m."""
-        self._tell(_messages.SetPositionMessage(name, position))
+        self._queue(_messages.SetPositionMessage(name, position))
 
     def _create(self, name: str, node: Node) -> None:
-        # What was said of an earlier node of that name must not be replayed onto this one.
+        # Messages about an earlier node of that name must not be replayed onto this one.
         self._server.get_message_buffer().remove_entity_state_from_buffer("scene", name)
         made = _PROPS[node.kind](**node.props, **node.arrays, **node.flowing)
         self._created[name] = vars(made)
-        self._tell(node.kind(name, made))  # pyright: ignore[reportCallIssue]
+        self._queue(node.kind(name, made))  # pyright: ignore[reportCallIssue]
         self.turn(name, node.wxyz)
         self.shift(name, node.position)
-        self._tell(_messages.SetSceneNodeVisibilityMessage(name, node.visible))
+        self._queue(_messages.SetSceneNodeVisibilityMessage(name, node.visible))
 
     def _update(self, name: str, values: dict[str, Any]) -> None:
         """Change properties in place.
 
-        The message that made the node is replayed to who comes later: it tells of the node as it
-        is now, or a cloud that streams would be replayed twice, first as it was in the beginning.
+        The message that made the node is replayed to new pages: it has to hold the node as it is
+        now, or a cloud that streams would be replayed twice, first as it was in the beginning.
         The same arrays in two messages of one frame are sent once.
         """
-        self._tell(_messages.SceneNodeUpdateMessage(name, values))
+        self._queue(_messages.SceneNodeUpdateMessage(name, values))
         self._created[name].update(values)
 
-    def _tell(self, message: _messages.Message) -> None:
+    def _queue(self, message: _messages.Message) -> None:
         self._server.queue_message(message)
+
+
+def link_node(link: str) -> str:
+    """The node that carries the pose of a link."""
+    return f"{ROBOT}/{_quoted(link)}"
+
+
+def ghost_node(link: str) -> str:
+    """The node that carries the pose of a link of the ghost."""
+    return f"{GHOST}/{_quoted(link)}"
+
+
+def live_node(display_id: str, *parts: str) -> str:
+    """The root of a display, or below it the group of a path, or below that one node of a shape."""
+    # An empty name would stand for the node above it.
+    return "/".join((LIVE, *(_quoted(part) or "%" for part in (display_id, *parts))))
+
+
+@lru_cache(maxsize=1 << 14)
+def _quoted(part: str) -> str:
+    return quote(part, safe=_KEPT)
+
+
+class PoseWriter:
+    """Remembers what was sent last for each link; `forget` what was removed or made anew."""
+
+    def __init__(self, graph: Graph, node_of: Callable[[str], str] = link_node) -> None:
+        self._graph, self._node_of = graph, node_of
+        self._names: tuple[str, ...] = ()
+        self._nodes: tuple[str, ...] = ()
+        self._sent = np.full((0, 7), np.nan)
+
+    def write(
+        self,
+        link_names: Sequence[str],
+        wxyz_xyz: NDArray[np.floating],
+        drawn: Container[str],
+    ) -> None:
+        """Send one atomic batch with the links that moved.
+
+        Args:
+            link_names: L names.
+            wxyz_xyz: Shape (L, 7): quaternion w, x, y, z, then x, y, z in metres, in the root
+                frame. Rows that are not finite are left where they were.
+            drawn: The links that stand in the scene; others are skipped.
+        """
+        poses = np.asarray(wxyz_xyz, dtype=np.float64)
+        if self._names != link_names:
+            self._rename(tuple(link_names))
+        near: NDArray[np.bool_] = np.abs(poses - self._sent) <= STEP  # NaN, never sent, is not
+        far = np.logical_not(near) & np.isfinite(poses).all(axis=1, keepdims=True)
+        rows: list[int] = np.flatnonzero(far.any(axis=1)).tolist()
+        if not rows:
+            return
+        turned: NDArray[np.bool_] = np.logical_or.reduce(far[:, :4], axis=1)
+        shifted: NDArray[np.bool_] = np.logical_or.reduce(far[:, 4:], axis=1)
+        how = zip(turned[rows].tolist(), shifted[rows].tolist(), strict=True)
+        with self._graph.atomic():
+            for row, pose, (turns, shifts) in zip(rows, poses[rows].tolist(), how, strict=True):
+                if self._names[row] in drawn:
+                    self._send(self._nodes[row], pose, turns=turns, shifts=shifts)
+                    # What was not sent is not forgotten, or many small moves would be lost.
+                    part = slice(0 if turns else 4, 7 if shifts else 4)
+                    self._sent[row, part] = pose[part]
+
+    def _send(self, node: str, pose: list[float], *, turns: bool, shifts: bool) -> None:
+        w, qx, qy, qz, x, y, z = pose
+        if turns:
+            self._graph.turn(node, (w, qx, qy, qz))
+        if shifts:
+            self._graph.shift(node, (x, y, z))
+
+    def forget(self, link: str) -> None:
+        """Send the pose of this link again next time."""
+        if link in self._names:
+            self._sent[self._names.index(link)] = np.nan
+
+    def _rename(self, names: tuple[str, ...]) -> None:
+        """Keep what was sent for the links that stay."""
+        last = dict(zip(self._names, self._sent, strict=True))
+        unknown = np.full(7, np.nan)
+        self._names = names
+        self._nodes = tuple(self._node_of(name) for name in names)
+        self._sent = np.array([last.get(name, unknown) for name in names]).reshape(-1, 7)

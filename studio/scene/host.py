@@ -6,6 +6,7 @@ replaced by one that has no socket, is fed connections by `serve`, and encodes o
 
 # viser's insides are met here and in wire.py only.
 # pyright: reportPrivateUsage=false, reportUnknownMemberType=false, reportUnknownArgumentType=false
+
 from __future__ import annotations
 
 import asyncio
@@ -14,36 +15,129 @@ import itertools
 import logging
 from contextlib import contextmanager, suppress
 from functools import partial
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any, Protocol, cast
 
 import rich
 import viser
-import viser.infra
 from typing_extensions import override
-from viser import _messages
+from viser import _messages, infra
 from viser.infra import _infra
 from viser.infra._async_message_buffer import AsyncMessageBuffer
 
 from studio.errors import SceneError
-from studio.scene.camera_gate import CameraGate
-from studio.scene.connection import NEVER_ALLOWED, VISER_VERSION
-from studio.scene.seat import Seat
+from studio.hub import Outlet
 from studio.scene.wire import Encoder, message_type
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator
 
-    from studio.scene.connection import Connection
+VISER_VERSION = "1.1.1"
+"""The one version whose insides this room knows."""
+SUBPROTOCOL = f"viser-v{VISER_VERSION}"
+"""Websocket subprotocol that viser's page offers; accept with it, or refuse the socket."""
 
+VIEWER_MESSAGES = frozenset({"ViewerCameraMessage"})
+"""Messages that a read-only page sends to viser."""
+NEVER_ALLOWED = frozenset({"ShareUrlRequest", "ShareUrlDisconnect"})
+"""Opens a public tunnel on a foreign server: refused whatever the role."""
+CAMERA_PERIOD_S = 0.2
+"""Orbiting pages send up to 50 a second, more than anybody needs."""
+_STREAM = "scene"
+_TRY_AGAIN_LATER = 1013
 WINDOW_S = 1 / 60
 """Frames follow each other no faster than this, but for `flush`."""
 _RETRY_S = 1 / 30
-"""How often a page that fell behind is looked at."""
+"""How often a page that fell behind is tried again."""
 _MESSAGE_LIMIT_BYTES = 1 << 20
 _WINDOW_SIZE = 1 << 14  # messages: an atomic batch is never split over two frames
 _INVALID, _TOO_BIG = 1007, 1009
-
 logger = logging.getLogger(__name__)
+
+
+class Connection(Protocol):
+    """One accepted websocket of viser's page; messages are binary."""
+
+    async def receive(self) -> bytes | None:
+        """The next message, or None when the socket is closed."""
+        ...
+
+    def write(self, data: bytes, /) -> None:
+        """Send one message without waiting."""
+        ...
+
+    def pending_bytes(self) -> int:
+        """Bytes written and not yet handed to the system."""
+        ...
+
+    def on_drain(self, resume: Callable[[], object], /) -> None:
+        """Call `resume` on the loop's thread whenever a full buffer has emptied."""
+        ...
+
+    def close(self, code: int, /) -> None:
+        """Close the socket; `receive` then answers None."""
+        ...
+
+
+class CameraGate:
+    """Lets one camera message through per period: the first at once, later the newest."""
+
+    def __init__(self, loop: asyncio.AbstractEventLoop, deliver: Callable[[Any], None]) -> None:
+        self._loop, self._deliver = loop, deliver
+        self._timer: asyncio.TimerHandle | None = None
+        self._newest: object | None = None
+
+    def offer(self, message: object) -> None:
+        """Deliver now or, when the last one was a moment ago, soon."""
+        if self._timer is None:
+            self._deliver(message)
+            self._timer = self._loop.call_later(CAMERA_PERIOD_S, self._again)
+        else:
+            self._newest = message
+
+    def close(self) -> None:
+        """Forget the message that waits."""
+        if self._timer is not None:
+            self._timer.cancel()
+        self._newest = None
+
+    def _again(self) -> None:
+        self._timer = None
+        newest, self._newest = self._newest, None
+        if newest is not None:
+            self.offer(newest)
+
+
+class Seat:
+    """Hands frames to one page; one that fell behind gets the state of now when it drains.
+
+    `cursor` is the id of the newest message that the page has; what it missed is never queued,
+    but made by `catch_up(seat)` from what still counts when there is room again.
+    """
+
+    def __init__(
+        self, seat_id: int, connection: Connection, catch_up: Callable[[Seat], bytes]
+    ) -> None:
+        self.id = seat_id
+        self.cursor = -1
+        self.replayed = False
+        self.outlet = Outlet(connection, on_hopeless=lambda: connection.close(_TRY_AGAIN_LATER))
+        self._catch_up = catch_up
+
+    def follow(self, frame: bytes, newest: int) -> None:
+        """Send a frame that goes from `cursor` to the message `newest`."""
+        if self.outlet.post(frame, _STREAM, late=self._late):
+            self.cursor = max(self.cursor, newest)
+
+    def resync(self) -> None:
+        """Send all that is newer than `cursor`, now or when there is room."""
+        self.outlet.post(self._late, _STREAM)
+
+    async def send(self, data: bytes) -> None:
+        """Send a frame for this page alone (viser's producer of one client writes here)."""
+        self.outlet.post(data)
+
+    def _late(self) -> bytes:
+        return self._catch_up(self)
 
 
 def check_version() -> None:
@@ -76,21 +170,21 @@ def make_server(loop: asyncio.AbstractEventLoop) -> tuple[viser.ViserServer, Hos
 
 
 def forget_removed(server: viser.ViserServer) -> None:
-    """Let viser drop its notes of nodes that are gone and that every page has heard of."""
+    """Let viser drop its records of nodes that are removed on every page."""
     server._run_garbage_collector()
 
 
 @contextmanager
 def _hosted(loop: asyncio.AbstractEventLoop) -> Generator[None]:
-    """Within: viser builds its server from our class and keeps its banner to itself."""
-    server_class, show = viser.infra.WebsockServer, rich.print
+    """Within this context, viser builds its server from our class and prints no banner."""
+    server_class, show = infra.WebsockServer, rich.print
 
-    viser.infra.WebsockServer = partial(HostedServer, loop)  # pyright: ignore[reportAttributeAccessIssue]
+    infra.WebsockServer = partial(HostedServer, loop)  # pyright: ignore[reportAttributeAccessIssue]
     rich.print = _silence  # pyright: ignore[reportAttributeAccessIssue]
     try:
         yield
     finally:
-        viser.infra.WebsockServer = server_class
+        infra.WebsockServer = server_class
         rich.print = show
 
 
@@ -98,7 +192,7 @@ def _silence(*_: object, **__: object) -> None:
     return
 
 
-class HostedServer(viser.infra.WebsockServer):
+class HostedServer(infra.WebsockServer):
     """viser's server without a socket. Everything runs on `loop`, whose thread calls `start`."""
 
     def __init__(self, loop: asyncio.AbstractEventLoop, **arguments: Any) -> None:  # noqa: ANN401
@@ -142,7 +236,7 @@ class HostedServer(viser.infra.WebsockServer):
 
         Args:
             connection: An accepted websocket.
-            allowed: Asked with the type name of each message from the page.
+            allowed: Whether the page may send a message of this type name.
         """
         serving = self._loop.create_task(self._serve(connection, allowed))
         self._tasks.add(serving)
@@ -185,7 +279,7 @@ class HostedServer(viser.infra.WebsockServer):
         self._broadcast_buffer.message_event.set()
 
     def _go_on(self, seat: Seat) -> None:
-        """There is room again: large clouds would else lose a third of their time to waiting."""
+        """Resume at once when there is room: large clouds would wait a third of their time."""
         if self._broadcast_buffer.atomic_counter == 0:
             seat.outlet.resume()
 
@@ -251,7 +345,7 @@ class HostedServer(viser.infra.WebsockServer):
                 await asyncio.sleep(WINDOW_S)
 
     def send_window(self) -> bool:
-        """Send what is queued, unless somebody is in the middle of an atomic batch.
+        """Send what is queued, unless an atomic batch is open.
 
         Returns whether there was anything to send.
         """
@@ -281,7 +375,7 @@ class HostedServer(viser.infra.WebsockServer):
         self._broadcast_buffer.generator_cursors[seat.id] = seat.cursor
 
     def _catch_up(self, seat: Seat) -> bytes:
-        """All that this page misses and that still counts; for a new page, the whole state."""
+        """Return all that this page misses and that still counts; the whole state if it is new."""
         newest = self._broadcast_buffer.message_counter - 1
         if seat.cursor < 0 and self._replay is not None and self._replay[0] == newest:
             frame = self._replay[1]
@@ -303,7 +397,7 @@ class HostedServer(viser.infra.WebsockServer):
             self._replay = (newest, frame)
         return frame
 
-    def _since(self, cursor: int, newest: int) -> list[viser.infra.Message]:
+    def _since(self, cursor: int, newest: int) -> list[infra.Message]:
         """Messages newer than `cursor` that no later one has replaced, oldest first."""
         buffer = self._broadcast_buffer
         if self._replay is not None and self._replay[0] != newest:

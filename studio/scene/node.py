@@ -1,7 +1,14 @@
-"""A Node: one thing in the 3D view as viser is told of it, and makers for those we draw."""
+"""A Node: one thing in the 3D view in viser's terms, and functions that make those we draw.
+
+viser's page ignores properties that it does not know; `frontend_assets/viser/live.js` reads those
+that begin with `studio_`.
+"""
 
 # The property classes of viser's messages are met here and in graph.py only.
 # pyright: reportPrivateUsage=false
+
+# viser's messages are met in this room's node.py, graph.py, shapes and here.
+
 from __future__ import annotations
 
 from dataclasses import dataclass, field
@@ -26,7 +33,7 @@ ORIGIN: Vector3 = (0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True, slots=True)
-class Look:
+class Style:
     """Colour and opacity (1: opaque) of a surface."""
 
     rgb: Rgb
@@ -37,7 +44,7 @@ class Look:
 
 @dataclass(frozen=True, slots=True)
 class Node:
-    """What stands under one name; equal means that nothing need be sent.
+    """What has one name in the scene; if equal, nothing needs to be sent.
 
     `content` names the arrays of a node by their digest: when it changes, the node is made anew,
     while the small properties in `props` are updated in place. `stream` names the arrays in
@@ -59,17 +66,17 @@ class Node:
     )
 
 
-def surface(look: Look) -> dict[str, Any]:
+def surface(style: Style) -> dict[str, Any]:
     """Properties that all of viser's meshes have."""
     return {
-        "color": look.rgb,
-        "opacity": None if look.opacity >= 1.0 else look.opacity,
-        "wireframe": look.wireframe,
+        "color": style.rgb,
+        "opacity": None if style.opacity >= 1.0 else style.opacity,
+        "wireframe": style.wireframe,
         "flat_shading": False,
         "side": "front",
         "material": "standard",
-        "cast_shadow": look.shadow,
-        "receive_shadow": look.shadow,
+        "cast_shadow": style.shadow,
+        "receive_shadow": style.shadow,
         "scale": 1.0,
     }
 
@@ -96,26 +103,26 @@ def _frame(length_m: float, wxyz: Quaternion, position: Vector3, *, visible: boo
     return Node(_messages.FrameMessage, props, wxyz, position, visible)
 
 
-def box(size_m: Vector3, look: Look, wxyz: Quaternion = NO_TURN, at: Vector3 = ORIGIN) -> Node:
+def box(size_m: Vector3, style: Style, wxyz: Quaternion = NO_TURN, at: Vector3 = ORIGIN) -> Node:
     """A box centred on its pose."""
-    return Node(_messages.BoxMessage, {**surface(look), "dimensions": size_m}, wxyz, at)
+    return Node(_messages.BoxMessage, {**surface(style), "dimensions": size_m}, wxyz, at)
 
 
-def cylinder(radius_m: float, length_m: float, look: Look, wxyz: Quaternion, at: Vector3) -> Node:
+def cylinder(radius_m: float, length_m: float, style: Style, wxyz: Quaternion, at: Vector3) -> Node:
     """A cylinder along z, centred on its pose."""
     size = {"radius": radius_m, "height": length_m, "radial_segments": 48}
-    return Node(_messages.CylinderMessage, {**surface(look), **size}, wxyz, at)
+    return Node(_messages.CylinderMessage, {**surface(style), **size}, wxyz, at)
 
 
-def sphere(radius_m: float, look: Look, wxyz: Quaternion, at: Vector3) -> Node:
+def sphere(radius_m: float, style: Style, wxyz: Quaternion, at: Vector3) -> Node:
     """A ball."""
     size = {"radius": radius_m, "subdivisions": 3}
-    return Node(_messages.IcosphereMessage, {**surface(look), **size}, wxyz, at)
+    return Node(_messages.IcosphereMessage, {**surface(style), **size}, wxyz, at)
 
 
-def mesh(loaded: LoadedMesh, scale: Vector3, look: Look, wxyz: Quaternion, at: Vector3) -> Node:
+def mesh(loaded: LoadedMesh, scale: Vector3, style: Style, wxyz: Quaternion, at: Vector3) -> Node:
     """Triangles in one colour, whatever colours the file has."""
-    props = {**surface(look), "side": "double", "scale": scale}
+    props = {**surface(style), "side": "double", "scale": scale}
     arrays: dict[str, NDArray[Any]] = {"vertices": loaded.vertices, "faces": loaded.faces}
     return Node(_messages.MeshMessage, props, wxyz, at, content=loaded.digest, arrays=arrays)
 
@@ -179,3 +186,63 @@ def grid(cell_m: float, extent_m: float, height_m: float, *, shadow: bool, visib
     }
     at = (0.0, 0.0, height_m)
     return Node(_messages.GridMessage, props, position=at, visible=visible)
+
+
+@dataclass
+class PointCloudProps(_messages.PointCloudProps):
+    """Points that may be see-through, and of one size on the screen: in pixels, if not 0."""
+
+    studio_opacity: float = 1.0
+    studio_point_px: float = 0.0
+
+
+@dataclass
+class LineSegmentsProps(_messages.LineSegmentsProps):
+    """Lines that may be see-through."""
+
+    studio_opacity: float = 1.0
+
+
+@dataclass
+class ArrowProps(_messages.ArrowProps):
+    """Arrows that may be see-through."""
+
+    studio_opacity: float = 1.0
+
+
+@dataclass
+class BatchedAxesProps(_messages.BatchedAxesProps):
+    """Axes that may be see-through."""
+
+    studio_opacity: float = 1.0
+
+
+@dataclass
+class GlbProps(_messages.GlbProps):
+    """A mesh in its own colours that may be see-through."""
+
+    studio_opacity: float = 1.0
+
+
+@dataclass
+class CameraFrustumProps(_messages.CameraFrustumProps):
+    """A frustum whose picture may be see-through."""
+
+    studio_opacity: float = 1.0
+
+
+@dataclass
+class ImageProps(_messages.ImageProps):
+    """A picture with sharp pixels, drawn before all else if it is `behind`."""
+
+    studio_opacity: float = 1.0
+    studio_sharp: bool = False
+    studio_behind: bool = False
+
+
+@dataclass
+class LabelProps(_messages.LabelProps):
+    """Words in a colour, 0 to 255; None: black on a white plate, as viser writes them."""
+
+    studio_opacity: float = 1.0
+    studio_rgb: tuple[int, int, int] | None = None

@@ -1,8 +1,9 @@
-"""Pictures in the scene: maps in tiles, of which only those that changed are encoded and sent."""
+"""Pictures in the scene: maps in tiles, of which only changed ones are encoded and sent."""
 
 from __future__ import annotations
 
 import io
+import zlib
 from collections import OrderedDict
 from typing import TYPE_CHECKING, Any, Final
 
@@ -11,15 +12,17 @@ import xxhash
 from PIL import Image
 from viser import _messages
 
-from studio.scene.indexed_png import indexed_png
 from studio.scene.node import Node
-from studio.scene.pose import rotated
+from studio.tf.rotations import turned
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from studio.displays.drawing import Frustum, Picture
 
+_SIGNATURE: Final = b"\x89PNG\r\n\x1a\n"
+_DEPTH, _INDEXED = 8, 3
+_QUICKLY: Final = 1
 TILE_PX: Final = 1024
 """Edge of a tile: a robot that maps a hall changes one or two of them at a time."""
 _KEPT_BYTES: Final = 32 << 20
@@ -27,6 +30,35 @@ _FRUSTUM_PX: Final = 1024
 """A camera's picture in the scene is not made larger than this; its panel shows it whole."""
 _JPEG_QUALITY: Final = 82
 _EDGE_PX: Final = 1.5
+
+
+def indexed_png(pixels: NDArray[np.uint8], palette: NDArray[np.uint8]) -> bytes:
+    """Pack pixels (PNG, second edition: 11.2 and 11.3.2).
+
+    Args:
+        pixels: Shape (H, W): each the row of its colour.
+        palette: Shape (N, 4), N of 256 at most, RGBA.
+    """
+    rows, columns = pixels.shape
+    # Before each row stands how it was filtered: not at all.
+    lines = np.zeros((rows, columns + 1), np.uint8)
+    lines[:, 1:] = pixels
+    head = columns.to_bytes(4, "big") + rows.to_bytes(4, "big")
+    return b"".join(
+        (
+            _SIGNATURE,
+            _chunk(b"IHDR", head + bytes((_DEPTH, _INDEXED, 0, 0, 0))),
+            _chunk(b"PLTE", palette[:, :3].tobytes()),
+            _chunk(b"tRNS", palette[:, 3].tobytes()),
+            _chunk(b"IDAT", zlib.compress(lines.data, _QUICKLY)),
+            _chunk(b"IEND", b""),
+        )
+    )
+
+
+def _chunk(name: bytes, data: bytes) -> bytes:
+    check = zlib.crc32(data, zlib.crc32(name))
+    return len(data).to_bytes(4, "big") + name + data + check.to_bytes(4, "big")
 
 
 class EncodedShelf:
@@ -90,7 +122,7 @@ def _tile(shape: Picture, row: int, column: int, shelf: EncodedShelf) -> Node:
         size_m / count
         for size_m, count in zip(shape.size_m, reversed(shape.pixels.shape[:2]), strict=True)
     )
-    centre = rotated(shape.wxyz, ((column + columns / 2) * x_m, (row + rows / 2) * y_m, 0.0))
+    centre = turned(shape.wxyz, (column + columns / 2) * x_m, (row + rows / 2) * y_m, 0.0)
     at = tuple(a + b for a, b in zip(shape.position, centre, strict=True))
     props: dict[str, Any] = {
         "_format": "png",

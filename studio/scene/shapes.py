@@ -26,12 +26,10 @@ from studio.displays.drawing import (
 )
 from studio.errors import SceneError
 from studio.scene import node
-from studio.scene.arrow_nodes import arrows_of
-from studio.scene.geometry_drawing import MISSING_LOOK, MISSING_SIZE_M, MeshShelf
-from studio.scene.link_nodes import link_nodes
-from studio.scene.many_nodes import linear, many_of
-from studio.scene.node import Look, Node
+from studio.scene.link_nodes import MISSING_SIZE_M, MISSING_STYLE, MeshShelf, link_nodes
+from studio.scene.node import Node, Style
 from studio.scene.pictures import EncodedShelf, frustum_of, tiles_of
+from studio.scene.solids import arrows_of, linear, many_of
 from studio.scene.surfaces import surface_of
 
 if TYPE_CHECKING:
@@ -47,19 +45,19 @@ _THICKNESS: Final = {"boxes": 1.0, "tiles": 0.001}
 _CAP_SHARE: Final = 0.72
 """Of a font's size: how high a capital letter is."""
 _WHITE: Final = (255, 255, 255)
-_DEFAULT_LOOK: Final = Look((196, 200, 206), shadow=False)
+_DEFAULT_STYLE: Final = Style((196, 200, 206), shadow=False)
 
 
 @dataclass(frozen=True, slots=True)
 class Shelves:
-    """What is looked up while shapes become nodes."""
+    """Loaded meshes and encoded pictures, by which shapes become nodes."""
 
     meshes: MeshShelf = field(default_factory=MeshShelf)
     encoded: EncodedShelf = field(default_factory=EncodedShelf)
 
 
 def nodes_of(shape: Shape, stream: str, shelves: Shelves) -> dict[str, Node]:
-    """The nodes of one shape by a name for each; none when there is nothing to see.
+    """Return the nodes of one shape by a name for each; none when there is nothing to see.
 
     Args:
         shape: What to draw.
@@ -238,13 +236,13 @@ def _mesh(shape: MeshFile, shelf: MeshShelf) -> dict[str, Node]:
         return {}
     loaded = shelf.get(shape.uri)
     if loaded is None:
-        return {"mesh": node.box(MISSING_SIZE_M, MISSING_LOOK, shape.wxyz, shape.position)}
+        return {"mesh": node.box(MISSING_SIZE_M, MISSING_STYLE, shape.wxyz, shape.position)}
     if loaded.glb and shape.rgb is None:
         made = node.colored_mesh(loaded, shape.scale, shape.wxyz, shape.position)
         made.props["studio_opacity"] = shape.opacity
         return {"mesh": made}
-    look = Look(shape.rgb or _DEFAULT_LOOK.rgb, shape.opacity, shadow=False)
-    return {"mesh": node.mesh(loaded, shape.scale, look, shape.wxyz, shape.position)}
+    style = Style(shape.rgb or _DEFAULT_STYLE.rgb, shape.opacity, shadow=False)
+    return {"mesh": node.mesh(loaded, shape.scale, style, shape.wxyz, shape.position)}
 
 
 def _text(shape: Text) -> dict[str, Node]:

@@ -9,7 +9,7 @@ import numpy as np
 from viser import _messages
 
 from studio.scene import node
-from studio.scene.node import Look, Node
+from studio.scene.node import Node, Style
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -49,8 +49,8 @@ def _plain(
     vertices: NDArray[np.float32], faces: NDArray[np.uint32], shape: Triangles, stream: str
 ) -> Node:
     red, green, blue = shape.colors.tolist()
-    look = Look((red, green, blue), shape.opacity, shadow=False)
-    props = {**node.surface(look), "side": "double", "flat_shading": True}
+    style = Style((red, green, blue), shape.opacity, shadow=False)
+    props = {**node.surface(style), "side": "double", "flat_shading": True}
     arrays: dict[str, NDArray[Any]] = {"vertices": vertices, "faces": faces}
     return Node(_messages.MeshMessage, props, stream=stream, flowing=arrays)
 

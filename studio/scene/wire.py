@@ -90,7 +90,7 @@ class _Arrays:
 
 
 def _as_dict(message: Message, arrays: _Arrays) -> dict[str, Any]:
-    """As viser does; what an edit or a joint changes, without its walk over type hints."""
+    """Serialize as viser does; frequent messages without its walk over type hints."""
     if type(message) is SetPositionMessage:
         return {
             "type": "SetPositionMessage",
@@ -131,7 +131,7 @@ def _append_aligned(parts: list[bytes | memoryview], arrays: list[memoryview], o
 
 
 class _Head(msgspec.Struct):
-    """The one field that decides whether the rest is looked at."""
+    """The one field that decides whether the rest is decoded."""
 
     type: str
 

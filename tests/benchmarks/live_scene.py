@@ -26,7 +26,7 @@ from tests.support.viser_frames import Peer, joined
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from studio.scene.live_display import Pose
+    from studio.scene.live_scene import Pose
 
 LINKS: Final = 60
 TICKS: Final = 600

@@ -19,7 +19,7 @@ from viser.infra._async_message_buffer import AsyncMessageBuffer
 from studio.scene import SUBPROTOCOL
 from studio.scene.graph import _PROPS
 from studio.scene.host import make_server
-from studio.scene.props import PointCloudProps
+from studio.scene.node import PointCloudProps
 from studio.scene.wire import Encoder
 from tests.support.viser_frames import messages_of
 

@@ -7,7 +7,7 @@ from studio.displays.display import Received
 from studio.displays.drawing import NOTHING, Axes, LinkParts
 from studio.displays.robot_model import RobotModelDisplay
 from studio.errors import CdrError, DisplayError, DisplayMessageError, DisplayPropertyError
-from studio.robot.assembly import robot_from_urdf
+from studio.robot.urdf_text import robot_from_urdf
 from studio.robot.values import Link, Origin, Robot, Sphere, Visual
 from studio.ros.cdr import Codec
 from tests.support.display_messages import TYPES

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 
 from studio.nodes.joint_reading import JointReading
 from studio.nodes.link_transforms import LinkTransform, LinkTransforms
-from studio.robot.assembly import robot_from_urdf
 from studio.robot.kinematics import Kinematics
+from studio.robot.urdf_text import robot_from_urdf
 
 ROBOT = robot_from_urdf("""<robot name="r">
   <link name="base"/><link name="wheel"/><link name="lift"/><link name="arm"/>

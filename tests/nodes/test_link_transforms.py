@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from studio.nodes.link_transforms import LinkTransforms
-from studio.robot.assembly import robot_from_urdf
 from studio.robot.kinematics import Kinematics
+from studio.robot.urdf_text import robot_from_urdf
 
 ARM = """<robot name="arm">
   <link name="base"/><link name="upper"/><link name="slide"/><link name="tip"/>

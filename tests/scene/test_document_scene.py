@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from studio.robot.values import Box, Link, Material, Origin, Robot, Visual
-from studio.scene.naming import GRID
+from studio.scene.graph import GRID
 from tests.support.robots import rover
 from tests.support.viser_frames import Peer, told_of, types_of
 from tests.support.watched_scene import (

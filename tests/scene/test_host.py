@@ -281,7 +281,7 @@ def test_cameras_are_passed_on_at_most_once_a_while_and_the_newest_is_not_lost(
     monkeypatch: pytest.MonkeyPatch,
 ):
     # Longer than a busy machine takes to read a hundred of them.
-    monkeypatch.setattr("studio.scene.camera_gate.CAMERA_PERIOD_S", 1.0)
+    monkeypatch.setattr("studio.scene.host.CAMERA_PERIOD_S", 1.0)
 
     async def scenario(scene: DocumentScene) -> None:
         heard: list[float] = []

@@ -3,9 +3,8 @@ from __future__ import annotations
 import pytest
 
 from studio.displays.drawing import LinkParts
-from studio.robot.assembly import robot_from_urdf
-from studio.scene.geometry_drawing import MeshShelf
-from studio.scene.link_nodes import link_nodes
+from studio.robot.urdf_text import robot_from_urdf
+from studio.scene.link_nodes import MeshShelf, link_nodes
 from tests.support.watched_scene import triangle
 
 ROBOT = robot_from_urdf(

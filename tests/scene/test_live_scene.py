@@ -9,17 +9,9 @@ import pytest
 
 from studio.displays.drawing import MeshFile, Picture, Placed, Points, Shape, Text
 from studio.errors import SceneError
+from studio.scene.graph import GRID
 from studio.scene.live_scene import GROUPS_MAX
-from studio.scene.naming import GRID
-from tests.support.live_shapes import (
-    MESH_URI,
-    RED,
-    UPRIGHT,
-    at,
-    drawing_of,
-    every_shape,
-    places,
-)
+from tests.support.live_shapes import MESH_URI, RED, UPRIGHT, at, drawing_of, every_shape, places
 from tests.support.robots import rover
 from tests.support.viser_frames import Peer, Sent, eventually, sit_down, told_of, types_of
 from tests.support.watched_scene import poses_of, sent_by, triangle, watched

@@ -26,7 +26,7 @@ from studio.displays.drawing import (
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from studio.scene.live_display import Pose
+    from studio.scene.live_scene import Pose
 
 RED, GREEN, BLUE = (np.array(rgb, np.uint8) for rgb in ((255, 0, 0), (0, 255, 0), (0, 0, 255)))
 UPRIGHT: Pose = ((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0))

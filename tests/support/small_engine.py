@@ -19,7 +19,7 @@ from studio.protocol.saving import Reload, Save
 from studio.protocol.texts import GetUrdf, Urdf
 from studio.ros.attachment import Attachment
 from studio.ros.node.samples import RawSample
-from studio.scene.connection import SUBPROTOCOL
+from studio.scene.host import SUBPROTOCOL
 
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator, Callable

@@ -12,7 +12,7 @@ from studio.displays.markers.batches import MarkerBatches
 from studio.displays.markers.kinds import SENTENCES, Problem
 from studio.displays.markers.store import REFUSED_MAX, MarkerStore
 from studio.displays.properties import Property
-from studio.ros.fast.markers import MarkerCodec
+from studio.ros.columns.markers import MarkerCodec
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping

@@ -16,10 +16,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from studio.displays.markers.kinds import Flags, Whole
-    from studio.displays.markers.naming import Named
-    from studio.displays.markers.sequence import Key
-    from studio.ros.columns.markers import MarkerColumns
-    from studio.ros.fast.marker_columns import MarkerColumns, MarkerTexts
+    from studio.displays.markers.store import Key, Named
+    from studio.ros.columns.markers import MarkerColumns, MarkerTexts
 
 _KEPT: Final = 4
 _BYTES_KEPT_MAX: Final = 1 << 20

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from studio.displays.markers.kinds import Flags, Floats, Key, Whole
-    from studio.ros.fast.marker_columns import MarkerColumns, MarkerTexts
+    from studio.ros.columns.markers import MarkerColumns, MarkerTexts
 
 FOR_EVER: Final = np.iinfo(np.int64).max
 NO_BATCH: Final = -1

@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING, Final
 from studio.errors import PackageError, RobotError, WorkerError
 from studio.packages.uris import resolve_uri
 from studio.protocol.robot import Frames, LinkMassView, Masses, VolumeView
-from studio.robot.link_masses import link_mass
-from studio.protocol.inspection import Frames, LinkMassView, Masses, VolumeView
 from studio.robot.masses import link_mass
 from studio.robot.measures import mesh_volume, shapes_volume
 from studio.robot.values import Mesh
@@ -19,9 +17,6 @@ if TYPE_CHECKING:
 
     from studio.documents.document import Document
     from studio.protocol.robot import GetFrames, GetMasses
-    from studio.robot.link_masses import LinkMass
-    from studio.robot.meshes import MeshLibrary
-    from studio.protocol.inspection import GetFrames, GetMasses
     from studio.robot.masses import LinkMass
     from studio.robot.measures import MeshVolumes, Volume
     from studio.robot.meshes.library import MeshLibrary

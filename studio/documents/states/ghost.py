@@ -8,7 +8,7 @@ import numpy as np
 
 from studio.robot.measures import Bounds, box_around
 from studio.robot.values import Robot
-from studio.scene.pose_writer import STEP
+from studio.scene.graph import STEP
 
 if TYPE_CHECKING:
     from studio.documents.model import Model

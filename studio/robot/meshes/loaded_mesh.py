@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import os
 import struct
-import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,6 +12,7 @@ from typing import TYPE_CHECKING
 import msgspec
 import numpy as np
 
+from studio.files import write_whole
 from studio.problems import Problem  # noqa: TC001 - msgspec reads it
 from studio.robot.values import Vector3  # noqa: TC001 - msgspec reads it
 
@@ -159,16 +159,8 @@ class MeshCache:
     def write(self, name: str, blob: bytes) -> bool:
         """Keep a packed mesh, whole or not at all; a full or read-only disk only costs time."""
         try:
-            descriptor, temporary = tempfile.mkstemp(dir=self.folder, suffix=".part")
+            write_whole(self._file(name), blob, mode=0o600)
         except OSError:
-            return False
-        try:
-            with os.fdopen(descriptor, "wb") as stream:
-                stream.write(blob)
-            Path(temporary).replace(self._file(name))
-        except OSError:
-            with contextlib.suppress(OSError):
-                Path(temporary).unlink()
             return False
         return True
 

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
-from studio.scene.pose_writer import STEP
+from studio.scene.graph import STEP
 from tests.support.watched_scene import sent_by, watched
 
 if TYPE_CHECKING:

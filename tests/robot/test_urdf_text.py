@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from studio.errors import RobotError
-from studio.robot.assembly import robot_from_urdf
+from studio.robot.urdf_text import robot_from_urdf
 
 TWO_LINKS = """<?xml version="1.0"?>
 <robot name="two" xmlns:gazebo="http://gazebo">

@@ -11,13 +11,7 @@ from studio.robot.values import Box, Joint, JointType, Link, Origin, Robot, Visu
 from studio.scene import DISPLAY_DEFAULTS
 from tests.support.robots import rover
 from tests.support.viser_frames import Peer, told_of, types_of
-from tests.support.watched_scene import (
-    URI,
-    robot_with_mesh,
-    sent_by,
-    triangle,
-    watched,
-)
+from tests.support.watched_scene import URI, robot_with_mesh, sent_by, triangle, watched
 
 if TYPE_CHECKING:
     from studio.scene import DocumentScene

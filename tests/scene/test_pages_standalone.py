@@ -11,8 +11,8 @@ import pytest
 from PIL import Image
 
 from studio.robot.values import Box, Cylinder, Link, Origin, Visual
-from studio.scene.geometry_drawing import MeshShelf
-from studio.scene.ground import Ground
+from studio.scene.link_nodes import MeshShelf
+from studio.scene.robot_drawing import Ground
 from tests.support.studio_page import wait_until
 from tests.support.watched_scene import watched
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from studio.scene.indexed_png import indexed_png
+from studio.scene.pictures import indexed_png
 
 
 @pytest.mark.parametrize("size", [(1, 1), (3, 5), (300, 257)])

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from studio.robot.rotations import matrix_from_rpy, wxyz_from_matrices
-from studio.scene.pose import wxyz_and_translation, wxyz_from_rpy
+from studio.scene.link_nodes import wxyz_and_translation, wxyz_from_rpy
 
 ANGLES = st.tuples(*[st.floats(-10, 10)] * 3)
 

@@ -5,7 +5,7 @@ from urllib.parse import unquote
 from hypothesis import given
 from hypothesis import strategies as st
 
-from studio.scene.naming import ghost_node, link_node
+from studio.scene.graph import ghost_node, link_node
 
 
 @given(st.text(st.characters(exclude_categories=["Cs"]), min_size=1))

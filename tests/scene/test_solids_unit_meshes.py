@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from studio.scene.unit_meshes import Kind, unit_mesh
+from studio.scene.solids import Kind, unit_mesh
 
 VOLUMES_M3: dict[Kind, float] = {
     "box": 1.0,

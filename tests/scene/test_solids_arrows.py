@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from studio.displays.drawing import Arrows
-from studio.scene.arrow_nodes import arrows_of
+from studio.scene.solids import arrows_of
 
 RED = np.array([255, 0, 0], np.uint8)
 
