@@ -23,8 +23,8 @@ from studio.errors import CommandError, OutsideRootsError, UnknownDocumentError
 from studio.live.connection.rejoining import Rejoining
 from studio.live.connection.robots import COMMANDS as ROBOT_COMMANDS
 from studio.live.connection.robots import WireRobotDesk
-from studio.live.panels.desk import COMMANDS as ROS_COMMANDS
-from studio.live.panels.desk import BridgeDesk
+from studio.live.panels.ros_system import COMMANDS as ROS_COMMANDS
+from studio.live.panels.ros_system import RosSystem
 from studio.packages.listing import list_folder
 from studio.packages.roots import ServedRoots
 from studio.packages.workspace import Location, open_location
@@ -78,9 +78,9 @@ class Engine:
         self.uploads = UploadDesk(settings.data_folder, self)
         wire = self._services.wire
         self._rejoining = Rejoining(wire, settings.data_folder)
-        self.bridge = BridgeDesk(wire)
-        self.hearing = self.bridge.hearing
-        self.wire_robots = WireRobotDesk(wire, settings.data_folder, self, self.bridge)
+        self.ros = RosSystem(wire)
+        self.hearing = self.ros.hearing
+        self.wire_robots = WireRobotDesk(wire, settings.data_folder, self, self.ros)
         self.served = ServedRoots((self.library.robots_folder,))
         """What can be listed and opened out of the page."""
         self.left_work = LeftWorkDesk(self, settings.data_folder)
@@ -96,7 +96,7 @@ class Engine:
     async def close(self) -> None:
         """Close all documents and end all workers."""
         await self._rejoining.close()
-        await asyncio.gather(self.left_work.close(), self.bridge.close())
+        await asyncio.gather(self.left_work.close(), self.ros.close())
         documents, self.documents = tuple(self.documents.values()), {}
         await asyncio.gather(*(document.close() for document in documents), self._services.close())
 
@@ -106,14 +106,14 @@ class Engine:
         tell(listener, self._list())
         self.left_work.attach(listener)
         self._services.wire.attach(listener)
-        self.bridge.attach(listener)
+        self.ros.attach(listener)
 
     def detach(self, listener: Listener) -> None:
         """A control lane was closed."""
         self._lobby.remove(listener)
         self.left_work.detach(listener)
         self._services.wire.detach(listener)
-        self.bridge.detach(listener)
+        self.ros.detach(listener)
         if document := self._watching.pop(listener, None):
             document.board.audience.remove(listener)
 
@@ -142,7 +142,7 @@ class Engine:
         entry = COMMANDS[type(command)]
         self._rates.spend(asker.person, entry)
         if entry.needs_router:
-            self.bridge.check_router()
+            self.ros.check_router()
         return await COMMANDS.carry_out(self, command, asker)
 
     async def open_path(
@@ -312,5 +312,5 @@ COMMANDS.presenter(OpenLink, lambda engine, c, _: engine.open_link(c))
 COMMANDS.presenter(ForgetWork, lambda engine, c, _: engine.left_work.forget(c.path))
 COMMANDS.include(LIBRARY_COMMANDS, lambda engine, _: engine.library)
 COMMANDS.include(ROBOT_COMMANDS, lambda engine, _: engine.wire_robots)
-COMMANDS.include(ROS_COMMANDS, lambda engine, _: engine.bridge)
+COMMANDS.include(ROS_COMMANDS, lambda engine, _: engine.ros)
 COMMANDS.include(DOCUMENT_COMMANDS, lambda engine, c: engine.document(c.document))

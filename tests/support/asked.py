@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from studio.documents.commands import COMMANDS as DOCUMENT_COMMANDS
-from studio.live.panels.desk import COMMANDS as ROS_COMMANDS
+from studio.live.panels.ros_system import COMMANDS as ROS_COMMANDS
 from studio.protocol.listeners import tell
 
 if TYPE_CHECKING:
     from studio.documents.document import Document
-    from studio.live.panels.desk import BridgeDesk
+    from studio.live.panels.ros_system import RosSystem
     from studio.protocol import Command
     from studio.protocol.listeners import Listener
 
@@ -21,7 +21,7 @@ async def ask_document(document: Document, command: Command, asker: Listener) ->
         tell(asker, answer)
 
 
-async def ask_ros(ros: BridgeDesk, command: Command, asker: Listener) -> Any:  # noqa: ANN401
+async def ask_ros(ros: RosSystem, command: Command, asker: Listener) -> Any:  # noqa: ANN401
     """Have the ROS system carry a command out; gives its answer."""
     if ROS_COMMANDS[type(command)].needs_router:
         ros.check_router()

@@ -6,7 +6,7 @@ from contextlib import asynccontextmanager
 from typing import TYPE_CHECKING, Any, cast, get_args
 
 from studio.live.connection.desk import WireDesk
-from studio.live.panels.desk import BridgeDesk
+from studio.live.panels.ros_system import RosSystem
 from studio.protocol.calls import FollowDeeds
 from studio.settings import WireChoice
 from tests.support.asked import ask_ros
@@ -21,12 +21,12 @@ if TYPE_CHECKING:
 class Bridged:
     """Does what a page asks, and knows how all deeds fare, as a page does."""
 
-    def __init__(self, desk: BridgeDesk, ear: Ear) -> None:
-        self.desk, self.ear = desk, ear
+    def __init__(self, ros: RosSystem, ear: Ear) -> None:
+        self.ros, self.ear = ros, ear
 
     async def do(self, command: Command) -> Any:  # noqa: ANN401 - the answer
         """Ask, and give the answer."""
-        return await ask_ros(self.desk, command, self.ear)
+        return await ask_ros(self.ros, command, self.ear)
 
     def deed(self, kind: str, number: int) -> dict[str, Any]:
         """A deed as it was told last; empty before."""
@@ -48,12 +48,12 @@ class Bridged:
 async def bridged(endpoint: str) -> AsyncGenerator[Bridged]:
     """A bridge that has joined the router; its ear follows calls, goals and publications."""
     wire = WireDesk(WireChoice("off", (endpoint,)))
-    desk, ear = BridgeDesk(wire), Ear()
+    ros, ear = RosSystem(wire), Ear()
     try:
         await wire.link()
         for kind in get_args(FollowDeeds.model_fields["deeds"].annotation):
-            await ask_ros(desk, FollowDeeds(deeds=kind), ear)
-        yield Bridged(desk, ear)
+            await ask_ros(ros, FollowDeeds(deeds=kind), ear)
+        yield Bridged(ros, ear)
     finally:
-        await desk.close()
+        await ros.close()
         await wire.close()

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from studio.live.connection.desk import WireDesk
-from studio.live.panels.interfaces import InterfaceDesk
+from studio.live.panels.interfaces import InterfaceTypes
 from studio.protocol.interfaces import GetInterface
 from studio.ros.cdr import Codec
 from studio.ros.messages import message
@@ -73,7 +73,7 @@ def _case(name: str, chance: random.Random) -> dict[str, Any]:
 
 def schemas() -> dict[str, Any]:
     """What each type is made of, as the page is told."""
-    desk = InterfaceDesk(WireDesk(WireChoice()))
+    desk = InterfaceTypes(WireDesk(WireChoice()))
     return {
         name: [
             one.model_dump()

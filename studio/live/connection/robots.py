@@ -83,13 +83,11 @@ class OpenRobots(Protocol):
 
 
 class WireRobotDesk:
-    """Carries them out for the engine; `bridge` lets go of a connection before it ends."""
+    """Carries them out for the engine; `ros` lets go of a connection before it ends."""
 
-    def __init__(
-        self, wire: WireDesk, data_folder: Path, opener: OpenRobots, bridge: LetsGo
-    ) -> None:
+    def __init__(self, wire: WireDesk, data_folder: Path, opener: OpenRobots, ros: LetsGo) -> None:
         self._wire, self._data_folder, self._opener = wire, data_folder, opener
-        self._bridge = bridge
+        self._ros = ros
 
     async def connect(self, command: ConnectWire) -> None:
         """Join the ROS system, or another one than now.
@@ -130,7 +128,7 @@ class WireRobotDesk:
     async def _let_go(self) -> None:
         documents = self._opener.documents.values()
         parts: list[LetsGo] = [part for one in documents for part in (one.feed, one.live)]
-        await asyncio.gather(*(part.let_go() for part in (*parts, self._bridge)))
+        await asyncio.gather(*(part.let_go() for part in (*parts, self._ros)))
 
     async def open(self, command: OpenFromWire) -> Opened:
         """Open a robot that is described there, and let its joints follow.

@@ -1,1 +1,1 @@
-"""The bridge: what panels see of a ROS 2 system, and do in it."""
+"""What panels see of a ROS 2 system, and do in it."""

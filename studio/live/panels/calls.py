@@ -1,4 +1,4 @@
-"""CallDesk: services that are called from a page, each with its time-out and its end."""
+"""Services that pages call, each with its timeout and its reply."""
 
 from __future__ import annotations
 
@@ -7,8 +7,7 @@ import time
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
-from studio.live.panels.ledger import Ledger
-from studio.live.panels.running import Outcome, Running
+from studio.live.panels.operations import Operations, Outcome, RunningTasks
 from studio.protocol.calls import Begun, Calls, CallService, CallView, CancelCall
 from studio.protocol.commands import Commands, Scope
 
@@ -23,7 +22,7 @@ _State: TypeAlias = Literal["calling", "answered", "failed", "cancelled"]
 
 @dataclass
 class Call:
-    """A call, from the request to its end."""
+    """A call, from the request to its reply."""
 
     deed: int
     name: str
@@ -46,17 +45,17 @@ class Call:
         return CallView(**{name: getattr(self, name) for name in CallView.model_fields})
 
 
-def _told(is_whole: bool, calls: tuple[Call, ...]) -> Calls:  # noqa: FBT001 - as a ledger says it
+def _event_of(is_whole: bool, calls: tuple[Call, ...]) -> Calls:  # noqa: FBT001 - `Operations.event_of`
     return Calls(whole=is_whole, deeds=tuple(one.view() for one in calls))
 
 
-class CallDesk:
-    """Begins and ends calls; how they fare is in its ledger."""
+class ServiceCalls:
+    """Begins and ends calls; `operations` has their state."""
 
     def __init__(self, wire: WireDesk) -> None:
         self._wire = wire
-        self.ledger: Ledger[Call] = Ledger(_told, kept=_KEPT, running=_RUNNING_MAX)
-        self._running = Running()
+        self.operations: Operations[Call] = Operations(_event_of, kept=_KEPT, running=_RUNNING_MAX)
+        self._running = RunningTasks()
 
     async def begin(self, command: CallService) -> Begun:
         """Ask a service, and do not wait for its reply.
@@ -66,11 +65,11 @@ class CallDesk:
         """
         from studio.live.panels.requests import ServiceRequest  # noqa: PLC0415 - imports zenoh
 
-        number = self.ledger.next_number()
+        number = self.operations.next_number()
         link = await self._wire.link()
         request = await asyncio.to_thread(ServiceRequest, link, command)
         call = Call(number, request.name, request.type_name, command.text, command.timeout_s)
-        self.ledger.add(call)
+        self.operations.add(call)
         self._running.start(
             number,
             request.answer(call.timeout_s),
@@ -84,7 +83,7 @@ class CallDesk:
         Raises:
             CommandError: There is no such call.
         """
-        self.ledger.get(command.deed)
+        self.operations.get(command.deed)
         self._running.cancel(command.deed)
 
     async def let_go(self) -> None:
@@ -94,13 +93,13 @@ class CallDesk:
     async def close(self) -> None:
         """End all that runs, and tell nobody any more."""
         await self.let_go()
-        await self.ledger.close()
+        await self.operations.close()
 
     async def _finish(self, call: Call, request: ServiceRequest, outcome: Outcome[str]) -> None:
         call.took_s = round(time.time_ns() / 1e9 - call.began_s, 4)
         call.state, call.trouble = _STATES[outcome.kind], outcome.trouble
         call.reply = outcome.value or ""
-        self.ledger.changed(call)
+        self.operations.changed(call)
         await asyncio.to_thread(request.close)
 
 
@@ -110,6 +109,6 @@ _STATES: Final[dict[str, _State]] = {
     "cancelled": "cancelled",
 }
 
-COMMANDS: Final = Commands[CallDesk](Scope.ROS)
+COMMANDS: Final = Commands[ServiceCalls](Scope.ROS)
 COMMANDS.presenter(CallService, lambda one, c, _: one.begin(c), needs_router=True)
 COMMANDS.presenter(CancelCall, lambda one, c, _: one.cancel(c))

@@ -1,24 +1,77 @@
-"""DriveDesk: robots driven by hand from pages; each stands still once its driver is silent."""
+"""Robots driven by hand from pages; each stands still once its driver is silent."""
 
 from __future__ import annotations
 
 import asyncio
-from typing import TYPE_CHECKING, Final
+import time
+from typing import TYPE_CHECKING, Any, Final
 
 from studio.errors import CommandError
-from studio.live.panels.running import outcome_of
+from studio.live.panels.operations import outcome_of
 from studio.protocol.commands import Commands, Scope
 from studio.protocol.publishing import Drive
 
 if TYPE_CHECKING:
     from studio.live.connection.desk import WireDesk
-    from studio.live.panels.driving_work import Wheel
+    from studio.live.connection.link import WireLink
     from studio.protocol.listeners import Listener
 
 _SILENCE_S: Final = 0.5
 _DRIVEN_MAX: Final = 20
 _ROUTER_PATIENCE_S: Final = 120.0
 """For a router that went away amid a drive: the robot behind it may move on until it is back."""
+
+
+SPEED_MAX: Final = 100.0
+"""m/s and rad/s: nothing that is driven by hand is faster."""
+_TWIST: Final = "geometry_msgs/msg/Twist"
+_STAMPED: Final = "geometry_msgs/msg/TwistStamped"
+
+
+class VelocityPublisher:
+    """Publishes velocities, and zero before it is closed.
+
+    Made, used and closed in threads, by one at a time.
+
+    Raises:
+        StudioError: The topic cannot be named so, or its type is not known.
+    """
+
+    def __init__(self, link: WireLink, topic: str, stamped: bool) -> None:  # noqa: FBT001
+        from studio.live.panels.requests import wire_name  # noqa: PLC0415 - imports zenoh
+        from studio.ros.type_lookup import known_message  # noqa: PLC0415 - imports zenoh
+        from studio.ros.types.convert import from_dict  # noqa: PLC0415 - takes its time
+
+        name = wire_name(topic)
+        why: list[str] = []
+        self.stamped = stamped
+        self._kind = known_message(link.node, name, _STAMPED if stamped else _TWIST, why.append)
+        self._link, self._from_dict = link, from_dict
+        self._publisher = link.node.create_publisher(self._kind, name, 10)
+
+    @property
+    def is_reached(self) -> bool:
+        """Whether the router is there."""
+        return self._link.is_connected
+
+    @property
+    def has_subscriber(self) -> bool:
+        """Whether the router is there, and somebody subscribes."""
+        return self.is_reached and self._publisher.get_subscription_count() > 0
+
+    def steer(self, x_m_s: float, y_m_s: float, yaw_rad_s: float) -> None:
+        """Publish a velocity, each part of it no faster than `SPEED_MAX`."""
+        x, y, yaw = (max(-SPEED_MAX, min(part, SPEED_MAX)) for part in (x_m_s, y_m_s, yaw_rad_s))
+        twist: dict[str, Any] = {"linear": {"x": x, "y": y}, "angular": {"z": yaw}}
+        values = {"header": "auto", "twist": twist} if self.stamped else twist
+        self._publisher.publish(self._from_dict(self._kind, values, now_ns=time.time_ns()))
+
+    def close(self) -> None:
+        """Publish that it stands still, then nothing any more."""
+        try:
+            self.steer(0.0, 0.0, 0.0)
+        finally:
+            self._link.node.destroy_publisher(self._publisher)
 
 
 class _Driver:
@@ -28,13 +81,16 @@ class _Driver:
         self.listener = listener
         self.turn = asyncio.Lock()
         """Speeds go out in the order in which they came, and none after the end."""
-        self.wheel: Wheel | None = None
+        self.publisher: VelocityPublisher | None = None
         self.patience: asyncio.TimerHandle | None = None
         self.is_over = False
 
 
-class DriveDesk:
-    """Has at most one driver on each topic, and stops what nobody drives; all on the loop."""
+class Driving:
+    """Lets one page drive on each topic, and stops what nobody drives.
+
+    Used on the event loop only.
+    """
 
     def __init__(self, wire: WireDesk) -> None:
         self._wire = wire
@@ -85,18 +141,18 @@ class DriveDesk:
         driver.patience = loop.call_later(_SILENCE_S, self._end, topic, driver)
 
     async def _send(self, driver: _Driver, command: Drive) -> None:
-        from studio.live.panels.driving_work import Wheel  # noqa: PLC0415 - imports zenoh
-
-        wheel = driver.wheel
-        if wheel is not None and wheel.stamped != command.stamped:
-            driver.wheel = None
-            await asyncio.to_thread(wheel.close)
-        if driver.wheel is None and not driver.is_over:
+        publisher = driver.publisher
+        if publisher is not None and publisher.stamped != command.stamped:
+            driver.publisher = None
+            await asyncio.to_thread(publisher.close)
+        if driver.publisher is None and not driver.is_over:
             link = await self._wire.link()
-            driver.wheel = await asyncio.to_thread(Wheel, link, command.topic, command.stamped)
+            driver.publisher = await asyncio.to_thread(
+                VelocityPublisher, link, command.topic, command.stamped
+            )
         # What was told before the end, and waited until after it, moves nothing any more.
-        if driver.wheel is not None and not driver.is_over:
-            await asyncio.to_thread(driver.wheel.steer, command.x, command.y, command.yaw)
+        if driver.publisher is not None and not driver.is_over:
+            await asyncio.to_thread(driver.publisher.steer, command.x, command.y, command.yaw)
 
     def _end(self, topic: str, driver: _Driver) -> None:
         driver.is_over = True
@@ -110,17 +166,17 @@ class DriveDesk:
 
     async def _stand_still(self, driver: _Driver) -> None:
         async with driver.turn:
-            if driver.wheel is not None:
-                await self._router_is_back(driver.wheel)
-                await asyncio.to_thread(driver.wheel.close)
+            if driver.publisher is not None:
+                await self._router_is_back(driver.publisher)
+                await asyncio.to_thread(driver.publisher.close)
 
-    async def _router_is_back(self, wheel: Wheel) -> None:
+    async def _router_is_back(self, publisher: VelocityPublisher) -> None:
         """Wait for who is to stand still, if nobody could hear it now and we are to stay."""
         from studio.live.panels.requests import came_true  # noqa: PLC0415 - imports zenoh
 
-        if not wheel.is_reached:
-            await came_true(lambda: self._leaves or wheel.is_heard, _ROUTER_PATIENCE_S)
+        if not publisher.is_reached:
+            await came_true(lambda: self._leaves or publisher.has_subscriber, _ROUTER_PATIENCE_S)
 
 
-COMMANDS: Final = Commands[DriveDesk](Scope.ROS)
+COMMANDS: Final = Commands[Driving](Scope.ROS)
 COMMANDS.presenter(Drive, lambda one, c, who: one.drive(c, who), needs_router=True)

@@ -1,4 +1,4 @@
-"""GoalStatusDesk: how all goals of an action stand, as its server tells everybody."""
+"""The states of all goals of an action, as its server publishes them."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ if TYPE_CHECKING:
     from studio.ros.types.classes import MessageValue
 
 _ASKED_FOR_S: Final = 10.0
-"""An action is heard so long after somebody asked for it: a panel asks again and again."""
+"""How long an action is subscribed after it was asked for: a panel asks again and again."""
 _SHOWN: Final = 50
 
 
 @dataclass
-class _Ear:
-    """What an action tells, and what ends the hearing."""
+class _StatusSubscription:
+    """A subscription of an action's status topic, and its newest message."""
 
     end: Callable[[], None]
     asked_s: float
@@ -32,16 +32,16 @@ class _Ear:
     """A GoalStatusArray; written by the thread of the link."""
 
 
-class GoalStatusDesk:
-    """Hears the actions that somebody asks for; `own_ids` tells which goals are ours."""
+class GoalStatusTopics:
+    """Subscribes to the status of actions while somebody asks; `own_ids` are our own goals."""
 
     def __init__(self, wire: WireDesk, own_ids: Callable[[], frozenset[str]]) -> None:
         self._wire, self._own_ids = wire, own_ids
-        self._ears: dict[str, _Ear] = {}
+        self._subscriptions: dict[str, _StatusSubscription] = {}
         self._turn = asyncio.Lock()
 
     async def statuses(self, command: GetGoalStatuses) -> GoalStatuses:
-        """Tell how the goals stand; the first answer may come before the server is heard.
+        """Return the goals' states; the first answer may come before the first status message.
 
         Raises:
             RosNameError: No action is named so.
@@ -50,42 +50,42 @@ class GoalStatusDesk:
         views: tuple[GoalStatusView, ...] = ()
         if link is not None:
             async with self._turn:
-                newest = await asyncio.to_thread(self._hear, link, command.name)
+                newest = await asyncio.to_thread(self._newest, link, command.name)
             views = _views(newest, self._own_ids())
         return GoalStatuses(request=command.request, name=command.name, goals=views)
 
     async def let_go(self) -> None:
-        """Hear nothing any more."""
+        """End all subscriptions."""
         async with self._turn:
             await asyncio.to_thread(self._forget, float("inf"))
 
-    def _hear(self, link: WireLink, name: str) -> MessageValue | None:
+    def _newest(self, link: WireLink, name: str) -> MessageValue | None:
         from studio.live.panels.requests import wire_name  # noqa: PLC0415 - imports zenoh
         from studio.ros.qos import qos_profile_action_status_default  # noqa: PLC0415
 
         now_s = time.monotonic()
         self._forget(now_s - _ASKED_FOR_S)
         action = wire_name(name)
-        ear = self._ears.get(action)
-        if ear is None:
-            ear = self._ears[action] = _Ear(lambda: None, now_s)
-            ear.end = link.subscribe(
+        found = self._subscriptions.get(action)
+        if found is None:
+            found = self._subscriptions[action] = _StatusSubscription(lambda: None, now_s)
+            found.end = link.subscribe(
                 "action_msgs/msg/GoalStatusArray",
                 f"{action}/_action/status",
-                lambda message, ear=ear: setattr(ear, "newest", message),
+                lambda message, found=found: setattr(found, "newest", message),
                 qos_profile_action_status_default,
             )
-        ear.asked_s = now_s
-        return ear.newest
+        found.asked_s = now_s
+        return found.newest
 
     def _forget(self, before_s: float) -> None:
-        for name, ear in tuple(self._ears.items()):
-            if ear.asked_s < before_s:
-                del self._ears[name]
-                ear.end()
+        for name, found in tuple(self._subscriptions.items()):
+            if found.asked_s < before_s:
+                del self._subscriptions[name]
+                found.end()
 
 
-def _views(newest: Any, own: frozenset[str]) -> tuple[GoalStatusView, ...]:  # noqa: ANN401 - see _Ear
+def _views(newest: Any, own: frozenset[str]) -> tuple[GoalStatusView, ...]:  # noqa: ANN401 - see _StatusSubscription
     if newest is None:
         return ()
     from studio.ros.action.protocol import GoalStatus  # noqa: PLC0415 - takes its time
@@ -102,5 +102,5 @@ def _views(newest: Any, own: frozenset[str]) -> tuple[GoalStatusView, ...]:  # n
     return tuple(sorted(found, key=lambda one: -one.stamp_s)[:_SHOWN])
 
 
-COMMANDS: Final = Commands[GoalStatusDesk](Scope.ROS)
+COMMANDS: Final = Commands[GoalStatusTopics](Scope.ROS)
 COMMANDS.viewer(GetGoalStatuses, lambda one, c, _: one.statuses(c))

@@ -1,4 +1,4 @@
-"""GoalDesk: goals that are sent from pages: several at once, each with its feedback and its end."""
+"""Goals that pages send: several at once, each with its feedback and its result."""
 
 from __future__ import annotations
 
@@ -8,8 +8,7 @@ from collections import deque
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Final
 
-from studio.live.panels.ledger import Ledger
-from studio.live.panels.running import Outcome, Running
+from studio.live.panels.operations import Operations, Outcome, RunningTasks
 from studio.protocol.calls import Begun
 from studio.protocol.commands import Commands, Scope
 from studio.protocol.goals import CancelGoal, FeedbackView, Goals, GoalState, GoalView, SendGoal
@@ -35,7 +34,7 @@ _OVER: Final = frozenset({"succeeded", "canceled", "aborted", "rejected", "faile
 
 @dataclass
 class Goal:
-    """A goal, from the sending to its end; of the loop."""
+    """A goal, from the request to its result."""
 
     deed: int
     name: str
@@ -85,17 +84,17 @@ class Goal:
         return GoalView(**own, feedback=views)
 
 
-def _told(is_whole: bool, goals: tuple[Goal, ...]) -> Goals:  # noqa: FBT001 - as a ledger says it
+def _event_of(is_whole: bool, goals: tuple[Goal, ...]) -> Goals:  # noqa: FBT001 - `Operations.event_of`
     return Goals(whole=is_whole, deeds=tuple(one.view(is_whole=is_whole) for one in goals))
 
 
-class GoalDesk:
-    """Sends goals and has them cancelled; how they fare is in its ledger."""
+class ActionGoals:
+    """Sends goals and has them cancelled; `operations` has their state."""
 
     def __init__(self, wire: WireDesk, logs: LogDesk) -> None:
         self._wire, self._logs = wire, logs
-        self.ledger: Ledger[Goal] = Ledger(_told, kept=_KEPT, running=_RUNNING_MAX)
-        self._running = Running()
+        self.operations: Operations[Goal] = Operations(_event_of, kept=_KEPT, running=_RUNNING_MAX)
+        self._running = RunningTasks()
         self._requests: dict[int, GoalRequest] = {}
         self._clients: tuple[WireLink, ActionClients] | None = None
 
@@ -107,14 +106,14 @@ class GoalDesk:
         """
         from studio.live.panels.goal_work import GoalRequest  # noqa: PLC0415 - imports zenoh
 
-        number = self.ledger.next_number()
+        number = self.operations.next_number()
         link = await self._wire.link()
         clients = self._clients_of(link)
         request = await asyncio.to_thread(GoalRequest, link, clients, command)
         goal = Goal(number, request.name, request.type_name, command.text)
         goal.log_from = await self._logs.listen()
         self._requests[number] = request
-        self.ledger.add(goal)
+        self.operations.add(goal)
         self._running.start(
             number,
             self._follow(goal, request, command.timeout_s),
@@ -128,7 +127,7 @@ class GoalDesk:
         Raises:
             StudioError: There is no such goal, or its server says no.
         """
-        goal = self.ledger.get(command.deed)
+        goal = self.operations.get(command.deed)
         request = self._requests.get(command.deed)
         if request is None or goal.is_over:
             return
@@ -136,18 +135,18 @@ class GoalDesk:
             self._running.cancel(goal.deed)
             return
         before, goal.state = goal.state, "canceling"
-        self.ledger.changed(goal)
+        self.operations.changed(goal)
         try:
             await request.cancel()
         except BaseException:
             if goal.state == "canceling":
                 goal.state = before
-                self.ledger.changed(goal)
+                self.operations.changed(goal)
             raise
 
     def own_ids(self) -> frozenset[str]:
         """Ids of the goals that were sent from here, in hex."""
-        return frozenset(one.goal_id for one in self.ledger.all() if one.goal_id)
+        return frozenset(one.goal_id for one in self.operations.all() if one.goal_id)
 
     async def let_go(self) -> None:
         """Hear of no goal any more: the connection is about to end."""
@@ -159,7 +158,7 @@ class GoalDesk:
     async def close(self) -> None:
         """End all that runs, and tell nobody any more."""
         await self.let_go()
-        await self.ledger.close()
+        await self.operations.close()
 
     def _clients_of(self, link: WireLink) -> ActionClients:
         from studio.live.panels.goal_work import ActionClients  # noqa: PLC0415 - imports zenoh
@@ -176,7 +175,7 @@ class GoalDesk:
 
         def take(feedback: object) -> None:
             goal.heard(feedback)
-            self.ledger.changed(goal)
+            self.operations.changed(goal)
 
         def on_feedback(feedback: object) -> None:  # in the thread of the link
             if not loop.is_closed():
@@ -185,7 +184,7 @@ class GoalDesk:
         if not await request.accepted(timeout_s, on_feedback):
             return "rejected", ""
         goal.state, goal.goal_id = "accepted", request.goal_id
-        self.ledger.changed(goal)
+        self.operations.changed(goal)
         looking = asyncio.create_task(self._look(goal, request))
         try:
             status, result = await request.result()
@@ -198,7 +197,7 @@ class GoalDesk:
         while True:
             if goal.state == "accepted" and request.status.name == "EXECUTING":
                 goal.state = "executing"
-                self.ledger.changed(goal)
+                self.operations.changed(goal)
             await asyncio.sleep(_LOOK_S)
 
     async def _finish(
@@ -212,7 +211,7 @@ class GoalDesk:
             goal.state = "canceled" if outcome.kind == "cancelled" else "failed"
         self._requests.pop(goal.deed, None)
         goal.servers = request.servers
-        self.ledger.changed(goal)
+        self.operations.changed(goal)
         await asyncio.to_thread(request.close)
         if goal.state in {"aborted", "rejected"}:
             await self._find_why(goal)
@@ -227,7 +226,7 @@ class GoalDesk:
             )
             await asyncio.sleep(_LOOK_S)
         if goal.server_said is not None:
-            self.ledger.changed(goal)
+            self.operations.changed(goal)
 
 
 def _ended(name: str) -> GoalState:
@@ -238,6 +237,6 @@ def _ended(name: str) -> GoalState:
             return "failed"
 
 
-COMMANDS: Final = Commands[GoalDesk](Scope.ROS)
+COMMANDS: Final = Commands[ActionGoals](Scope.ROS)
 COMMANDS.presenter(SendGoal, lambda one, c, _: one.begin(c), needs_router=True)
 COMMANDS.presenter(CancelGoal, lambda one, c, _: one.cancel(c), needs_router=True)

@@ -1,4 +1,4 @@
-"""GraphDesk: tells who is there, who speaks with whom, and what one node has."""
+"""The ROS graph as the page shows it: nodes, what connects them, and the details of one node."""
 
 from __future__ import annotations
 
@@ -27,8 +27,8 @@ if TYPE_CHECKING:
     from studio.ros.graph.graph import Graph, NamesAndTypes
 
 
-class GraphDesk:
-    """Asks the connection; without one, nobody is there."""
+class GraphViews:
+    """Views of the connection's graph; empty without a connection."""
 
     def __init__(self, wire: WireDesk) -> None:
         self._wire = wire
@@ -155,6 +155,6 @@ def _node_answer(
     )
 
 
-COMMANDS: Final = Commands[GraphDesk](Scope.ROS)
+COMMANDS: Final = Commands[GraphViews](Scope.ROS)
 COMMANDS.viewer(GetGraph, lambda one, c, _: one.graph(c))
 COMMANDS.viewer(GetNode, lambda one, c, _: one.node(c))

@@ -1,22 +1,30 @@
-"""LessonDesk: starts and ends the demos from pages, and tells which of them run."""
+"""Demos of the course: listed, run as processes, driven by keys, their output kept by line."""
 
 from __future__ import annotations
 
 import asyncio
+import codecs
 import itertools
+import signal
+import sys
+import time
+from collections import deque
+from contextlib import suppress
+from itertools import islice
 from typing import TYPE_CHECKING, Final
 
 from studio.errors import CommandError
-from studio.live.panels.demo_run import DemoRun
 from studio.nodes.demos.chapters import CHAPTERS, LESSONS, Lesson
 from studio.nodes.demos.code import code_of
-from studio.nodes.demos.starting import environment_for
+from studio.nodes.demos.starting import LEASHED, WHEN_TOLD_S, environment_for
+from studio.nodes.demos.table import find_demo
 from studio.protocol.commands import Commands, Scope
 from studio.protocol.lessons import (
     CodeFile,
     DemoCode,
     DemoOutput,
     Demos,
+    DemoView,
     GetDemoCode,
     GetDemoOutput,
     GetDemos,
@@ -30,16 +38,180 @@ from studio.protocol.lessons import (
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+    from typing import Literal
 
     from studio.live.connection.desk import WireDesk
     from studio.live.connection.link import WireLink
+
+
+LINES_MAX: Final = 200
+LINE_MAX: Final = 2000
+"""Characters; what is longer goes on as the next line."""
+
+
+class PrintedLines:
+    """The last lines that a process printed, by number; takes bytes as they come."""
+
+    def __init__(self) -> None:
+        self._lines: deque[str] = deque(maxlen=LINES_MAX)
+        self._last = 0
+        self._rest = ""
+        self._decoder = codecs.getincrementaldecoder("utf-8")("replace")
+
+    @property
+    def last_words(self) -> str:
+        """The last line that is not blank; empty: none came."""
+        return next((line for line in reversed(self._lines) if line.strip()), "")
+
+    def take(self, data: bytes) -> None:
+        """Take what was printed."""
+        *lines, rest = (self._rest + self._decoder.decode(data)).split("\n")
+        for line in lines:
+            self._keep(line.rstrip("\r"))
+        while len(rest) >= LINE_MAX:
+            self._keep(rest[:LINE_MAX])
+            rest = rest[LINE_MAX:]
+        self._rest = rest
+
+    def end(self) -> None:
+        """Take what stands without an end of line: nothing comes any more."""
+        self.take(b"" if self._rest == "" else b"\n")
+
+    def after(self, number: int) -> tuple[tuple[str, ...], int]:
+        """Give the lines after that one which are kept, and the number of the newest of all."""
+        missing = max(0, self._last - number)
+        begin = max(0, len(self._lines) - missing)
+        return tuple(islice(self._lines, begin, None)), self._last
+
+    def _keep(self, line: str) -> None:
+        for start in range(0, max(1, len(line)), LINE_MAX):
+            self._lines.append(line[start : start + LINE_MAX])
+            self._last += 1
+
+
+_CTRL_C: Final = signal.SIGTERM if sys.platform == "win32" else signal.SIGINT
+"""Interrupts a node that waits for a service, too."""
+_CHUNK: Final = 1 << 14
+_REASON_MAX: Final = 300
+
+
+class DemoRun:
+    """One demo that runs as a process; used on the event loop, which it never blocks.
+
+    Attributes:
+        number: Of this run among all.
+        printed: The last that it printed.
+        zids: Of the sessions that its node was seen in; empty: it was not seen yet.
+    """
+
+    def __init__(self, lesson: Lesson, number: int) -> None:
+        self.lesson, self.number = lesson, number
+        self.printed = PrintedLines()
+        self.zids: frozenset[str] = frozenset()
+        self._process: asyncio.subprocess.Process | None = None
+        self._spawned = asyncio.Event()
+        self._life: asyncio.Task[None] | None = None
+        self._is_told = False
+        self._since_s = time.monotonic()
+        self._code: int | None = None
+
+    @property
+    def is_over(self) -> bool:
+        """Whether it has ended."""
+        return self._code is not None
+
+    @property
+    def state(self) -> Literal["starting", "running", "stopping", "stopped", "ended"]:
+        """How it fares, as pages are told."""
+        if self.is_over:
+            return "stopped" if self._is_told else "ended"
+        if self._is_told:
+            return "stopping"
+        return "running" if self.zids else "starting"
+
+    def view(self) -> DemoView:
+        """Tell how it fares."""
+        return DemoView(
+            demo=self.lesson.demo,
+            state=self.state,
+            for_s=round(time.monotonic() - self._since_s, 1),
+            code=self._code or 0,
+            reason=self.printed.last_words[:_REASON_MAX] if self.is_over else "",
+        )
+
+    async def start(self, environment: Mapping[str, str]) -> None:
+        """Start it.
+
+        Raises:
+            CommandError: The system lets no process begin.
+        """
+        self._life = asyncio.create_task(self._live(environment))
+        await self._spawned.wait()
+        if self._process is None:
+            raise CommandError(f"{self.lesson.demo} was not started: {self.printed.last_words}")
+
+    def see(self, zids: frozenset[str]) -> None:
+        """Its node is there, in these sessions; what comes later is somebody else's."""
+        if not self.is_over and not self.zids:
+            self.zids = zids
+
+    def press(self, key: str) -> None:
+        """Press a key of it; one that has ended hears none."""
+        if self._process is not None and self._process.stdin is not None and not self.is_over:
+            self._process.stdin.write(f"{key}\n".encode())
+
+    async def stop(self) -> None:
+        """Tell it to end, and make it when it does not; returns once it has ended."""
+        await self._spawned.wait()
+        if self._life is None or self._process is None or self.is_over:
+            return
+        self._is_told = True
+        with suppress(ProcessLookupError):
+            self._process.send_signal(_CTRL_C)
+        await asyncio.wait({self._life}, timeout=WHEN_TOLD_S)
+        with suppress(ProcessLookupError):
+            self._process.kill()
+        await self._life
+
+    async def _live(self, environment: Mapping[str, str]) -> None:
+        try:
+            self._process = await self._spawn(environment)
+        except OSError as error:
+            self.printed.take(f"{error}\n".encode())
+            self._end(1)
+            return
+        finally:
+            self._spawned.set()
+        assert self._process.stdout is not None
+        while chunk := await self._process.stdout.read(_CHUNK):
+            self.printed.take(chunk)
+        self.printed.end()
+        self._end(await self._process.wait())
+
+    async def _spawn(self, environment: Mapping[str, str]) -> asyncio.subprocess.Process:
+        demo = find_demo(self.lesson.demo)
+        assert demo is not None
+        return await asyncio.create_subprocess_exec(
+            *(sys.executable, "-P", "-m", LEASHED, demo.module, *self.lesson.words),
+            env=environment,
+            stdin=asyncio.subprocess.PIPE,
+            stdout=asyncio.subprocess.PIPE,
+            stderr=asyncio.subprocess.STDOUT,
+            # Ctrl-C in the terminal of the studio is the studio's: it ends its demos by itself.
+            start_new_session=True,
+        )
+
+    def _end(self, code: int) -> None:
+        self._code = code
+        self._since_s = time.monotonic()
+
 
 RUNNING_MAX: Final = 10
 """Each is a process of some 80 MB."""
 
 
-class LessonDesk:
-    """Of the loop; what is started meets the studio's connection, and ends with it."""
+class CourseDemos:
+    """Runs demos as processes that join the studio's ROS system, and end with its connection."""
 
     def __init__(self, wire: WireDesk) -> None:
         self._wire = wire
@@ -173,7 +345,7 @@ def _lesson(name: str) -> Lesson:
 
 
 class _Sessions:
-    """Sessions that nodes are of, by their full names; looked up anew when the graph changed."""
+    """The session of each node, by the node's full name; looked up anew when the graph changed."""
 
     def __init__(self) -> None:
         self._of: tuple[str, int] | None = None
@@ -196,7 +368,7 @@ def _sessions_by_node(link: WireLink) -> dict[str, frozenset[str]]:
     return {path: frozenset(zids) for path, zids in found.items()}
 
 
-COMMANDS: Final = Commands[LessonDesk](Scope.ROS)
+COMMANDS: Final = Commands[CourseDemos](Scope.ROS)
 COMMANDS.viewer(GetLessons, lambda one, c, _: one.lessons(c))
 COMMANDS.viewer(GetDemos, lambda one, c, _: one.demos(c))
 COMMANDS.viewer(GetDemoOutput, lambda one, c, _: one.output(c))

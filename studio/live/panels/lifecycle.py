@@ -1,4 +1,4 @@
-"""LifecycleDesk: asks managed nodes for their states, and has them take transitions."""
+"""Managed nodes: their states, and transitions that they are asked for."""
 
 from __future__ import annotations
 
@@ -34,8 +34,8 @@ _AT_ONCE: Final = 8
 _LEFT: Final = "Not connected with ROS 2: connect first."
 
 
-class LifecycleDesk:
-    """Of the loop; nodes are asked in threads, several at once, each with a time-out."""
+class LifecycleNodes:
+    """Asks managed nodes in threads, several at once, each with a time-out."""
 
     def __init__(self, wire: WireDesk) -> None:
         self._wire = wire
@@ -160,6 +160,6 @@ def _change(link: WireLink, command: ChangeState) -> None:
     )
 
 
-COMMANDS: Final = Commands[LifecycleDesk](Scope.ROS)
+COMMANDS: Final = Commands[LifecycleNodes](Scope.ROS)
 COMMANDS.viewer(GetManaged, lambda one, c, _: one.managed(c))
 COMMANDS.presenter(ChangeState, lambda one, c, _: one.change(c), needs_router=True)

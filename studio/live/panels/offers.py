@@ -1,4 +1,4 @@
-"""OfferDesk: which services and actions there are, and what YAML means as values of a type."""
+"""Which services and actions are offered, and YAML read as values of a type."""
 
 from __future__ import annotations
 
@@ -22,19 +22,19 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from studio.live.connection.desk import WireDesk
-    from studio.live.panels.interfaces import InterfaceDesk
+    from studio.live.panels.interfaces import InterfaceTypes
     from studio.ros.graph.endpoints import GraphNode
     from studio.ros.graph.graph import NamesAndTypes
 
 
-class OfferDesk:
-    """Asks the graph of the connection; without one, there is nothing."""
+class Offers:
+    """Services and actions of the connection's graph; none without a connection."""
 
-    def __init__(self, wire: WireDesk, interfaces: InterfaceDesk) -> None:
+    def __init__(self, wire: WireDesk, interfaces: InterfaceTypes) -> None:
         self._wire, self._interfaces = wire, interfaces
 
     async def services(self, command: GetServices) -> Services:
-        """Tell the services that somebody serves, and who does."""
+        """Return the services and their servers."""
         link = self._wire.current
         found: tuple[OfferView, ...] = ()
         if link is not None:
@@ -47,7 +47,7 @@ class OfferDesk:
         return Services(request=command.request, services=found)
 
     async def actions(self, command: GetActions) -> Actions:
-        """Tell the actions that somebody serves, and who does."""
+        """Return the actions and their servers."""
         link = self._wire.current
         found: tuple[OfferView, ...] = ()
         if link is not None:
@@ -91,7 +91,7 @@ def _offers(
     )
 
 
-COMMANDS: Final = Commands[OfferDesk](Scope.ROS)
+COMMANDS: Final = Commands[Offers](Scope.ROS)
 COMMANDS.viewer(GetServices, lambda one, c, _: one.services(c))
 COMMANDS.viewer(GetActions, lambda one, c, _: one.actions(c))
 COMMANDS.viewer(ReadValues, lambda one, c, _: one.read(c))

@@ -1,4 +1,4 @@
-"""ParameterDesk: parameters of nodes, asked and set from pages, and told there when they change."""
+"""Parameters of nodes: read and set from pages, which get events of their changes."""
 
 from __future__ import annotations
 
@@ -41,8 +41,8 @@ _NEWS_MAX: Final = 2_000
 """Of one node between two words about it."""
 
 
-class ParameterDesk:
-    """Keeps the clients of the nodes that were asked last, and one ear for all changes."""
+class NodeParameters:
+    """Keeps clients of the nodes asked last, and one subscription of all parameter events."""
 
     def __init__(self, wire: WireDesk) -> None:
         self._wire = wire
@@ -204,7 +204,7 @@ def _close(remotes: tuple[RemoteParameters, ...], end: Callable[[], None] | None
         end()
 
 
-COMMANDS: Final = Commands[ParameterDesk](Scope.ROS)
+COMMANDS: Final = Commands[NodeParameters](Scope.ROS)
 COMMANDS.viewer(GetParameterNodes, lambda one, c, _: one.nodes(c))
 COMMANDS.viewer(GetParameters, lambda one, c, _: one.parameters(c), needs_router=True)
 COMMANDS.presenter(SetParameter, lambda one, c, _: one.set(c), needs_router=True)

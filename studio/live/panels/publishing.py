@@ -1,4 +1,4 @@
-"""PublishDesk: messages that pages publish: once, or until the last who could stop it is gone."""
+"""Messages that pages publish: once, or at a rate while a page is there that could stop it."""
 
 from __future__ import annotations
 
@@ -7,8 +7,7 @@ import time
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
-from studio.live.panels.ledger import Ledger
-from studio.live.panels.running import Outcome, Running
+from studio.live.panels.operations import Operations, Outcome, RunningTasks
 from studio.protocol.calls import Begun
 from studio.protocol.commands import Commands, Scope
 from studio.protocol.publishing import Publications, PublicationView, Publish, StopPublishing
@@ -39,7 +38,7 @@ _OWN: Final = tuple(name for name in PublicationView.model_fields if name not in
 
 @dataclass
 class Publication:
-    """What is published, and how often it was; counted in the thread of the link."""
+    """What is published, and how often it was; counted in the connection's thread."""
 
     deed: int
     name: str
@@ -66,17 +65,19 @@ class Publication:
         return PublicationView(**own, **self.asked.model_dump(include=_AS_ASKED))
 
 
-def _told(is_whole: bool, found: tuple[Publication, ...]) -> Publications:  # noqa: FBT001
+def _event_of(is_whole: bool, found: tuple[Publication, ...]) -> Publications:  # noqa: FBT001
     return Publications(whole=is_whole, deeds=tuple(one.view() for one in found))
 
 
-class PublishDesk:
-    """Begins and ends publications; how they fare is in its ledger."""
+class Publishing:
+    """Begins and ends publications; `operations` has their state."""
 
     def __init__(self, wire: WireDesk) -> None:
         self._wire = wire
-        self.ledger: Ledger[Publication] = Ledger(_told, kept=_KEPT, running=_RUNNING_MAX)
-        self._running = Running()
+        self.operations: Operations[Publication] = Operations(
+            _event_of, kept=_KEPT, running=_RUNNING_MAX
+        )
+        self._running = RunningTasks()
         self._presenters: set[Listener] = set()
         self._leaving: asyncio.TimerHandle | None = None
 
@@ -88,11 +89,11 @@ class PublishDesk:
         """
         from studio.live.panels.publication_work import Saying  # noqa: PLC0415 - imports zenoh
 
-        number = self.ledger.next_number()
+        number = self.operations.next_number()
         link = await self._wire.link()
         saying = await asyncio.to_thread(Saying, link, command)
         publication = Publication(number, saying.name, saying.type_name, command)
-        self.ledger.add(publication)
+        self.operations.add(publication)
         self._running.start(
             number,
             self._say(publication, saying),
@@ -107,7 +108,7 @@ class PublishDesk:
             CommandError: There is no such publication.
         """
         if command.deed:
-            self.ledger.get(command.deed)
+            self.operations.get(command.deed)
             self._running.cancel(command.deed)
         else:
             self._stop_all("")
@@ -121,7 +122,7 @@ class PublishDesk:
         """A page is gone; when nobody is left who could stop it, what runs ends in a moment."""
         was_there = listener in self._presenters
         self._presenters.discard(listener)
-        if was_there and not self._presenters and self.ledger.under_way():
+        if was_there and not self._presenters and self.operations.under_way():
             if self._leaving is not None:
                 self._leaving.cancel()
             self._leaving = asyncio.get_running_loop().call_later(_GRACE_S, self._left)
@@ -135,7 +136,7 @@ class PublishDesk:
         if self._leaving is not None:
             self._leaving.cancel()
         await self.let_go()
-        await self.ledger.close()
+        await self.operations.close()
 
     def _left(self) -> None:
         self._leaving = None
@@ -143,7 +144,7 @@ class PublishDesk:
             self._stop_all("The last page that could stop it was closed.")
 
     def _stop_all(self, reason: str) -> None:
-        for one in self.ledger.under_way():
+        for one in self.operations.under_way():
             self._running.cancel(one.deed, reason)
 
     async def _say(self, publication: Publication, saying: Saying) -> None:
@@ -154,13 +155,13 @@ class PublishDesk:
             await asyncio.to_thread(saying.repeat, rate_hz, publication.said)
             while True:
                 publication.listeners = saying.listeners()
-                self.ledger.changed(publication)
+                self.operations.changed(publication)
                 await asyncio.sleep(_LOOK_S)
         await came_true(lambda: saying.listeners() > 0, _LISTENER_PATIENCE_S)
         publication.listeners = saying.listeners()
         await asyncio.to_thread(saying.say)
         publication.said()
-        self.ledger.changed(publication)
+        self.operations.changed(publication)
         await asyncio.sleep(_STAY_S)
 
     async def _finish(
@@ -168,9 +169,9 @@ class PublishDesk:
     ) -> None:
         await asyncio.to_thread(saying.close)
         publication.state, publication.trouble = _STATES[outcome.kind], outcome.trouble
-        self.ledger.changed(publication)
+        self.operations.changed(publication)
 
 
-COMMANDS: Final = Commands[PublishDesk](Scope.ROS)
+COMMANDS: Final = Commands[Publishing](Scope.ROS)
 COMMANDS.presenter(Publish, lambda one, c, _: one.begin(c), needs_router=True)
 COMMANDS.presenter(StopPublishing, lambda one, c, _: one.stop(c))

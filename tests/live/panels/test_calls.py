@@ -75,7 +75,7 @@ def test_who_follows_later_is_told_of_the_calls_of_before(endpoint: str, adder: 
             number = await page.begin(call(adder.srv_name))
             await page.deed_in("calls", number, "answered")
             newcomer = Ear()
-            page.desk.deeds.calls.ledger.follow(newcomer)
+            page.ros.calls.operations.follow(newcomer)
             (event,) = newcomer.events
             assert (event["whole"], [one["deed"] for one in event["deeds"]]) == (True, [number])
 
@@ -98,7 +98,7 @@ def test_what_cannot_be_asked_is_refused_and_not_begun(
         async with bridged(endpoint) as page:
             with pytest.raises(StudioError, match=words):
                 await page.do(CallService(name=name, service_type=kind, text=text))
-            assert page.desk.deeds.calls.ledger.under_way() == []
+            assert page.ros.calls.operations.under_way() == []
 
     asyncio.run(run())
 
@@ -157,7 +157,7 @@ def test_what_runs_ends_with_the_connection_and_says_so(endpoint: str):
     async def run() -> None:
         async with bridged(endpoint) as page:
             number = await page.begin(call("/slow", timeout_s=600))
-            await page.desk.let_go()
+            await page.ros.let_go()
             await until(lambda: page.deed("calls", number).get("state") == "failed")
             assert "connection with ROS 2 was ended" in page.deed("calls", number)["trouble"]
 

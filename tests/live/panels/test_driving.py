@@ -49,11 +49,11 @@ def test_who_falls_silent_has_the_robot_stand_still(endpoint: str, tester: Node)
 
 
 async def page_is_gone(page: Bridged) -> None:
-    page.desk.detach(page.ear)
+    page.ros.detach(page.ear)
 
 
 async def connection_ends(page: Bridged) -> None:
-    await page.desk.let_go()
+    await page.ros.let_go()
 
 
 @pytest.mark.parametrize("ends", [page_is_gone, connection_ends])
@@ -69,7 +69,7 @@ def test_nothing_drives_on_beyond_its_page_or_the_connection(
     async def run() -> None:
         async with bridged(endpoint) as page:
             await page.do(Drive(topic=TOPIC, x=0.5))
-            page.desk.detach(Ear())  # somebody else's page
+            page.ros.detach(Ear())  # somebody else's page
             await page.do(Drive(topic=TOPIC, x=0.6))
             await until(lambda: len(twists) == 2)
             await ends(page)
@@ -90,9 +90,9 @@ def test_one_drives_and_another_waits_until_they_let_go(
         async with bridged(endpoint) as page:
             await page.do(Drive(topic=TOPIC, x=0.5))
             with pytest.raises(CommandError, match=f"Somebody else drives on {TOPIC}"):
-                await ask_ros(page.desk, Drive(topic=TOPIC[1:], x=-9.0), second)
-            page.desk.detach(page.ear)
-            await ask_ros(page.desk, Drive(topic=TOPIC, x=-1.0), second)
+                await ask_ros(page.ros, Drive(topic=TOPIC[1:], x=-9.0), second)
+            page.ros.detach(page.ear)
+            await ask_ros(page.ros, Drive(topic=TOPIC, x=-1.0), second)
             await until(lambda: (-1.0, 0.0, 0.0) in speeds(twists))
             assert (-9.0, 0.0, 0.0) not in speeds(twists)
 

@@ -53,11 +53,11 @@ def test_a_server_that_lets_no_goal_end_is_told_of_and_the_goal_goes_on(endpoint
             await page.deed_in("goals", number, "executing")
             with pytest.raises(StudioError, match="goes on: its server does not let it end"):
                 await page.do(CancelGoal(deed=number))
-            assert page.desk.deeds.goals.ledger.get(number).state == "executing"
+            assert page.ros.goals.operations.get(number).state == "executing"
             await asyncio.to_thread(held.end, "succeed")
             await page.deed_in("goals", number, "succeeded")
             await page.do(CancelGoal(deed=number))  # what is over stays as it is
-            assert page.desk.deeds.goals.ledger.get(number).state == "succeeded"
+            assert page.ros.goals.operations.get(number).state == "succeeded"
 
     asyncio.run(run())
 
@@ -96,7 +96,7 @@ def test_beside_an_aborted_goal_stands_what_its_server_logged_last_as_a_warning(
             await page.deed_in("goals", second, "executing")
             await asyncio.to_thread(held.end, "abort", 1)
             await page.deed_in("goals", second, "aborted")
-            await page.desk.deeds.let_go()  # waits until all that ends has ended
+            await page.ros.let_go_of_operations()  # waits until all that ends has ended
             assert page.deed("goals", second)["server_said"] is None
 
     asyncio.run(run())
@@ -128,7 +128,7 @@ def test_with_the_connection_goals_are_lost_and_it_is_said_that_they_may_go_on(e
         async with bridged(endpoint) as page:
             number = await begun(page)
             await page.deed_in("goals", number, "executing")
-            await page.desk.let_go()
+            await page.ros.let_go()
             await until(lambda: page.deed("goals", number)["state"] == "failed")
             assert "may go on" in page.deed("goals", number)["trouble"]
 

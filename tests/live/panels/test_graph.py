@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from studio.live.connection.desk import WireDesk
-from studio.live.panels.graph import GraphDesk
+from studio.live.panels.graph import GraphViews
 from studio.protocol.graph import GetGraph, GetNode, GraphAnswer, GraphLinkView
 from studio.ros.action.client import ActionClient
 from studio.ros.action.server import ActionServer
@@ -32,16 +32,16 @@ def ignore(*_: Any) -> None:  # noqa: ANN401
 
 
 @asynccontextmanager
-async def desk_at(endpoint: str) -> AsyncGenerator[GraphDesk]:
+async def desk_at(endpoint: str) -> AsyncGenerator[GraphViews]:
     wire = WireDesk(WireChoice("off", (endpoint,)))
     try:
         await wire.link()
-        yield GraphDesk(wire)
+        yield GraphViews(wire)
     finally:
         await wire.close()
 
 
-async def told(desk: GraphDesk, holds: Callable[[GraphAnswer], bool]) -> GraphAnswer:
+async def told(desk: GraphViews, holds: Callable[[GraphAnswer], bool]) -> GraphAnswer:
     """The first answer of which it holds."""
     async with asyncio.timeout(PATIENCE_S):
         while not holds(answer := await desk.graph(GetGraph())):  # noqa: ASYNC110 - nothing tells us
@@ -65,7 +65,7 @@ def has_both_ends(answer: GraphAnswer, *names: str) -> bool:
 
 def test_without_a_connection_nobody_is_there():
     async def run() -> None:
-        desk = GraphDesk(WireDesk(WireChoice("off")))
+        desk = GraphViews(WireDesk(WireChoice("off")))
         answer = await desk.graph(GetGraph(known=3))
         assert (answer.version, answer.nodes) == (-1, ())
         assert (await desk.node(GetNode(name="/talker"))).count == 0

@@ -13,7 +13,7 @@ import pytest
 from studio.errors import CommandError
 from studio.live.connection.desk import WireDesk
 from studio.live.panels import lessons
-from studio.live.panels.lessons import LessonDesk
+from studio.live.panels.lessons import CourseDemos
 from studio.nodes.demos.table import DEMOS
 from studio.protocol.lessons import (
     DemoView,
@@ -36,17 +36,17 @@ pytestmark = pytest.mark.network
 
 
 @asynccontextmanager
-async def desk_at(endpoint: str) -> AsyncGenerator[LessonDesk]:
+async def desk_at(endpoint: str) -> AsyncGenerator[CourseDemos]:
     async with bridged(endpoint) as bridge:
-        yield bridge.desk.lessons
+        yield bridge.ros.lessons
 
 
-async def view(desk: LessonDesk, demo: str) -> DemoView:
+async def view(desk: CourseDemos, demo: str) -> DemoView:
     told = await desk.demos(GetDemos())
     return next(one for one in told.demos if one.demo == demo)
 
 
-async def seen(desk: LessonDesk, demo: str, *states: str) -> DemoView:
+async def seen(desk: CourseDemos, demo: str, *states: str) -> DemoView:
     """Wait until a demo is in one of these states."""
     async with asyncio.timeout(PATIENCE_S):
         while (now := await view(desk, demo)).state not in states:  # noqa: ASYNC110 - nothing tells us when
@@ -54,7 +54,7 @@ async def seen(desk: LessonDesk, demo: str, *states: str) -> DemoView:
     return now
 
 
-async def printed(desk: LessonDesk, demo: str, words: str) -> tuple[str, ...]:
+async def printed(desk: CourseDemos, demo: str, words: str) -> tuple[str, ...]:
     """Wait until a demo has printed some words; gives all that is kept."""
     async with asyncio.timeout(PATIENCE_S):
         while True:
@@ -64,7 +64,7 @@ async def printed(desk: LessonDesk, demo: str, words: str) -> tuple[str, ...]:
             await asyncio.sleep(0.02)
 
 
-def pid_of(desk: LessonDesk, demo: str) -> int:
+def pid_of(desk: CourseDemos, demo: str) -> int:
     process = desk._runs[demo]._process  # pyright: ignore[reportPrivateUsage]
     assert process is not None
     return process.pid
@@ -79,7 +79,7 @@ def is_there(pid: int) -> bool:
 
 
 def test_every_demo_is_listed_by_chapters():
-    desk = LessonDesk(WireDesk(WireChoice("off")))
+    desk = CourseDemos(WireDesk(WireChoice("off")))
     told = desk.lessons(GetLessons(request=4))
     assert told.request == 4
     assert {one.demo for one in told.lessons} == {demo.name for demo in DEMOS}
@@ -195,7 +195,7 @@ def test_no_more_than_the_most_run_at_once(endpoint: str, monkeypatch: pytest.Mo
 
 def test_without_a_connection_or_such_a_demo_nothing_starts():
     async def run() -> None:
-        desk = LessonDesk(WireDesk(WireChoice("off")))
+        desk = CourseDemos(WireDesk(WireChoice("off")))
         assert (await desk.demos(GetDemos())).elsewhere == ()
         with pytest.raises(CommandError, match="Not connected with ROS 2: connect first"):
             await desk.start(StartDemo(demo="talker"))
@@ -226,7 +226,7 @@ def test_while_the_router_is_gone_nothing_starts():
 def test_all_end_when_the_connection_is_let_go_and_none_starts_after_the_end(endpoint: str):
     async def run() -> None:
         async with bridged(endpoint) as bridge:
-            desk = bridge.desk
+            desk = bridge.ros
             for demo in ("talker", "add_points_client"):
                 await desk.lessons.start(StartDemo(demo=demo))
             pids = [pid_of(desk.lessons, demo) for demo in ("talker", "add_points_client")]
@@ -259,7 +259,7 @@ def test_a_demo_is_in_the_domain_of_the_studio_not_in_that_of_its_environment(
 
     async def run() -> None:
         wire = WireDesk(WireChoice("off", (endpoint,), domain=41))
-        desk = LessonDesk(wire)
+        desk = CourseDemos(wire)
         try:
             await wire.link()
             await desk.start(StartDemo(demo="talker"))

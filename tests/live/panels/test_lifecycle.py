@@ -11,7 +11,7 @@ import pytest
 from studio.errors import CommandError, NotServedError
 from studio.live.connection.desk import WireDesk
 from studio.live.panels import lifecycle
-from studio.live.panels.lifecycle import LifecycleDesk
+from studio.live.panels.lifecycle import LifecycleNodes
 from studio.protocol.graph import ChangeState, GetManaged, ManagedNodeView
 from studio.settings import WireChoice
 from tests.support.managed_arm import managed_arm
@@ -24,9 +24,9 @@ pytestmark = pytest.mark.network
 
 
 @asynccontextmanager
-async def desk_at(endpoint: str) -> AsyncGenerator[LifecycleDesk]:
+async def desk_at(endpoint: str) -> AsyncGenerator[LifecycleNodes]:
     wire = WireDesk(WireChoice("off", (endpoint,)))
-    desk = LifecycleDesk(wire)
+    desk = LifecycleNodes(wire)
     try:
         await wire.link()
         yield desk
@@ -35,7 +35,7 @@ async def desk_at(endpoint: str) -> AsyncGenerator[LifecycleDesk]:
         await wire.close()
 
 
-async def seen(desk: LifecycleDesk, holds: Callable[[ManagedNodeView], bool]) -> ManagedNodeView:
+async def seen(desk: LifecycleNodes, holds: Callable[[ManagedNodeView], bool]) -> ManagedNodeView:
     async with asyncio.timeout(PATIENCE_S):
         while True:
             for one in (await desk.managed(GetManaged())).nodes:
@@ -81,7 +81,7 @@ def test_without_a_connection_or_such_a_node_nothing_changes(
     monkeypatch.setattr(lifecycle, "_CHANGE_S", 0.05)
 
     async def run() -> None:
-        alone = LifecycleDesk(WireDesk(WireChoice("off")))
+        alone = LifecycleNodes(WireDesk(WireChoice("off")))
         assert (await alone.managed(GetManaged(request=6))).request == 6
         with pytest.raises(CommandError, match="Not connected"):
             await alone.change(ChangeState(node="/arm", transition=1))

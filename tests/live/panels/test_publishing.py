@@ -33,12 +33,12 @@ def test_what_goes_on_and_on_ends_with_the_last_page_that_could_stop_it(
         async with bridged(endpoint) as page:
             first, second, viewer = Ear(), Ear(), Ear(Role.VIEWER)
             for one in (first, second, viewer):
-                page.desk.attach(one)
+                page.ros.attach(one)
             number = await page.begin(say(rate_hz=20))
-            page.desk.detach(first)
+            page.ros.detach(first)
             await until(lambda: page.deed("publications", number).get("sent", 0) > 4)
             assert page.deed("publications", number)["state"] == "running"
-            page.desk.detach(second)
+            page.ros.detach(second)
             told = await page.deed_in("publications", number, "failed", "stopped")
             assert told["trouble"] == "The last page that could stop it was closed."
 
@@ -51,11 +51,11 @@ def test_a_page_that_is_loaded_anew_stops_nothing(endpoint: str, monkeypatch: py
     async def run() -> None:
         async with bridged(endpoint) as page:
             before, after = Ear(), Ear()
-            page.desk.attach(before)
+            page.ros.attach(before)
             number = await page.begin(say(rate_hz=50))
-            page.desk.detach(before)
-            page.desk.attach(after)
-            sent = page.desk.deeds.publishing.ledger.get(number).sent
+            page.ros.detach(before)
+            page.ros.attach(after)
+            sent = page.ros.publishing.operations.get(number).sent
             await until(lambda: page.deed("publications", number).get("sent", 0) > sent + 20)
             assert page.deed("publications", number)["state"] == "running"
             await page.do(StopPublishing())

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from studio.errors import RouterGoneError
-from studio.live.panels.desk import COMMANDS
+from studio.live.panels.ros_system import COMMANDS
 from studio.protocol.calls import CallService
 from studio.protocol.goals import CancelGoal, SendGoal
 from studio.protocol.publishing import Drive, Publish, StopPublishing
@@ -110,7 +110,7 @@ def test_a_robot_that_was_driven_when_the_router_went_stands_still_once_it_is_ba
             with pytest.raises(RouterGoneError):
                 await driving
             assert told[-1].linear.x == 1.0
-            page.desk.detach(page.ear)  # else it ends in half a second, with the router back
+            page.ros.detach(page.ear)  # else it ends in half a second, with the router back
             with router_at(endpoint):
                 await until(lambda: told[-1].linear.x == 0.0)
 

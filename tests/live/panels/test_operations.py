@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import pytest
 
 from studio.errors import CommandError
-from studio.live.panels.ledger import Ledger
+from studio.live.panels.operations import Operations
 from studio.protocol.calls import Calls
 from tests.support.open_documents import Ear, until
 
@@ -17,12 +17,12 @@ class Deed:
     is_over: bool = False
 
 
-def ledger(told: list[tuple[bool, list[int]]]) -> Ledger[Deed]:
+def ledger(told: list[tuple[bool, list[int]]]) -> Operations[Deed]:
     def say(is_whole: bool, deeds: tuple[Deed, ...]) -> Calls:
         told.append((is_whole, [one.deed for one in deeds]))
         return Calls(whole=is_whole, deeds=())
 
-    return Ledger(say, kept=2, running=3)
+    return Operations(say, kept=2, running=3)
 
 
 def test_only_the_last_that_are_over_are_kept_and_so_many_may_run():

@@ -10,7 +10,7 @@ import pytest
 
 from studio.errors import UnknownTypeError
 from studio.live.connection.desk import WireDesk
-from studio.live.panels.interfaces import InterfaceDesk
+from studio.live.panels.interfaces import InterfaceTypes
 from studio.protocol.interfaces import GetInterface
 from studio.ros.types.library import TypeLibrary
 from studio.settings import WireChoice
@@ -39,11 +39,11 @@ def foreign_types() -> TypeLibrary:
 
 
 @asynccontextmanager
-async def joined(endpoint: str) -> AsyncGenerator[tuple[InterfaceDesk, WireLink]]:
+async def joined(endpoint: str) -> AsyncGenerator[tuple[InterfaceTypes, WireLink]]:
     wire = WireDesk(WireChoice("off", (endpoint,)))
     try:
         link = await wire.link()
-        yield InterfaceDesk(wire), link
+        yield InterfaceTypes(wire), link
     finally:
         await wire.close()
 

@@ -1,6 +1,6 @@
 from __future__ import annotations
 
-from studio.live.panels.printed import LINE_MAX, LINES_MAX, PrintedLines
+from studio.live.panels.lessons import LINE_MAX, LINES_MAX, PrintedLines
 
 
 def test_lines_come_whole_however_the_bytes_are_cut():

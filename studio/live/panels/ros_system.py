@@ -1,0 +1,150 @@
+"""RosSystem: all that panels see of a ROS 2 system, and do in it."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import TYPE_CHECKING, Final
+
+from studio.errors import RouterGoneError
+from studio.live.panels import (
+    calls,
+    diagnostics,
+    driving,
+    goal_statuses,
+    goals,
+    graph,
+    interfaces,
+    lessons,
+    lifecycle,
+    logs,
+    offers,
+    parameters,
+    publishing,
+    rates,
+    topics,
+)
+from studio.live.panels.diagnostics import DiagnosticsDesk
+from studio.live.panels.hearing import HearingDesk
+from studio.live.panels.logs import LogDesk
+from studio.live.panels.rates import RateDesk
+from studio.live.panels.topics import TopicDesk
+from studio.protocol.calls import FollowDeeds
+from studio.protocol.commands import Commands, Scope
+
+if TYPE_CHECKING:
+    from studio.live.connection.desk import WireDesk
+    from studio.protocol.listeners import Listener
+
+
+class RosSystem:
+    """One part for each subject of panels; used on the event loop only."""
+
+    def __init__(self, wire: WireDesk) -> None:
+        self._wire = wire
+        self.interfaces = interfaces.InterfaceTypes(wire)
+        self.hearing = HearingDesk(wire)
+        self.topics = TopicDesk(wire)
+        self.rates = RateDesk(wire)
+        self.logs = LogDesk(wire)
+        self.graph = graph.GraphViews(wire)
+        self.lifecycle = lifecycle.LifecycleNodes(wire)
+        self.diagnostics = DiagnosticsDesk(wire)
+        self.offers = offers.Offers(wire, self.interfaces)
+        self.calls = calls.ServiceCalls(wire)
+        self.goals = goals.ActionGoals(wire, self.logs)
+        self.goal_statuses = goal_statuses.GoalStatusTopics(wire, self.goals.own_ids)
+        self.publishing = publishing.Publishing(wire)
+        self.parameters = parameters.NodeParameters(wire)
+        self.driving = driving.Driving(wire)
+        self.lessons = lessons.CourseDemos(wire)
+        self._operations = {
+            "calls": self.calls.operations,
+            "goals": self.goals.operations,
+            "publications": self.publishing.operations,
+        }
+
+    def check_router(self) -> None:
+        """Pass if the router is there, or if there is no connection yet: one is made then.
+
+        Raises:
+            RouterGoneError: The router is away.
+        """
+        link = self._wire.current
+        if link is not None and not link.is_connected:
+            raise RouterGoneError(link.endpoint)
+
+    def follow(self, command: FollowDeeds, listener: Listener) -> None:
+        """Send a page the operations of one kind from now on, or no longer."""
+        operations = self._operations[command.deeds]
+        if command.following:
+            operations.follow(listener)
+        else:
+            operations.unfollow(listener)
+
+    def attach(self, listener: Listener) -> None:
+        """A page is there."""
+        self.publishing.attach(listener)
+
+    def detach(self, listener: Listener) -> None:
+        """A page is gone: what it drove stands still, and what it began goes on.
+
+        Only what is published again and again ends when no page is left that could stop it.
+        """
+        for operations in self._operations.values():
+            operations.unfollow(listener)
+        self.parameters.detach(listener)
+        self.publishing.detach(listener)
+        self.driving.detach(listener)
+
+    async def let_go(self) -> None:
+        """Let go of the connection, which is about to end."""
+        await asyncio.gather(
+            self.hearing.let_go(),
+            self.let_go_of_operations(),
+            self.driving.let_go(),
+            self.lessons.let_go(),
+            self.logs.let_go(),
+            self.lifecycle.let_go(),
+            self.diagnostics.let_go(),
+        )
+
+    async def let_go_of_operations(self) -> None:
+        """End calls, goals and publications; returns when all have ended."""
+        await asyncio.gather(
+            self.calls.let_go(),
+            self.goals.let_go(),
+            self.goal_statuses.let_go(),
+            self.publishing.let_go(),
+            self.parameters.let_go(),
+        )
+
+    async def close(self) -> None:
+        """End all that runs."""
+        await asyncio.gather(
+            self.hearing.close(),
+            self.let_go_of_operations(),
+            self.driving.let_go(),
+            self.lessons.close(),
+            self.lifecycle.let_go(),
+        )
+        parts = (self.calls, self.goals, self.publishing, self.parameters)
+        await asyncio.gather(*(one.close() for one in parts))
+
+
+COMMANDS: Final = Commands[RosSystem](Scope.ROS)
+COMMANDS.viewer(FollowDeeds, lambda ros, c, who: ros.follow(c, who))
+COMMANDS.include(calls.COMMANDS, lambda ros, _: ros.calls)
+COMMANDS.include(diagnostics.COMMANDS, lambda ros, _: ros.diagnostics)
+COMMANDS.include(driving.COMMANDS, lambda ros, _: ros.driving)
+COMMANDS.include(goal_statuses.COMMANDS, lambda ros, _: ros.goal_statuses)
+COMMANDS.include(goals.COMMANDS, lambda ros, _: ros.goals)
+COMMANDS.include(graph.COMMANDS, lambda ros, _: ros.graph)
+COMMANDS.include(interfaces.COMMANDS, lambda ros, _: ros.interfaces)
+COMMANDS.include(lessons.COMMANDS, lambda ros, _: ros.lessons)
+COMMANDS.include(lifecycle.COMMANDS, lambda ros, _: ros.lifecycle)
+COMMANDS.include(logs.COMMANDS, lambda ros, _: ros.logs)
+COMMANDS.include(offers.COMMANDS, lambda ros, _: ros.offers)
+COMMANDS.include(parameters.COMMANDS, lambda ros, _: ros.parameters)
+COMMANDS.include(publishing.COMMANDS, lambda ros, _: ros.publishing)
+COMMANDS.include(rates.COMMANDS, lambda ros, _: ros.rates)
+COMMANDS.include(topics.COMMANDS, lambda ros, _: ros.topics)
