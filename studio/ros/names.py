@@ -24,7 +24,7 @@ KINDS = tuple(_PARTS_OF_TYPES)
 
 
 def check_node_name(name: str) -> str:
-    """Give back the name of a node, without its namespace.
+    """Return the name of a node, without its namespace.
 
     Raises:
         RosNameError: rcl would refuse it.
@@ -37,7 +37,7 @@ def check_node_name(name: str) -> str:
 
 
 def check_namespace(namespace: str) -> str:
-    """Give back a namespace, which begins with a slash and ends with none unless it is `/`.
+    """Return a namespace, which begins with a slash and ends with none unless it is `/`.
 
     Raises:
         RosNameError: rcl would refuse it.
@@ -51,12 +51,12 @@ def check_namespace(namespace: str) -> str:
 
 
 def as_namespace(text: str) -> str:
-    """Make a namespace of what a user gives: empty is `/`, and a missing first slash is added."""
+    """Make a namespace of what a user writes: empty is `/`, and a missing first slash is added."""
     return check_namespace(text if text.startswith("/") else f"/{text}")
 
 
 def check_topic_name(name: str) -> str:
-    """Give back the name of a topic, service or action: absolute, relative or private with `~`.
+    """Return the name of a topic, service or action: absolute, relative or private with `~`.
 
     Raises:
         RosNameError: rcl would refuse it.
@@ -96,7 +96,7 @@ def expand(name: str, namespace: str = "/", node: str = "node") -> str:
 
 
 def check_full_name(name: str) -> str:
-    """Give back a fully qualified name.
+    """Return a fully qualified name.
 
     Raises:
         RosNameError: It is not absolute, or a part of it breaks a rule.
@@ -134,7 +134,7 @@ def is_hidden(name: str) -> bool:
 
 
 def check_package_name(name: str) -> str:
-    """Give back the name of a package of interfaces.
+    """Return the name of a package of interfaces.
 
     Raises:
         RosNameError: rosidl would refuse it.

@@ -156,7 +156,7 @@ class ParameterClient:
     """Every question waits at most `timeout_s`; `with` takes the clients back at the end.
 
     Questions raise NotServedError when the node does not serve its parameters in time, and
-    NoAnswerError when it gives no answer.
+    NoAnswerError when it does not answer.
     """
 
     def __init__(self, node: Node, remote: str, timeout_s: float = ANSWER_TIMEOUT_S) -> None:
@@ -185,7 +185,7 @@ class ParameterClient:
         return sorted(asked.result.names)
 
     def get(self, names: Sequence[str]) -> list[Parameter]:
-        """Give parameters in the order asked; one that is not declared is not set.
+        """Return parameters in the order asked; one that is not declared is not set.
 
         Raises:
             InvalidParameterTypeError: The node sent a type that there is not.
@@ -199,7 +199,7 @@ class ParameterClient:
         ]
 
     def types(self, names: Sequence[str]) -> list[ParameterType]:
-        """Give the types of parameters in the order asked."""
+        """Return the types of parameters in the order asked."""
         asked = self._ask("get_parameter_types", lambda: self._client.get_parameter_types(names))
         types = list(asked.types)
         known = types if len(types) == len(names) else [0] * len(names)
@@ -209,17 +209,17 @@ class ParameterClient:
         ]
 
     def describe(self, names: Sequence[str]) -> list[MessageValue]:
-        """Give the ParameterDescriptors that the node has of these names."""
+        """Return the ParameterDescriptors that the node has of these names."""
         asked = self._ask("describe_parameters", lambda: self._client.describe_parameters(names))
         return list(asked.descriptors)
 
     def set(self, parameters: Sequence[Parameter]) -> list[MessageValue]:
-        """Set parameters one after another, and give a SetParametersResult of each."""
+        """Set parameters one after another, and return a SetParametersResult of each."""
         asked = self._ask("set_parameters", lambda: self._client.set_parameters(parameters))
         return list(asked.results)
 
     def set_atomically(self, parameters: Sequence[Parameter]) -> MessageValue:
-        """Set all parameters or none, and give one SetParametersResult."""
+        """Set all parameters or none, and return one SetParametersResult."""
         asked = self._ask(
             "set_parameters_atomically",
             lambda: self._client.set_parameters_atomically(parameters),
@@ -234,7 +234,7 @@ class ParameterClient:
     def load(
         self, text: str, where: str = "The file of parameters", *, wildcards: bool = True
     ) -> list[tuple[Parameter, MessageValue]]:
-        """Set what a file says of the node, and give a SetParametersResult of each.
+        """Set what a file says of the node, and return a SetParametersResult of each.
 
         Raises:
             ParameterFileError: It is no such file.
@@ -243,7 +243,7 @@ class ParameterClient:
         return list(zip(parameters, self.set(parameters), strict=True)) if parameters else []
 
     def _ask(self, service: str, ask: Callable[[], Future[Any]]) -> Any:  # noqa: ANN401
-        """Wait until the node is there, then ask; give the response."""
+        """Wait until the node is there, then call it; return the response."""
         client = self._client.clients[service]
         if not client.wait_for_service(timeout_sec=self._timeout_s):
             raise NotServedError("service", client.srv_name)

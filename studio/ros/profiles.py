@@ -13,7 +13,7 @@ NO_HASH = "TypeHashNotSupported"
 class WireProfile:
     """A distribution: the store of message types that belongs to it, and whether keys hold hashes.
 
-    `best_available` tells whether the graph knows the QoS value of that name.
+    `best_available` is whether the graph knows the QoS value of that name.
     """
 
     distro: str
@@ -21,7 +21,7 @@ class WireProfile:
     best_available: bool
 
     def type_hash(self, computed: str) -> str:
-        """Give what stands in keys and tokens for a hash of ours."""
+        """Return what stands in keys and tokens for a hash of ours."""
         return computed if self.has_type_hash else NO_HASH
 
 

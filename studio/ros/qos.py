@@ -56,7 +56,7 @@ class LivelinessPolicy(IntEnum):
 
 @dataclass(slots=True, kw_only=True)
 class QoSProfile:
-    """One side's wishes; a zero duration stands for none, as in rclpy."""
+    """What one side offers or requests; a zero duration stands for none, as in rclpy."""
 
     history: HistoryPolicy = HistoryPolicy.KEEP_LAST
     depth: int = 0
@@ -70,7 +70,7 @@ class QoSProfile:
 
 
 def as_profile(qos: QoSProfile | int) -> QoSProfile:
-    """Give a profile of one's own, of a whole profile or a depth alone."""
+    """Return a new profile, made of a profile or of a depth alone."""
     return QoSProfile(depth=qos) if isinstance(qos, int) else copy.copy(qos)
 
 
@@ -172,58 +172,58 @@ qos_profile_best_available = QoSProfile(
 )
 
 
-def why_unmatched(offered: QoSProfile, wished: QoSProfile) -> list[str]:
-    """Say what keeps a publisher and a subscription apart; empty when they match.
+def why_unmatched(offered: QoSProfile, requested: QoSProfile) -> list[str]:
+    """Return what keeps a publisher and a subscription apart; empty when they match.
 
     Zenoh itself carries the samples either way, so that this explains counts and warnings,
     and what would happen to the same nodes on DDS.
     """
     return [
-        *_reliability(offered, wished),
-        *_durability(offered, wished),
-        *_deadline(offered, wished),
-        *_liveliness(offered, wished),
+        *_reliability(offered, requested),
+        *_durability(offered, requested),
+        *_deadline(offered, requested),
+        *_liveliness(offered, requested),
     ]
 
 
-def _reliability(offered: QoSProfile, wished: QoSProfile) -> list[str]:
+def _reliability(offered: QoSProfile, requested: QoSProfile) -> list[str]:
     if (
         offered.reliability is ReliabilityPolicy.BEST_EFFORT
-        and wished.reliability is ReliabilityPolicy.RELIABLE
+        and requested.reliability is ReliabilityPolicy.RELIABLE
     ):
         return ["the publisher is best effort, the subscription wants reliable"]
     return []
 
 
-def _durability(offered: QoSProfile, wished: QoSProfile) -> list[str]:
+def _durability(offered: QoSProfile, requested: QoSProfile) -> list[str]:
     if (
         offered.durability is DurabilityPolicy.VOLATILE
-        and wished.durability is DurabilityPolicy.TRANSIENT_LOCAL
+        and requested.durability is DurabilityPolicy.TRANSIENT_LOCAL
     ):
         return ["the publisher is volatile, the subscription wants transient local"]
     return []
 
 
-def _deadline(offered: QoSProfile, wished: QoSProfile) -> list[str]:
-    return _later("deadline", offered.deadline, wished.deadline)
+def _deadline(offered: QoSProfile, requested: QoSProfile) -> list[str]:
+    return _later("deadline", offered.deadline, requested.deadline)
 
 
-def _liveliness(offered: QoSProfile, wished: QoSProfile) -> list[str]:
+def _liveliness(offered: QoSProfile, requested: QoSProfile) -> list[str]:
     found = _later(
-        "liveliness lease", offered.liveliness_lease_duration, wished.liveliness_lease_duration
+        "liveliness lease", offered.liveliness_lease_duration, requested.liveliness_lease_duration
     )
     if (
         offered.liveliness is LivelinessPolicy.AUTOMATIC
-        and wished.liveliness is LivelinessPolicy.MANUAL_BY_TOPIC
+        and requested.liveliness is LivelinessPolicy.MANUAL_BY_TOPIC
     ):
         found.append("the publisher's liveliness is automatic, the subscription wants it by topic")
     return found
 
 
-def _later(what: str, offered: Duration, wished: Duration) -> list[str]:
+def _later(what: str, offered: Duration, requested: Duration) -> list[str]:
     offered_ns = offered.nanoseconds or INFINITE.nanoseconds
-    wished_ns = wished.nanoseconds or INFINITE.nanoseconds
-    if offered_ns <= wished_ns:
+    requested_ns = requested.nanoseconds or INFINITE.nanoseconds
+    if offered_ns <= requested_ns:
         return []
     said = "none" if offered_ns == INFINITE.nanoseconds else f"{offered_ns / 1e9:g} s"
-    return [f"the publisher's {what} is {said}, the subscription wants {wished_ns / 1e9:g} s"]
+    return [f"the publisher's {what} is {said}, the subscription wants {requested_ns / 1e9:g} s"]

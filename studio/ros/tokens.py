@@ -46,7 +46,7 @@ class DataKey:
 
 
 def whatever_type_key(domain: int, name: str) -> str:
-    """Give the key expression of a name with any type and hash."""
+    """Return the key expression of a name with any type and hash."""
     return f"{domain}/{name.removeprefix('/')}/*/*"
 
 
@@ -153,7 +153,7 @@ class EndpointToken:
 
 
 def tokens_of_domain(domain: int) -> str:
-    """Give the key expression of every token of a domain."""
+    """Return the key expression of every token of a domain."""
     return f"{ADMIN_SPACE}/{domain}/**"
 
 
@@ -221,7 +221,7 @@ def _plain(chunk: str) -> str:
 
 
 def gid_of(token: str) -> bytes:
-    """Give XXH3-128 of the whole token, low half first, each half little endian.
+    """Return XXH3-128 of the whole token, low half first, each half little endian.
 
     Peers that are no rmw_zenoh may send anything else, so that a GID nobody's token has is
     no error.

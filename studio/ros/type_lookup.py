@@ -34,7 +34,7 @@ Say: TypeAlias = "Callable[[str], object]"
 def learn_from(
     node: Node, endpoint: GraphEndpoint, timeout_s: float = ANSWER_TIMEOUT_S
 ) -> list[str]:
-    """Ask the node of an endpoint what its type is made of; give the names that are new.
+    """Ask the node of an endpoint what its type is made of; return the names that are new.
 
     Of a part of an action, such as its feedback, the whole action is asked.
 
@@ -63,7 +63,7 @@ def texts_from(
 def _told(
     node: Node, endpoint: GraphEndpoint, timeout_s: float
 ) -> tuple[dict[str, tuple[str, MessageValue]], list[MessageValue]]:
-    """Give descriptions with their hashes by what was asked, and the sources of all."""
+    """Return descriptions with their hashes by what was asked, and the sources of all."""
     name = endpoint.type_name
     if endpoint.type_hash == NO_HASH:
         raise TypeDescriptionError(name, "nodes of Humble do not describe their types")
@@ -89,7 +89,7 @@ def _told(
 
 
 def _questions(node: Node, endpoint: GraphEndpoint) -> dict[str, str]:
-    """Give the names and hashes to ask for: of an action all three parts, if they are there."""
+    """Return the names and hashes to ask for: of an action all three parts, if they are there."""
     if "/action/" not in endpoint.type_name:
         return {endpoint.type_name: endpoint.type_hash}
     owner = owner_of(endpoint.type_name)
@@ -102,7 +102,7 @@ def _questions(node: Node, endpoint: GraphEndpoint) -> dict[str, str]:
 
 
 def known_service(node: Node, name: str, type_name: str, say: Say) -> ServiceType:
-    """Give a service's type; why a node did not tell it is said.
+    """Return a service's type; `say` is given the reasons why nodes did not describe it.
 
     Raises:
         UnknownTypeError: Nobody here or there knows it.
@@ -112,14 +112,14 @@ def known_service(node: Node, name: str, type_name: str, say: Say) -> ServiceTyp
 
 
 def known_action(node: Node, name: str, type_name: str, say: Say) -> ActionType:
-    """Give an action's type; else as `known_service`."""
+    """Return an action's type; else as `known_service`."""
     types = node.wire.types
     service = goal_service(name)
     return _known(types.action, type_name, node, lambda: node.graph.servers(service), say)
 
 
 def known_message(node: Node, topic: str, type_name: str, say: Say) -> type[MessageValue]:
-    """Give the type of a topic's messages; else as `known_service`."""
+    """Return the type of a topic's messages; else as `known_service`."""
 
     def users() -> list[GraphEndpoint]:
         return [*node.graph.subscriptions(topic), *node.graph.publishers(topic)]
@@ -128,9 +128,9 @@ def known_message(node: Node, topic: str, type_name: str, say: Say) -> type[Mess
 
 
 def learn_from_any(node: Node, endpoints: Iterable[GraphEndpoint], say: Say) -> None:
-    """Ask the nodes of endpoints in turn until one tells what its type is made of.
+    """Ask the nodes of endpoints in turn until one describes its type.
 
-    Why one did not is said; whether the type is known is seen by who needs it.
+    `say` is given the reasons why others did not.
     """
     for endpoint in endpoints:
         path = endpoint.node.path
@@ -146,7 +146,7 @@ def learn_from_any(node: Node, endpoints: Iterable[GraphEndpoint], say: Say) -> 
 
 
 def texts_of_any(node: Node, endpoints: Iterable[GraphEndpoint]) -> dict[str, str]:
-    """Ask the nodes of endpoints in turn until one tells how its type is written; by name."""
+    """Ask the nodes of endpoints in turn until one sends the text of its type; by name."""
     for endpoint in endpoints:
         if node.graph.has_server(f"{endpoint.node.path}/{DESCRIPTION_SERVICE}"):
             with suppress(StudioError):
@@ -155,7 +155,7 @@ def texts_of_any(node: Node, endpoints: Iterable[GraphEndpoint]) -> dict[str, st
 
 
 def users_of(graph: Graph, name: str) -> list[GraphEndpoint]:
-    """Tell who uses a type, or the parts of it that actions are made of."""
+    """Return the endpoints that use a type, or a part of it if it is an action."""
     ends = (end for node in graph.nodes() for end in graph.endpoints_of(node))
     is_action = "/action/" in name
     return [

@@ -46,7 +46,7 @@ TRIES_MAX = 20
 RESULT_TIMEOUT_S = 365 * 24 * 3600.0
 """A goal may take as long as it likes: the end of its server ends the wait."""
 GOALS_KEPT_MAX = 1_000
-"""The last goals sent: of these feedback and status are heard."""
+"""The last goals sent: of these feedback and status are received."""
 
 
 class ClientGoalHandle:
@@ -75,11 +75,11 @@ class ClientGoalHandle:
 
     @property
     def status(self) -> GoalStatus:
-        """How far it is, as the server told last."""
+        """Its state, as the server reported last."""
         return self._status
 
-    def told(self, status: GoalStatus) -> None:
-        """Take note of its status; of the client. It never goes back."""
+    def update_status(self, status: GoalStatus) -> None:
+        """Set its status, which never goes back; called by the client."""
         self._status = max(self._status, status) if not self._status.is_over else self._status
 
     def cancel_goal_async(self) -> Future[Any]:
@@ -145,7 +145,7 @@ class ActionClient:
         self._lock = threading.Lock()
         self._listening: OrderedDict[bytes, Callable[[Any], object]] = OrderedDict()
         self._goals: OrderedDict[bytes, ClientGoalHandle] = OrderedDict()
-        self._told: dict[bytes, int] = {}
+        self._statuses: dict[bytes, int] = {}
         self._goal_info_type = node.wire.types.message("action_msgs/msg/GoalInfo")
         names = ActionNames.of(self._name)
         qos = ActionQos(
@@ -218,13 +218,13 @@ class ActionClient:
         return handle.get_result() if handle.accepted else None
 
     def cancel_goal(self, goal: ClientGoalHandle) -> Future[Any]:
-        """Ask that a goal end; of goals."""
+        """Ask that a goal end; called by goals."""
         info = self._goal_info_type(goal_id=goal.goal_id)
         request = self._cancel.srv_type.Request(goal_info=info)
         return self._ask(self._cancel, request)
 
     def get_result(self, goal: ClientGoalHandle) -> Future[Any]:
-        """Ask for the result of a goal; of goals."""
+        """Ask for the result of a goal; called by goals."""
         request = self._type.GetResult.Request(goal_id=goal.goal_id)
         return ResultWait(
             self._node, self._result, request, lambda reply: self._ended(goal, reply), self._name
@@ -271,7 +271,7 @@ class ActionClient:
         request: MessageValue,
         follow: Callable[[Any], Any] = lambda reply: reply,
     ) -> Future[Any]:
-        """Ask the server; what becomes of the answer is what `follow` gives for the reply."""
+        """Call a service of the server; the future becomes what `follow` returns for the reply."""
         asked = client.call_async(request)
         answer: Future[Any] = Future(executor=self._node.executor)
 
@@ -289,7 +289,7 @@ class ActionClient:
         return answer
 
     def _said(self, client: Client, error: BaseException) -> BaseException:
-        """Say an error in terms of the action."""
+        """Return an error in terms of the action."""
         if not isinstance(error, NotServedError):
             return error
         if client.service_is_ready():
@@ -302,12 +302,14 @@ class ActionClient:
         goal = ClientGoalHandle(self, goal_id, reply)
         if goal.accepted:
             self._keep(self._goals, goal_id, goal)
-            goal.told(GoalStatus(self._told.get(goal_id_of(goal_id), GoalStatus.UNKNOWN)))
+            goal.update_status(
+                GoalStatus(self._statuses.get(goal_id_of(goal_id), GoalStatus.UNKNOWN))
+            )
         return goal
 
     def _ended(self, goal: ClientGoalHandle, reply: MessageValue) -> MessageValue:
-        # Its feedback is still heard: the last of it may come after the result.
-        goal.told(GoalStatus(reply.status))
+        # Its feedback is still received: the last of it may come after the result.
+        goal.update_status(GoalStatus(reply.status))
         return reply
 
     def _keep(self, kept: OrderedDict[bytes, Any], goal_id: MessageValue, what: object) -> None:
@@ -323,14 +325,14 @@ class ActionClient:
         return callback(message) if callback is not None else None
 
     def _on_status(self, message: MessageValue) -> None:
-        told = {goal_id_of(one.goal_info.goal_id): one.status for one in message.status_list}
+        statuses = {goal_id_of(one.goal_info.goal_id): one.status for one in message.status_list}
         with self._lock:
             # Of a goal whose acceptance is not taken in yet, too.
-            self._told = told
-            goals = [(self._goals.get(goal_id), status) for goal_id, status in told.items()]
+            self._statuses = statuses
+            goals = [(self._goals.get(goal_id), status) for goal_id, status in statuses.items()]
         for goal, status in goals:
             if goal is not None:
-                goal.told(GoalStatus(status))
+                goal.update_status(GoalStatus(status))
 
 
 class ResultWait:

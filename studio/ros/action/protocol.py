@@ -79,7 +79,7 @@ def can_follow(status: GoalStatus, event: GoalEvent) -> bool:
 
 
 def next_status(status: GoalStatus, event: GoalEvent) -> GoalStatus:
-    """Give the state after an event.
+    """Return the state after an event.
 
     Raises:
         GoalStateError: The event does not follow.
@@ -139,7 +139,7 @@ def new_goal_id() -> bytes:
 
 
 def goal_id_of(message: MessageValue) -> bytes:
-    """Give the bytes of a UUID message."""
+    """Return the bytes of a UUID message."""
     return bytes(message.uuid)
 
 

@@ -79,7 +79,7 @@ def default_cancel_callback(cancel_request: object) -> CancelResponse:
 
 
 async def call_or_await(callback: Callable[..., Any], *arguments: object) -> Any:  # noqa: ANN401
-    """Call a function or coroutine function, and give what it returns."""
+    """Call a function or coroutine function, and return its result."""
     result = callback(*arguments)
     return await result if inspect.isawaitable(result) else result
 
@@ -175,7 +175,7 @@ class ActionServer:
         self._execute_callback = execute_callback
 
     def destroy(self) -> None:
-        """Take the action back; clients of goals under way are told that nobody serves it."""
+        """Take the action back; clients of goals under way learn that nobody serves it."""
         with self._status_lock:
             self._destroyed = True
         self._node.forget_destroy(self.destroy)
@@ -191,11 +191,11 @@ class ActionServer:
     def execute(
         self, goal: ServerGoalHandle, callback: Callable[[ServerGoalHandle], Any] | None
     ) -> None:
-        """Have the work on a goal carried out; of goals."""
+        """Execute a goal; called by goals."""
         self._later.add(self._execute(goal, callback or self._execute_callback))
 
     def publish_feedback(self, goal: ServerGoalHandle, feedback: MessageValue) -> None:
-        """Tell how far a goal is; of goals.
+        """Publish feedback of a goal; called by goals.
 
         Raises:
             MessageValueError: It is no feedback of this action.
@@ -206,8 +206,8 @@ class ActionServer:
         self._feedback.publish(self._type.FeedbackMessage(goal_id=goal.goal_id, feedback=feedback))
 
     def publish_status(self) -> None:
-        """Tell how far every goal is; of goals. Nobody listens to a server that was destroyed."""
-        # The last one published is what late comers hear: it must be the newest.
+        """Publish the states of all goals, until the server is destroyed; called by goals."""
+        # Late subscriptions get the last one published: it must be the newest.
         with self._status_lock:
             if not self._destroyed:
                 self._status.publish(self._status_type(status_list=self._statuses()))
@@ -219,7 +219,7 @@ class ActionServer:
         ]
 
     def forget(self, goal: ServerGoalHandle) -> None:
-        """Know a goal no more; of goals."""
+        """Remove a goal; called by goals."""
         self._goals.remove(goal)
 
     def _serve(
@@ -254,7 +254,7 @@ class ActionServer:
             return self._refused(goal_id, response)
         self.publish_status()
         response.accepted, response.stamp = True, stamp
-        # After the answer: a client must not hear of the end before it heard of the beginning.
+        # After the answer: a client must not learn of the end before it learned of the beginning.
         self._later.add(self._begin(goal))
         return response
 
@@ -294,7 +294,7 @@ class ActionServer:
         return response
 
     async def _decide(self, callback: Callable[[Any], Any], about: object) -> Any:  # noqa: ANN401
-        """Ask a callback of the user's; one that raises says no."""
+        """Call a callback of the user; one that raises refuses."""
         try:
             return await call_or_await(callback, about)
         except _RAISED as error:
@@ -372,7 +372,7 @@ class CoroutineQueue(Work):
         return bool(self._waiting)
 
     def take(self) -> Callable[[], object] | None:
-        """Give the oldest."""
+        """Return the oldest."""
         coroutine = self._oldest()
         return None if coroutine is None else lambda: coroutine
 

@@ -77,7 +77,7 @@ class ServerGoalHandle:
 
     @property
     def status(self) -> GoalStatus:
-        """How far it is."""
+        """Its state."""
         return self._status
 
     @property
@@ -96,7 +96,7 @@ class ServerGoalHandle:
         return KnownGoal(bytes(self.goal_id.uuid), self._accepted_ns, self._status)
 
     def execute(self, execute_callback: Callable[[ServerGoalHandle], Any] | None = None) -> None:
-        """Begin to work on it, with the server's callback or another one.
+        """Execute it, with the server's callback or another one.
 
         Raises:
             GoalStateError: It was begun before, or is over.
@@ -107,7 +107,7 @@ class ServerGoalHandle:
         self._server.execute(self, execute_callback)
 
     def publish_feedback(self, feedback: MessageValue) -> None:
-        """Tell how far it is.
+        """Publish how far it is.
 
         Raises:
             MessageValueError: It is no feedback of this action.
@@ -115,7 +115,7 @@ class ServerGoalHandle:
         self._server.publish_feedback(self, feedback)
 
     def succeed(self) -> None:
-        """Say that it reached its end; then return the result.
+        """End it as succeeded; then return the result.
 
         Raises:
             GoalStateError: It is over, or was never begun.
@@ -123,7 +123,7 @@ class ServerGoalHandle:
         self.change(GoalEvent.SUCCEED)
 
     def abort(self) -> None:
-        """Say that it cannot be reached.
+        """End it as aborted.
 
         Raises:
             GoalStateError: It is over, or was never begun.
@@ -131,7 +131,7 @@ class ServerGoalHandle:
         self.change(GoalEvent.ABORT)
 
     def canceled(self) -> None:
-        """Say that it ended because it was asked to.
+        """End it as canceled.
 
         Raises:
             GoalStateError: Nobody asked it to end, or it is over.
@@ -139,7 +139,7 @@ class ServerGoalHandle:
         self.change(GoalEvent.CANCELED)
 
     def change(self, event: GoalEvent) -> None:
-        """Take it to the state after an event, and tell everybody.
+        """Take it to the state after an event, and publish that.
 
         Raises:
             GoalStateError: The event does not follow.
@@ -149,7 +149,7 @@ class ServerGoalHandle:
         self._server.publish_status()
 
     def destroy(self) -> None:
-        """Forget it before its time."""
+        """Remove it from the server before its time."""
         self._server.forget(self)
 
 
@@ -165,7 +165,7 @@ class ServerGoals:
         self._lock = threading.Lock()
 
     def add(self, goal_id: bytes, make: Callable[[], ServerGoalHandle]) -> ServerGoalHandle | None:
-        """Take up a goal, None when one of that id is known already."""
+        """Add a goal; return None when one of that id is known already."""
         with self._lock:
             self._drop_old()
             if goal_id in self._goals:
@@ -174,13 +174,13 @@ class ServerGoals:
             return made
 
     def find(self, goal_id: bytes) -> ServerGoalHandle | None:
-        """Give a goal by its id."""
+        """Return a goal by its id."""
         with self._lock:
             self._drop_old()
             return self._goals.get(goal_id)
 
     def all(self) -> list[ServerGoalHandle]:
-        """Give every goal in the order in which they were accepted."""
+        """Return every goal in the order in which they were accepted."""
         with self._lock:
             self._drop_old()
             return list(self._goals.values())
@@ -191,7 +191,7 @@ class ServerGoals:
             goal.ended_s = self._clock_s()
 
     def remove(self, goal: ServerGoalHandle) -> None:
-        """Forget a goal; again is harmless."""
+        """Remove a goal; again is harmless."""
         with self._lock:
             self._goals.pop(bytes(goal.goal_id.uuid), None)
 

@@ -95,7 +95,7 @@ class BytesReader:
             raise CdrError(self._type_name, f"a text is no UTF-8 ({error.reason})") from None
 
     def numbers(self, each_bytes: int, total_bytes: int) -> int:
-        """Pass over numbers; give where the first of them lies.
+        """Pass over numbers; return where the first of them lies.
 
         Raises:
             CdrError: The bytes end before they do.
@@ -154,7 +154,7 @@ class BytesWriter:
         self.written += encoded + b"\0"
 
     def numbers(self, each_bytes: int, total_bytes: int) -> int:
-        """Leave room for numbers; give where the first of them will lie."""
+        """Leave room for numbers; return where the first of them will lie."""
         written = self.written
         written += bytes((len(_HEADER) - len(written)) % each_bytes)
         begin = len(written)
@@ -204,7 +204,7 @@ class KnownLayouts(Generic[L]):
         return sum(map(len, self._of_length.values()))
 
     def find(self, raw: bytes) -> L | None:
-        """Give the layout of a message like those before, None for one of a new kind."""
+        """Return the layout of a message like those before, None for one of a new kind."""
         for layout in self._of_length.get(len(raw), ()):
             if layout.skeleton.fits(raw):
                 return layout
@@ -239,7 +239,7 @@ LITTLE, BIG = _numbers("<"), _numbers(">")
 
 
 def numbers_of(raw: bytes) -> Numbers:
-    """Give the kinds of numbers that a message holds, as its header says."""
+    """Return the kinds of numbers that a message holds, as its header says."""
     return LITTLE if raw[1] else BIG
 
 
@@ -250,7 +250,7 @@ def view(raw: bytes | bytearray, kind: np.dtype[N]) -> NDArray[N]:
 
 
 def places_of(byte_places: list[int] | Places, items: int | list[int], each_bytes: int) -> Places:
-    """Give the places of numbers, from the bytes at which rows of them begin.
+    """Return the places of numbers, from the bytes at which rows of them begin.
 
     Args:
         byte_places: Of N rows, in the whole message.

@@ -125,7 +125,7 @@ def _name_end(reader: BytesReader, begin: int) -> int:
 
 
 def _pose_place(reader: BytesReader) -> int:
-    """Pass over a PoseStamped; give where its numbers begin."""
+    """Pass over a PoseStamped; return where its numbers begin."""
     reader.numbers(4, _STAMP_BYTES)
     reader.text()
     return reader.numbers(8, _POSE_BYTES)

@@ -25,8 +25,8 @@ if TYPE_CHECKING:
 
 _NAMED_MAX = 3
 _ADMIN_TIMEOUT_S: Final = 3.0
-_DOUBT_S: Final = 1.0
-"""So long after its first publisher the tokens of a process that starts may take."""
+_STARTING_S: Final = 1.0
+"""Tokens of a process that starts may come so much later than its first publisher."""
 _ASKED_MAX: Final = 5
 _STRANGE: Final = ""
 LOOK_TIMEOUT_S = 3.0
@@ -46,7 +46,7 @@ class ForeignHashes:
 
 
 def why_no_router(endpoint: str, answer: ProbeResult) -> str | None:
-    """Say why there is no router at an endpoint; None when one is there, or may be."""
+    """Return why there is no router at an endpoint; None when one is there, or may be."""
     if answer is ProbeResult.NOBODY:
         return (
             f"Nobody answers at {endpoint}: start a router there (studio router, or ros2 run "
@@ -61,7 +61,7 @@ def why_no_router(endpoint: str, answer: ProbeResult) -> str | None:
 
 
 def why_nobody(endpoint: str, domain: int, nodes_by_domain: Mapping[int, int]) -> str | None:
-    """Say why no node is seen at a router that is there; None when some are in the domain."""
+    """Return why no node is seen at a router that is there; None when some are in the domain."""
     if nodes_by_domain.get(domain):
         return None
     others = {other: count for other, count in nodes_by_domain.items() if count}
@@ -110,7 +110,7 @@ class DistroHashes:
         self._libraries = {own.distro: own}
 
     def __call__(self, distro: str, type_name: str) -> str | None:
-        """Give what stands in keys; None for a type that the distribution does not know."""
+        """Return what stands in keys; None for a type that the distribution does not know."""
         if distro not in self._libraries:
             self._libraries[distro] = TypeLibrary(distro)
         try:
@@ -121,7 +121,7 @@ class DistroHashes:
 
 
 def why_not_heard(found: ForeignHashes, profile: WireProfile) -> str:
-    """Say what keeps those apart who have other forms of the same types."""
+    """Return a sentence that says which types differ, and what to do."""
     named = ", ".join(found.types[:_NAMED_MAX])
     more = len(found.types) - _NAMED_MAX
     types = named + (f" and {more} more" if more > 0 else "")
@@ -166,7 +166,7 @@ def unseen_nodes(wire: WireSession) -> UnseenNodes | None:
     publishing = set(_publishing(session, wire.domain))
     unseen = publishing - _shown(session, wire.domain)
     if unseen:
-        time.sleep(_DOUBT_S)
+        time.sleep(_STARTING_S)
         unseen -= _shown(session, wire.domain)
     if not unseen:
         return None
@@ -179,7 +179,7 @@ def unseen_nodes(wire: WireSession) -> UnseenNodes | None:
 
 
 def why_unseen(found: UnseenNodes) -> str:
-    """Say that nodes are there, why they are not seen, and what to do."""
+    """Return a sentence that says why nodes are not seen, and what to do."""
     who = "1 process publishes" if found.count == 1 else f"{found.count} processes publish"
     theirs = f" (Zenoh {', '.join(found.versions)})" if found.versions else ""
     routers = f" (Zenoh {', '.join(found.router_versions)})" if found.router_versions else ""
@@ -226,10 +226,10 @@ def _versions(session: Session, keys: Iterable[str]) -> tuple[str, ...]:
 def _version(said: bytes) -> str:
     """`1.8.0` of `v1.8.0-2687c51 built with rustc 1.95.0`; empty where it says none."""
     try:
-        told: object = json.loads(said)
+        answer: object = json.loads(said)
     except ValueError:
         return _STRANGE
-    version = cast("dict[str, object]", told).get("version") if isinstance(told, dict) else None
+    version = cast("dict[str, object]", answer).get("version") if isinstance(answer, dict) else None
     if not isinstance(version, str):
         return _STRANGE
     number = version.removeprefix("v").partition(" ")[0].partition("-")[0]

@@ -61,12 +61,12 @@ class GraphEndpoint:
 
     @property
     def node_name(self) -> str:
-        """Of rclpy's TopicEndpointInfo, as the next five are."""
+        """The name of its node; this and the next five are of rclpy's TopicEndpointInfo."""
         return self.node.name
 
     @property
     def node_namespace(self) -> str:
-        """Where its node is."""
+        """The namespace of its node."""
         return self.node.namespace
 
     @property
@@ -81,12 +81,12 @@ class GraphEndpoint:
 
     @property
     def endpoint_gid(self) -> list[int]:
-        """The GID as rclpy gives it."""
+        """The GID, in rclpy's form."""
         return list(self.gid)
 
     @property
     def qos_profile(self) -> QoSProfile:
-        """What it offers or wishes."""
+        """What it offers or requests."""
         return self.qos
 
     @classmethod

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 _GOAL = "/_action/send_goal"
 _GOAL_TYPE = "_SendGoal"
 NamesAndTypes = list[tuple[str, list[str]]]
-"""What rclpy gives for topics, services and actions: names in order, each with its types."""
+"""What rclpy returns for topics, services and actions: names in order, each with its types."""
 DOUBT_TIMEOUT_S = 1.0
 SETTLE_TIMEOUT_S = 3.0
 NamesAndType = list[tuple[str, str]]
@@ -64,7 +64,7 @@ class Graph:
             return self._table.malformed, self._table.last_malformed
 
     def on_change(self, listener: Callable[[], None]) -> Callable[[], None]:
-        """Call a listener, from the graph's thread, after each batch of changes; gives its end.
+        """Call a listener after each batch of changes, in the graph's thread; return its end.
 
         It must be quick and raise nothing: it holds up the graph, though nothing else.
         """
@@ -78,23 +78,23 @@ class Graph:
             return self._changed.wait_for(condition, timeout_s)
 
     def settle(self, timeout_s: float = SETTLE_TIMEOUT_S) -> bool:
-        """Wait until all that stands now has been taken in; False when that lasts too long."""
+        """Wait until all tokens that stand now are in the graph; False when that lasts too long."""
         end_s = time.monotonic() + timeout_s
         standing = set(
             standing_tokens(self._wire.zenoh, tokens_of_domain(self._wire.domain), timeout_s)
         )
         with self._changed:
             return self._changed.wait_for(
-                lambda: all(map(self._table.was_told, standing)), end_s - time.monotonic()
+                lambda: all(map(self._table.was_seen, standing)), end_s - time.monotonic()
             )
 
     def nodes(self) -> list[GraphNode]:
-        """Every node, in the order of their paths; two of one name are two."""
+        """Return every node, in the order of their paths; two of one name are two."""
         with self._changed:
             return self._table.nodes()
 
     def node(self, path: str) -> GraphNode | None:
-        """The node of a path; of several, the first."""
+        """Return the node of a path; of several, the first."""
         return next((node for node in self.nodes() if node.path == path), None)
 
     def duplicate_nodes(self) -> dict[str, int]:
@@ -103,64 +103,64 @@ class Graph:
         return {path: count for path in sorted(set(paths)) if (count := paths.count(path)) > 1}
 
     def endpoints_of(self, node: GraphNode) -> list[GraphEndpoint]:
-        """What a node has, in the order of their names."""
+        """Return the endpoints of a node, in the order of their names."""
         with self._changed:
             return self._table.endpoints_of(node)
 
     def publishers(self, topic: str) -> list[GraphEndpoint]:
-        """Who publishes a topic; the name is fully qualified, here and below."""
+        """Return the publishers of a topic; names are fully qualified, here and below."""
         return self._endpoints(EndpointKind.PUBLISHER, topic)
 
     def subscriptions(self, topic: str) -> list[GraphEndpoint]:
-        """Who subscribes to a topic."""
+        """Return the subscriptions of a topic."""
         return self._endpoints(EndpointKind.SUBSCRIPTION, topic)
 
     def servers(self, service: str) -> list[GraphEndpoint]:
-        """Who serves a service; more than one is a fault of that system."""
+        """Return the servers of a service; more than one is a fault of that system."""
         return self._endpoints(EndpointKind.SERVICE, service)
 
     def clients(self, service: str) -> list[GraphEndpoint]:
-        """Who calls a service."""
+        """Return the clients of a service."""
         return self._endpoints(EndpointKind.CLIENT, service)
 
     def count(self, kind: EndpointKind, name: str) -> int:
-        """How many publishers, subscriptions, servers or clients of a name there are."""
+        """Count the publishers, subscriptions, servers or clients of a name."""
         with self._changed:
             return self._table.count(kind, name)
 
     def topics(self) -> NamesAndTypes:
-        """Topics that somebody publishes or subscribes to, hidden ones too."""
+        """Return the topics that have a publisher or subscription, hidden ones too."""
         return self._names_and_types(EndpointKind.PUBLISHER, EndpointKind.SUBSCRIPTION)
 
     def services(self) -> NamesAndTypes:
-        """Services that somebody serves, hidden ones too."""
+        """Return the services that have a server, hidden ones too."""
         return self._names_and_types(EndpointKind.SERVICE)
 
     def actions(self) -> NamesAndTypes:
-        """Actions that somebody serves, by the services and topics that they are made of."""
+        """Return the actions that have a server, known by their services."""
         return action_names_and_types(self.services())
 
     def action_servers(self, action: str) -> list[GraphNode]:
-        """The nodes that serve an action."""
+        """Return the nodes that serve an action."""
         return [found.node for found in self.servers(goal_service(action))]
 
     def action_clients(self, action: str) -> list[GraphNode]:
-        """The nodes that may send goals to an action."""
+        """Return the nodes that have a client of an action."""
         return [found.node for found in self.clients(goal_service(action))]
 
     def endpoint_of_gid(self, gid: bytes) -> GraphEndpoint | None:
-        """Whose sample or request it is, None when nobody's token says that."""
+        """Return the endpoint that has a GID, None when none is known."""
         with self._changed:
             return self._table.endpoint_of_gid(gid)
 
     def wait_for_service(
         self, name: str, type_name: str | None = None, timeout_s: float | None = None
     ) -> bool:
-        """Wait until somebody serves a service, with that type if one is given."""
+        """Wait until a service has a server, of that type if one is given."""
         return self.wait_for(lambda: self.has_server(name, type_name), timeout_s)
 
     def has_server(self, name: str, type_name: str | None = None) -> bool:
-        """Whether somebody serves a service, with that type if one is given."""
+        """Whether a service has a server, of that type if one is given."""
         return any(type_name in {None, server.type_name} for server in self.servers(name))
 
     def _endpoints(self, kind: EndpointKind, name: str) -> list[GraphEndpoint]:
@@ -186,11 +186,11 @@ class Graph:
         """Take a batch in; the graph's thread only."""
         with self._changed:
             results = {str(one.key_expr): self._take_one(one) for one in samples}
-        doubtful = [token for token, taken in results.items() if taken is Taken.DOUBTFUL]
-        standing = {token for token in doubtful if self._stands(token)}
+        uncertain = [token for token, taken in results.items() if taken is Taken.UNCERTAIN]
+        standing = {token for token in uncertain if self._stands(token)}
         with self._changed:
-            for token in doubtful:
-                self._table.settle_doubt(token, stands=token in standing)
+            for token in uncertain:
+                self._table.settle(token, stands=token in standing)
             self._version += 1
             self._changed.notify_all()
             listeners = list(self._listeners)

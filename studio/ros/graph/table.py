@@ -1,4 +1,4 @@
-"""GraphTable: tokens that stand, by node and by name; pure, so that every order can be tried."""
+"""GraphTable: the tokens that stand, by node and by name; it does no I/O."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ _REMEMBERED_MAX = 10_000
 
 
 class Taken(Enum):
-    """What a token that came did to the table."""
+    """What became of a token that came."""
 
     CHANGED = auto()
     KNOWN = auto()
     REFUSED = auto()
     """It is no token of ROS, or one too many."""
-    DOUBTFUL = auto()
-    """It went before it came: ask whether it stands and say so with `settle_doubt`."""
+    UNCERTAIN = auto()
+    """It went before it came: find out whether it stands, and call `settle`."""
 
 
 _Key = tuple[str, int, str]
@@ -78,7 +78,7 @@ class GraphTable:
         if token in self._tokens or token in self._refused:
             return Taken.KNOWN
         if token in self._gone_first and not sure:
-            return Taken.DOUBTFUL
+            return Taken.UNCERTAIN
         self._gone_first.pop(token, None)
         self._gone.pop(token, None)
         try:
@@ -121,14 +121,14 @@ class GraphTable:
             del self._standing[key]
         return Taken.CHANGED
 
-    def was_told(self, token: str) -> bool:
+    def was_seen(self, token: str) -> bool:
         """Whether a token came, whatever became of it, or went of late."""
         return any(
             token in known for known in (self._tokens, self._gone, self._gone_first, self._refused)
         )
 
-    def settle_doubt(self, token: str, *, stands: bool) -> None:
-        """Say whether a doubtful token stands."""
+    def settle(self, token: str, *, stands: bool) -> None:
+        """Note whether an uncertain token stands."""
         if stands:
             self.put(token, sure=True)
         elif token in self._gone_first:
@@ -136,29 +136,29 @@ class GraphTable:
             _remember(self._gone, token)
 
     def nodes(self) -> list[GraphNode]:
-        """Every node, in the order of their paths, then sessions and numbers."""
+        """Return every node, in the order of their paths, then sessions and numbers."""
         found = (standing.node for standing in self._standing.values())
         return sorted(found, key=lambda node: (node.path, node.zid, node.nid))
 
     def endpoints_of(self, node: GraphNode) -> list[GraphEndpoint]:
-        """What a node has, in the order of their names."""
+        """Return the endpoints of a node, in the order of their names."""
         standing = self._standing.get((node.zid, node.nid, node.path))
         return _by_name(standing.endpoints.values()) if standing else []
 
     def named(self, kind: EndpointKind) -> Mapping[str, Mapping[str, GraphEndpoint]]:
-        """All endpoints of a kind, by name and token."""
+        """Return all endpoints of a kind, by name and token."""
         return self._named[kind]
 
     def endpoints(self, kind: EndpointKind, name: str) -> list[GraphEndpoint]:
-        """Every endpoint of a kind with that name, in the order of their nodes."""
+        """Return the endpoints of a kind with that name, in the order of their nodes."""
         return _by_name(self._named[kind].get(name, {}).values())
 
     def count(self, kind: EndpointKind, name: str) -> int:
-        """How many there are of a kind with that name."""
+        """Count the endpoints of a kind with that name."""
         return len(self._named[kind].get(name, ()))
 
     def endpoint_of_gid(self, gid: bytes) -> GraphEndpoint | None:
-        """Whose sample or request it is, None when nobody's token says that."""
+        """Return the endpoint that has a GID, None when none is known."""
         return self._by_gid.get(gid)
 
     def _put_node(self, text: str, token: NodeToken) -> None:

@@ -25,7 +25,7 @@ class LifecycleClient:
     """Every question waits at most `timeout_s`; `with` takes the clients back at the end.
 
     Questions raise NotServedError when the node is no managed one, and NoAnswerError when it
-    gives no answer.
+    does not answer.
     """
 
     def __init__(self, node: Node, remote: str, timeout_s: float = ANSWER_TIMEOUT_S) -> None:
@@ -53,7 +53,7 @@ class LifecycleClient:
             self._node.destroy_client(client)
 
     def state(self) -> Any:  # noqa: ANN401  # a lifecycle_msgs/msg/State
-        """Give the state that the node is in."""
+        """Return the state that the node is in."""
         return self._ask("get_state").current_state
 
     def change(self, transition: int | str) -> bool:
@@ -66,15 +66,15 @@ class LifecycleClient:
         return bool(self._ask("change_state", transition=wanted).success)
 
     def available_states(self) -> list[MessageValue]:
-        """Give every state that the node has."""
+        """Return every state that the node has."""
         return list(self._ask("get_available_states").available_states)
 
     def available_transitions(self) -> list[MessageValue]:
-        """Give the TransitionDescriptions of what the node can do now."""
+        """Return the TransitionDescriptions of what the node can do now."""
         return list(self._ask("get_available_transitions").available_transitions)
 
     def transition_graph(self) -> list[MessageValue]:
-        """Give the TransitionDescriptions of all that the node can ever do."""
+        """Return the TransitionDescriptions of all that the node can ever do."""
         return list(self._ask("get_transition_graph").available_transitions)
 
     def _ask(self, service: str, **fields: Any) -> Any:  # noqa: ANN401  # a response

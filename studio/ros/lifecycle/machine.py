@@ -58,7 +58,7 @@ ASKED = (
     Transition(6, "shutdown", _S.INACTIVE, _S.SHUTTINGDOWN),
     Transition(7, "shutdown", _S.ACTIVE, _S.SHUTTINGDOWN),
 )
-"""What others may ask of a node."""
+"""What other nodes may request."""
 
 _ENDS = (
     (_S.CONFIGURING, 10, _S.INACTIVE, _S.UNCONFIGURED, _S.ERRORPROCESSING),
@@ -86,19 +86,19 @@ CALLBACKS = {
 """The callback that does the work of a state between two others."""
 RunCallback = Callable[[str, StateId], TransitionCallbackReturn]
 """Runs `on_configure` and so on with the state before; what it raises counts as ERROR."""
-TellTransition = Callable[[Transition], None]
+OnTransition = Callable[[Transition], None]
 
 
 class LifecycleMachine:
     """Where a managed node stands; one thread changes it at a time."""
 
-    def __init__(self, run: RunCallback, tell: TellTransition) -> None:
+    def __init__(self, run: RunCallback, on_transition: OnTransition) -> None:
         self.state = StateId.UNCONFIGURED
         self._run = run
-        self._tell = tell
+        self._on_transition = on_transition
 
     def available(self) -> list[Transition]:
-        """Give the transitions that can be asked for now."""
+        """Return the transitions that can be asked for now."""
         return [one for one in ASKED if one.start is self.state]
 
     def find(self, wanted: int | str) -> Transition:
@@ -138,4 +138,4 @@ class LifecycleMachine:
 
     def _go(self, transition: Transition) -> None:
         self.state = transition.goal
-        self._tell(transition)
+        self._on_transition(transition)

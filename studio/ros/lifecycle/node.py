@@ -133,7 +133,7 @@ class LifecycleServices:
         ):
             node.create_service(types.service(f"lifecycle_msgs/srv/{kind}"), f"~/{name}", callback)
 
-    def tell(self, transition: Transition) -> None:
+    def publish_transition(self, transition: Transition) -> None:
         """Publish that a transition was taken."""
         event = self._event_type(
             transition=self._transition(transition),
@@ -212,7 +212,7 @@ class LifecycleNode(Node, ManagedEntity):
         super().__init__(node_name, **options)
         self._managed_entities: list[ManagedEntity] = []
         self._lifecycle_lock = threading.RLock()
-        self._lifecycle_machine = LifecycleMachine(self._run_callback, self._tell_transition)
+        self._lifecycle_machine = LifecycleMachine(self._run_callback, self._publish_transition)
         self._lifecycle_services = (
             LifecycleServices(self, self._lifecycle_machine, self._trigger)
             if enable_communication_interface
@@ -344,6 +344,6 @@ class LifecycleNode(Node, ManagedEntity):
         self.get_logger().error(f"{callback} returned no TransitionCallbackReturn, which is ERROR.")
         return TransitionCallbackReturn.ERROR
 
-    def _tell_transition(self, transition: Transition) -> None:
+    def _publish_transition(self, transition: Transition) -> None:
         if self._lifecycle_services is not None:
-            self._lifecycle_services.tell(transition)
+            self._lifecycle_services.publish_transition(transition)

@@ -40,7 +40,7 @@ class Rule:
 
 @dataclass(frozen=True, slots=True)
 class RosArguments:
-    """What was said to the nodes of a process.
+    """The ROS arguments of a process.
 
     Attributes:
         rest: The words that are not of ROS.
@@ -57,7 +57,7 @@ class RosArguments:
     levels: tuple[tuple[str, LoggingSeverity], ...] = ()
 
     def before(self, others: RosArguments) -> RosArguments:
-        """Join with others, before which these count."""
+        """Join with others; these come first."""
         return RosArguments(
             self.rest,
             (*self.remaps, *others.remaps),
@@ -67,7 +67,7 @@ class RosArguments:
         )
 
     def of_node(self, name: str) -> NodeArguments:
-        """Give what counts for the node that its code names so."""
+        """Return the arguments of the node that has this name in its code."""
         fitting = [rule for rule in self.remaps if rule.is_for(name)]
         return NodeArguments(
             node_name=next((one.target for one in fitting if one.source in _NAMES), None),
@@ -80,7 +80,7 @@ class RosArguments:
 
 @dataclass(frozen=True, slots=True)
 class NodeArguments:
-    """What was said to one node; names are None where nothing was."""
+    """The ROS arguments of one node; names are None where none was given."""
 
     node_name: str | None = None
     namespace: str | None = None
@@ -89,10 +89,10 @@ class NodeArguments:
     files: tuple[str, ...] = field(default_factory=tuple)
 
     def remapped(self, full_name: str, node: NodeToken) -> str:
-        """Give another full name to a topic or service, if a remapping says so.
+        """Return another full name to a topic or service, if a remapping says so.
 
         Raises:
-            RosNameError: A remapping gives a name that cannot be.
+            RosNameError: A remapping makes a name that breaks a rule.
         """
         for rule in self.remaps:
             source = rule.source.removeprefix("rostopic://").removeprefix("rosservice://")
@@ -110,7 +110,7 @@ def parse_arguments(words: Sequence[str]) -> RosArguments:
     """Read the words of a command line; those outside of `--ros-args ... --` are left.
 
     Raises:
-        RosArgumentError: A word is none that ROS knows, or says nothing that can be read.
+        RosArgumentError: A word is no argument of ROS, or its value cannot be read.
     """
     rest: list[str] = []
     remaps: list[Rule] = []

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 
 class NodeBase:
-    """What every node has before it makes anything; `Node` is what users derive from."""
+    """What every node has before it creates anything; users derive from `Node`."""
 
     def __init__(
         self, node_name: str, namespace: str, context: Context, arguments: NodeArguments
@@ -67,17 +67,17 @@ class NodeBase:
 
     @property
     def graph(self) -> Graph:
-        """Who is there, for all nodes of the process."""
+        """The graph, which all nodes of the process share."""
         return self._context.graph
 
     @property
     def token(self) -> NodeToken:
-        """How it is shown on the wire."""
+        """Its liveliness token."""
         return self._token
 
     @property
     def executor(self) -> Executor | None:
-        """Who carries out its work, None until it spins."""
+        """The executor that carries out its work, None until it spins."""
         return self._executor
 
     @executor.setter
@@ -98,27 +98,27 @@ class NodeBase:
             return list(self._all_work)
 
     def get_name(self) -> str:
-        """Give its name without the namespace."""
+        """Return its name without the namespace."""
         return self._token.name
 
     def get_namespace(self) -> str:
-        """Give its namespace, `/` or `/ns`."""
+        """Return its namespace, `/` or `/ns`."""
         return self._token.namespace
 
     def get_fully_qualified_name(self) -> str:
-        """Give namespace and name, `/ns/name`."""
+        """Return namespace and name, `/ns/name`."""
         return self._token.path
 
     def get_logger(self) -> Logger:
-        """Give its logger, named `ns.name`."""
+        """Return its logger, named `ns.name`."""
         return get_logger(logger_name(self._token.path))
 
     def get_clock(self) -> Clock:
-        """Give its clock, which /clock tells when `use_sim_time` is set."""
+        """Return its clock, which /clock sets if `use_sim_time` is true."""
         return self._clock
 
     def resolve_topic_name(self, topic: str, *, only_expand: bool = False) -> str:
-        """Give the full name of a topic of this node, as remappings make it unless only expanded.
+        """Return the full name of a topic of this node, as remappings make it unless only expanded.
 
         Raises:
             RosNameError: No topic can be named so.
@@ -166,7 +166,7 @@ class NodeBase:
         return True
 
     def announce(self, work: Work) -> None:
-        """Tell whoever spins the node that work is ready; from any thread."""
+        """Tell the executor of the node that work is ready; from any thread."""
         executor = self._executor
         if executor is not None:
             executor.announce(work)
@@ -204,43 +204,43 @@ class NodeBase:
         return [node.name for node in self.graph.nodes()]
 
     def get_node_names_and_namespaces(self) -> list[tuple[str, str]]:
-        """Give name and namespace of all nodes."""
+        """Return name and namespace of all nodes."""
         return [(node.name, node.namespace) for node in self.graph.nodes()]
 
     def get_fully_qualified_node_names(self) -> list[str]:
-        """Give the full names of all nodes."""
+        """Return the full names of all nodes."""
         return [node.path for node in self.graph.nodes()]
 
     def get_topic_names_and_types(self) -> NamesAndTypes:
-        """Give all topics, each with its types."""
+        """Return all topics, each with its types."""
         return self.graph.topics()
 
     def get_service_names_and_types(self) -> NamesAndTypes:
-        """Give all services, each with its types."""
+        """Return all services, each with its types."""
         return self.graph.services()
 
     def get_publishers_info_by_topic(self, topic_name: str) -> list[GraphEndpoint]:
-        """Give who publishes a topic."""
+        """Return the publishers of a topic."""
         return self.graph.publishers(self.resolve_topic_name(topic_name))
 
     def get_subscriptions_info_by_topic(self, topic_name: str) -> list[GraphEndpoint]:
-        """Give who subscribes to a topic."""
+        """Return the subscriptions of a topic."""
         return self.graph.subscriptions(self.resolve_topic_name(topic_name))
 
     def count_publishers(self, topic_name: str) -> int:
-        """Count who publishes a topic."""
+        """Count the publishers of a topic."""
         return self._count(EndpointKind.PUBLISHER, topic_name)
 
     def count_subscribers(self, topic_name: str) -> int:
-        """Count who subscribes to a topic."""
+        """Count the subscriptions of a topic."""
         return self._count(EndpointKind.SUBSCRIPTION, topic_name)
 
     def count_services(self, service_name: str) -> int:
-        """Count who serves a service."""
+        """Count the servers of a service."""
         return self._count(EndpointKind.SERVICE, service_name)
 
     def count_clients(self, service_name: str) -> int:
-        """Count who calls a service."""
+        """Count the clients of a service."""
         return self._count(EndpointKind.CLIENT, service_name)
 
     def endpoint(
@@ -251,7 +251,7 @@ class NodeBase:
         qos: QoSProfile | int,
         type_hash: str | None = None,
     ) -> Endpoint:
-        """Number an endpoint of this node, which whoever declares it shows.
+        """Make an endpoint of this node with a number of its own; its user shows it.
 
         A type whose hash is given, as others show it, need not be known here.
 

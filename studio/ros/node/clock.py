@@ -58,7 +58,7 @@ class Time:
 
     @property
     def clock_type(self) -> ClockType:
-        """The kind of clock that told it."""
+        """The kind of its clock."""
         return self._clock_type
 
     def seconds_nanoseconds(self) -> tuple[int, int]:
@@ -66,7 +66,7 @@ class Time:
         return divmod(self._nanoseconds, NANOSECONDS)
 
     def to_msg(self) -> MessageValue:
-        """Give it as a builtin_interfaces/msg/Time."""
+        """Return it as a builtin_interfaces/msg/Time."""
         seconds, rest_ns = self.seconds_nanoseconds()
         return message("builtin_interfaces/msg/Time")(sec=seconds, nanosec=rest_ns)
 
@@ -130,12 +130,12 @@ class Time:
 
 
 def stamp_ns(stamp: MessageValue) -> int:
-    """Give a builtin_interfaces/msg/Time in nanoseconds."""
+    """Return a builtin_interfaces/msg/Time in nanoseconds."""
     return stamp.sec * NANOSECONDS + stamp.nanosec
 
 
 class Clock:
-    """Tells instants of its kind; that of ROS follows the system until /clock takes over."""
+    """Returns instants of its kind; ROS time is that of the system until /clock takes over."""
 
     def __init__(self, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> None:
         self._clock_type = clock_type
@@ -151,15 +151,15 @@ class Clock:
 
     @property
     def ros_time_is_active(self) -> bool:
-        """Whether /clock tells the time."""
+        """Whether /clock sets the time."""
         return self._told_ns is not None
 
     def now(self) -> Time:
-        """Give this instant."""
+        """Return this instant."""
         return Time(nanoseconds=self.now_ns(), clock_type=self._clock_type)
 
     def now_ns(self) -> int:
-        """Give this instant in nanoseconds."""
+        """Return this instant in nanoseconds."""
         told_ns = self._told_ns
         if told_ns is not None:
             return told_ns
@@ -173,26 +173,26 @@ class Clock:
         pre_callback: Callable[[], None] | None = None,
         post_callback: Callable[[TimeJump], None] | None = None,
     ) -> JumpHandle:
-        """Be told before and after jumps that meet a threshold."""
+        """Call back before and after jumps that meet a threshold."""
         handle = JumpHandle(self, threshold, pre_callback, post_callback)
         with self._moved:
             self._handles.append(handle)
         return handle
 
     def forget(self, handle: JumpHandle) -> None:
-        """Tell a callback no more."""
+        """Call a callback no more."""
         with self._moved:
             if handle in self._handles:
                 self._handles.remove(handle)
 
-    def tell(self, now_ns: int | None) -> None:
-        """Set the time as /clock tells it; None gives the clock back to the system.
+    def set_ros_time(self, now_ns: int | None) -> None:
+        """Set ROS time, as /clock does; None returns to the time of the system.
 
         Raises:
             ValueError: It is no clock of ROS time.
         """
         if self._clock_type is not ClockType.ROS_TIME:
-            raise ValueError("only a clock of ROS time is told the time")
+            raise ValueError("only a clock of ROS time can be set")
         jump = self._jump_to(now_ns)
         with self._moved:
             met = [handle for handle in self._handles if handle.threshold.is_met_by(jump)]
@@ -210,7 +210,7 @@ class Clock:
             watcher()
 
     def watch(self, watcher: Callable[[], None]) -> None:
-        """Call back whenever the time is told; it must not wait."""
+        """Call back whenever the time is set; the callback must not wait."""
         with self._moved:
             self._watchers.append(watcher)
 
@@ -223,8 +223,8 @@ class Clock:
     def sleep_until(self, until: Time, context: Context | None = None) -> bool:
         """Sleep until an instant of this clock; whether it came before the context ended.
 
-        A clock that is told the time wakes when it is told; it is never told while the only
-        thread that carries out work sleeps.
+        A clock that /clock sets wakes when it is set, which never happens while the only thread
+        that carries out work sleeps.
 
         Raises:
             ValueError: The instant is one of another clock.
@@ -247,8 +247,8 @@ class Clock:
             while (left_ns := until.nanoseconds - self.now_ns()) > 0:
                 if not context.ok():
                     return False
-                told = self.ros_time_is_active
-                self._moved.wait(_LOOK_S if told else min(_LOOK_S, left_ns / NANOSECONDS))
+                is_set = self.ros_time_is_active
+                self._moved.wait(_LOOK_S if is_set else min(_LOOK_S, left_ns / NANOSECONDS))
         return True
 
     def _wake(self) -> None:
@@ -276,7 +276,7 @@ class ClockChange(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class TimeJump:
-    """A step of a clock that was told from outside; `delta` is below zero for one backwards."""
+    """A step of a clock that was set; `delta` is below zero for a step backwards."""
 
     clock_change: ClockChange
     delta: Duration
@@ -284,7 +284,7 @@ class TimeJump:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class JumpThreshold:
-    """Which jumps to be told of; None for none of that direction."""
+    """Which jumps count; None for none in that direction."""
 
     min_forward: Duration | None = None
     min_backward: Duration | None = None
@@ -304,7 +304,7 @@ class JumpThreshold:
 
 
 class JumpHandle:
-    """What keeps a callback on jumps; `unregister` ends it."""
+    """The callbacks on jumps of a clock; `unregister` ends them."""
 
     def __init__(
         self,
@@ -316,12 +316,12 @@ class JumpHandle:
         self._clock, self.threshold, self.before, self.after = clock, threshold, before, after
 
     def unregister(self) -> None:
-        """Be told no more; again is harmless."""
+        """End the callbacks; again is harmless."""
         self._clock.forget(self)
 
 
 class TimeSource:
-    """Follows /clock; until it tells something, the time is zero, as in rclpy."""
+    """Sets a clock by /clock; until the first message the time is zero, as in rclpy."""
 
     def __init__(
         self,
@@ -331,7 +331,7 @@ class TimeSource:
         """Make one that follows nothing yet.
 
         Args:
-            clock: What is told the time.
+            clock: The clock that is set.
             subscribe: Subscribes to /clock with a callback, and returns what ends that.
         """
         self._clock, self._subscribe = clock, subscribe
@@ -352,15 +352,15 @@ class TimeSource:
             self._leave()
 
     def _follow(self) -> None:
-        self._clock.tell(0)
+        self._clock.set_ros_time(0)
         self._unsubscribe = self._subscribe(self._told)
 
     def _leave(self) -> None:
         unsubscribe, self._unsubscribe = self._unsubscribe, None
         if unsubscribe is not None:
             unsubscribe()
-        self._clock.tell(None)
+        self._clock.set_ros_time(None)
 
     def _told(self, clock: MessageValue) -> None:
         if self._unsubscribe is not None:
-            self._clock.tell(max(0, stamp_ns(clock.clock)))
+            self._clock.set_ros_time(max(0, stamp_ns(clock.clock)))

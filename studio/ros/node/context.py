@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 class Context:
     """Joined by `init`, or made `over` a session that is open; `shutdown` ends it.
 
-    `ok` turns false at once when the process is told to end, while the session stays open until
+    `ok` turns false at once when the process is asked to end, while the session stays open until
     `shutdown`, so that a node can say good-bye.
     """
 
@@ -79,7 +79,7 @@ class Context:
 
     @property
     def is_joined(self) -> bool:
-        """Whether there is a session, be it that it was told to end."""
+        """Whether there is a session, even if it was asked to end."""
         return self._wire is not None
 
     @property
@@ -95,7 +95,7 @@ class Context:
 
     @property
     def graph(self) -> Graph:
-        """Who is there, watched from the first time that somebody asks.
+        """The graph, which is watched from the first time that somebody asks for it.
 
         Raises:
             NotJoinedError: It is not joined.
@@ -114,7 +114,7 @@ class Context:
     def arguments_of(
         self, node_name: str, words: Sequence[str] | None, *, use_global: bool
     ) -> NodeArguments:
-        """Give what was said to a node: to itself, and before that to all of the process.
+        """Return the arguments of a node: its own, then those of the process.
 
         Raises:
             RosArgumentError: A word is none that ROS knows.
@@ -125,11 +125,11 @@ class Context:
         return own.before(self.arguments).of_node(node_name)
 
     def ok(self) -> bool:
-        """Whether it is joined, and nobody told it to end."""
+        """Whether it is joined and was not asked to end."""
         return self._ok
 
     def on_end(self, callback: Callable[[], None]) -> None:
-        """Call back once when it is told to end, at once if it was; it must not wait."""
+        """Call back once when it is asked to end, at once if it was; the callback must not wait."""
         with self._lock:
             if self._ok:
                 self._ending.append(callback)
@@ -153,7 +153,7 @@ class Context:
                 self._closing.remove(callback)
 
     def end(self) -> None:
-        """Tell all that spin to end; the session stays open. Safe in a handler of signals."""
+        """End all spinning; the session stays open. Safe in a handler of signals."""
         self._told_to_end = True
         self._ok = False
         while self._ending:
@@ -199,5 +199,5 @@ _default = Context()
 
 
 def default_context() -> Context:
-    """Give the context of those who name none."""
+    """Return the context of what is given none."""
     return _default

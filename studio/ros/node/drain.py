@@ -32,15 +32,15 @@ class Source(Protocol):
     """Something whose ring is emptied; it is quick and never waits."""
 
     def drain(self) -> int:
-        """Take in what came, and give how much that was."""
+        """Take in what came, and return how much that was."""
         ...
 
 
 class Drain:
-    """Looks into every ring in turn: every 2 ms where data flows, else every 10 ms.
+    """Empties every ring in turn: every 2 ms where data flows, else every 10 ms.
 
-    Those that somebody waits for are looked into besides: every half millisecond where data
-    flows, else every 2 ms.
+    Those that somebody waits for are emptied more often: every half millisecond where data flows,
+    else every 2 ms.
 
     No Python runs on Zenoh's threads, so that a slow callback or a busy interpreter blocks no
     other topic of the link.
@@ -63,7 +63,7 @@ class Drain:
         self.hurry(source)
 
     def remove(self, source: Source) -> None:
-        """Leave a ring alone; again is harmless."""
+        """Empty a ring no more; again is harmless."""
         with self._lock:
             self._sources = tuple(one for one in self._sources if one is not source)
             self._prompt = tuple(one for one in self._prompt if one is not source)
@@ -71,12 +71,12 @@ class Drain:
             self._failed.discard(source)
 
     def hurry(self, source: Source) -> None:
-        """Look into a ring often for a while: something is expected."""
+        """Empty a ring more often for a while: something is expected."""
         with self._lock:
             self._flowing[source] = time.monotonic() + _FLOWS_S
 
     def wait_for(self, source: Source) -> None:
-        """Look into a ring as often as can be, until it is removed."""
+        """Empty a ring as often as possible, until it is removed."""
         with self._lock:
             if source in self._sources:
                 self._prompt = (*self._prompt, source)
@@ -87,7 +87,7 @@ class Drain:
         return bool(self._flowing)
 
     def stop(self) -> None:
-        """End the thread; rings are looked into no more."""
+        """End the thread; rings are emptied no more."""
         self._stopped.set()
         if threading.current_thread() is not self._thread:
             self._thread.join()
@@ -115,7 +115,7 @@ class Drain:
                 look_at_all_s = now_s + max(IDLE_LOOK_S, _REST * took_s)
 
     def _look_into(self, sources: Iterable[Source], now_s: float) -> int:
-        """Empty rings, and give how much was in them."""
+        """Empty rings, and return how much was in them."""
         taken = 0
         for source in sources:
             if count := self._drained(source):

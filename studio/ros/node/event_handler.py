@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class MatchedInfo(NamedTuple):
-    """How many are at the other end; the changes are those since the callback before."""
+    """How many are at the other end; the changes are since the last callback."""
 
     total_count: int
     total_count_change: int
@@ -29,7 +29,7 @@ class MatchedInfo(NamedTuple):
 
 
 class CountInfo(NamedTuple):
-    """How often it happened; the change is that since the callback before."""
+    """How often it happened; the change is since the last callback."""
 
     total_count: int
     total_count_change: int
@@ -41,12 +41,12 @@ QoSMessageLostInfo = IncompatibleTypeInfo = CountInfo
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _EventCallbacks:
-    """What either end of a topic tells.
+    """Callbacks on events of either end of a topic.
 
     `incompatible_qos` is never called: Zenoh carries samples between any profiles.
 
     Raises:
-        UnsupportedEventTypeError: A callback is given for what Zenoh does not tell.
+        UnsupportedEventTypeError: A callback is given for an event that Zenoh does not report.
     """
 
     incompatible_qos: Callable[[object], object] | None = None
@@ -62,12 +62,12 @@ class _EventCallbacks:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PublisherEventCallbacks(_EventCallbacks):
-    """What a publisher tells."""
+    """Callbacks on events of a publisher."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SubscriptionEventCallbacks(_EventCallbacks):
-    """What a subscription tells: also that messages were lost."""
+    """Callbacks on events of a subscription, also on lost messages."""
 
     message_lost: Callable[[CountInfo], object] | None = None
 
@@ -79,7 +79,7 @@ def _refuse(**callbacks: Callable[[object], object] | None) -> None:
 
 
 class CountEvent(Work):
-    """Calls back when something was counted; what happens meanwhile is told at once."""
+    """Calls back when something was counted; one call covers all that happened meanwhile."""
 
     def __init__(self, callback: Callable[[Any], object], group: CallbackGroup) -> None:
         super().__init__(group)
@@ -89,17 +89,17 @@ class CountEvent(Work):
 
     @property
     def is_ready(self) -> bool:
-        """Whether there is something to tell."""
+        """Whether there is something to call back with."""
         return self._total != self._told
 
     def count(self, more: int) -> None:
-        """Take note that it happened so many times more; from any thread."""
+        """Count that it happened so many times more; from any thread."""
         with self._lock:
             self._total += more
         self.announce()
 
     def take(self) -> Callable[[], object] | None:
-        """Give what calls back."""
+        """Return what calls back."""
         with self._lock:
             total, change = self._total, self._total - self._told
             self._told = total
@@ -109,7 +109,8 @@ class CountEvent(Work):
 class MatchEvent(Work):
     """Calls back when those at the other end of a topic become others.
 
-    Of those with the same type it tells how many are there, of others how many there were in all.
+    For those with the same type it reports how many are there, for others how many there were in
+    all.
     """
 
     def __init__(
@@ -132,12 +133,12 @@ class MatchEvent(Work):
 
     @property
     def is_ready(self) -> bool:
-        """Whether there is something to tell."""
+        """Whether there is something to call back with."""
         came = self._total != self._told_total
         return came or (self._same_type and len(self._there) != self._told_current)
 
     def take(self) -> Callable[[], object] | None:
-        """Give what calls back."""
+        """Return what calls back."""
         with self._lock:
             if not self.is_ready:
                 return None
@@ -174,7 +175,7 @@ def events_of(
     endpoint: Endpoint,
     group: CallbackGroup,
 ) -> list[Work]:
-    """Make the events that both ends tell, of those that have a callback."""
+    """Make the events that both ends have, where there is a callback."""
     if callbacks is None:
         return []
     pairs = ((callbacks.matched, True), (callbacks.incompatible_type, False))

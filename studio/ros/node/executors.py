@@ -55,7 +55,7 @@ class Piece(NamedTuple):
 class Executor:
     """Carries out what is ready, in the order in which it became so.
 
-    Work says when it became ready; nothing is looked through to find it. `SingleThreadedExecutor`
+    Work announces itself when it is ready, so that nothing is polled. `SingleThreadedExecutor`
     runs pieces in the thread that spins, `MultiThreadedExecutor` in threads of its own.
     """
 
@@ -91,7 +91,7 @@ class Executor:
         return True
 
     def remove_node(self, node: ExecutorNode) -> None:
-        """Leave a node's work alone."""
+        """Carry out a node's work no more."""
         with self._changed:
             if node not in self._nodes:
                 return
@@ -102,7 +102,7 @@ class Executor:
             self.forget(work)
 
     def get_nodes(self) -> list[ExecutorNode]:
-        """Give the nodes whose work is carried out."""
+        """Return the nodes whose work is carried out."""
         with self._changed:
             return list(self._nodes)
 
@@ -126,9 +126,9 @@ class Executor:
             work.group.forget(work)
 
     def announce(self, work: Work) -> None:
-        """Take note that work is ready; from any thread."""
+        """Note that work is ready; from any thread."""
         with self._lock:
-            # A node that was taken away meanwhile tells whoever has it next.
+            # A node that was removed meanwhile announces its work to its next executor.
             if work.home in self._nodes:
                 self._held.discard(work)
                 self._queue(work)
@@ -153,7 +153,7 @@ class Executor:
             self._changed.notify()
 
     def wake(self) -> None:
-        """Look again whether to go on; from any thread."""
+        """Wake the thread that spins, which checks again whether to go on; from any thread."""
         with self._changed:
             self._changed.notify_all()
 
@@ -161,7 +161,7 @@ class Executor:
         """Carry out work until the context ends or the executor is shut down.
 
         Raises:
-            ExternalShutdownException: The process was told to end.
+            ExternalShutdownException: The process was asked to end.
         """
         while self.context.ok() and not self.is_shut_down:
             self._spin_once(None, None)
@@ -170,7 +170,7 @@ class Executor:
         """Carry out one piece of work, or none when none is ready in time.
 
         Raises:
-            ExternalShutdownException: The process was told to end.
+            ExternalShutdownException: The process was asked to end.
         """
         self._spin_once(timeout_sec, None)
 
@@ -180,7 +180,7 @@ class Executor:
         """Carry out work until a future is done, or that long.
 
         Raises:
-            ExternalShutdownException: The process was told to end.
+            ExternalShutdownException: The process was asked to end.
         """
         future.listen(self.wake)
         try:
@@ -300,14 +300,14 @@ class SingleThreadedExecutor(Executor):
 
 
 def _end(work: Work) -> None:
-    """Let the next work of a group be tried, by whoever has its node now."""
+    """Announce the next work of a group to the executor of its node."""
     following = work.group.end()
     if following is not None:
         following.announce()
 
 
 def _left(timeout_s: float | None) -> Any:  # noqa: ANN401
-    """Give what is left of a time, again and again, until it is over; None for ever."""
+    """Yield what is left of a time until it is over; None for ever."""
     if timeout_s is None or timeout_s < 0:
         while True:
             yield None

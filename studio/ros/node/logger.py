@@ -31,7 +31,7 @@ LOG_TYPE = "rcl_interfaces/msg/Log"
 
 
 class LoggingSeverity(IntEnum):
-    """How grave an entry is; the numbers are those of rcl_interfaces/msg/Log."""
+    """Severity of an entry, by the numbers of rcl_interfaces/msg/Log."""
 
     UNSET = 0
     DEBUG = 10
@@ -43,7 +43,7 @@ class LoggingSeverity(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """One thing that was said, when, and where in the code."""
+    """A message that was logged, when, and where in the code."""
 
     severity: LoggingSeverity
     time_ns: int
@@ -83,7 +83,7 @@ _families = _Families()
 
 
 class Logger:
-    """Says things in the name of a node, or of a part of it."""
+    """Logs in the name of a node, or of a part of it."""
 
     def __init__(self, name: str = "") -> None:
         self.name = name
@@ -91,50 +91,50 @@ class Logger:
         self._said: dict[_Place, float] = {}
 
     def get_child(self, name: str) -> Logger:
-        """Give the logger of a part."""
+        """Return the logger of a part."""
         return get_logger(f"{self.name}.{name}" if self.name else name)
 
     def set_level(self, level: LoggingSeverity | int) -> None:
-        """Say nothing that is less grave; UNSET leaves it to the parent."""
+        """Log nothing that is less severe; UNSET leaves it to the parent."""
         with _families.lock:
             _families.levels[self.name] = LoggingSeverity(level)
 
     def get_effective_level(self) -> LoggingSeverity:
-        """Give the least severity that is said."""
+        """Return the least severity that is logged."""
         return _families.effective(self.name)
 
     def is_enabled_for(self, severity: LoggingSeverity | int) -> bool:
-        """Whether something so grave is said."""
+        """Whether entries of a severity are logged."""
         return severity >= self.get_effective_level()
 
     def debug(self, message: object, **when: bool | float | None) -> bool:
-        """Say a detail; `once`, `skip_first` and `throttle_duration_sec` tell when."""
+        """Log a detail; `once`, `skip_first` and `throttle_duration_sec` limit how often."""
         return self._log(LoggingSeverity.DEBUG, message, **when)
 
     def info(self, message: object, **when: bool | float | None) -> bool:
-        """Say what happens."""
+        """Log what happens."""
         return self._log(LoggingSeverity.INFO, message, **when)
 
     def warning(self, message: object, **when: bool | float | None) -> bool:
-        """Say what may be wrong."""
+        """Log what may be wrong."""
         return self._log(LoggingSeverity.WARN, message, **when)
 
     def warn(self, message: object, **when: bool | float | None) -> bool:
-        """Say what may be wrong."""
+        """Log what may be wrong."""
         return self._log(LoggingSeverity.WARN, message, **when)
 
     def error(self, message: object, **when: bool | float | None) -> bool:
-        """Say what is wrong."""
+        """Log what is wrong."""
         return self._log(LoggingSeverity.ERROR, message, **when)
 
     def fatal(self, message: object, **when: bool | float | None) -> bool:
-        """Say what ends the node."""
+        """Log what ends the node."""
         return self._log(LoggingSeverity.FATAL, message, **when)
 
     def log(
         self, message: object, severity: LoggingSeverity | int, **when: bool | float | None
     ) -> bool:
-        """Say something; whether it was said."""
+        """Log a message, and return whether it was logged."""
         return self._log(LoggingSeverity(severity), message, **when)
 
     def _log(
@@ -158,7 +158,7 @@ class Logger:
         return True
 
     def _is_due(self, place: _Place, once: bool, skip_first: bool, throttle_s: float) -> bool:  # noqa: FBT001
-        """Whether a place in the code that does not always speak may speak now."""
+        """Whether a place in the code that does not always log may log now."""
         now_s = time.monotonic()
         with self._lock:
             last_s = self._said.get(place)
@@ -175,24 +175,24 @@ class Logger:
 
 
 def get_logger(name: str = "") -> Logger:
-    """Give the logger of a name, the same each time."""
+    """Return the logger of a name, the same each time."""
     with _families.lock:
         return _loggers.setdefault(name, Logger(name))
 
 
 def own_level(name: str) -> LoggingSeverity:
-    """Give the level that a logger was given, UNSET where its parent's counts."""
+    """Return the level that a logger was given, UNSET where its parent's counts."""
     return own_levels().get(name, LoggingSeverity.UNSET)
 
 
 def own_levels() -> dict[str, LoggingSeverity]:
-    """Give the levels of all loggers that were given one."""
+    """Return the levels of all loggers that were given one."""
     with _families.lock:
         return dict(_families.levels)
 
 
 def listen_to(name: str, listener: Callable[[Entry], None]) -> Callable[[], None]:
-    """Tell what a logger and its children say; give what ends it."""
+    """Call a listener with what a logger and its children log; return what ends that."""
     with _families.lock:
         _families.listeners.setdefault(name, []).append(listener)
 

@@ -50,7 +50,7 @@ if TYPE_CHECKING:
 
 
 class Node(NodeBase, NodeParameters):
-    """One node; `destroy_node` takes back all that is its own.
+    """A node; `destroy_node` takes back all that is its own.
 
     Rooms above this one build on it by: `wire` (the session), `graph`, `context`, `add_work`
     (work of their own, carried out with the node's), `on_destroy` (to end before the node does),
@@ -296,7 +296,7 @@ class Node(NodeBase, NodeParameters):
             self.add_work(event)
 
     def _describe_types(self) -> None:
-        """Tell others what types are made of, as nodes do where keys carry hashes."""
+        """Serve descriptions of types, as nodes do where keys carry hashes."""
         if not self._wire.profile.has_type_hash:
             return
         fixed = self._wire.types.message(DESCRIPTOR)(read_only=True)
@@ -346,7 +346,7 @@ class Node(NodeBase, NodeParameters):
                 self._time_source.ros_time_is_active = parameter.value is True
 
     def _destroy_publishers(self) -> None:
-        """Take back rates, what is said on the wire, and publishers, the last things of all."""
+        """Destroy rates, /rosout and the other publishers, after everything else."""
         for rate in tuple(self._rates):
             self.destroy_rate(rate)
         if self._rosout is not None:

@@ -68,7 +68,7 @@ class Publisher:
             outgoing.put(payload, attachment=packed(number, time.time_ns(), self._gid))
 
     def get_subscription_count(self) -> int:
-        """Count who hears it: who subscribes to the topic with another type does not."""
+        """Count the subscriptions of the topic that have its type."""
         own = self.endpoint.token
         there = self.endpoint.graph().subscriptions(own.name)
         return sum(

@@ -19,13 +19,13 @@ SENDERS_MAX = 10_000
 LATE_MAX = 256
 """How many missing samples of one sender may still come late."""
 RawCallback: TypeAlias = "Callable[[bytes, MessageInfo], None]"
-"""Takes a message as it came, and what came with it."""
+"""Takes the bytes of a message and what came with it."""
 
 
 class RawSample(NamedTuple):
     """A sample as it came; one is made for each, for which a tuple takes the least time.
 
-    `payload` is CDR, `attachment` tells number, time and sender, `received_ns` when it was taken
+    `payload` is CDR, `attachment` holds number, time and sender, `received_ns` is when it was taken
     out of the ring, since the Unix epoch.
     """
 
@@ -42,7 +42,7 @@ class SampleQueue:
     the newest and nothing else.
 
     Attributes:
-        samples: Those that wait, the oldest first; whoever takes one out takes it from the left.
+        samples: Those that wait, the oldest first; they are taken from the left.
         overwritten: How many fell out.
     """
 
@@ -106,7 +106,7 @@ class Gaps:
         self.lost = 0
 
     def count(self, attachment: Attachment) -> int:
-        """Take note of a sample, and give how many of its sender are missing before it."""
+        """Count a sample, and return how many of its sender are missing before it."""
         sequence, source_time_ns, gid = attachment
         sender = self._senders.get(gid)
         if sender is None:
@@ -156,7 +156,7 @@ class MessageInfo(TypedDict):
 
 
 def message_info(sample: RawSample) -> MessageInfo:
-    """Tell what came with a sample."""
+    """Return what came with a sample."""
     attachment = sample.attachment
     return MessageInfo(
         source_timestamp=attachment.source_time_ns,

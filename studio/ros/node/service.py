@@ -49,10 +49,10 @@ class _Request:
 
 
 class Service(Work):
-    """One service's server; the callback takes a request and a response, and gives the response.
+    """One service's server; the callback takes a request and a response, and returns the response.
 
-    The last `depth` requests wait; older ones are dropped, and whoever sent them is told that
-    there will be no answer.
+    The last `depth` requests wait; older ones are dropped, and their clients learn that there
+    will be no answer.
     """
 
     def __init__(
@@ -107,13 +107,13 @@ class Service(Work):
         return len(queries)
 
     def take(self) -> Callable[[], object] | None:
-        """Take the oldest request, and give what answers it."""
+        """Take the oldest request, and return what answers it."""
         with self._lock:
             request = self._waiting.popleft() if self._waiting else None
         return None if request is None else lambda: self._answer(request)
 
     def destroy(self) -> None:
-        """Take it back, and tell those who wait that there will be no answer."""
+        """Take it back; clients that wait learn that there will be no answer."""
         with self._lock:
             incoming, self._incoming = self._incoming, None
         if incoming is None:

@@ -1,4 +1,4 @@
-"""Client: asks a service; the answer is a future, set by whoever spins the node."""
+"""Client: calls a service; the answer is a future, which is set while the node spins."""
 
 from __future__ import annotations
 
@@ -122,7 +122,7 @@ class Client(Work):
         """Wait until a node serves it, or that long; whether one does.
 
         Raises:
-            ExternalShutdownException: The process was told to end; rclpy has an error of its own.
+            ExternalShutdownException: The process was asked to end; rclpy has an error of its own.
         """
         end_s = None if timeout_sec is None else time.monotonic() + timeout_sec
         graph = self._node.graph
@@ -136,7 +136,7 @@ class Client(Work):
         return True
 
     def call(self, request: MessageValue, timeout_sec: float | None = None) -> Any:  # noqa: ANN401
-        """Ask and wait, while another thread spins the node; never within its only callback.
+        """Call and wait, while another thread spins the node; never within its only callback.
 
         Raises:
             NoAnswerError: No answer came in time.
@@ -149,7 +149,7 @@ class Client(Work):
         return future.result()
 
     def call_async(self, request: MessageValue) -> Future[Any]:
-        """Ask, and do not wait.
+        """Call, and return the future of the answer.
 
         Raises:
             MessageValueError: It is no request of this service, or a field holds what it does
@@ -190,7 +190,7 @@ class Client(Work):
         return came
 
     def take(self) -> Callable[[], object] | None:
-        """Take the oldest answer, and give what sets its future."""
+        """Take the oldest answer, and return what sets its future."""
         try:
             future, answer = self._done.popleft()
         except IndexError:
@@ -240,13 +240,13 @@ class Client(Work):
             )
 
     def _why_foreign(self, number: int, sample: Sample) -> str | None:
-        """Say why a reply is not rmw_zenoh's to a request, None when it is."""
+        """Return why a reply is not rmw_zenoh's to a request, None when it is."""
         attachment = sample.attachment
         try:
-            told = unpack(None if attachment is None else attachment.to_bytes())
+            unpacked = unpack(None if attachment is None else attachment.to_bytes())
         except AttachmentError as error:
             return error.reason
-        if (told.sequence, told.gid) != (number, self.endpoint.gid):
+        if (unpacked.sequence, unpacked.gid) != (number, self.endpoint.gid):
             return "it carries the number of another request"
         return None
 

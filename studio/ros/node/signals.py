@@ -42,7 +42,7 @@ _NUMBERS = {
 class SignalHandlers:
     """The handlers of this process; contexts that were joined with signals are ended by them.
 
-    Ctrl-C raises KeyboardInterrupt in the main thread as well. A process that is told to end by
+    Ctrl-C raises KeyboardInterrupt in the main thread as well. A process that is asked to end by
     SIGTERM and does not, or that is stuck in code that lets no handler run, is ended after a
     grace, its sessions closed: such as one that waits for a router, or sleeps.
     """
@@ -62,7 +62,7 @@ class SignalHandlers:
         for option, number in _NUMBERS.items():
             if option & options and number not in self._before:
                 self._before[number] = signal.signal(number, self._handle)
-        self._watch = self._watch or _Watch.begin(self._told)
+        self._watch = self._watch or _Watch.begin(self._on_signal)
 
     def uninstall(self) -> None:
         """Put back what was before; nothing in threads beside the main one."""
@@ -92,8 +92,8 @@ class SignalHandlers:
         elif not any(context.is_joined for context in self._contexts):
             raise ExternalShutdownException  # out of waiting for a router
 
-    def _told(self, number: int) -> None:
-        """Wait for the process to end, and end it when it goes on; of the watching thread."""
+    def _on_signal(self, number: int) -> None:
+        """Wait for the process to end, and end it if it goes on; runs in the watching thread."""
         contexts = tuple(self._contexts)
         if number not in self._before or not contexts:
             return
@@ -107,17 +107,17 @@ class SignalHandlers:
 
 
 class _Watch:
-    """Learns of signals also while the main thread lets no handler run, over a pair of sockets."""
+    """Learns of signals over a pair of sockets, also while the main thread runs no handler."""
 
-    def __init__(self, told: Callable[[int], None]) -> None:
-        self._told = told
+    def __init__(self, on_signal: Callable[[int], None]) -> None:
+        self._on_signal = on_signal
         self._reader, self._writer = socket.socketpair()
         self._writer.setblocking(False)  # noqa: FBT003
 
     @classmethod
-    def begin(cls, told: Callable[[int], None]) -> _Watch | None:
+    def begin(cls, on_signal: Callable[[int], None]) -> _Watch | None:
         """Begin, unless somebody else (such as asyncio) learns of signals in this way."""
-        watch = cls(told)
+        watch = cls(on_signal)
         before = signal.set_wakeup_fd(watch._writer.fileno(), warn_on_full_buffer=False)
         if before != -1:
             signal.set_wakeup_fd(before)
@@ -137,7 +137,7 @@ class _Watch:
     def _run(self) -> None:
         while numbers := self._reader.recv(64):
             for number in numbers:
-                self._told(number)
+                self._on_signal(number)
         self._reader.close()
 
 

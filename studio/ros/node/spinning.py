@@ -31,7 +31,7 @@ ANSWER_TIMEOUT_S = 5.0
 
 
 class InitContextManager:
-    """What `init` gives: `with init():` shuts down at its end."""
+    """What `init` returns: `with init():` shuts down at its end."""
 
     def __init__(self, context: Context) -> None:
         self.context = context
@@ -55,13 +55,13 @@ def init(
     """Join the wire; nodes are made after.
 
     Args:
-        args: Words of the command line, those of the process without; what follows `--ros-args`
-            is read: names, remappings and parameters.
-        context: What is joined, the default one without.
-        domain_id: The domain, that of the environment without.
-        signal_handler_options: Which signals end the context, without: all end the default one,
-            none ends another.
-        settings: Which router and domain, those of the environment without.
+        args: Words of the command line, by default those of the process; names, remappings and
+            parameters that follow `--ros-args` are read.
+        context: What is joined; by default the default context.
+        domain_id: The domain; by default that of the environment.
+        signal_handler_options: Which signals end the context; by default all end the default
+            context, and none ends another.
+        settings: Which router and domain; by default those of the environment.
         router: `auto` starts a router where none answers, `off` starts none.
 
     Raises:
@@ -84,7 +84,7 @@ def init(
 
 
 def ok(*, context: Context | None = None) -> bool:
-    """Whether the wire is joined, and nobody told the process to end."""
+    """Whether the wire is joined and the process was not asked to end."""
     return (context or default_context()).ok()
 
 
@@ -102,7 +102,7 @@ try_shutdown = shutdown
 
 
 def get_global_executor(context: Context | None = None) -> Executor:
-    """Give the executor of those who name none."""
+    """Return the executor of spin functions that are given none."""
     wanted = context or default_context()
     with _lock:
         found = _executors.get(wanted)
@@ -117,10 +117,10 @@ def create_node(node_name: str, **options: Any) -> Node:  # noqa: ANN401
 
 
 def spin(node: Node, executor: Executor | None = None) -> None:
-    """Carry out a node's work until the process is told to end.
+    """Carry out a node's work until the process is asked to end.
 
     Raises:
-        ExternalShutdownException: The process was told to end.
+        ExternalShutdownException: The process was asked to end.
     """
     with _spun_by(node, executor) as chosen:
         chosen.spin()
@@ -132,7 +132,7 @@ def spin_once(
     """Carry out one piece of a node's work, or none when none is ready in time.
 
     Raises:
-        ExternalShutdownException: The process was told to end.
+        ExternalShutdownException: The process was asked to end.
     """
     with _spun_by(node, executor) as chosen:
         chosen.spin_once(timeout_sec)
@@ -147,7 +147,7 @@ def spin_until_future_complete(
     """Carry out a node's work until a future is done, or that long.
 
     Raises:
-        ExternalShutdownException: The process was told to end.
+        ExternalShutdownException: The process was asked to end.
     """
     with _spun_by(node, executor) as chosen:
         chosen.spin_until_future_complete(future, timeout_sec)
@@ -185,7 +185,7 @@ def spinning(*nodes: Node, executor: Executor | None = None) -> Generator[Execut
 
 @contextmanager
 def _spun_by(node: Node, executor: Executor | None) -> Generator[Executor]:
-    """Lend a node to an executor; one that it had before is given it back."""
+    """Add a node to an executor; at the end, the one that it had before gets it back."""
     before = node.executor
     chosen = executor or before or get_global_executor(node.context)
     lent = chosen.add_node(node)
@@ -201,7 +201,7 @@ def _spun_by(node: Node, executor: Executor | None) -> Generator[Executor]:
 def call_service(
     node: Node, client: Client, request: MessageValue, timeout_s: float = ANSWER_TIMEOUT_S
 ) -> Any:  # noqa: ANN401  # a response of the service
-    """Wait until a service is there, ask it and give its answer.
+    """Wait until a service is there, call it and return its answer.
 
     Raises:
         NotServedError: No node serves it in time, or that node ended.

@@ -69,7 +69,7 @@ class Subscription(Work):
 
     Attributes:
         events: What calls back on events of it, work of its node.
-        lost_event: That of them which is told of lost messages.
+        lost_event: The one of them that counts lost messages.
         on_arrival: Called whenever samples came, in the drain's thread: it must be quick.
     """
 
@@ -139,7 +139,7 @@ class Subscription(Work):
         return len(samples)
 
     def take(self) -> Callable[[], object] | None:
-        """Take the oldest sample, and give what calls back with it."""
+        """Take the oldest sample, and return what calls back with it."""
         sample = self._inbox.take()
         return None if sample is None else partial(self._call_back, sample)
 
@@ -228,7 +228,7 @@ class Subscription(Work):
 
 
 def _sizes(qos: QoSProfile) -> tuple[int, int]:
-    """Give how many samples wait for the callback, and how many for the drain."""
+    """Return how many samples may wait for the callback, and how many for the drain."""
     if qos.history is HistoryPolicy.KEEP_ALL:
         return SAMPLES_WAITING_MAX, SAMPLES_WAITING_MAX
     depth = qos.depth or DEPTH_DEFAULT
@@ -248,7 +248,9 @@ def _declared(endpoint: Endpoint, ring: int) -> Incoming[Sample]:
 
 
 class RawSubscription:
-    """Hears until `close`; making and closing it may wait, so do it in a thread.
+    """Takes the samples of a topic as bytes, whatever their type, until `close`.
+
+    Making and closing it may wait, so do it in a thread.
 
     Its token is shown as that of any subscription: some drivers publish only while one is there.
 
@@ -257,7 +259,7 @@ class RawSubscription:
         topic: In full.
         type_name: Of its messages; it need not be known here.
         type_hash: As a publisher shows it; None is that of the known type.
-        qos: How it is heard.
+        qos: Of the subscription.
 
     Raises:
         RosNameError: The topic cannot be named so.
@@ -282,7 +284,7 @@ class RawSubscription:
         return losses.lost + losses.overwritten
 
     def wait_for(self, on_arrival: Callable[[], object]) -> None:
-        """Have what comes be told at once, in another thread: `on_arrival` must be quick."""
+        """Call back at once when samples come, in another thread: `on_arrival` must be quick."""
         self._subscription.on_arrival = on_arrival
         self._node.context.drain.wait_for(self._subscription)
 
@@ -291,5 +293,5 @@ class RawSubscription:
         return self._subscription.take_all()
 
     def close(self) -> None:
-        """Hear it no more."""
+        """Take the subscription back."""
         self._node.remove_work(self._subscription)

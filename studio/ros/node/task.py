@@ -50,7 +50,7 @@ class Future(Generic[ResultT]):
         self._listeners: list[Callable[[], object]] = []
 
     def done(self) -> bool:
-        """Whether it is known, or cancelled."""
+        """Whether it has a result or an exception, or was cancelled."""
         return self._done
 
     def cancelled(self) -> bool:
@@ -58,25 +58,25 @@ class Future(Generic[ResultT]):
         return self._cancelled
 
     def cancel(self) -> None:
-        """Give it up: whoever waits is told; nothing when it is known."""
+        """Give it up, which ends all waits; nothing when it is done."""
         self._settle(cancelled=True)
 
     def result(self) -> ResultT:
-        """Give the result, None while it is not known; an exception is raised."""
+        """Return the result, None while it is not done; an exception is raised."""
         if self._exception is not None:
             raise self._exception
         return cast("ResultT", self._result)
 
     def exception(self) -> BaseException | None:
-        """Give the exception, None without."""
+        """Return the exception, None without."""
         return self._exception
 
     def set_result(self, result: ResultT) -> None:
-        """Set what it is; nothing when it was cancelled or known before."""
+        """Set the result; nothing when it is done already."""
         self._settle(result=result)
 
     def set_exception(self, exception: BaseException) -> None:
-        """Set why it will not be known."""
+        """Set the exception, which `result` raises; nothing when it is done already."""
         self._settle(exception=exception)
 
     def add_done_callback(self, callback: Callable[[Any], object]) -> None:
@@ -96,7 +96,7 @@ class Future(Generic[ResultT]):
             return True
 
     def listen(self, listener: Callable[[], object]) -> None:
-        """Tell at once when it is done, in the thread that settles it; it must not wait."""
+        """Call a listener when it is done, in the thread that settles it; it must not wait."""
         with self._changed:
             if not self._done:
                 self._listeners.append(listener)
@@ -104,7 +104,7 @@ class Future(Generic[ResultT]):
         listener()
 
     def unlisten(self, listener: Callable[[], object]) -> None:
-        """Tell no more; harmless when it was told, or was never to be."""
+        """Do not call a listener; harmless when it was called already."""
         with self._changed:
             if listener in self._listeners:
                 self._listeners.remove(listener)
@@ -127,13 +127,13 @@ class Future(Generic[ResultT]):
         loop = asyncio.get_running_loop()
         there: asyncio.Future[None] = loop.create_future()
 
-        def tell() -> None:
+        def wake() -> None:
             if not there.done():
                 there.set_result(None)
 
         def listener() -> None:
             if not loop.is_closed():
-                loop.call_soon_threadsafe(tell)
+                loop.call_soon_threadsafe(wake)
 
         self.listen(listener)
         try:

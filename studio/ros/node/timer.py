@@ -25,9 +25,9 @@ _PATIENCE_S = 2.0
 class Timer(Work):
     """Calls back every `timer_period_ns`, on a clock of its own choice.
 
-    While the system tells the time, periods are measured on the steady clock: a user who sets
-    the time of the machine stops no timer. When /clock tells it, they are periods of /clock, and
-    a jump backwards begins a period anew.
+    In the time of the system, periods are measured on the steady clock: setting the time of the
+    machine stops no timer. When /clock sets the time, they are periods of /clock, and a jump
+    backwards begins a period anew.
     """
 
     def __init__(
@@ -81,11 +81,11 @@ class Timer(Work):
             return None
         left_ns = self._next_ns - self._now_ns()
         if self.clock.ros_time_is_active and left_ns > 0:
-            return None  # /clock will tell, and wakes those who wait
+            return None  # /clock will set the time, and that wakes the executor
         return time.monotonic() + left_ns / NANOSECONDS
 
     def take(self) -> Callable[[], object] | None:
-        """Count the period as called, and give the callback."""
+        """Count the period as called, and return the callback."""
         with self._lock:
             if not self.is_ready:
                 return None
@@ -110,12 +110,12 @@ class Timer(Work):
         self.announce()
 
     def time_since_last_call(self) -> int:
-        """Give nanoseconds since it was last carried out, or since its period began."""
+        """Return nanoseconds since it was last carried out, or since its period began."""
         last_ns = self._last_ns
         return self._now_ns() - (self._next_ns - self._period_ns if last_ns is None else last_ns)
 
     def time_until_next_call(self) -> int | None:
-        """Give nanoseconds until it is ready, below zero when it is late, None when cancelled."""
+        """Return nanoseconds until it is ready, below zero when it is late, None when cancelled."""
         return None if self._cancelled else self._next_ns - self._now_ns()
 
     def destroy(self) -> None:
@@ -125,7 +125,7 @@ class Timer(Work):
         self.clock.unwatch(self._told)
 
     def _after(self, now_ns: int) -> int:
-        """Give the end of the running period: periods that were missed are left out."""
+        """Return the end of the running period: periods that were missed are left out."""
         next_ns = self._next_ns + self._period_ns
         if next_ns > now_ns or not self._period_ns:
             return max(next_ns, now_ns)
@@ -153,9 +153,9 @@ def _nothing() -> None:
 
 
 class Rate:
-    """Beats by a timer that whoever spins the node carries out: without spinning it sleeps on.
+    """Sleeps until a timer calls back, which needs a node that spins.
 
-    A beat that came before `sleep` counts, so that a loop of `spin_once` and `sleep` keeps time.
+    A call that came before `sleep` counts, so that a loop of `spin_once` and `sleep` keeps time.
     """
 
     def __init__(
@@ -170,11 +170,11 @@ class Rate:
         context.on_end(self._beat.set)
 
     def sleep(self) -> None:
-        """Sleep until the next beat.
+        """Sleep until the timer calls back next.
 
         Raises:
             DestroyedError: The rate was destroyed.
-            ExternalShutdownException: The process was told to end.
+            ExternalShutdownException: The process was asked to end.
         """
         while not self._beat.wait(self._patience_s):
             self._logger.warning(
@@ -191,7 +191,7 @@ class Rate:
             raise DestroyedError("rate")
 
     def destroy(self) -> None:
-        """Beat no more; who sleeps is woken."""
+        """Destroy the timer, and wake what sleeps."""
         timer, self._timer = self._timer, None
         if timer is not None:
             self._forget(timer)

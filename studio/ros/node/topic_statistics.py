@@ -37,7 +37,7 @@ _MISSED_MAX: Final = 10_000
 
 @dataclass(frozen=True, slots=True)
 class Flow:
-    """What comes of a topic.
+    """Rate, bandwidth and age of a topic.
 
     Attributes:
         rate_hz: Samples in a second; 0 when too few came, or none any more.
@@ -61,7 +61,7 @@ class _Mark(NamedTuple):
 
 
 class Arrivals:
-    """Counts in one thread and is asked in others; some 80 marks however much comes.
+    """Counts arrivals; one thread counts, others ask. It keeps some 80 marks however much comes.
 
     All times are of one clock, in ns. A rate is measured between arrivals, so that it neither
     flickers nor depends on when it is asked for.
@@ -75,7 +75,7 @@ class Arrivals:
         self._samples = self._bytes = 0
 
     def count(self, now_ns: int, samples: int, payload_bytes: int) -> None:
-        """So many samples came just now, with so many bytes in all."""
+        """Count samples that came just now, with so many bytes in all."""
         with self._lock:
             self._samples += samples
             self._bytes += payload_bytes
@@ -87,7 +87,7 @@ class Arrivals:
             self._forget(now_ns)
 
     def flow(self, now_ns: int) -> Flow:
-        """How it comes, seen from now."""
+        """Return the rate, bandwidth and age at a time."""
         with self._lock:
             first, last = (self._marks[0], self._marks[-1]) if self._marks else (None, None)
         if first is None or last is None:
@@ -112,7 +112,7 @@ class Arrivals:
 
 
 class TopicStatistics:
-    """Hears a topic until nobody asked for `kept_s`: then it ends by itself.
+    """Subscribes to a topic, and ends by itself when nobody asked for `kept_s`.
 
     It shows no token, so that nobody sees one more subscription; payloads are never copied.
 
@@ -131,12 +131,12 @@ class TopicStatistics:
         context.drain.add(self)
 
     def flow(self) -> Flow:
-        """How it comes; it goes on being heard for a while."""
+        """Return what comes of the topic; it stays subscribed for `kept_s` from now on."""
         self._asked_s = time.monotonic()
         return self._arrivals.flow(time.monotonic_ns())
 
     def close(self) -> None:
-        """Hear it no more; again is harmless."""
+        """Take the subscription back; again is harmless."""
         self.is_open = False
         self._context.forget_source(self)
         self._incoming.undeclare()

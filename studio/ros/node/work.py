@@ -18,7 +18,7 @@ class CallbackGroup:
         raise NotImplementedError
 
     def end(self) -> Work | None:
-        """Say that a piece has run, and give the work that may be tried next."""
+        """Note that a piece has run, and return the work that may be tried next."""
         return None
 
     def forget(self, work: Work) -> None:
@@ -62,7 +62,7 @@ class MutuallyExclusiveCallbackGroup(CallbackGroup):
 
     def _begin_or_wait(self, work: Work) -> bool:
         with self._lock:
-            # It waits before it tries again: whoever ends meanwhile sees it, or leaves it room.
+            # It waits before it tries again: work that ends meanwhile finds it, or leaves it room.
             if work not in self._waiting:
                 self._waiting.append(work)
             if not self._running.acquire(blocking=False):
@@ -72,18 +72,18 @@ class MutuallyExclusiveCallbackGroup(CallbackGroup):
 
 
 class Home(Protocol):
-    """Where work says that there is something to do: a node, or an executor."""
+    """Where work announces itself: a node, or an executor."""
 
     def announce(self, work: Work) -> None:
-        """Take note that a piece of work is ready; from any thread."""
+        """Note that a piece of work is ready; from any thread."""
         ...
 
 
 class Work:
     """Something that is ready now and then, and is carried out in pieces.
 
-    A kind of its own (such as an action's server) says `announce()` when it became ready, and
-    gives its pieces in `take`. `Node.add_work` makes it part of a node.
+    A kind of its own (such as an action's server) calls `announce()` when it is ready, and
+    returns its pieces from `take`. `Node.add_work` makes it part of a node.
 
     Attributes:
         group: Which pieces may run beside its own.
@@ -100,7 +100,7 @@ class Work:
         raise NotImplementedError
 
     def take(self) -> Callable[[], object] | None:
-        """Take the next piece, None when there is none; what it gives may be a coroutine."""
+        """Take the next piece, None when there is none; what it returns may be a coroutine."""
         raise NotImplementedError
 
     @property
@@ -110,11 +110,11 @@ class Work:
 
     @property
     def due_s(self) -> float | None:
-        """When it will be ready by itself, on the monotonic clock; None for work that is told."""
+        """When it will be ready by itself, on the monotonic clock; None for announced work."""
         return None
 
     def announce(self) -> None:
-        """Say that it is ready."""
+        """Announce that it is ready."""
         home = self.home
         if home is not None:
             home.announce(self)
@@ -142,6 +142,6 @@ class GuardCondition(Work):
         self.announce()
 
     def take(self) -> Callable[[], object] | None:
-        """Give the callback, once for all triggers."""
+        """Return the callback, once for all triggers."""
         triggered, self._triggered = self._triggered, False
         return self.callback if triggered else None

@@ -55,7 +55,7 @@ def _within(name: str, depth: int) -> bool:
 
 
 class ParameterEvents:
-    """Tells changes on `/parameter_events`."""
+    """Publishes changes on `/parameter_events`."""
 
     def __init__(self, host: ParameterHost, types: TypeLibrary) -> None:
         self._host = host
@@ -64,7 +64,7 @@ class ParameterEvents:
             self._kind, EVENTS_TOPIC, qos_profile_parameter_events
         )
 
-    def tell(self, store: ParameterStore, change: ParameterChange) -> None:
+    def publish(self, store: ParameterStore, change: ParameterChange) -> None:
         """Publish one change."""
         if not (change.new or change.changed or change.deleted):
             return
@@ -82,7 +82,7 @@ class ParameterEvents:
 class ParameterServices:
     """Serves the parameters of a node to all others.
 
-    What a request asks wrongly is answered in its response, by the reasons that the store gives;
+    A wrong request is answered in its response, with the reasons of the store;
     a callback of the user that raises is a refusal, and its error goes to the log.
     """
 
@@ -175,7 +175,7 @@ class ParameterServices:
             return self._store.messages.ParameterDescriptor(name=name)
 
     def _known(self, name: str) -> Parameter:
-        """Give a parameter; one that is not declared is told as one that is not set."""
+        """Return a parameter; one that is not declared as one that is not set."""
         try:
             return self._store.get(name)
         except ParameterError:
@@ -213,7 +213,7 @@ class NodeParameters:
         """
         events = ParameterEvents(host, types)
         self._parameter_store = ParameterStore(
-            lambda change: events.tell(self._parameter_store, change),
+            lambda change: events.publish(self._parameter_store, change),
             messages=ParameterMessages.of(types),
             overrides={one.name: one for one in overrides},
             allow_undeclared=allow_undeclared,
@@ -275,7 +275,7 @@ class NodeParameters:
         return self._parameter_store.has(name)
 
     def get_parameter(self, name: str) -> Parameter:
-        """Give a parameter.
+        """Return a parameter.
 
         Raises:
             ParameterNotDeclaredError: There is none of that name.
@@ -284,7 +284,7 @@ class NodeParameters:
         return self._parameter_store.get(name)
 
     def get_parameters(self, names: Iterable[str]) -> list[Parameter]:
-        """Give several parameters in the order asked."""
+        """Return several parameters in the order asked."""
         return [self.get_parameter(name) for name in names]
 
     def get_parameter_or(
@@ -292,7 +292,7 @@ class NodeParameters:
         name: str,
         alternative_value: Any = None,  # noqa: ANN401  # a Parameter or a value
     ) -> Parameter:
-        """Give a parameter, or another value where there is none or it is not set."""
+        """Return a parameter, or another value where there is none or it is not set."""
         if self._parameter_store.has(name):
             found = self._parameter_store.all()[name]
             if found.type_ is not Parameter.Type.NOT_SET:
@@ -302,7 +302,7 @@ class NodeParameters:
         return Parameter(name, value=alternative_value)
 
     def get_parameter_type(self, name: str) -> ParameterType:
-        """Give the type of a parameter.
+        """Return the type of a parameter.
 
         Raises:
             ParameterNotDeclaredError: There is none of that name.
@@ -310,7 +310,7 @@ class NodeParameters:
         return self.get_parameter(name).type_
 
     def get_parameters_by_prefix(self, prefix: str) -> dict[str, Parameter]:
-        """Give the parameters of a group, by what follows `prefix.`; of no prefix, all."""
+        """Return the parameters of a group, by what follows `prefix.`; of no prefix, all."""
         before = f"{prefix}." if prefix else ""
         found: Mapping[str, Parameter] = self._parameter_store.all()
         return {
@@ -318,7 +318,7 @@ class NodeParameters:
         }
 
     def set_parameters(self, parameter_list: Iterable[Parameter]) -> list[MessageValue]:
-        """Set parameters one after another, and give a SetParametersResult of each.
+        """Set parameters one after another, and return a SetParametersResult of each.
 
         Raises:
             ParameterNotDeclaredError: One is not declared; those before it are set.
@@ -326,7 +326,7 @@ class NodeParameters:
         return self._parameter_store.set(parameter_list)
 
     def set_parameters_atomically(self, parameter_list: Iterable[Parameter]) -> MessageValue:
-        """Set all or none, and give one SetParametersResult.
+        """Set all or none, and return one SetParametersResult.
 
         Raises:
             ParameterNotDeclaredError: One is not declared; none is set.
@@ -334,7 +334,7 @@ class NodeParameters:
         return self._parameter_store.set_atomically(parameter_list)
 
     def describe_parameter(self, name: str) -> MessageValue:
-        """Give the ParameterDescriptor of a parameter.
+        """Return the ParameterDescriptor of a parameter.
 
         Raises:
             ParameterNotDeclaredError: There is none of that name.
@@ -342,11 +342,11 @@ class NodeParameters:
         return self._parameter_store.describe(name)
 
     def describe_parameters(self, names: Iterable[str]) -> list[MessageValue]:
-        """Give several descriptors in the order asked."""
+        """Return several descriptors in the order asked."""
         return [self.describe_parameter(name) for name in names]
 
     def get_parameter_types(self, names: Iterable[str]) -> list[ParameterType]:
-        """Give several types in the order asked."""
+        """Return several types in the order asked."""
         return [self.get_parameter_type(name) for name in names]
 
     def set_descriptor(
@@ -355,7 +355,7 @@ class NodeParameters:
         descriptor: MessageValue,
         alternative_value: Any = None,  # noqa: ANN401
     ) -> Any:  # noqa: ANN401  # the value that it has now
-        """Give a parameter another descriptor, and another value where the old one does not fit.
+        """Return a parameter another descriptor, and another value where the old one does not fit.
 
         Raises:
             ParameterNotDeclaredError: There is none of that name.
@@ -370,15 +370,15 @@ class NodeParameters:
         self._callbacks.pre_set.insert(0, callback)
 
     def add_on_set_parameters_callback(self, callback: OnSetCallback) -> None:
-        """Ask a callback before parameters are set; it gives a SetParametersResult."""
+        """Ask a callback before parameters are set; it returns a SetParametersResult."""
         self._callbacks.on_set.insert(0, callback)
 
     def add_post_set_parameters_callback(self, callback: PostSetCallback) -> None:
-        """Tell a callback after parameters were set."""
+        """Call a callback after parameters were set."""
         self._callbacks.post_set.insert(0, callback)
 
     def remove_pre_set_parameters_callback(self, callback: PreSetCallback) -> None:
-        """Ask a callback no more.
+        """Call a callback no more.
 
         Raises:
             ValueError: It was not added.
@@ -386,7 +386,7 @@ class NodeParameters:
         self._callbacks.pre_set.remove(callback)
 
     def remove_on_set_parameters_callback(self, callback: OnSetCallback) -> None:
-        """Ask a callback no more.
+        """Call a callback no more.
 
         Raises:
             ValueError: It was not added.
@@ -394,7 +394,7 @@ class NodeParameters:
         self._callbacks.on_set.remove(callback)
 
     def remove_post_set_parameters_callback(self, callback: PostSetCallback) -> None:
-        """Tell a callback no more.
+        """Call a callback no more.
 
         Raises:
             ValueError: It was not added.
@@ -407,7 +407,7 @@ class NodeParameters:
 
 
 class ParameterHost(Protocol):
-    """A node that can publish and serve already."""
+    """What the parameters need of their node."""
 
     def create_service(
         self,
@@ -417,7 +417,7 @@ class ParameterHost(Protocol):
         *,
         qos_profile: QoSProfile = ...,
     ) -> Any:  # noqa: ANN401
-        """Serve; the callback fills the response and gives it back."""
+        """Serve; the callback fills the response and returns it."""
         ...
 
     def create_publisher(
@@ -434,9 +434,9 @@ class ParameterHost(Protocol):
         ...
 
     def get_clock(self) -> Any:  # noqa: ANN401
-        """Tell the time."""
+        """Return its clock."""
         ...
 
     def get_logger(self) -> Any:  # noqa: ANN401
-        """Say what went wrong."""
+        """Return its logger."""
         ...

@@ -63,7 +63,7 @@ def type_of(name: str, value: object) -> ParameterType:
     """Find the type of a parameter's value.
 
     Raises:
-        InvalidParameterTypeError: A parameter cannot hold it; `name` is told.
+        InvalidParameterTypeError: A parameter cannot hold it; `name` is the parameter's.
     """
     taken = plain(value)
     for kind, check in _CHECKS.items():
@@ -195,7 +195,7 @@ class ParameterMessages:
 
 @cache
 def usual_messages() -> ParameterMessages:
-    """Give the classes where no node is at hand: those that programs import."""
+    """Return the classes where no node is at hand: those that programs import."""
     return ParameterMessages.of(shared_types())
 
 
@@ -215,7 +215,7 @@ def value_of(name: str, message: MessageValue) -> tuple[ParameterType, Value]:
     """Read a `ParameterValue`.
 
     Raises:
-        InvalidParameterTypeError: Its number is that of no type; `name` is told.
+        InvalidParameterTypeError: Its number is that of no type; `name` is the parameter's.
     """
     try:
         kind = ParameterType(int(message.type))
@@ -277,11 +277,11 @@ class Parameter:
         return cls(message.name, kind, value)
 
     def get_parameter_value(self) -> MessageValue:
-        """Give the value as a `rcl_interfaces/msg/ParameterValue`."""
+        """Return the value as a `rcl_interfaces/msg/ParameterValue`."""
         return value_message(self._type, self._value)
 
     def to_parameter_msg(self, messages: ParameterMessages | None = None) -> MessageValue:
-        """Give a `rcl_interfaces/msg/Parameter`."""
+        """Return a `rcl_interfaces/msg/Parameter`."""
         classes = messages or usual_messages()
         value = value_message(self._type, self._value, classes)
         return classes.Parameter(name=self._name, value=value)

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 PreSetCallback = Callable[[list["Parameter"]], list["Parameter"]]
 OnSetCallback = Callable[[list["Parameter"]], Any]
-"""It gives a SetParametersResult; anything with `successful` and `reason` is taken."""
+"""It returns a SetParametersResult; anything with `successful` and `reason` is taken."""
 PostSetCallback = Callable[[list["Parameter"]], None]
 _TOLERANCE = 1e-9
 NAME_CHARACTERS_MAX = 1_000
@@ -46,7 +46,7 @@ _DESCRIPTOR_FIELDS = (
 
 
 class ParameterCallbacks:
-    """The callbacks of a node; those added last are asked first, as in rclpy."""
+    """The callbacks of a node; those added last are called first, as in rclpy."""
 
     def __init__(self) -> None:
         self.pre_set: list[PreSetCallback] = []
@@ -60,7 +60,7 @@ class ParameterCallbacks:
         return parameters
 
     def ask(self, parameters: list[Parameter], agreed: MessageValue) -> Any:  # noqa: ANN401
-        """Give the first refusal; `agreed` is the result that means that there was none."""
+        """Return the first refusal, else `agreed`."""
         for callback in self.on_set:
             result = callback(parameters)
             if not getattr(result, "successful", False):
@@ -68,7 +68,7 @@ class ParameterCallbacks:
         return agreed
 
     def after(self, parameters: Iterable[Parameter]) -> None:
-        """Tell that parameters were set."""
+        """Call back after parameters were set."""
         for callback in self.post_set:
             callback(list(parameters))
 
@@ -122,7 +122,7 @@ def _double_violation(parameter: Parameter, span: MessageValue) -> str | None:
 
 
 def _ends(span: MessageValue) -> tuple[Any, Any]:
-    """Give the lower end and the upper one, which a descriptor may have in either order."""
+    """Return the lower end and the upper one, which a descriptor may have in either order."""
     low, high = span.from_value, span.to_value
     return (high, low) if high < low else (low, high)
 
@@ -133,7 +133,7 @@ def _close(one: float, other: float) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class ParameterChange:
-    """What one step changed, as `/parameter_events` tells it."""
+    """What one step changed, as `/parameter_events` carries it."""
 
     new: tuple[Parameter, ...] = ()
     changed: tuple[Parameter, ...] = ()
@@ -162,12 +162,12 @@ class ParameterStore:
 
     Attributes:
         overrides: Values given at the start, which come before those in the code.
-        callbacks: Who is asked and told of changes.
+        callbacks: What is called before and after changes.
     """
 
     def __init__(
         self,
-        tell: Callable[[ParameterChange], None],
+        publish: Callable[[ParameterChange], None],
         *,
         messages: ParameterMessages | None = None,
         overrides: Mapping[str, Parameter] | None = None,
@@ -176,7 +176,7 @@ class ParameterStore:
         self.messages = messages or usual_messages()
         self.overrides = dict(overrides or {})
         self.callbacks = ParameterCallbacks()
-        self._tell = tell
+        self._publish = publish
         self._allow_undeclared = allow_undeclared
         self._declared: dict[str, _Declared] = {}
         # Of changes: a callback may set others, so its own thread is let in again. Reading takes
@@ -210,7 +210,7 @@ class ParameterStore:
             if not result.successful:
                 raise InvalidParameterValueError(name, result.reason)
             self._declared[name] = _Declared(given, own)
-        self._tell(ParameterChange(new=(given,)))
+        self._publish(ParameterChange(new=(given,)))
         self.callbacks.after([given])
         return given
 
@@ -226,14 +226,14 @@ class ParameterStore:
             if known.descriptor.read_only:
                 raise ParameterImmutableError(name)
             del self._declared[name]
-        self._tell(ParameterChange(deleted=(Parameter(name),)))
+        self._publish(ParameterChange(deleted=(Parameter(name),)))
 
     def has(self, name: str) -> bool:
         """Whether there is a parameter of that name."""
         return name in self._declared
 
     def get(self, name: str) -> Parameter:
-        """Give a parameter.
+        """Return a parameter.
 
         Raises:
             ParameterNotDeclaredError: There is none of that name.
@@ -248,12 +248,12 @@ class ParameterStore:
         return parameter
 
     def all(self) -> dict[str, Parameter]:
-        """Give every parameter in the order of the alphabet."""
+        """Return every parameter in the order of the alphabet."""
         declared = dict(self._declared)
         return {name: declared[name].parameter for name in sorted(declared)}
 
     def describe(self, name: str) -> MessageValue:
-        """Give the descriptor of a parameter.
+        """Return the descriptor of a parameter.
 
         Raises:
             ParameterNotDeclaredError: There is none of that name.
@@ -268,7 +268,7 @@ class ParameterStore:
         descriptor: MessageValue,
         value: Any = None,  # noqa: ANN401  # a value or None
     ) -> Any:  # noqa: ANN401  # the value that it has now
-        """Give a parameter another descriptor, and another value where the old one does not fit.
+        """Return a parameter another descriptor, and another value where the old one does not fit.
 
         Raises:
             ParameterNotDeclaredError: There is none of that name.
@@ -285,7 +285,7 @@ class ParameterStore:
             self._check(parameter, own)
             known.descriptor, known.parameter = own, parameter
         if value is not None:
-            self._tell(ParameterChange(changed=(parameter,)))
+            self._publish(ParameterChange(changed=(parameter,)))
         return parameter.value
 
     def set(self, parameters: Iterable[Parameter]) -> list[MessageValue]:
@@ -297,7 +297,7 @@ class ParameterStore:
         return [self.set_atomically([parameter]) for parameter in parameters]
 
     def set_atomically(self, parameters: Iterable[Parameter]) -> MessageValue:
-        """Set all or none, and give one SetParametersResult.
+        """Set all or none, and return one SetParametersResult.
 
         Raises:
             ParameterNotDeclaredError: One is not declared; none is set.
@@ -308,9 +308,9 @@ class ParameterStore:
         return result
 
     def settle(self, parameters: Iterable[Parameter]) -> tuple[MessageValue, list[Parameter]]:
-        """Set all or none, and give the result and what was wanted in the end.
+        """Set all or none, and return the result and what was wanted in the end.
 
-        The callbacks that are told after are the affair of whoever asks.
+        The caller calls the callbacks that follow a change.
 
         Raises:
             ParameterNotDeclaredError: One is not declared; none is set.
@@ -322,7 +322,7 @@ class ParameterStore:
             if not result.successful:
                 return result, wanted
             self._apply(step)
-        self._tell(ParameterChange(tuple(step.new), tuple(step.changed), tuple(step.deleted)))
+        self._publish(ParameterChange(tuple(step.new), tuple(step.changed), tuple(step.deleted)))
         return result, wanted
 
     def _descriptor(self, name: str, value: object, given: MessageValue | None) -> MessageValue:

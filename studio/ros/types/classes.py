@@ -77,7 +77,7 @@ class MessageValue(metaclass=MessageKind):
 
 
 def definition_of(value: MessageValue | type[MessageValue]) -> Message:
-    """Give what the type of a value is made of."""
+    """Return what the type of a value is made of."""
     return value._definition  # pyright: ignore[reportPrivateUsage]
 
 
@@ -87,7 +87,7 @@ def attributes_of(value: MessageValue | type[MessageValue]) -> tuple[str, ...]:
 
 
 def class_of_field(value: MessageValue | type[MessageValue], field: Field) -> type[MessageValue]:
-    """Give the class of the messages that a field holds."""
+    """Return the class of the messages that a field holds."""
     return value._parts[field.type.base]  # pyright: ignore[reportPrivateUsage]
 
 
@@ -139,7 +139,7 @@ def maker_of(kind: type[MessageValue]) -> Callable[..., MessageValue]:
 def make_class(
     message: Message, find_class: Callable[[str], type[MessageValue]]
 ) -> type[MessageValue]:
-    """Make the class of a message; `find_class` gives those of the messages it is made of."""
+    """Make the class of a message; `find_class` returns those of its parts."""
     parts = {name: find_class(name) for name in message.needs()}
     attributes = tuple(attribute_name(field.name) for field in message.fields)
     namespace: dict[str, object] = {constant.name: constant.value for constant in message.constants}
@@ -207,7 +207,7 @@ def _make_init(
 
 
 def _defined(code: str, known: dict[str, object]) -> dict[str, Any]:
-    """Run generated code, and give what it defines.
+    """Run generated code, and return what it defines.
 
     It is compiled before: an interrupt that leaves an `exec` of text ends the process at its exit,
     even where it was caught.
@@ -330,7 +330,7 @@ def _check_integer(kind: FieldType, value: object, where: str) -> None:
 
 
 def dtype_of(base: str) -> np.dtype[Any]:
-    """Give the numpy type of a numeric base type."""
+    """Return the numpy type of a numeric base type."""
     return np.dtype(_DTYPES.get(base, base))
 
 

@@ -115,7 +115,7 @@ class Message:
 
 @dataclass(frozen=True, slots=True)
 class Service:
-    """A service: what is asked and what is answered."""
+    """A service: its request and response."""
 
     name: str
     request: Message
@@ -124,7 +124,7 @@ class Service:
 
 @dataclass(frozen=True, slots=True)
 class Action:
-    """An action: what is wished, what comes at the end and what meanwhile."""
+    """An action: its goal, result and feedback."""
 
     name: str
     goal: Message
@@ -136,7 +136,7 @@ Interface = Message | Service | Action
 
 
 def messages_of(interface: Interface) -> tuple[Message, ...]:
-    """Give the messages that a text defines, in its order."""
+    """Return the messages that a text defines, in its order."""
     match interface:
         case Message():
             return (interface,)
@@ -231,14 +231,14 @@ def check_sizes(message: Message, find: Callable[[str], Message]) -> None:
     """Refuse a type that is part of itself, too deep, or large before a value is in it.
 
     Raises:
-        InterfaceTextError: It is; the path is told.
+        InterfaceTextError: It is so.
         UnknownTypeError: What it is made of is not known.
     """
     _Walk(find).measure(message, ())
 
 
 class _Walk:
-    """One look through a type; what was measured once is not walked again."""
+    """One walk through a type; what was measured once is not walked again."""
 
     def __init__(self, find: Callable[[str], Message]) -> None:
         self._find = find

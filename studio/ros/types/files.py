@@ -50,7 +50,7 @@ class InterfaceTexts:
             self.faults[name] = InterfaceTextError(str(path), None, error.reason.rstrip("."))
 
     def placed(self, faults: Mapping[str, InterfaceTextError]) -> dict[str, InterfaceTextError]:
-        """Give faults of these texts as those of their files, where they come from files."""
+        """Return faults of these texts as those of their files, where they come from files."""
         files = self.files
         return {
             name: one.at(str(files[name])) if name in files else one for name, one in faults.items()

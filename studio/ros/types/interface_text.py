@@ -59,7 +59,7 @@ def parse_interface(name: str, text: str) -> Interface:
     """Read the text of a type by its full name, `package/msg/Type`, `/srv/` or `/action/`.
 
     Raises:
-        InterfaceTextError: The text breaks a rule; name and line are told.
+        InterfaceTextError: The text breaks a rule; the error has name and line.
         RosNameError: The name of the type does.
     """
     _, kind, base = split_type_name(name)

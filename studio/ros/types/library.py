@@ -50,7 +50,7 @@ TEXTS_MAX = 20_000
 
 
 class ServiceKind(Protocol):
-    """A service as `studio.ros.messages` gives it: its name, and the classes of its two parts."""
+    """What nodes take as the type of a service: a `ServiceType`, or a class like it."""
 
     @property
     def name(self) -> str:
@@ -107,7 +107,7 @@ class _Known:
         self.messages |= {message.name: message for message in _all_messages(interface)}
 
     def with_more(self, read: Iterable[tuple[Interface, str]]) -> _Known:
-        """Give a copy with more texts."""
+        """Return a copy with more texts."""
         made = _Known({**self.interfaces}, {**self.messages}, {**self.texts})
         for interface, text in read:
             made.take(interface, text)
@@ -133,7 +133,7 @@ class TypeLibrary:
         self._hashes: dict[str, str] = {}
 
     def add_texts(self, texts: Mapping[str, str]) -> list[str]:
-        """Take up texts by the full names of their types, all or none; give the names.
+        """Add texts by the full names of their types, all or none; return the names.
 
         What a type is made of may come later: until then it is unknown, with the reason.
 
@@ -156,7 +156,7 @@ class TypeLibrary:
         return list(texts)
 
     def add_sound_texts(self, found: InterfaceTexts) -> dict[str, InterfaceTextError]:
-        """Take up those texts that are sound, and keep in mind why the others are not.
+        """Add the texts that are valid, and remember why the others are not.
 
         What is known already stays as it is.
 
@@ -177,13 +177,13 @@ class TypeLibrary:
             faults |= unsound
             if len(faults) < len(news):
                 self._changed()
-            told = {**found.placed(faults), **found.faults}
+            found_faults = {**found.placed(faults), **found.faults}
             kept = {name: one for name, one in self._faults.items() if name not in found.texts}
-            self._faults = {**kept, **told}
-        return told
+            self._faults = {**kept, **found_faults}
+        return found_faults
 
     def faults(self) -> dict[str, InterfaceTextError]:
-        """Say what is wrong with texts that were not taken up, by the name of each type."""
+        """Return what is wrong with texts that were not added, by the name of each type."""
         with self._lock:
             return dict(sorted(self._faults.items()))
 
@@ -194,7 +194,7 @@ class TypeLibrary:
     def _parsed(
         self, texts: Mapping[str, str]
     ) -> tuple[list[tuple[Interface, str]], dict[str, InterfaceTextError]]:
-        """Read each text by itself; give those that can be read, and why the others cannot."""
+        """Read each text by itself; return those that can be read, and why the others cannot."""
         read: list[tuple[Interface, str]] = []
         faults: dict[str, InterfaceTextError] = {}
         for name, text in texts.items():
@@ -227,7 +227,7 @@ class TypeLibrary:
         self._hashes.clear()
 
     def copy(self) -> TypeLibrary:
-        """Give a library of the same types, in which texts can be tried."""
+        """Return a library of the same types, in which texts can be tried."""
         made = TypeLibrary(self.distro)
         with self._lock:
             own = self._own
@@ -244,11 +244,11 @@ class TypeLibrary:
         return sorted(self._own.interfaces)
 
     def text_of(self, name: str) -> str | None:
-        """Give the text of a type as it was written; None for those of the distribution."""
+        """Return the text of a type as it was written; None for those of the distribution."""
         return self._own.texts.get(name) or self._carried.texts.get(name)
 
     def interface(self, name: str) -> Interface:
-        """Give what a text defines: a message, service or action.
+        """Return what a text defines: a message, service or action.
 
         Raises:
             UnknownTypeError: No such type is known.
@@ -259,7 +259,7 @@ class TypeLibrary:
         return known or self.find(name)
 
     def find(self, name: str) -> Message:
-        """Give a message by its full name, parts of calls such as `T_Request` too.
+        """Return a message by its full name, parts of calls such as `T_Request` too.
 
         Raises:
             UnknownTypeError: No such message is known.
@@ -271,7 +271,7 @@ class TypeLibrary:
         return found
 
     def _unknown(self, name: str) -> UnknownTypeError:
-        """Say why a type is not known: its text breaks a rule, or there is none."""
+        """Return why a type is not known: its text breaks a rule, or there is none."""
         folder, _, base = name.rpartition("/")
         owner = f"{folder}/{base.partition('_')[0]}"
         alike = (fault for one, fault in self._faults.items() if _plain(one) == _plain(owner))
@@ -279,7 +279,7 @@ class TypeLibrary:
         return UnknownTypeError(name, None if fault is None else str(fault).rstrip("."))
 
     def message(self, name: str) -> type[MessageValue]:
-        """Give the class of a message's values; the same class each time.
+        """Return the class of a message's values; the same class each time.
 
         Raises:
             UnknownTypeError: It, or what it is made of, is not known.
@@ -293,7 +293,7 @@ class TypeLibrary:
             return made
 
     def service(self, name: str) -> ServiceType:
-        """Give the classes and the hash of a service; parts of actions are services too.
+        """Return the classes and the hash of a service; parts of actions are services too.
 
         Raises:
             UnknownTypeError: It, or what it is made of, is not known.
@@ -305,7 +305,7 @@ class TypeLibrary:
         return ServiceType(name, self.hash_of(name), request, response, event)
 
     def action(self, name: str) -> ActionType:
-        """Give the classes and the hash of an action.
+        """Return the classes and the hash of an action.
 
         Raises:
             UnknownTypeError: It, or what it is made of, is not known.
@@ -325,7 +325,7 @@ class TypeLibrary:
         )
 
     def hash_of(self, name: str) -> str:
-        """Give the RIHS01 hash of a message, service or action, also where keys carry none.
+        """Return the RIHS01 hash of a message, service or action, also where keys carry none.
 
         Raises:
             UnknownTypeError: It, or what it is made of, is not known.
@@ -360,7 +360,7 @@ class TypeLibrary:
 
 
 def check_same_type(types: TypeLibrary, kind: type[MessageValue]) -> str:
-    """Give the full name of a class's type.
+    """Return the full name of a class's type.
 
     Raises:
         OtherTypeError: The library means something else by the name: the class is another
@@ -421,5 +421,5 @@ def _alike(one: Message, other: Message) -> bool:
 
 
 def _plain(name: str) -> str:
-    """Give a name as it is compared with those that break the rules of names."""
+    """Return a name as it is compared with those that break the rules of names."""
     return re.sub(r"[^a-z0-9/]", "", name.lower())

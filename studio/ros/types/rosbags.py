@@ -76,7 +76,7 @@ class MessageStore:
 class CdrCode:
     """The generated code of one type, under the names that rosbags' generated code uses.
 
-    The functions take and give bodies without the header of four bytes. Each is generated when it
+    The functions write and read bodies without the header of four bytes. Each is generated when it
     is first used.
     """
 
@@ -140,7 +140,7 @@ def cdr_code(kind: type[MessageValue]) -> CdrCode:
 
 @contextmanager
 def _interruptible() -> Generator[None]:
-    """Let Ctrl-C be caught by whoever waits for code to be generated.
+    """Let Ctrl-C be caught where code is generated.
 
     CPython notes an interrupt that leaves an `exec` of text as unhandled, and ends the process by
     the signal even where it was caught; executing a text again takes the note back.

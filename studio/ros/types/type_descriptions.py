@@ -160,7 +160,7 @@ def describe_type(types: TypeLibrary, name: str) -> MessageValue:
 
 
 def type_sources(types: TypeLibrary, name: str) -> list[MessageValue]:
-    """Give the texts of a type and of all it is made of as TypeSources, by name.
+    """Return the texts of a type and of all it is made of as TypeSources, by name.
 
     Raises:
         UnknownTypeError: It, or what it is made of, is not known.
@@ -190,7 +190,7 @@ def learn(
     descriptions: Mapping[str, tuple[str, MessageValue]],
     source_texts: Iterable[MessageValue] = (),
 ) -> list[str]:
-    """Take up a type and all it is made of that is not known yet; give the names taken up.
+    """Take up a type and all it is made of that is not known yet; return the names added.
 
     Args:
         types: Where to.
@@ -201,7 +201,7 @@ def learn(
             comments, others are passed over.
 
     Raises:
-        TypeDescriptionError: A description is wrong, or tells a known type otherwise.
+        TypeDescriptionError: A description is wrong, or differs from a known type.
     """
     parts: dict[str, Message] = {}
     for asked, (expected, description) in descriptions.items():
@@ -221,7 +221,7 @@ def learn(
 
 
 def matching_sources(types: TypeLibrary, source_texts: Iterable[MessageValue]) -> dict[str, str]:
-    """Give those TypeSources, by name, that say what the library has; others are passed over."""
+    """Return those TypeSources, by name, that say what the library has; others are passed over."""
     found: dict[str, str] = {}
     for one in source_texts:
         text = one.raw_file_contents
@@ -284,7 +284,7 @@ def _defines(text: str, interface: Interface) -> bool:
 def _check_hashes(
     types: TypeLibrary, name: str, texts: Mapping[str, str], hashes: Mapping[str, str]
 ) -> None:
-    """See in a library of its own that the texts give the hashes that were promised."""
+    """Check, in a copy of the library, that the texts have the hashes that were promised."""
     trial = types.copy()
     try:
         trial.add_texts(texts)
@@ -300,7 +300,7 @@ def _shapes(interface: Interface) -> list[object]:
 
 
 def _shape(message: Message) -> list[tuple[str, str]]:
-    # A description does not tell `char` from `uint8`.
+    # In descriptions `char` is `uint8`.
     return [
         (field.name, str(field.type).replace("char", "uint8", field.type.base == "char"))
         for field in message.fields

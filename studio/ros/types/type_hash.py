@@ -26,7 +26,7 @@ Described = dict[str, object]
 
 
 def type_hash(message: Message, find: Callable[[str], Message]) -> str:
-    """Hash a message; `find` gives the messages that it is made of by their full names.
+    """Hash a message; `find` returns the messages that it is made of by their full names.
 
     Raises:
         UnknownTypeError: What `find` raises for a part that is missing.

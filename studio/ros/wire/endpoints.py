@@ -149,6 +149,6 @@ def _is_zenoh(answer: bytes) -> bool:
     if len(answer) < 3:
         return False
     length, kind = int.from_bytes(answer[:2], "little"), answer[2] & _MESSAGE_ID
-    # A router that wants a name and password hangs up on who gives none, and says so.
+    # A router that wants a name and password says so, and hangs up.
     hung_up = kind == _CLOSE and length == 2
     return hung_up or (kind == _INIT and bool(answer[2] & _IS_ANSWER))

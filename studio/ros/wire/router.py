@@ -214,7 +214,7 @@ class TokenRelay:
     When a link to a router comes up, peers of Zenoh 1.8 and older send the tokens that they
     declared before it as the answer to an interest; routers of Zenoh 1.9 and later refuse them.
     So the nodes of Jazzy that are older than the router would be seen by nobody who looks by way
-    of the router. This session hears the tokens of such peers by its own links to them, and what
+    of the router. This session receives the tokens of such peers by its own links to them, and what
     the router does not know is declared there for as long as the peer shows it.
 
     It listens nowhere, so it reaches those peers that listen where this machine can connect to:
@@ -236,14 +236,14 @@ class TokenRelay:
         self._lock = threading.Lock()
         self._shown: set[str] = set()
         self._declared: dict[str, Declaration] = {}
-        self._doubted, self._closed = threading.Event(), threading.Event()
+        self._changed, self._closed = threading.Event(), threading.Event()
         self._session = open_zenoh(_beside(config, endpoint, str(router.info.zid())))
         self._readers = [
             ReadingThread("ros-token-relay", watch_tokens(self._session, key), self._take)
             for key in _TOKENS
         ]
         links = watch_transports(router)
-        self._links = ReadingThread("ros-token-relay-links", links, lambda _: self._doubted.set())
+        self._links = ReadingThread("ros-token-relay-links", links, lambda _: self._changed.set())
         self._declaring = threading.Thread(
             target=self._declare, name="ros-token-relay-declare", daemon=True
         )
@@ -252,7 +252,7 @@ class TokenRelay:
     def close(self) -> None:
         """End the session and take back what was declared; again is harmless."""
         self._closed.set()
-        self._doubted.set()
+        self._changed.set()
         for reader in (*self._readers, self._links):
             reader.close()
         close(self._session)
@@ -263,7 +263,7 @@ class TokenRelay:
                 token, stands = token_change(sample)
                 if stands:
                     self._shown.add(token)
-                    self._doubted.set()
+                    self._changed.set()
                 else:
                     self._forget(token)
 
@@ -276,8 +276,8 @@ class TokenRelay:
 
     def _declare(self) -> None:
         """Compare with what the router knows after each change, until the end."""
-        while self._doubted.wait() and not self._closed.wait(_SETTLE_S):
-            self._doubted.clear()
+        while self._changed.wait() and not self._closed.wait(_SETTLE_S):
+            self._changed.clear()
             with contextlib.suppress(ZError):  # the router has ended
                 self._declare_refused()
 
@@ -296,7 +296,7 @@ class TokenRelay:
 
 
 def _beside(config: Config, endpoint: Endpoint, router_zid: str) -> Config:
-    """Complete the configuration of a peer that hears no token from the router itself.
+    """Complete the configuration of a peer that takes no token from the router itself.
 
     Else what it declares there would come back and stand for ever.
     """
@@ -309,7 +309,7 @@ def _beside(config: Config, endpoint: Endpoint, router_zid: str) -> Config:
     insert(config, "scouting/delay", "0")
     insert(config, "scouting/multicast/enabled", "false")
     insert(config, "scouting/gossip/enabled", "true")
-    # Other routers would give back what is declared here.
+    # Other routers would return what is declared here.
     insert(config, "scouting/gossip/autoconnect", '{"peer": ["peer"]}')
     # rmw_zenoh's nodes expect the peer with the greater id to connect, yet nobody can connect here.
     always = {"peer": {"to_router": "always", "to_peer": "always"}}

@@ -87,7 +87,7 @@ class WireSession:
 
     @property
     def is_connected(self) -> bool:
-        """Whether a router is there at this moment; `RouterWatch` tells when that changes."""
+        """Whether a router is there at this moment; `RouterWatch` reports when that changes."""
         return bool(list(self.zenoh.info.routers_zid()))
 
     def next_id(self) -> int:
@@ -256,13 +256,13 @@ class RouterWatch:
 
         Args:
             wire: The session.
-            listener: Told whether a router is there each time that this changes, from a thread
-                of this watch; it must be quick.
+            listener: Called with whether a router is there each time that this changes, from a
+                thread of this watch; it must be quick.
         """
         self._listener = listener
         self._changed = threading.Condition()
         events = watch_transports(wire.zenoh)
-        # Those that are there come as events, too, yet whoever asks at once is to be told.
+        # Routers that are there come as events, too, but somebody may ask before that.
         self._routers = {str(zid) for zid in wire.zenoh.info.routers_zid()}
         self._thread = ReadingThread("ros-router-watch", events, self._take)
 

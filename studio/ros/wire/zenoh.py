@@ -254,8 +254,8 @@ class Replies:
         return self._handler.try_recv()
 
     def cancel(self) -> None:
-        """Give the request up."""
-        cast("Any", self._token).cancel()  # which says nothing of what it gives
+        """Return the request up."""
+        cast("Any", self._token).cancel()  # whose return is not typed
 
 
 class Query(Protocol):
@@ -420,5 +420,5 @@ def router_change(event: TransportEvent) -> tuple[str, bool] | None:
 
 
 def _queue() -> zenoh.handlers.FifoChannel[Any]:
-    """Make a queue that loses nothing; whoever reads it must not be slow."""
+    """Make a queue that loses nothing; its reader must not be slow."""
     return zenoh.handlers.FifoChannel(SAMPLES_WAITING_MAX)

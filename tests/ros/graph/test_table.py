@@ -118,16 +118,16 @@ def test_a_node_is_known_by_its_endpoints_alone_and_goes_with_the_last():
 def test_what_goes_before_it_comes_is_doubted_until_somebody_is_sure():
     table = GraphTable()
     table.delete(TOKENS[1])
-    assert table.put(TOKENS[1]) is Taken.DOUBTFUL
+    assert table.put(TOKENS[1]) is Taken.UNCERTAIN
     assert is_empty(table)
-    table.settle_doubt(TOKENS[1], stands=True)
+    table.settle(TOKENS[1], stands=True)
     assert table.count(EndpointKind.PUBLISHER, "/chatter") == 1
 
 
 def test_what_was_doubted_and_stood_not_may_come_later():
     table = GraphTable()
     table.delete(TOKENS[1])
-    table.settle_doubt(TOKENS[1], stands=False)
+    table.settle(TOKENS[1], stands=False)
     assert is_empty(table)
     assert table.put(TOKENS[1]) is Taken.CHANGED
 
@@ -205,14 +205,14 @@ def test_what_came_and_did_not_go_stands_whatever_happened_before(
         if token == TOKENS[0]:
             continue
         if comes:
-            if table.put(token) is Taken.DOUBTFUL:
-                table.settle_doubt(token, stands=True)
+            if table.put(token) is Taken.UNCERTAIN:
+                table.settle(token, stands=True)
             standing.add(token)
         else:
             table.delete(token)
             standing.discard(token)
     assert {one for _, tokens in seen(table) for one in tokens} == standing
-    assert all(table.was_told(token) for _, token in events if token != TOKENS[0])
+    assert all(table.was_seen(token) for _, token in events if token != TOKENS[0])
 
 
 @given(st.lists(st.tuples(st.booleans(), st.text(alphabet="@ros2_lv/%MNSP0:,ab", max_size=80))))

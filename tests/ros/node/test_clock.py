@@ -50,42 +50,42 @@ def test_ros_time_is_the_systems_until_it_is_told():
     clock = ros_clock()
     assert not clock.ros_time_is_active
     assert abs(clock.now_ns() - time.time_ns()) < SECOND_NS
-    clock.tell(5)
+    clock.set_ros_time(5)
     assert (clock.ros_time_is_active, clock.now_ns()) == (True, 5)
-    clock.tell(None)
+    clock.set_ros_time(None)
     assert abs(clock.now_ns() - time.time_ns()) < SECOND_NS
 
 
 def test_only_ros_time_is_told():
     with pytest.raises(ValueError, match="ROS time"):
-        Clock().tell(1)
+        Clock().set_ros_time(1)
 
 
 def test_a_jump_backwards_is_told_with_its_length():
     clock = ros_clock()
-    clock.tell(9 * SECOND_NS)
+    clock.set_ros_time(9 * SECOND_NS)
     jumps = told_at(clock, JumpThreshold(min_backward=Duration(seconds=-2)))
-    clock.tell(8 * SECOND_NS)
-    clock.tell(20 * SECOND_NS)
-    clock.tell(3 * SECOND_NS)
+    clock.set_ros_time(8 * SECOND_NS)
+    clock.set_ros_time(20 * SECOND_NS)
+    clock.set_ros_time(3 * SECOND_NS)
     assert jumps == [TimeJump(ClockChange.ROS_TIME_NO_CHANGE, Duration(seconds=-17))]
 
 
 def test_a_jump_forwards_is_told_when_it_is_long_enough():
     clock = ros_clock()
-    clock.tell(0)
+    clock.set_ros_time(0)
     jumps = told_at(clock, JumpThreshold(min_forward=Duration(seconds=5)))
     for second in (4, 8, 20):
-        clock.tell(second * SECOND_NS)
+        clock.set_ros_time(second * SECOND_NS)
     assert [jump.delta for jump in jumps] == [Duration(seconds=12)]
 
 
 def test_taking_over_and_giving_back_are_told():
     clock = ros_clock()
     jumps = told_at(clock, JumpThreshold())
-    clock.tell(1)
-    clock.tell(2)
-    clock.tell(None)
+    clock.set_ros_time(1)
+    clock.set_ros_time(2)
+    clock.set_ros_time(None)
     assert [jump.clock_change for jump in jumps] == [
         ClockChange.ROS_TIME_ACTIVATED,
         ClockChange.ROS_TIME_DEACTIVATED,
@@ -95,16 +95,16 @@ def test_taking_over_and_giving_back_are_told():
 def test_before_and_after_are_told_around_the_jump():
     clock = ros_clock()
     seen: list[int] = []
-    clock.tell(1)
+    clock.set_ros_time(1)
     handle = clock.create_jump_callback(
         JumpThreshold(min_forward=Duration(nanoseconds=1)),
         pre_callback=lambda: seen.append(clock.now_ns()),
         post_callback=lambda _: seen.append(clock.now_ns()),
     )
-    clock.tell(7)
+    clock.set_ros_time(7)
     handle.unregister()
     handle.unregister()
-    clock.tell(9)
+    clock.set_ros_time(9)
     assert seen == [1, 7]
 
 
@@ -117,14 +117,14 @@ def test_sleeping_lasts_as_long_as_it_should(context: Context):
 
 def test_sleeping_by_told_time_ends_when_it_is_told(context: Context):
     clock = ros_clock()
-    clock.tell(0)
+    clock.set_ros_time(0)
     until = Time(seconds=5, clock_type=ClockType.ROS_TIME)
     slept: list[bool] = []
     thread = threading.Thread(target=lambda: slept.append(clock.sleep_until(until, context)))
     thread.start()
-    clock.tell(4 * SECOND_NS)
+    clock.set_ros_time(4 * SECOND_NS)
     assert slept == []
-    clock.tell(5 * SECOND_NS)
+    clock.set_ros_time(5 * SECOND_NS)
     thread.join()
     assert slept == [True]
 

@@ -72,7 +72,7 @@ def test_a_clock_before_zero_is_taken_for_zero(nodes: tuple[Node, Node]):
     simulator, node = nodes
     set_sim_time(node, on=True)
     publisher = simulator.create_publisher(ClockMessage, "/clock", QoSProfile(depth=1))
-    node.get_clock().tell(5)
+    node.get_clock().set_ros_time(5)
 
     def is_zero() -> bool:
         publisher.publish(ClockMessage(clock=Stamp(sec=-3)))

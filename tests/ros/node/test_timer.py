@@ -10,7 +10,7 @@ from studio.ros.node.work import MutuallyExclusiveCallbackGroup
 def told_timer(period_ns: int, callback: list[int]) -> tuple[Clock, Timer]:
     """A timer on a clock that the test tells."""
     clock = Clock(clock_type=ClockType.ROS_TIME)
-    clock.tell(0)
+    clock.set_ros_time(0)
     timer = Timer(
         lambda: callback.append(clock.now_ns()),
         period_ns,
@@ -21,7 +21,7 @@ def told_timer(period_ns: int, callback: list[int]) -> tuple[Clock, Timer]:
 
 
 def run_at(clock: Clock, timer: Timer, now_ns: int) -> None:
-    clock.tell(now_ns)
+    clock.set_ros_time(now_ns)
     run = timer.take()
     if run is not None:
         run()
@@ -66,7 +66,7 @@ def test_a_cancelled_timer_is_never_ready_until_it_is_reset():
 def test_a_timer_tells_how_long_since_and_until_its_calls():
     clock, timer = told_timer(10, [])
     run_at(clock, timer, 12)
-    clock.tell(17)
+    clock.set_ros_time(17)
     assert timer.time_since_last_call() == 5
     assert timer.time_until_next_call() == 3
     timer.timer_period_ns = 4
@@ -85,7 +85,7 @@ def test_a_timer_that_does_not_start_by_itself_waits_for_reset():
 def test_told_time_is_not_waited_for_by_the_steady_clock():
     clock, timer = told_timer(10, [])
     assert timer.due_s is None
-    clock.tell(10)
+    clock.set_ros_time(10)
     assert timer.due_s is not None
 
 
