@@ -118,16 +118,6 @@ def logger_name(path: str) -> str:
     return path.strip("/").replace("/", ".")
 
 
-def split_node_path(path: str) -> tuple[str, str]:
-    """Part `/ns/talker` into namespace and name.
-
-    Raises:
-        RosNameError: It names no node.
-    """
-    namespace, _, node = check_full_name(path).rpartition("/")
-    return namespace or "/", node
-
-
 def is_hidden(name: str) -> bool:
     """Whether a part of the name begins with an underscore, as `/turn/_action/feedback` does."""
     return any(part.startswith("_") for part in name.split("/"))

@@ -21,8 +21,6 @@ DOMAIN_MAX = 2**32 - 1
 _DDS = "dds_::"
 ADMIN_SPACE = "@ros2_lv"
 BACKENDS = "backends:"
-# What a reader of buffer-aware topics that takes plain memory only says.
-CPU_BACKENDS = "backends:cpu:"
 _NODE_CHUNKS = 9
 _ENDPOINT_CHUNKS = 13
 _ID_MAX = 2**64 - 1

@@ -16,7 +16,6 @@ from studio.ros.names import (
     full_type_name,
     is_hidden,
     node_path,
-    split_node_path,
     split_type_name,
 )
 
@@ -78,9 +77,8 @@ def test_hidden_names_have_a_part_with_an_underscore_in_front():
 
 
 @pytest.mark.parametrize(("namespace", "path"), [("/", "/talker"), ("/a/b", "/a/b/talker")])
-def test_a_path_of_a_node_parts_as_it_was_joined(namespace: str, path: str):
+def test_a_path_of_a_node_is_joined(namespace: str, path: str):
     assert node_path(namespace, "talker") == path
-    assert split_node_path(path) == (namespace, "talker")
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,6 @@ from hypothesis import strategies as st
 from studio.errors import TokenError
 from studio.ros.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 from studio.ros.tokens import (
-    CPU_BACKENDS,
     EndpointKind,
     EndpointToken,
     NodeToken,
@@ -18,6 +17,8 @@ from studio.ros.tokens import (
 HASH = "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18"
 ZID = "8b20917502ee955ac4476e0266340d5c"
 NODE = f"@ros2_lv/2/{ZID}/0/0/NN/%/%/talker"
+# What a reader of buffer-aware topics that takes plain memory only says.
+CPU_BACKENDS = "backends:cpu:"
 PUBLISHER = (
     f"@ros2_lv/2/{ZID}/0/10/MP/%/%/talker/%chatter/std_msgs::msg::dds_::String_/{HASH}/::,7:,:,:,,"
 )

@@ -12,7 +12,6 @@ from studio.errors import InterfaceError, TokenError
 from studio.ros.profiles import PROFILES
 from studio.ros.tokens import ADMIN_SPACE, EndpointToken, NodeToken, parse_token, tokens_of_domain
 from studio.ros.types.library import TypeLibrary
-from studio.ros.wire.endpoints import ProbeResult
 from studio.ros.wire.zenoh import admin_answers, standing_tokens
 
 if TYPE_CHECKING:
@@ -43,21 +42,6 @@ class ForeignHashes:
 
     types: tuple[str, ...]
     distros: tuple[str, ...]
-
-
-def why_no_router(endpoint: str, answer: ProbeResult) -> str | None:
-    """Return why there is no router at an endpoint; None when one is there, or may be."""
-    if answer is ProbeResult.NOBODY:
-        return (
-            f"Nobody answers at {endpoint}: start a router there (studio router, or ros2 run "
-            "rmw_zenoh_cpp rmw_zenohd), or name another with --connect."
-        )
-    if answer is ProbeResult.OTHER:
-        return (
-            f"Something that is no Zenoh router holds {endpoint}: end it, or name another place "
-            "with --connect."
-        )
-    return None
 
 
 def why_nobody(endpoint: str, domain: int, nodes_by_domain: Mapping[int, int]) -> str | None:

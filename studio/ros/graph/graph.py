@@ -6,7 +6,7 @@ import threading
 import time
 from typing import TYPE_CHECKING, NamedTuple, Self
 
-from studio.ros.graph.table import GraphTable, Taken
+from studio.ros.graph.endpoints import GraphTable, Taken
 from studio.ros.names import check_full_name, is_hidden
 from studio.ros.tokens import EndpointKind, tokens_of_domain
 from studio.ros.wire.zenoh import ReadingThread, Sample, standing_tokens, token_change, watch_tokens

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 from studio.errors import InterfaceTextError, RosNameError
 from studio.ros.names import check_package_name, split_type_name
@@ -28,9 +27,6 @@ from studio.ros.types.definitions import (
 )
 from studio.ros.types.text_hints import hint_for, is_separator
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
 _INTEGER = re.compile(r"[+-]?(0[xX][0-9a-fA-F]+|0[oO]?[0-7]+|0[bB][01]+|[0-9]+)", re.ASCII)
 _INTEGER_DIGITS_MAX = 70
 _TRUTH = {"true": True, "1": True, "false": False, "0": False}
@@ -52,7 +48,6 @@ _FIELD_NAME = re.compile(r"(?!.*__)(?!.*_$)[a-z][a-z0-9_]*", re.ASCII)
 # What rosidl asks for; its own pattern takes a time without end on long names.
 _CONSTANT_NAME = re.compile(r"(?!.*__)(?!.*_$)[A-Z][A-Z0-9_]*", re.ASCII)
 _HEADER = "std_msgs/msg/Header"
-_INDENT = "\t"
 
 
 def parse_interface(name: str, text: str) -> Interface:
@@ -363,16 +358,7 @@ def _items(text: str) -> list[str]:
 
 def text_of(interface: Interface) -> str:
     """Write what a .msg, .srv or .action would say: constants, fields and defaults."""
-    return "---\n".join("".join(_lines(part, 0, None)) for part in messages_of(interface))
-
-
-def full_text_of(interface: Interface, find: Callable[[str], Message]) -> str:
-    """Write a type with the fields of all that it is made of below, as `ros2 interface show` does.
-
-    Raises:
-        UnknownTypeError: What `find` raises for a part that is missing.
-    """
-    return "---\n".join("".join(_lines(part, 0, find)) for part in messages_of(interface))
+    return "---\n".join("".join(_lines(part)) for part in messages_of(interface))
 
 
 def kind_of(interface: Interface) -> str:
@@ -386,17 +372,12 @@ def kind_of(interface: Interface) -> str:
             return "action"
 
 
-def _lines(message: Message, level: int, find: Callable[[str], Message] | None) -> list[str]:
-    indent = _INDENT * level
-    lines = [
-        f"{indent}{one.base} {one.name}={_value(one.value, quoted=False)}\n"
-        for one in message.constants
+def _lines(message: Message) -> list[str]:
+    constants = message.constants
+    return [
+        *(f"{one.base} {one.name}={_value(one.value, quoted=False)}\n" for one in constants),
+        *(f"{one.type} {one.name}{_default(one)}\n" for one in message.fields),
     ]
-    for one in message.fields:
-        lines.append(f"{indent}{one.type} {one.name}{_default(one)}\n")
-        if one.type.nested and find is not None:
-            lines += _lines(find(one.type.base), level + 1, find)
-    return lines
 
 
 def _default(field: Field) -> str:

@@ -6,7 +6,6 @@ from studio.ros.graph.diagnosis import (
     DistroHashes,
     ForeignHashes,
     foreign_hashes,
-    why_no_router,
     why_nobody,
     why_not_heard,
 )
@@ -15,7 +14,6 @@ from studio.ros.profiles import HUMBLE, JAZZY, NO_HASH, PROFILES
 from studio.ros.qos import QoSProfile
 from studio.ros.tokens import EndpointKind
 from studio.ros.types.library import TypeLibrary
-from studio.ros.wire.endpoints import ProbeResult
 
 ENDPOINT = "tcp/127.0.0.1:7447"
 STRING = "std_msgs/msg/String"
@@ -31,24 +29,6 @@ def publisher(type_name: str, type_hash: str | None) -> GraphEndpoint:
     return GraphEndpoint(
         "token", NODE, EndpointKind.PUBLISHER, "/x", type_name, type_hash, QoSProfile()
     )
-
-
-def test_an_endpoint_where_nobody_is_gets_told_how_to_start_a_router():
-    sentence = why_no_router(ENDPOINT, ProbeResult.NOBODY)
-    assert sentence is not None
-    assert ENDPOINT in sentence
-    assert "studio router" in sentence
-
-
-def test_another_program_at_the_endpoint_is_named_as_such():
-    assert "no Zenoh router" in (why_no_router(ENDPOINT, ProbeResult.OTHER) or "")
-
-
-def test_of_a_router_that_is_there_nothing_is_said():
-    assert [why_no_router(ENDPOINT, one) for one in (ProbeResult.ZENOH, ProbeResult.TLS)] == [
-        None,
-        None,
-    ]
 
 
 def test_a_router_without_nodes_is_told():

@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 
 from studio.ros.types.definitions import Interface, messages_of
-from studio.ros.types.interface_text import full_text_of, kind_of, parse_interface, text_of
+from studio.ros.types.interface_text import kind_of, parse_interface, text_of
 from studio.ros.types.library import TypeLibrary
 
 LIBRARY = TypeLibrary("jazzy")
@@ -31,12 +31,3 @@ def test_odd_words_read_back_too():
     text = 'string a "x # \\"y\\\\"\nstring[] b ["p, q", "\'"]\nstring W=" z "\nfloat64 c 1e300'
     interface = parse_interface("p/msg/Odd", text)
     assert bare(parse_interface("p/msg/Odd", text_of(interface))) == bare(interface)
-
-
-def test_a_full_text_shows_what_a_type_is_made_of():
-    text = full_text_of(LIBRARY.interface("geometry_msgs/msg/PointStamped"), LIBRARY.find)
-    assert text == (
-        "std_msgs/Header header\n\tbuiltin_interfaces/Time stamp\n\t\tint32 sec\n"
-        "\t\tuint32 nanosec\n\tstring frame_id\n"
-        "geometry_msgs/Point point\n\tfloat64 x\n\tfloat64 y\n\tfloat64 z\n"
-    )

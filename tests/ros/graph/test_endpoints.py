@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 from hypothesis import given
 from hypothesis import strategies as st
 
-from studio.ros.graph import table as tables
-from studio.ros.graph.table import GraphTable, Taken
+from studio.ros.graph import endpoints as tables
+from studio.ros.graph.endpoints import GraphTable, Taken
 from studio.ros.qos import QoSProfile
 from studio.ros.tokens import EndpointKind, EndpointToken, NodeToken, gid_of
 
