@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from studio.errors import CommandError
 from studio.live.panels.operations import outcome_of
-from studio.protocol.commands import Commands, Scope
+from studio.protocol.commands import Commands, Limits, Scope
 from studio.protocol.publishing import Drive
 
 if TYPE_CHECKING:
@@ -179,4 +179,9 @@ class Driving:
 
 
 COMMANDS: Final = Commands[Driving](Scope.ROS)
-COMMANDS.presenter(Drive, lambda one, c, who: one.drive(c, who), needs_router=True)
+COMMANDS.presenter(
+    Drive,
+    lambda driving, c, who: driving.drive(c, who),
+    needs_router=True,
+    limits=Limits(bytes_max=1_000, per_second=200),
+)
