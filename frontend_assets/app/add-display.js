@@ -4,7 +4,7 @@
 
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
-import { foundTopics, iconOf, includesAll } from "../lib/live-displays.js";
+import { foundTopics, includesAll } from "../lib/live-displays.js";
 import { LongList } from "../lib/long-list.js";
 import { remembered } from "../lib/remembered.js";
 import { ageWords, flowWords } from "../lib/topic-rates.js";
@@ -101,7 +101,7 @@ function topicOffer({ name, types, publishers, kind }) {
   const off = kind === "" ? t("live.add.unshown", { type: types[0] ?? "" }) : "";
   return {
     key: name,
-    icon: kind === "" ? "minus" : iconOf(kind),
+    icon: kind === "" ? "minus" : (kinds.value.get(kind)?.icon ?? "box"),
     label: name,
     note: [types.join(", "), t("live.publishers", { count: publishers })].join(" · "),
     aside: kind,
@@ -119,9 +119,9 @@ function kindOffers(words) {
 }
 
 /** @param {DisplayKindView} kind @returns {Offer} */
-const kindOffer = ({ kind, doc, types }) => ({
+const kindOffer = ({ kind, doc, icon, types }) => ({
   key: kind,
-  icon: iconOf(kind),
+  icon,
   label: kind,
   note: doc,
   aside: types[0]?.split("/").at(-1) ?? "",

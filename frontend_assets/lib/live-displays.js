@@ -5,40 +5,6 @@
 /** @typedef {boolean | number | string} Value */
 /** @typedef {{display: DisplayView} | {group: string, members: DisplayView[]}} Entry one at the top of the list */
 
-/** By kind, as RViz calls it. @type {Readonly<Record<string, string>>} */
-const ICONS = {
-  AccelStamped: "arrow",
-  Axes: "axes",
-  Camera: "camera",
-  CameraInfo: "camera",
-  Effort: "joints",
-  FluidPressure: "joints",
-  Grid: "grid",
-  GridCells: "grid",
-  Illuminance: "sun",
-  Image: "camera",
-  Imu: "compass",
-  LaserScan: "radar",
-  Map: "map",
-  Marker: "shapes",
-  MarkerArray: "shapes",
-  Odometry: "odometry",
-  Path: "route",
-  PointCloud2: "cloud",
-  PointStamped: "pin",
-  Polygon: "polygon",
-  Pose: "pose",
-  PoseArray: "pose",
-  PoseWithCovariance: "pose",
-  Range: "cone",
-  RelativeHumidity: "humidity",
-  RobotModel: "robot",
-  Temperature: "thermometer",
-  TF: "frames",
-  TwistStamped: "arrow",
-  Wrench: "arrow",
-};
-
 /**
  * @param {ReadonlySet<string> | null} before ids; null: nothing was told yet
  * @param {readonly DisplayView[]} now
@@ -48,9 +14,6 @@ export function addedDisplay(before, now) {
   const added = before === null ? [] : now.filter(({ id }) => !before.has(id));
   return added.length === 1 ? added[0] : undefined;
 }
-
-/** @param {string} kind @returns {string} */
-export const iconOf = (kind) => (Object.hasOwn(ICONS, kind) ? (ICONS[kind] ?? "") : "box");
 
 /** @param {readonly DisplayView[]} displays @returns {Entry[]} a group stands where its first member stands */
 export function inGroups(displays) {

@@ -10,7 +10,7 @@ import { documentId } from "../app/state/document.js";
 import { displayStates, groupsOff, kinds, liveDisplays } from "../app/state/live.js";
 import { dialog } from "../app/state/view.js";
 import { t } from "../lib/i18n.js";
-import { firstTrouble, iconOf, inGroups, rateWords } from "../lib/live-displays.js";
+import { firstTrouble, inGroups, rateWords } from "../lib/live-displays.js";
 import { Icon } from "../lib/ui.js";
 import { draggable, dropMark, droppable } from "./live-drag.js";
 import { displayKeys, groupKeys, NameBox, RowMenu, renaming } from "./live-menu.js";
@@ -130,7 +130,7 @@ function takingDrops(row) {
 
 /** @param {DisplayView} display @param {number} level @param {DisplayState | undefined} state @param {boolean} open @returns {Row} */
 function displayRow(display, level, state, open) {
-  const { id, name, kind, enabled, group } = display;
+  const { id, name, kind, icon, enabled, group } = display;
   const row = `display:${id}`;
   return {
     id: row,
@@ -138,7 +138,7 @@ function displayRow(display, level, state, open) {
     level,
     label: name,
     hint: `${name}\n${kinds.value.get(kind)?.doc ?? kind}`,
-    icon: iconOf(kind),
+    icon,
     expandable: true,
     expanded: open,
     faded: !enabled || groupsOff.value.includes(group),

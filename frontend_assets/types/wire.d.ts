@@ -445,6 +445,7 @@ export interface DiskMerged {
 export interface DisplayKindView {
   kind: string;
   doc: string;
+  icon: string;
   types: string[];
   properties: PropertyView[];
 }
@@ -476,6 +477,7 @@ export interface DisplayStates {
 export interface DisplayView {
   id: string;
   kind: string;
+  icon: string;
   name: string;
   group: string;
   enabled: boolean;

@@ -21,6 +21,7 @@ class AxesDisplay(StillDisplay):
 
     KIND = "Axes"
     DOC = "Shows the axes of one frame: x is red, y is green, z is blue."
+    ICON = "axes"
     PROPERTIES: ClassVar[tuple[Property, ...]] = (
         Property("Reference Frame", "frame", FIXED_FRAME, "The frame whose axes are shown."),
         Property("Length", "number", 1.0, "Length of each axis.", low=_LEAST_M, high=1e6, unit="m"),

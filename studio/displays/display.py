@@ -115,6 +115,8 @@ class Display(ABC):
     """RViz's name of the kind, as `LaserScan`."""
     DOC: ClassVar[str]
     """One sentence on what it shows."""
+    ICON: ClassVar[str] = "box"
+    """One of the page's icons, by its name in `frontend_assets/vendor/icons.js`."""
     TOPICS: ClassVar[tuple[TopicRole, ...]] = ()
     """The main one first; empty for a display without messages."""
     FIRST_TOPIC: ClassVar[str] = ""

@@ -66,6 +66,7 @@ class EffortDisplay(HistoryDisplay[Efforts]):
 
     KIND = "Effort"
     DOC = "How hard the joints of a robot push, as arrows round their axes."
+    ICON = "joints"
     TOPICS = (
         TopicRole("", ("sensor_msgs/msg/JointState",), newest_only=False),
         TopicRole(

@@ -38,6 +38,7 @@ class GridDisplay(StillDisplay):
 
     KIND = "Grid"
     DOC = "Shows a grid of lines on a plane of a frame."
+    ICON = "grid"
     PROPERTIES: ClassVar[tuple[Property, ...]] = (
         Property("Reference Frame", "frame", FIXED_FRAME, "The frame in which the grid lies."),
         Property(

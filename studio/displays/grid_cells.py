@@ -39,6 +39,7 @@ class GridCellsDisplay(HistoryDisplay[Cells]):
 
     KIND = "GridCells"
     DOC = "Cells of a grid, as the obstacles of a costmap are."
+    ICON = "grid"
     TOPICS = (TopicRole("", (GRID_CELLS,)),)
     PROPERTIES = colour_properties(RVIZ_GREEN, "cells")
 

@@ -46,6 +46,7 @@ class ImageDisplay(StillDisplay):
 
     KIND: ClassVar[str] = "Image"
     DOC: ClassVar[str] = "The picture of a camera, in front of the camera in 3D."
+    ICON: ClassVar[str] = "camera"
     TOPICS: ClassVar[tuple[TopicRole, ...]] = (
         TopicRole("", ("sensor_msgs/msg/Image", _COMPRESSED), reliable=False),
         TopicRole(_INFO, ("sensor_msgs/msg/CameraInfo",), beside="/camera_info", reliable=False),

@@ -52,6 +52,7 @@ class ImuDisplay(HistoryDisplay[Motion]):
 
     KIND = "Imu"
     DOC = "Attitude, turning rate and acceleration of an inertial measurement unit."
+    ICON = "compass"
     TOPICS = (TopicRole("", ("sensor_msgs/msg/Imu",)),)
     PROPERTIES = (
         switch(_IN_WORLD, "Whether the attitude is drawn in the axes of the fixed frame; else in "

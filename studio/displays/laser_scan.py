@@ -27,6 +27,7 @@ class LaserScanDisplay(CloudDisplay):
 
     KIND: ClassVar[str] = "LaserScan"
     DOC: ClassVar[str] = "What a lidar met, one point for each beam that came back."
+    ICON: ClassVar[str] = "radar"
     TOPICS: ClassVar[tuple[TopicRole, ...]] = (
         TopicRole("", ("sensor_msgs/msg/LaserScan",), reliable=False),
     )

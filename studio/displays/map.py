@@ -205,6 +205,7 @@ class MapDisplay(StillDisplay):
 
     KIND: ClassVar[str] = "Map"
     DOC: ClassVar[str] = "Which places are free and which are occupied, as a picture on the ground."
+    ICON: ClassVar[str] = "map"
     TOPICS: ClassVar[tuple[TopicRole, ...]] = (
         TopicRole("", ("nav_msgs/msg/OccupancyGrid",), latched=True),
         TopicRole(

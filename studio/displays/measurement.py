@@ -104,6 +104,7 @@ class TemperatureDisplay(MeasurementDisplay):
 
     KIND = "Temperature"
     DOC = "A temperature, as the colour of a point."
+    ICON = "thermometer"
     TOPICS = (TopicRole("", ("sensor_msgs/msg/Temperature",), newest_only=False),)
     SCALE = Scale("temperature", 0.0, 100.0, inverted=True)
     PROPERTIES = measurement_properties(SCALE)
@@ -118,6 +119,7 @@ class FluidPressureDisplay(MeasurementDisplay):
 
     KIND = "FluidPressure"
     DOC = "The pressure of air or water, as the colour of a point."
+    ICON = "joints"
     TOPICS = (TopicRole("", ("sensor_msgs/msg/FluidPressure",), newest_only=False),)
     SCALE = Scale("fluid_pressure", 98_000.0, 105_000.0)
     PROPERTIES = measurement_properties(SCALE)
@@ -132,6 +134,7 @@ class IlluminanceDisplay(MeasurementDisplay):
 
     KIND = "Illuminance"
     DOC = "The brightness of light, as the colour of a point."
+    ICON = "sun"
     TOPICS = (TopicRole("", ("sensor_msgs/msg/Illuminance",), newest_only=False),)
     SCALE = Scale("illuminance", 0.0, 1000.0)
     PROPERTIES = measurement_properties(SCALE)
@@ -146,6 +149,7 @@ class RelativeHumidityDisplay(MeasurementDisplay):
 
     KIND = "RelativeHumidity"
     DOC = "The humidity of air, as the colour of a point."
+    ICON = "humidity"
     TOPICS = (TopicRole("", ("sensor_msgs/msg/RelativeHumidity",), newest_only=False),)
     SCALE = Scale("relative_humidity", 0.0, 1.0)
     PROPERTIES = measurement_properties(SCALE)

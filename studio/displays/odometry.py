@@ -34,6 +34,7 @@ class OdometryDisplay(SpreadDisplay):
 
     KIND = "Odometry"
     DOC = "Where a robot was, step by step."
+    ICON = "odometry"
     TOPICS = (TopicRole("", ("nav_msgs/msg/Odometry",), newest_only=False),)
     PROPERTIES = (
         Property("Position Tolerance", "number", 0.1,

@@ -48,6 +48,7 @@ class PathDisplay(HistoryDisplay[Line]):
 
     KIND = "Path"
     DOC = "The way that a robot plans, or came."
+    ICON = "route"
     TOPICS = (TopicRole("", (PATH,), newest_only=False),)
     PROPERTIES = (
         Property("Line Style", "choice", "Lines", "Hair lines, or lines that have a width.",

@@ -26,6 +26,7 @@ class PointStampedDisplay(HistoryDisplay["Floats"]):
 
     KIND = "PointStamped"
     DOC = "A point as a ball, as somebody clicked it."
+    ICON = "pin"
     TOPICS = (TopicRole("", ("geometry_msgs/msg/PointStamped",), newest_only=False),)
     PROPERTIES = (
         *colour_properties("#cc29cc", "ball"),

@@ -219,6 +219,7 @@ class PointCloud2Display(CloudDisplay):
 
     KIND: ClassVar[str] = "PointCloud2"
     DOC: ClassVar[str] = "Points in space, in colours that are sent or made of their numbers."
+    ICON: ClassVar[str] = "cloud"
     TOPICS: ClassVar[tuple[TopicRole, ...]] = (
         TopicRole("", ("sensor_msgs/msg/PointCloud2",), reliable=False),
     )

@@ -27,6 +27,7 @@ class PolygonDisplay(HistoryDisplay["Floats"]):
 
     KIND = "Polygon"
     DOC = "The outline of an area, as the footprint of a robot is."
+    ICON = "polygon"
     TOPICS = (TopicRole("", (POLYGON,)),)
     PROPERTIES = colour_properties(RVIZ_GREEN, "outline")
 

@@ -27,6 +27,7 @@ class PoseDisplay(HistoryDisplay[Poses]):
 
     KIND = "Pose"
     DOC = "A pose as an arrow or as axes, as a goal of navigation is."
+    ICON = "pose"
     TOPICS = (TopicRole("", ("geometry_msgs/msg/PoseStamped",)),)
     PROPERTIES = pose_properties()
 

@@ -47,6 +47,7 @@ class PoseArrayDisplay(HistoryDisplay[Poses]):
 
     KIND = "PoseArray"
     DOC = "Many poses, as the particles of a localisation are."
+    ICON = "pose"
     TOPICS = (TopicRole("", (POSE_ARRAY,)),)
     PROPERTIES = (
         Property("Shape", "choice", _FLAT, "What a pose looks like.",

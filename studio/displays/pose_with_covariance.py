@@ -302,6 +302,7 @@ class PoseWithCovarianceDisplay(SpreadDisplay):
 
     KIND = "PoseWithCovariance"
     DOC = "A pose and how sure it is, as a localisation tells it."
+    ICON = "pose"
     TOPICS = (TopicRole("", ("geometry_msgs/msg/PoseWithCovarianceStamped",)),)
     PROPERTIES = (*pose_properties(), *COVARIANCE_PROPERTIES)
 

@@ -33,6 +33,7 @@ class RangeDisplay(HistoryDisplay[Cone]):
 
     KIND = "Range"
     DOC = "What an ultrasonic or infrared sensor sees, as a cone."
+    ICON = "cone"
     TOPICS = (TopicRole("", ("sensor_msgs/msg/Range",), newest_only=False),)
     PROPERTIES = (
         Property("Color", "colour", "#ffffff", "Colour of the cone."),

@@ -60,6 +60,7 @@ class RobotModelDisplay(StillDisplay):
 
     KIND = "RobotModel"
     DOC = "Shows a robot from its description, each link where its frame on /tf is."
+    ICON = "robot"
     TOPICS: ClassVar[tuple[TopicRole, ...]] = (
         TopicRole("", ("std_msgs/msg/String",), latched=True, depth=1),
     )

@@ -275,6 +275,7 @@ class TfDisplay(Display):
 
     KIND = "TF"
     DOC = "Shows all frames with their names, and arrows to their parents."
+    ICON = "frames"
     OF_TYPES: ClassVar[tuple[str, ...]] = ("tf2_msgs/msg/TFMessage",)
     """Messages that this display shows, although it subscribes to none."""
     PROPERTIES: ClassVar[tuple[Property, ...]] = (

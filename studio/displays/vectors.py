@@ -222,6 +222,7 @@ class AccelDisplay(VectorDisplay):
 
     KIND = "AccelStamped"
     DOC = "An acceleration along and about an axis."
+    ICON = "arrow"
     TOPICS = (TopicRole("", ("geometry_msgs/msg/AccelStamped",), newest_only=False),)
     PROPERTIES = SCREW_PROPERTIES
     NAMES = SCREW
@@ -236,6 +237,7 @@ class TwistDisplay(VectorDisplay):
 
     KIND = "TwistStamped"
     DOC = "A velocity and a turning rate, as a robot is told to drive."
+    ICON = "arrow"
     TOPICS = (TopicRole("", ("geometry_msgs/msg/TwistStamped",), newest_only=False),)
     PROPERTIES = SCREW_PROPERTIES
     NAMES = SCREW
@@ -253,6 +255,7 @@ class WrenchDisplay(VectorDisplay):
 
     KIND = "Wrench"
     DOC = "A force and a torque, as a sensor at a wrist feels them."
+    ICON = "arrow"
     TOPICS = (TopicRole("", ("geometry_msgs/msg/WrenchStamped",), newest_only=False),)
     PROPERTIES = (
         *vector_properties(_NAMES),

@@ -119,6 +119,7 @@ class DisplayKindView(Message):
 
     kind: str
     doc: str
+    icon: str
     types: tuple[str, ...]
     """Of messages that it shows; none: it listens to no topic."""
     properties: tuple[PropertyView, ...]
@@ -161,6 +162,7 @@ class DisplayView(Message):
 
     id: str
     kind: str
+    icon: str
     name: str
     group: str
     enabled: bool

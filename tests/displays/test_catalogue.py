@@ -1,6 +1,7 @@
 import re
 import struct
 from contextlib import suppress
+from pathlib import Path
 
 import pytest
 from hypothesis import given, settings
@@ -16,6 +17,7 @@ from tests.support.display_samples import SAMPLES, Sample, headed
 from tests.support.drawn import assert_drawable, plain
 from tests.support.ros_values import values_of
 
+REPOSITORY = Path(__file__).resolve().parents[2]
 SENTENCE = re.compile(r"[A-Z0-9].*[.]", re.DOTALL)
 
 
@@ -53,6 +55,12 @@ def test_its_messages_are_known_and_its_properties_are_told_in_sentences(display
         assert SENTENCE.fullmatch(one.doc), one.name
         assert one.checked(one.default) == one.default
         assert one.kind == "choice" or not one.choices
+
+
+@pytest.mark.parametrize("display", DISPLAYS, ids=lambda one: one.KIND)
+def test_its_icon_is_one_of_the_pages(display: type[Display]):
+    icons = (REPOSITORY / "frontend_assets/vendor/icons.js").read_text(encoding="utf-8")
+    assert re.search(rf"[{{,]{display.ICON}:\[", icons)
 
 
 @pytest.mark.parametrize("display", DISPLAYS, ids=lambda one: one.KIND)

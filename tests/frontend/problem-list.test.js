@@ -123,7 +123,7 @@ const CHECKS = [
   "robot/structure.py",
   "documents/checks/checking.py",
 ];
-const READERS = ["recovery.py", "open_elements.py", "broken_tags.py"];
+const READERS = ["recovery.py", "broken_tags.py"];
 
 /** @param {string} path below studio/ @returns {string[]} the sources there */
 function sourcesAt(path) {

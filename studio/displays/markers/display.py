@@ -170,6 +170,7 @@ class MarkerDisplay(MarkersDisplay):
 
     KIND = "Marker"
     DOC = "Shows single markers: arrows, solids, lines, points, surfaces, texts and meshes."
+    ICON = "shapes"
     TOPICS: ClassVar[tuple[TopicRole, ...]] = (
         TopicRole("", (MARKER,), newest_only=False, latched=True, depth=1000),
         TopicRole("array", (MARKER_ARRAY,), "_array", newest_only=False, latched=True, depth=10),
@@ -181,6 +182,7 @@ class MarkerArrayDisplay(MarkersDisplay):
 
     KIND = "MarkerArray"
     DOC = "Shows many markers at once: arrows, solids, lines, points, surfaces, texts and meshes."
+    ICON = "shapes"
     TOPICS: ClassVar[tuple[TopicRole, ...]] = (
         TopicRole("", (MARKER_ARRAY,), newest_only=False, latched=True, depth=10),
     )

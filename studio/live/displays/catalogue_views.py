@@ -41,6 +41,7 @@ def _kind_view(kind: type[Display]) -> DisplayKindView:
     return DisplayKindView(
         kind=kind.KIND,
         doc=kind.DOC,
+        icon=kind.ICON,
         types=kind.TOPICS[0].types if kind.TOPICS else (),
         properties=tuple(map(property_view, kind.PROPERTIES)),
     )

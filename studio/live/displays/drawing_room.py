@@ -185,6 +185,7 @@ class DrawingRoom:
         return DisplayView(
             id=spec.id,
             kind=spec.kind,
+            icon=running.display.ICON,
             name=spec.name,
             group=spec.group,
             enabled=spec.enabled,
