@@ -1,4 +1,4 @@
-// Written by `python -m studio.server.wire_types` from studio/protocol/: do not edit.
+// Written by `python -m studio.server.schema` from studio/protocol/: do not edit.
 // A command goes to the websocket /control as JSON text; each event comes from it as JSON text.
 
 /** Answer to `get_actions`. */

@@ -1,20 +1,25 @@
-"""REST under `/api`: the same commands and events for scripts, described by OpenAPI."""
+"""The routes for scripts: documents, commands, downloads, and logging everybody out."""
 
 from http import HTTPStatus
-from typing import Any, Final
+from typing import Any, Final, Literal
+from urllib.parse import quote
 
 from fastapi import APIRouter, Request
-from fastapi.responses import JSONResponse, Response
 from pydantic import BaseModel
+from starlette.background import BackgroundTask
+from starlette.responses import JSONResponse, PlainTextResponse, Response, StreamingResponse
 
 import studio
+from studio.documents.keeping.exports import Download
 from studio.errors import CommandError
 from studio.protocol import Event
 from studio.protocol.commands import COMMAND_LIMIT_BYTES
 from studio.protocol.documents import Documents, Refused
 from studio.protocol.roles import Role, Visitor
 from studio.protocol.texts import GetUrdf, Urdf
-from studio.server.answers import Answers
+from studio.server.commands import Answers
+from studio.server.credentials import Credentials
+from studio.server.http_protocol import connection_of
 from studio.server.schema import COMMAND_BODY
 from studio.server.surface import OpenDocuments
 
@@ -132,3 +137,94 @@ async def _body(request: Request) -> bytes:
         if len(body) > COMMAND_LIMIT_BYTES:
             raise CommandError(f"A command of more than {COMMAND_LIMIT_BYTES} bytes is not read.")
     return bytes(body)
+
+
+_NO_TOKEN = "This studio asks nobody for a token (--no-token): there is nobody to log out."
+
+
+class LogOut:
+    """The route, and the credentials that it revokes."""
+
+    def __init__(self, credentials: Credentials) -> None:
+        self._credentials = credentials
+
+    def router(self) -> APIRouter:
+        """The one route."""
+        router = APIRouter(prefix="/api")
+        router.add_api_route(
+            "/log-out",
+            self.everybody,
+            methods=["POST"],
+            status_code=HTTPStatus.NO_CONTENT,
+            response_class=Response,
+        )
+        return router
+
+    async def everybody(self, request: Request) -> Response:
+        """Make every cookie invalid that was ever given, and end what is open with one."""
+        if self._credentials.token is None:
+            return PlainTextResponse(_NO_TOKEN, HTTPStatus.CONFLICT)
+        self._credentials.revoke()
+        ending = BackgroundTask(_end_all, request)
+        return Response(status_code=HTTPStatus.NO_CONTENT, background=ending)
+
+
+async def _end_all(request: Request) -> None:
+    connection_of(request.scope).end_all()
+
+
+_REFUSED: Final[dict[int | str, dict[str, Any]]] = {
+    HTTPStatus.CONFLICT.value: {"description": "Refused, and why"}
+}
+_PLAIN: Final = frozenset("-_.() ")
+"""What a name in plain quotes may hold beside letters and digits of ASCII."""
+
+
+class Exports:
+    """The routes, and the engine that makes what they send."""
+
+    def __init__(self, engine: OpenDocuments) -> None:
+        self._engine = engine
+
+    def router(self) -> APIRouter:
+        """All routes."""
+        router = APIRouter(prefix="/api/documents/{document}/export")
+        for path, endpoint in (("urdf", self.urdf), ("package", self.package), ("page", self.page)):
+            router.add_api_route(f"/{path}", endpoint, response_class=Response, responses=_REFUSED)
+        return router
+
+    async def urdf(
+        self, document: str, meshes: Literal["package", "absolute", "copied"] = "package"
+    ) -> Response:
+        """The expanded URDF; its meshes by package, by path, or copied beside it in a zip."""
+        return _sent(await self._engine.document(document).exports.urdf(meshes))
+
+    async def package(
+        self, document: str, packages: Literal["entry", "used"] = "entry"
+    ) -> Response:
+        """A zip of the robot's package, or of all it uses, with the unsaved edits."""
+        exports = self._engine.document(document).exports
+        return _sent(await exports.package(all_used=packages == "used"))
+
+    async def page(self, document: str, theme: Literal["dark", "light"] = "dark") -> Response:
+        """The 3D view as one page that needs no server."""
+        return _sent(await self._engine.document(document).exports.page(dark=theme == "dark"))
+
+
+def _sent(download: Download) -> Response:
+    headers = {
+        "content-disposition": disposition(download.name),
+        "cache-control": "no-store",
+        # Opened in the browser instead of being saved, it has no power over the studio.
+        "content-security-policy": "sandbox",
+    }
+    return StreamingResponse(download.chunks, media_type=download.media_type, headers=headers)
+
+
+def disposition(name: str) -> str:
+    """Content-Disposition (RFC 6266) under which a browser saves a file by its name."""
+    name = "".join(one for one in name if one.isprintable() and one not in "/\\") or "download"
+    plain = "".join(
+        one if (one.isascii() and one.isalnum()) or one in _PLAIN else "_" for one in name
+    )
+    return f"attachment; filename=\"{plain}\"; filename*=UTF-8''{quote(name, safe='')}"

@@ -13,12 +13,10 @@ from starlette.websockets import WebSocket
 import studio
 from studio.errors import AccessError, CommandError, StudioError, UnknownDocumentError
 from studio.server.access import PUBLIC_ROUTES, ROUTES, demand
-from studio.server.api import Api
+from studio.server.api import Api, Exports, LogOut
 from studio.server.assets import Assets
 from studio.server.credentials import Credentials
-from studio.server.exports import Exports
 from studio.server.guard import Guard
-from studio.server.log_out import LogOut
 from studio.server.origin import KnownHosts
 from studio.server.pages import not_found_page, trouble_page
 from studio.server.schema import openapi

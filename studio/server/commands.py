@@ -13,16 +13,20 @@ from studio.errors import CommandError, StudioError
 from studio.protocol.commands import COMMAND_LIMIT_BYTES
 from studio.protocol.documents import Refused
 from studio.protocol.listeners import tell
-from studio.protocol.message import adapter_of, type_of
+from studio.protocol.message import adapter_of, all_events, type_of
 from studio.server.access import demand
 
 if TYPE_CHECKING:
-    from studio.protocol import Command
+    from studio.protocol import Command, Event
     from studio.protocol.listeners import Listener
+    from studio.protocol.roles import Visitor
     from studio.server.surface import OpenDocuments
+
 
 COMMAND_ADAPTER: Final = adapter_of(COMMANDS.messages)
 """Parses every command."""
+EVENT_ADAPTER: Final = adapter_of(all_events())
+"""Parses every event."""
 _REASON_LIMIT = 300
 _LOG = logging.getLogger(__name__)
 
@@ -90,3 +94,25 @@ async def answer(engine: OpenDocuments, listener: Listener, text: bytes) -> None
         _LOG.exception("A command failed")
         reason = "The studio failed at this command; its terminal says how."
         tell(listener, Refused(request=request_of(text), kind="InternalError", reason=reason))
+
+
+class Answers:
+    """The events that one command brought about, in their order; binary frames are left out."""
+
+    def __init__(self, visitor: Visitor) -> None:
+        self.role, self.person = visitor.role, visitor.person
+        self.events: list[Event] = []
+
+    def post(self, data: bytes, *, binary: bool = False, key: str | None = None) -> None:
+        """Keep one event."""
+        del key
+        if not binary:
+            self.events.append(EVENT_ADAPTER.validate_json(data))
+
+    async def collect(self, engine: OpenDocuments, text: bytes) -> list[Event]:
+        """Carry out one command and give what came of it."""
+        try:
+            await answer(engine, self, text)
+        finally:
+            engine.detach(self)
+        return self.events

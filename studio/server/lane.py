@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final
 
 from starlette.websockets import WebSocketDisconnect, WebSocketState
 
-from studio.server.protocol import Framer, socket_of
+from studio.server.websocket_protocol import Framer, socket_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable

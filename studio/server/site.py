@@ -2,7 +2,7 @@
 
 from functools import lru_cache
 from http import HTTPStatus
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 from fastapi import FastAPI
 from starlette.requests import Request
@@ -11,7 +11,9 @@ from starlette.websockets import WebSocket
 
 import studio
 from studio.protocol.documents import Hello
-from studio.scene import viser_page
+from studio.protocol.roles import Visitor
+from studio.scene import SUBPROTOCOL, viser_page
+from studio.server.access import may
 from studio.server.assets import (
     Asset,
     Assets,
@@ -26,11 +28,21 @@ from studio.server.data_lane import DataLane
 from studio.server.lane import Lane
 from studio.server.pages import studio_page
 from studio.server.policy import SCENE_POLICY, WORKER_POLICY
-from studio.server.surface import OpenDocuments
-from studio.server.viser_lane import serve_scene
+from studio.server.surface import OpenDocuments, OpenScene
 
-if TYPE_CHECKING:
-    from studio.protocol.roles import Visitor
+
+async def serve_scene(
+    websocket: WebSocket, scene: OpenScene, visitor: Visitor, document: str
+) -> None:
+    """Speak viser's protocol until the browser leaves or the document is closed."""
+    offered: list[str] = websocket.scope["subprotocols"]
+    # A page of another version is let in all the same: only so does it hear why it must leave.
+    spoken = SUBPROTOCOL if SUBPROTOCOL in offered else next(iter(offered), None)
+    await websocket.accept(subprotocol=spoken)
+    lane = Lane(websocket)
+    await scene.serve(lane, lambda message: may(visitor, f"viser:{message}", document), spoken)
+    await lane.finish()
+
 
 _FOREVER: Final = "public, max-age=31536000, immutable"
 _ICON: Final = "styles/logo.svg"

@@ -14,7 +14,7 @@ import pytest
 
 from studio.protocol.robot import SetJoints
 from studio.protocol.saving import Save
-from studio.server.exports import disposition
+from studio.server.api import disposition
 from tests.support.open_documents import engine, opened
 from tests.support.packages import write_package
 

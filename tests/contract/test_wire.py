@@ -9,9 +9,8 @@ import pytest
 
 from studio.documents.engine import COMMANDS
 from studio.protocol.message import all_events
-from studio.server.commands import COMMAND_ADAPTER
-from studio.server.schema import EVENT_ADAPTER, openapi, wire_schemas
-from studio.server.wire_types import target, wire_types
+from studio.server.commands import COMMAND_ADAPTER, EVENT_ADAPTER
+from studio.server.schema import openapi, target, wire_schemas, wire_types
 
 if TYPE_CHECKING:
     from pydantic import BaseModel
@@ -24,7 +23,7 @@ KINDS: list[type[BaseModel]] = [
 
 def test_the_types_of_the_page_are_fresh():
     assert target().read_text(encoding="utf-8") == wire_types(), (
-        "run: python -m studio.server.wire_types"
+        "run: python -m studio.server.schema"
     )
 
 

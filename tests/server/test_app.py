@@ -11,11 +11,9 @@ from studio.documents.engine import COMMANDS
 from studio.protocol.roles import Role, Visitor
 from studio.scene import SUBPROTOCOL
 from studio.server.access import PUBLIC_ROUTES, ROUTES, may
-from studio.server.api import Api
+from studio.server.api import Api, Exports, LogOut
 from studio.server.assets import Assets
 from studio.server.credentials import Credentials
-from studio.server.exports import Exports
-from studio.server.log_out import LogOut
 from studio.server.site import Site
 from studio.server.uploads import Uploads
 from tests.support.small_engine import URDF, SmallEngine

@@ -15,8 +15,8 @@ from studio.server.app import make_app
 from studio.server.assets import Assets
 from studio.server.credentials import Credentials
 from studio.server.ports import bind, port_of
-from studio.server.protocol import StudioSocket
 from studio.server.server import Server
+from studio.server.websocket_protocol import StudioSocket
 from tests.support.small_engine import SmallEngine
 
 if TYPE_CHECKING:

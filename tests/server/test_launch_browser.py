@@ -9,7 +9,7 @@ from urllib.request import url2pathname
 
 import pytest
 
-from studio.server.browser import Window, readable_folder
+from studio.server.launch import Window, readable_folder
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -9,7 +9,7 @@ from urllib.parse import unquote
 import pytest
 
 from studio.protocol.roles import Role
-from studio.server.exports import disposition
+from studio.server.api import disposition
 
 if TYPE_CHECKING:
     from tests.support.web_server import RunningWeb
