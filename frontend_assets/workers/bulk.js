@@ -13,7 +13,7 @@ const SLOTS = 3;
 const RETRY_MS = 1500;
 const LENGTH_BYTES = 4;
 const FRAME_MAX = 1 << 30;
-/** Of a message, as in `studio/live/panels/hearing_frames.py`. */
+/** Of a message, as in `studio/live/topics/frames.py`. */
 const LARGE_BYTES = 256 * 1024;
 /** One that is older than the newest by more is not late: the studio's clock was set back. */
 const OVERTAKEN_S = 10;

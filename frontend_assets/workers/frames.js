@@ -1,5 +1,5 @@
 /**
- * Frames of the data lane, as `studio/live/panels/hearing_frames.py` writes them: 16 bytes of
+ * Frames of the data lane, as `studio/live/topics/frames.py` writes them: 16 bytes of
  * head, then messages, each with 28 bytes of its own, filled up to a multiple of 8.
  */
 

@@ -22,7 +22,7 @@ USED_LATER: Final = (
     *("studio.live.displays.drawing_room", "studio.live.displays.robot_models"),
     *("studio.live.displays.catalogue_views", "studio.live.displays.topic_views"),
     *("studio.live.panels.driving_work", "studio.live.panels.goal_work"),
-    *("studio.live.panels.hearing_channels", "studio.live.panels.parameter_work"),
+    *("studio.live.panels.parameter_work", "studio.ros.node.raw_subscription"),
     *("studio.live.panels.publication_work", "studio.live.panels.requests"),
     *("studio.ros.messages", "studio.ros.graph.graph", "studio.ros.types.convert"),
 )

@@ -3,7 +3,7 @@
 A browser takes bytes from a streamed answer several times as fast as from a websocket. It hears
 on `/data` as always, sends `{"type": "ask_bulk"}` there, and is told a key: `{"type": "bulk_key",
 "key": ...}`. Then it opens `GET /bulk?key=...`, whose body does not end: frames as those of the
-data lane (see `studio/live/panels/hearing_frames.py`), each after its length as four bytes,
+data lane (see `studio.live.topics.frames.py`), each after its length as four bytes,
 little-endian. The first large message of a channel still comes on the data lane, where the number
 of the channel is told; those that follow come here, while this is open, and on `/data` afterwards.
 """
@@ -19,14 +19,14 @@ from starlette.responses import Response
 
 from studio.errors import UnknownLaneError
 from studio.hub import GATE_BYTES
-from studio.live.panels.hearing_backlog import Backlog
-from studio.live.panels.hearing_frames import frame_parts
+from studio.live.topics.frames import frame_parts
+from studio.server.backlog import Backlog
 from studio.server.http_protocol import connection_of
 
 if TYPE_CHECKING:
     from starlette.types import Receive, Scope, Send
 
-    from studio.live.panels.hearing_frames import Chunk, Tick
+    from studio.live.topics.frames import Chunk, Tick
     from studio.server.data_lane import DataLane
     from studio.server.http_protocol import StudioConnection
 

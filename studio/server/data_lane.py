@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Final
 from pydantic import ValidationError
 
 from studio.hub import Outlet
-from studio.live.panels.hearing_backlog import Backlog
-from studio.live.panels.hearing_frames import Tick
+from studio.live.topics.frames import Tick
 from studio.protocol.hearing import WISHES, AskBulk, BulkKey, Heard, NotHeard
+from studio.server.backlog import Backlog
 from studio.server.commands import malformed
 from studio.server.lane import FrameTransport, binary_frame, text_frame
 

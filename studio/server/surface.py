@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
 
     from studio.documents.keeping.exports import Download, MeshNames
-    from studio.live.panels.hearing import Hearer
+    from studio.live.topics.browsers import DataLaneEnd
     from studio.protocol import Command
     from studio.protocol.hearing import Wish
     from studio.protocol.listeners import Listener
@@ -70,15 +70,15 @@ class TakesUploads(Protocol):
 class HearsTopics(Protocol):
     """What hears topics for browsers."""
 
-    def attach(self, hearer: Hearer, /) -> None:
+    def attach(self, lane: DataLaneEnd, /) -> None:
         """A data lane was opened."""
         ...
 
-    def detach(self, hearer: Hearer, /) -> None:
+    def detach(self, lane: DataLaneEnd, /) -> None:
         """It was closed."""
         ...
 
-    def wish(self, hearer: Hearer, wish: Wish, /) -> None:
+    def wish(self, lane: DataLaneEnd, wish: Wish, /) -> None:
         """Carry out what a browser wishes; how that stands is told to it."""
         ...
 

@@ -19,7 +19,7 @@ from dataclasses import asdict, dataclass, field
 from functools import partial
 from typing import TYPE_CHECKING, Final, NamedTuple
 
-from studio.live.panels.hearing_frames import FRAME_HEAD, MESSAGE_HEAD
+from studio.live.topics.frames import FRAME_HEAD, MESSAGE_HEAD
 
 if TYPE_CHECKING:
     from collections.abc import Callable

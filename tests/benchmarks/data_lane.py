@@ -20,7 +20,7 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Final, cast
 
-from studio.live.panels.hearing_frames import LARGE_BYTES
+from studio.live.topics.frames import LARGE_BYTES
 from tests.benchmarks import data_browsers, data_server
 from tests.benchmarks.data_browsers import Counted, Job
 from tests.benchmarks.data_cells import BUSY, CELLS, SLOW, SLOW_BYTES_PER_S, Cell

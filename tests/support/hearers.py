@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from studio.live.panels.hearing_frames import FRAME_HEAD, MESSAGE_HEAD
+from studio.live.topics.frames import FRAME_HEAD, MESSAGE_HEAD
 from studio.protocol.hearing import Heard, NotHeard
 
 if TYPE_CHECKING:
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
     from pydantic import BaseModel
 
-    from studio.live.panels.hearing_frames import Tick
+    from studio.live.topics.frames import Tick
 
 
 class Came(NamedTuple):

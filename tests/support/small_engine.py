@@ -9,7 +9,7 @@ from starlette.requests import ClientDisconnect
 
 from studio.documents.keeping.exports import Download
 from studio.errors import ExportError, SaveConflictError, UnknownDocumentError, UploadError
-from studio.live.panels.hearing_frames import Tick, chunk_of
+from studio.live.topics.frames import Tick, chunk_of
 from studio.protocol.documents import CloseDocument, DocumentEntry, Documents, Done
 from studio.protocol.edits import Redo, Undo
 from studio.protocol.hearing import Hear, NotHeard
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from collections.abc import AsyncIterator, Callable
 
     from studio.documents.keeping.exports import MeshNames
-    from studio.live.panels.hearing import Hearer
+    from studio.live.topics.browsers import DataLaneEnd
     from studio.protocol import Command
     from studio.protocol.hearing import Wish
     from studio.protocol.listeners import Listener
@@ -96,25 +96,25 @@ class SmallHearing:
     """Says that nothing is heard, but for `/flood`, and remembers who wished what."""
 
     def __init__(self) -> None:
-        self.hearers: list[Hearer] = []
+        self.hearers: list[DataLaneEnd] = []
         self.wishes: list[Wish] = []
         self.flooded = 0
 
-    def attach(self, hearer: Hearer, /) -> None:
-        self.hearers.append(hearer)
+    def attach(self, lane: DataLaneEnd, /) -> None:
+        self.hearers.append(lane)
 
-    def detach(self, hearer: Hearer, /) -> None:
-        self.hearers.remove(hearer)
+    def detach(self, lane: DataLaneEnd, /) -> None:
+        self.hearers.remove(lane)
 
-    def wish(self, hearer: Hearer, wish: Wish, /) -> None:
+    def wish(self, lane: DataLaneEnd, wish: Wish, /) -> None:
         self.wishes.append(wish)
         if isinstance(wish, Hear) and wish.topic == "/flood":
             for number in range(FLOOD):
                 sample = RawSample(b"%d" % number + bytes(1 << 20), Attachment(1, 1, b""), 1)
                 both = (chunk_of(at, [sample], 0, keeps_all=at == 1) for at in (1, 2))
-                hearer.take(Tick(tuple(both)))
+                lane.take(Tick(tuple(both)))
                 self.flooded += 1
-        hearer.say(NotHeard(wish=wish.wish, reason="there is nothing to hear"))
+        lane.say(NotHeard(wish=wish.wish, reason="there is nothing to hear"))
 
 
 class SmallEngine:

@@ -9,6 +9,7 @@ from studio.debounce import Throttle
 from studio.errors import CommandError, StudioError
 from studio.live.connection.nearby import Nearby
 from studio.live.connection.plan import planned_wire
+from studio.live.topics.zenoh_source import ZenohSource
 from studio.protocol.connection import WireState
 from studio.protocol.listeners import Audience, LastTold, tell
 
@@ -47,6 +48,8 @@ class WireDesk:
         self._throttle = Throttle(self._look, pause_s=_PAUSE_S)
         self._nearby = Nearby(lambda: self._choice, self._is_alone, self._tell)
         self._closed = False
+        self.topics = ZenohSource()
+        """The topics of whatever system it is connected with."""
         self.on_link: Callable[[WireLink | None], None] = _nobody
         """Told of each connection that is made, and with None that it was ended on demand."""
         self._turn = asyncio.Lock()
@@ -101,7 +104,7 @@ class WireDesk:
             self._phase, self._trouble = "off", ""
             self.on_link(None)
             if link is not None:
-                await asyncio.to_thread(link.close)
+                await asyncio.to_thread(self._end, link)
             self._tell()
 
     async def close(self) -> None:
@@ -111,8 +114,13 @@ class WireDesk:
         if self._opening is not None:
             await asyncio.wait({self._opening}, timeout=_OPENING_PATIENCE_S)
         link, self._link = self._link, None
+        await asyncio.to_thread(self.topics.close)
         if link is not None:
             await asyncio.to_thread(link.close)
+
+    def _end(self, link: WireLink) -> None:
+        self.topics.detach()
+        link.close()
 
     async def _open(self) -> WireLink:
         async with self._turn:
@@ -132,6 +140,7 @@ class WireDesk:
             await asyncio.to_thread(link.close)
             raise CommandError(_CLOSING)
         self._link = link
+        self.topics.attach(link)
         self.on_link(link)
         self._tell()
         return link
@@ -140,6 +149,7 @@ class WireDesk:
         from studio.live.connection.link import WireLink  # noqa: PLC0415 - imports zenoh
 
         def doubt() -> None:
+            self.topics.doubt()
             if not loop.is_closed():
                 loop.call_soon_threadsafe(self._doubt)
 

@@ -18,11 +18,14 @@ from studio.ros.messages import types_of
 from studio.ros.node.context import Context
 from studio.ros.node.executors import SingleThreadedExecutor
 from studio.ros.node.node import Node
+from studio.ros.node.raw_subscription import RawSubscription
 from studio.ros.wire.session import RouterWatch, open_wire
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from studio.live.topics.request import Fit
+    from studio.live.topics.subscription import Stream
     from studio.protocol.connection import OpenFromWire
     from studio.robot.kinematics import Kinematics
     from studio.robot.values import Robot
@@ -198,6 +201,24 @@ class WireLink:
             UnknownTypeError: The type is not known here.
         """
         return self._subscribed(type_name, topic, take, qos, raw=True)
+
+    def shown_hash(self, type_name: str) -> str:
+        """Give the hash of a type as publishers show it who have it as it is known here.
+
+        Raises:
+            UnknownTypeError: It is not known.
+        """
+        return self._wire.profile.type_hash(self._wire.types.hash_of(type_name))
+
+    def receive(self, topic: str, fit: Fit, stream: Stream) -> RawSubscription:
+        """Begin to receive a topic for a stream.
+
+        Raises:
+            RosNameError: No topic is named so.
+            UnknownTypeError: The type is not known here, and its hash neither.
+        """
+        named = fit.type_name, fit.type_hash
+        return RawSubscription(self._node, topic, *named, fit.qos, stream.take)
 
     def let_go(self, node: Node) -> None:
         """End a node of a document."""

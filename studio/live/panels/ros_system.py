@@ -24,10 +24,10 @@ from studio.live.panels import (
     topics,
 )
 from studio.live.panels.diagnostics import DiagnosticsDesk
-from studio.live.panels.hearing import HearingDesk
 from studio.live.panels.logs import LogDesk
 from studio.live.panels.rates import RateDesk
 from studio.live.panels.topics import TopicDesk
+from studio.live.topics.browsers import BrowserTopics
 from studio.protocol.calls import FollowDeeds
 from studio.protocol.commands import Commands, Scope
 
@@ -42,7 +42,7 @@ class RosSystem:
     def __init__(self, wire: WireDesk) -> None:
         self._wire = wire
         self.interfaces = interfaces.InterfaceTypes(wire)
-        self.hearing = HearingDesk(wire)
+        self.hearing = BrowserTopics(wire.topics)
         self.topics = TopicDesk(wire)
         self.rates = RateDesk(wire)
         self.logs = LogDesk(wire)
@@ -99,7 +99,6 @@ class RosSystem:
     async def let_go(self) -> None:
         """Let go of the connection, which is about to end."""
         await asyncio.gather(
-            self.hearing.let_go(),
             self.let_go_of_operations(),
             self.driving.let_go(),
             self.lessons.let_go(),

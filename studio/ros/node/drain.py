@@ -78,8 +78,13 @@ class Drain:
     def wait_for(self, source: Source) -> None:
         """Empty a ring as often as possible, until it is removed."""
         with self._lock:
-            if source in self._sources:
+            if source in self._sources and source not in self._prompt:
                 self._prompt = (*self._prompt, source)
+
+    def wait_no_more_for(self, source: Source) -> None:
+        """Look into a ring as into all others; harmless where nobody waits for it."""
+        with self._lock:
+            self._prompt = tuple(one for one in self._prompt if one is not source)
 
     @property
     def is_flowing(self) -> bool:

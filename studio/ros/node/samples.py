@@ -76,13 +76,6 @@ class SampleQueue:
         except IndexError:
             return None
 
-    def take_all(self) -> list[RawSample]:
-        """Take all out, the oldest first."""
-        with self._lock:
-            taken = list(self.samples)
-            self.samples.clear()
-        return taken
-
 
 @dataclass(slots=True)
 class _Sender:
@@ -104,6 +97,10 @@ class Gaps:
     def __init__(self) -> None:
         self._senders: dict[bytes, _Sender] = {}
         self.lost = 0
+
+    def begin_anew(self) -> None:
+        """Forget the senders, so that there is no gap before the next sample of each."""
+        self._senders = {}
 
     def count(self, attachment: Attachment) -> int:
         """Count a sample, and return how many of its sender are missing before it."""

@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import TYPE_CHECKING, Any, Final, Self
+from typing import TYPE_CHECKING, Any, Self
 
 from studio.errors import AttachmentError, CdrError
 from studio.ros.attachment import unpack
@@ -27,7 +27,7 @@ from studio.ros.tokens import EndpointKind
 from studio.ros.wire.zenoh import SAMPLES_WAITING_MAX, declare_subscription
 
 if TYPE_CHECKING:
-    from studio.ros.node.base import Endpoint, NodeBase
+    from studio.ros.node.base import Endpoint
     from studio.ros.node.event_handler import CountEvent
     from studio.ros.node.work import CallbackGroup
     from studio.ros.qos import QoSProfile
@@ -39,7 +39,6 @@ RING = 4_096
 
 MessageCallback = Callable[[Any], object] | Callable[[Any, MessageInfo], object]
 """Takes a message, or its bytes where they are raw; and what came with it, if it has two."""
-_NEVER_READ: Final = "std_msgs/msg/Empty"
 
 
 @dataclass(slots=True)
@@ -70,7 +69,6 @@ class Subscription(Work):
     Attributes:
         events: What calls back on events of it, work of its node.
         lost_event: The one of them that counts lost messages.
-        on_arrival: Called whenever samples came, in the drain's thread: it must be quick.
     """
 
     def __init__(
@@ -95,7 +93,6 @@ class Subscription(Work):
         self._arrived: Future[None] | None = None
         self.events: list[Work] = []
         self.lost_event: CountEvent | None = None
-        self.on_arrival: Callable[[], object] | None = None
         self._incoming: Incoming[Sample] | None = _declared(endpoint, ring)
         endpoint.show()
 
@@ -143,10 +140,6 @@ class Subscription(Work):
         sample = self._inbox.take()
         return None if sample is None else partial(self._call_back, sample)
 
-    def take_all(self) -> list[RawSample]:
-        """Take all that waits, as it came; for those that have no callback."""
-        return self._inbox.take_all()
-
     def destroy(self) -> None:
         """Take it back; again is harmless."""
         incoming, self._incoming = self._incoming, None
@@ -180,8 +173,6 @@ class Subscription(Work):
             arrived.set_result(None)
         if self.callback is not None:
             self.announce()
-        if self.on_arrival is not None:
-            self.on_arrival()
 
     def _received(self, sample: Sample, now_ns: int) -> RawSample | None:
         attachment = sample.attachment
@@ -245,53 +236,3 @@ def _declared(endpoint: Endpoint, ring: int) -> Incoming[Sample]:
         reliable=qos.reliability is not ReliabilityPolicy.BEST_EFFORT,
         wanted=(qos.depth or DEPTH_DEFAULT) if latched else None,
     )
-
-
-class RawSubscription:
-    """Takes the samples of a topic as bytes, whatever their type, until `close`.
-
-    Making and closing it may wait, so do it in a thread.
-
-    Its token is shown as that of any subscription: some drivers publish only while one is there.
-
-    Args:
-        node: Whose subscription it is.
-        topic: In full.
-        type_name: Of its messages; it need not be known here.
-        type_hash: As a publisher shows it; None is that of the known type.
-        qos: Of the subscription.
-
-    Raises:
-        RosNameError: The topic cannot be named so.
-        UnknownTypeError: No hash was given, and the type is not known.
-    """
-
-    def __init__(
-        self, node: NodeBase, topic: str, type_name: str, type_hash: str | None, qos: QoSProfile
-    ) -> None:
-        self._node = node
-        kind = EndpointKind.SUBSCRIPTION
-        endpoint = node.endpoint(kind, type_name, topic, qos, type_hash)
-        never_read = node.wire.types.message(_NEVER_READ)
-        group = node.default_callback_group
-        self._subscription = Subscription(endpoint, never_read, None, group, raw=True)
-        node.add_work(self._subscription)
-
-    @property
-    def lost(self) -> int:
-        """Messages that were sent and did not come here, or not in time."""
-        losses = self._subscription.losses
-        return losses.lost + losses.overwritten
-
-    def wait_for(self, on_arrival: Callable[[], object]) -> None:
-        """Call back at once when samples come, in another thread: `on_arrival` must be quick."""
-        self._subscription.on_arrival = on_arrival
-        self._node.context.drain.wait_for(self._subscription)
-
-    def take(self) -> list[RawSample]:
-        """Take what came since it was asked for last."""
-        return self._subscription.take_all()
-
-    def close(self) -> None:
-        """Take the subscription back."""
-        self._node.remove_work(self._subscription)

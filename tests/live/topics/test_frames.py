@@ -3,7 +3,7 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
-from studio.live.panels.hearing_frames import LARGE_BYTES, Tick, chunk_of, frame_of, frame_parts
+from studio.live.topics.frames import LARGE_BYTES, Tick, chunk_of, frame_of, frame_parts
 from studio.ros.attachment import Attachment
 from studio.ros.node.samples import RawSample
 from tests.support.hearers import Came, read_frame

@@ -1,8 +1,8 @@
 from __future__ import annotations
 
-from studio.live.panels.hearing_backlog import KEPT_BYTES, NEWEST_BYTES, Backlog
-from studio.live.panels.hearing_frames import Chunk, chunk_of
-from tests.live.panels.test_hearing_frames import samples
+from studio.live.topics.frames import Chunk, chunk_of
+from studio.server.backlog import KEPT_BYTES, NEWEST_BYTES, Backlog
+from tests.live.topics.test_frames import samples
 from tests.support.hearers import read_frame
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import pytest
 
 from studio.live.connection.desk import WireDesk
-from studio.live.panels.hearing import WISHES_MAX, HearingDesk
+from studio.live.topics.browsers import WISHES_MAX, BrowserTopics
 from studio.nodes.robot_state_publisher import LATCHED
 from studio.protocol.hearing import Hear, Leave
 from studio.ros.cdr import Codec
@@ -43,10 +43,10 @@ def said(text: str) -> Any:  # noqa: ANN401
 
 
 @asynccontextmanager
-async def hearing(endpoint: str) -> AsyncGenerator[HearingDesk]:
+async def hearing(endpoint: str) -> AsyncGenerator[BrowserTopics]:
     """A desk with a connection."""
     wire = WireDesk(WireChoice("off", (endpoint,)))
-    desk = HearingDesk(wire)
+    desk = BrowserTopics(wire.topics)
     try:
         await wire.link()
         yield desk
@@ -55,7 +55,7 @@ async def hearing(endpoint: str) -> AsyncGenerator[HearingDesk]:
         await wire.close()
 
 
-def browser(desk: HearingDesk) -> KeepingHearer:
+def browser(desk: BrowserTopics) -> KeepingHearer:
     hearer = KeepingHearer()
     desk.attach(hearer)
     return hearer
@@ -135,7 +135,7 @@ def test_the_newest_comes_as_often_as_was_wished_and_what_is_left_ends(endpoint:
 def test_what_is_waited_for_comes_between_two_ticks(
     endpoint: str, tester: Node, monkeypatch: pytest.MonkeyPatch, mode: Literal["every", "newest"]
 ):
-    monkeypatch.setattr("studio.live.panels.hearing._TICK_S", 3_600)
+    monkeypatch.setattr("studio.live.topics.browsers._TICK_S", 3_600)
     out = tester.create_publisher(message(STRING), "/prompt", 10)
 
     async def run() -> None:
@@ -144,7 +144,7 @@ def test_what_is_waited_for_comes_between_two_ticks(
             desk.wish(waiting, Hear(wish=1, topic="/prompt", mode=mode, pace="at_once"))
             desk.wish(patient, Hear(wish=1, topic="/prompt", mode=mode))
             await heard(waiting, patient)
-            await until(lambda: out.get_subscription_count() == 2)
+            await until(lambda: out.get_subscription_count() == 1)
             out.publish(said("now"))
             await until(lambda: texts(waiting) == ["now"])
             assert not patient.came
@@ -191,7 +191,7 @@ def test_a_type_that_is_not_known_here_is_heard_as_bytes(endpoint: str):
 def test_what_is_in_the_way_is_told_and_heals(endpoint: str):
     async def run() -> None:
         wire = WireDesk(WireChoice("off", (endpoint,)))
-        desk = HearingDesk(wire)
+        desk = BrowserTopics(wire.topics)
         hearer = browser(desk)
         try:
             desk.wish(hearer, Hear(wish=1, topic="/later", mode="every"))
@@ -205,7 +205,7 @@ def test_what_is_in_the_way_is_told_and_heals(endpoint: str):
                 out.publish(said("here"))
                 await until(lambda: texts(hearer) == ["here"])
             await until(lambda: hearer.state(1) == "no_publisher")
-            await desk.let_go()
+            await wire.disconnect()
             await until(lambda: hearer.state(1) == "not_connected")
         finally:
             await desk.close()
@@ -233,7 +233,7 @@ def test_another_connection_is_heard_where_the_one_before_was(endpoint: str, tes
 
     async def run() -> None:
         wire = WireDesk(WireChoice("off", (endpoint,)))
-        desk = HearingDesk(wire)
+        desk = BrowserTopics(wire.topics)
         hearer = browser(desk)
 
         async def hears(text: str) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import OrderedDict, deque
 from typing import TYPE_CHECKING, Final
 
-from studio.live.panels.hearing_frames import Chunk, frame_of
+from studio.live.topics.frames import Chunk, frame_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

@@ -1,0 +1,283 @@
+"""BrowserTopics: hands topics on to the data lanes of browsers, as the bytes that came.
+
+That is done 60 times in a second, and at once where a browser waits for it.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import itertools
+import logging
+import time
+from typing import TYPE_CHECKING, Final, Protocol, TypeAlias
+
+from studio.live.topics.frames import Tick, chunk_of
+from studio.live.topics.request import Request
+from studio.protocol.hearing import Hear, Heard, Leave, NotHeard
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Sequence
+
+    from pydantic import BaseModel
+
+    from studio.live.topics.frames import Chunk
+    from studio.live.topics.request import StateKind
+    from studio.live.topics.source import TopicSource
+    from studio.protocol.hearing import HeardState, Wish
+    from studio.ros.node.samples import RawSample
+
+_log = logging.getLogger(__name__)
+_TICK_S: Final = 1 / 60
+_TICK_SLACK_S: Final = 0.004
+"""A tick that comes a little early is the one that was meant."""
+WISHES_MAX: Final = 200
+"""Of one browser."""
+_STATES: Final[dict[StateKind, HeardState]] = {
+    "not_connected": "not_connected",
+    "connection_lost": "not_connected",
+    "no_publisher": "no_publisher",
+    "other_type": "other_type",
+    "other_form": "other_type",
+    "refused": "refused",
+    "receiving": "hearing",
+}
+
+_Key: TypeAlias = tuple[object, ...]
+
+
+class DataLaneEnd(Protocol):
+    """The sending end of one browser's data lane."""
+
+    def say(self, message: BaseModel, /) -> None:
+        """Queue one message in words."""
+        ...
+
+    def take(self, tick: Tick, /) -> None:
+        """Queue what came; it never waits."""
+        ...
+
+
+class _Channel:
+    """A topic as some browsers want it: one subscription, each message framed once for all."""
+
+    def __init__(
+        self,
+        number: int,
+        wish: Hear,
+        source: TopicSource,
+        arrived: Callable[[], object],
+        changed: Callable[[], object],
+    ) -> None:
+        self.number, self._wish, self._arrived = number, wish, arrived
+        self._keeps_all = wish.mode == "every"
+        self.is_at_once = wish.pace == "at_once"
+        self._due_s = 0.0
+        self._subscription = source.subscribe(
+            Request(
+                wish.topic,
+                (wish.type_name,) if wish.type_name else (),
+                newest_only=not self._keeps_all,
+                reliable=wish.reliable,
+                latched=wish.latched,
+                depth=wish.depth,
+                at_once=self.is_at_once,
+            ),
+            arrived=self._tell_if_due if self.is_at_once else None,
+            changed=changed,
+        )
+        self.close = self._subscription.close
+
+    def state(self, wish: int) -> Heard:
+        """How it stands, as a browser is told that has given it this number."""
+        state = self._subscription.state
+        told = _STATES[state.kind]
+        fit = None if told == "not_connected" else state.fit
+        return Heard(
+            wish=wish,
+            channel=self.number,
+            state=told,
+            type_name=fit.type_name if fit else "",
+            types=state.types,
+            publishers=state.publishers,
+            reliable=fit is not None and fit.reliable,
+            latched=fit is not None and fit.latched,
+            depth=fit.depth if fit else 0,
+            reason=state.reason,
+        )
+
+    def take(self, now_s: float) -> Chunk | None:
+        """What came and is due now."""
+        if now_s < self._due_s or not (samples := self._subscription.take()):
+            return None
+        if not self._keeps_all:
+            self._due_s = now_s + 1 / self._wish.most_hz - _TICK_SLACK_S
+        return self._chunk(samples)
+
+    def kept(self) -> Chunk | None:
+        """What a latched topic told before, for one who comes now."""
+        kept = self._subscription.kept()
+        return self._chunk(kept) if kept else None
+
+    def _chunk(self, samples: Sequence[RawSample]) -> Chunk:
+        # Where only the newest counts, the others are not lost but passed over.
+        lost = self._subscription.lost if self._keeps_all else 0
+        return chunk_of(self.number, samples, lost, keeps_all=self._keeps_all)
+
+    def _tell_if_due(self) -> None:
+        """In a thread of the source; what is not due yet goes with a tick."""
+        if time.monotonic() >= self._due_s:
+            self._arrived()
+
+
+class _Browser:
+    """The channels of one browser by its own numbers, and what it was told of each."""
+
+    def __init__(self, lane: DataLaneEnd) -> None:
+        self._lane = lane
+        self.channels: dict[int, _Channel] = {}
+        self.numbers: tuple[int, ...] = ()
+        """Of its channels, each once and in their order: looked at in every tick."""
+        self._told: dict[int, Heard] = {}
+
+    def tell(self) -> None:
+        """Tell how each wish stands, where that is news."""
+        for wish, channel in self.channels.items():
+            news = channel.state(wish)
+            if self._told.get(wish) != news:
+                self._told[wish] = news
+                self._lane.say(news)
+
+    def put(self, wish: int, channel: _Channel) -> None:
+        self.channels[wish] = channel
+        self._number()
+
+    def remove(self, wish: int) -> None:
+        self.channels.pop(wish, None)
+        self._told.pop(wish, None)
+        self._number()
+
+    def _number(self) -> None:
+        self.numbers = tuple(sorted({one.number for one in self.channels.values()}))
+
+
+class BrowserTopics:
+    """What the data lanes of all browsers want, and what they are given.
+
+    All calls are made on the loop.
+    """
+
+    def __init__(self, source: TopicSource) -> None:
+        self._source = source
+        self._browsers: dict[DataLaneEnd, _Browser] = {}
+        self._channels: dict[_Key, _Channel] = {}
+        self._numbers = itertools.count(1)
+        self._ticking: asyncio.Task[None] | None = None
+        self._is_woken = self._is_telling = self._closed = False
+
+    def attach(self, lane: DataLaneEnd) -> None:
+        """A data lane was opened."""
+        self._browsers[lane] = _Browser(lane)
+
+    def detach(self, lane: DataLaneEnd) -> None:
+        """It was closed: what it alone wanted ends."""
+        self._browsers.pop(lane, None)
+        self._close_unwanted()
+
+    def wish(self, lane: DataLaneEnd, wish: Wish) -> None:
+        """Carry out what a browser wants; how that stands is told to it."""
+        browser = self._browsers.get(lane)
+        if browser is None or self._closed:
+            return
+        match wish:
+            case Leave():
+                browser.remove(wish.wish)
+            case Hear() if len(browser.channels) >= WISHES_MAX:
+                reason = f"{WISHES_MAX} topics are heard by this page: close a panel first."
+                lane.say(NotHeard(wish=wish.wish, reason=reason))
+            case Hear():
+                self._put(lane, browser, wish)
+        self._close_unwanted()
+
+    async def close(self) -> None:
+        """Hand nothing more on."""
+        self._closed = True
+        if self._ticking is not None:
+            self._ticking.cancel()
+            await asyncio.gather(self._ticking, return_exceptions=True)
+        self._browsers.clear()
+        self._close_unwanted()
+
+    def _put(self, lane: DataLaneEnd, browser: _Browser, wish: Hear) -> None:
+        browser.remove(wish.wish)
+        key = tuple(wish.model_dump(exclude={"wish"}).values())
+        if channel := self._channels.get(key):
+            # To those who wait for it first: what is kept would come to this one twice.
+            self._hand_on((channel,), asyncio.get_running_loop().time())
+        else:
+            channel = self._open(key, wish)
+        browser.put(wish.wish, channel)
+        browser.tell()
+        if kept := channel.kept():
+            lane.take(Tick((kept,)))
+        if self._ticking is None or self._ticking.done():
+            self._ticking = asyncio.create_task(self._tick())
+
+    def _open(self, key: _Key, wish: Hear) -> _Channel:
+        loop = asyncio.get_running_loop()
+
+        def arrived() -> None:
+            if not self._is_woken and not loop.is_closed():
+                self._is_woken = True
+                loop.call_soon_threadsafe(self._hand_on_at_once, loop)
+
+        def changed() -> None:
+            if not self._is_telling and not loop.is_closed():
+                self._is_telling = True
+                loop.call_soon_threadsafe(self._tell)
+
+        number = next(self._numbers)
+        channel = self._channels[key] = _Channel(number, wish, self._source, arrived, changed)
+        return channel
+
+    def _close_unwanted(self) -> None:
+        wanted = {number for one in self._browsers.values() for number in one.numbers}
+        for key, channel in tuple(self._channels.items()):
+            if channel.number not in wanted:
+                del self._channels[key]
+                channel.close()
+
+    async def _tick(self) -> None:
+        loop = asyncio.get_running_loop()
+        while self._channels:
+            began_s = loop.time()
+            try:
+                self._hand_on(self._channels.values(), began_s)
+            except Exception:  # noqa: BLE001 - one topic that fails must not silence the others
+                _log.exception("A tick of the data lane failed.")
+            await asyncio.sleep(max(0.0, began_s + _TICK_S - loop.time()))
+
+    def _tell(self) -> None:
+        self._is_telling = False  # before it is told: what changes from now on is told again
+        for browser in self._browsers.values():
+            browser.tell()
+
+    def _hand_on_at_once(self, loop: asyncio.AbstractEventLoop) -> None:
+        self._is_woken = False  # before it is taken: what comes from now on wakes again
+        self._hand_on((one for one in self._channels.values() if one.is_at_once), loop.time())
+
+    def _hand_on(self, channels: Iterable[_Channel], now_s: float) -> None:
+        """Give every browser what came for it; those that want the same share one frame."""
+        chunks: dict[int, Chunk] = {}
+        for channel in channels:
+            if (chunk := channel.take(now_s)) is not None:
+                chunks[channel.number] = chunk
+        if not chunks:
+            return
+        groups: dict[tuple[int, ...], list[DataLaneEnd]] = {}
+        for lane, browser in self._browsers.items():
+            if wanted := tuple(number for number in browser.numbers if number in chunks):
+                groups.setdefault(wanted, []).append(lane)
+        for numbers, lanes in groups.items():
+            tick = Tick(tuple(chunks[number] for number in numbers))
+            for lane in lanes:
+                lane.take(tick)

@@ -1,0 +1,230 @@
+"""SharedSource: what sources have in common that share a subscription among many subscribers."""
+
+from __future__ import annotations
+
+import logging
+import threading
+from abc import ABC, abstractmethod
+from dataclasses import replace
+from typing import TYPE_CHECKING, Final, Literal, NamedTuple, TypeAlias
+
+from studio.errors import StudioError
+from studio.live.topics.request import SubscriptionState, fit_request
+from studio.live.topics.subscription import Stream, Subscription
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Sequence
+
+    from studio.live.topics.request import Endpoint, Fit, Request, StateKind
+    from studio.live.topics.source import Topic
+    from studio.live.topics.subscription import WireSubscription
+    from studio.ros.node.samples import RawSample
+    from studio.ros.types.library import TypeLibrary
+
+Connection: TypeAlias = Literal["none", "lost", "there"]
+_HASHED: Final = "RIHS01_"
+
+_log = logging.getLogger(__name__)
+
+
+class _Key(NamedTuple):
+    """What those have in common who share a stream."""
+
+    topic: str
+    type_name: str
+    type_hash: str | None
+    reliable: bool
+    latched: bool
+
+
+class SharedSource(ABC):
+    """Keeps what is wanted, and one stream for all who want a topic in the same way.
+
+    Whoever derives says who publishes and begins to receive; it calls `fit_all` once `doubt` was
+    called, and `change_epoch` when what came before does not go with what comes.
+    """
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._subscriptions: dict[Subscription, None] = {}
+        self._streams: dict[_Key, Stream] = {}
+        self.fitting = threading.Lock()
+        """Whoever changes what can be received holds it meanwhile."""
+        self._epoch = 0
+
+    @property
+    def epoch(self) -> int:
+        """Another number once what came before does not go with what comes now."""
+        return self._epoch
+
+    @property
+    @abstractmethod
+    def types(self) -> TypeLibrary:
+        """Message types as this source defines them."""
+
+    @abstractmethod
+    def catalogue(self) -> list[Topic]:
+        """Give all topics by name."""
+
+    @abstractmethod
+    def publishers(self, topic: str) -> Sequence[Endpoint]:
+        """Give who publishes a topic; nobody where it cannot be a topic's name."""
+
+    @abstractmethod
+    def sender(self, gid: bytes) -> str | None:
+        """Give the full name of the node that sent samples with a GID; None: it is not known."""
+
+    @property
+    @abstractmethod
+    def connection(self) -> Connection:
+        """Whether anything can come."""
+
+    @abstractmethod
+    def own_hash(self, type_name: str) -> str | None:
+        """Give what publishers show who have the type as it is known here; None: it is not."""
+
+    @abstractmethod
+    def senders(self, topic: str) -> frozenset[bytes]:
+        """Give the GIDs of those who publish a topic."""
+
+    @abstractmethod
+    def open(self, topic: str, fit: Fit, stream: Stream) -> WireSubscription:
+        """Begin to receive for a stream.
+
+        Raises:
+            StudioError: It cannot be subscribed so.
+        """
+
+    @abstractmethod
+    def doubt(self) -> None:
+        """Something may have changed: have all be fitted soon. Any thread may say so."""
+
+    @abstractmethod
+    def hand_over(self, subscription: Subscription) -> None:
+        """See to it that the subscription hands over what waits."""
+
+    def subscribe(
+        self,
+        request: Request,
+        *,
+        take: Callable[[RawSample], object] | None = None,
+        arrived: Callable[[], object] | None = None,
+        changed: Callable[[], object] | None = None,
+    ) -> Subscription:
+        """Subscribe, as `TopicSource` says."""
+        made = Subscription(request, self._left, take, arrived, changed)
+        with self._lock:
+            self._subscriptions[made] = None
+        self.doubt()
+        return made
+
+    def latest(self, topics: Iterable[str], at_ns: int) -> dict[str, RawSample]:
+        """Give the newest sample of each topic at or before a time, of those that are latched."""
+        found = {topic: self._kept(topic, 0, at_ns + 1) for topic in topics}
+        return {topic: samples[-1] for topic, samples in found.items() if samples}
+
+    def window(self, topic: str, begin_ns: int, end_ns: int) -> list[RawSample]:
+        """Give the samples from a time on and before another, of those that are latched."""
+        return self._kept(topic, begin_ns, end_ns)
+
+    def fit_all(self) -> None:
+        """Have every subscription be as fits who publishes now; in a thread, for it may wait."""
+        with self.fitting:
+            self._fit_all()
+
+    def end_all(self) -> None:
+        """Receive nothing for anybody until all are fitted again; the caller holds `fitting`."""
+        streams, self._streams = self._streams, {}
+        for one in self._wanted():
+            one.leave()
+            one.clear()
+        for stream in streams.values():
+            stream.close()
+
+    def change_epoch(self) -> None:
+        """What came before does not go with what comes."""
+        self._epoch += 1
+
+    @property
+    def is_refused(self) -> bool:
+        """Whether something was refused that may be possible later: a type may be learned."""
+        return any(one.state.kind == "refused" for one in self._wanted())
+
+    def _wanted(self) -> tuple[Subscription, ...]:
+        with self._lock:
+            return tuple(self._subscriptions)
+
+    def _left(self, subscription: Subscription) -> None:
+        with self._lock:
+            self._subscriptions.pop(subscription, None)
+        self.doubt()
+
+    def _kept(self, topic: str, begin_ns: int, end_ns: int) -> list[RawSample]:
+        streams = [one for key, one in tuple(self._streams.items()) if key.topic == topic]
+        kept = [sample for one in streams for sample in one.kept(one.depth)]
+        inside = (one for one in kept if begin_ns <= one.received_ns < end_ns)
+        return sorted(inside, key=lambda one: one.received_ns)
+
+    def _fit_all(self) -> None:
+        connection = self.connection
+        publishers: dict[str, Sequence[Endpoint]] = {}
+        for one in self._wanted():
+            topic = one.request.topic
+            if connection == "there" and topic not in publishers:
+                publishers[topic] = self.publishers(topic)
+            try:
+                one.stand(self._fitted(one, connection, publishers.get(topic, ())))
+            except Exception:  # noqa: BLE001 - one topic that fails must not silence the others
+                _log.exception("%s could not be subscribed.", topic)
+        for key, stream in tuple(self._streams.items()):
+            if not stream.is_used:
+                del self._streams[key]
+                stream.close()
+            elif key.latched:
+                stream.forget_senders(self.senders(key.topic))
+
+    def _fitted(
+        self, one: Subscription, connection: Connection, publishers: Sequence[Endpoint]
+    ) -> SubscriptionState:
+        """Have one share the stream that fits, and tell how it stands then."""
+        request = one.request
+        if connection != "there":
+            kind = "not_connected" if connection == "none" else "connection_lost"
+            return SubscriptionState(request.topic, kind, one.fit)
+        fit = fit_request(request, publishers, one.fit, self.own_hash)
+        types = tuple(dict.fromkeys(each.type_name for each in publishers))
+        state = SubscriptionState(request.topic, "no_publisher", fit, len(publishers), types)
+        if fit is None:
+            one.leave()
+            return state
+        try:
+            one.join(self._stream(request.topic, fit), fit.depth)
+        except StudioError as error:
+            one.leave()
+            return replace(state, kind="refused", reason=str(error))
+        return replace(state, kind=self._kind(request, fit, publishers))
+
+    def _stream(self, topic: str, fit: Fit) -> Stream:
+        key = _Key(topic, fit.type_name, fit.type_hash, fit.reliable, fit.latched)
+        stream = self._streams.get(key)
+        if stream is None:
+            stream = Stream(fit, lambda made: self.open(topic, fit, made), self.hand_over)
+            self._streams[key] = stream
+        return stream
+
+    def _kind(self, request: Request, fit: Fit, publishers: Sequence[Endpoint]) -> StateKind:
+        if not publishers:
+            return "no_publisher"
+        fitting = [one for one in publishers if one.type_name == fit.type_name]
+        if not fitting:
+            return "other_type"
+        if request.as_known_here and self._is_foreign(fit.type_name, fitting):
+            return "other_form"
+        return "receiving"
+
+    def _is_foreign(self, type_name: str, fitting: Sequence[Endpoint]) -> bool:
+        """Whether all have the type in another form than here; Humble's tokens carry no hash."""
+        own = self.own_hash(type_name)
+        return own is not None and all(
+            one.type_hash.startswith(_HASHED) and one.type_hash != own for one in fitting
+        )

@@ -1,0 +1,375 @@
+"""Subscription: one subscriber's queue; Stream: the subscription on the wire that many share."""
+
+from __future__ import annotations
+
+import logging
+import threading
+from collections import deque
+from typing import TYPE_CHECKING, Final, Protocol
+
+from studio.live.topics.request import WAITING_BYTES_MAX, SubscriptionState
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Sequence
+
+    from studio.live.topics.request import Fit, Request
+    from studio.ros.node.samples import RawSample
+
+_CACHE_BYTES: Final = 16 << 20
+"""Of a latched topic, for those who come later."""
+_SENDERS_MAX: Final = 10_000
+
+_log = logging.getLogger(__name__)
+
+
+class Subscription:
+    """Holds what came for one subscriber until it is taken; made by a source.
+
+    Attributes:
+        request: What is wanted.
+        state: How it stands.
+        received: Samples that came for it.
+        dropped: Samples that fell out of its queue.
+    """
+
+    def __init__(
+        self,
+        request: Request,
+        left: Callable[[Subscription], object],
+        take: Callable[[RawSample], object] | None,
+        arrived: Callable[[], object] | None,
+        changed: Callable[[], object] | None,
+    ) -> None:
+        self.request = request
+        self.state = SubscriptionState(request.topic)
+        self.received = self.dropped = 0
+        self._left, self._take, self._changed = left, take, changed
+        self.arrived = arrived
+        self._most = 1 if request.newest_only else request.waiting_max
+        self._lock = threading.Lock()
+        self._waiting: deque[RawSample] = deque()
+        self._waiting_bytes = 0
+        self._taking = threading.RLock()
+        self.is_closed = False
+        self._stream: Stream | None = None
+        self._missed = self._missed_before = 0
+
+    @property
+    def fit(self) -> Fit | None:
+        """How it is subscribed, or was when it last was."""
+        return self.state.fit
+
+    @property
+    def lost(self) -> int:
+        """Samples that were sent and did not get here, or fell out of the queue."""
+        stream = self._stream
+        missed = 0 if stream is None else stream.lost - self._missed_before
+        return max(0, self._missed + missed) + self.dropped
+
+    def take(self) -> list[RawSample]:
+        """Take all that waits, the oldest first."""
+        with self._lock:
+            taken = list(self._waiting)
+            self._waiting.clear()
+            self._waiting_bytes = 0
+        return taken
+
+    def take_each(self) -> Iterator[RawSample]:
+        """Take one after the other, the oldest first: what is not asked for stays."""
+        while self._waiting:
+            with self._lock:
+                if not self._waiting:
+                    return
+                sample = self._waiting.popleft()
+                self._waiting_bytes -= len(sample.payload)
+            yield sample
+
+    def kept(self) -> list[RawSample]:
+        """Give what a latched topic told before, of each sender as much as is deep; it stays."""
+        stream, fit = self._stream, self.fit
+        return [] if stream is None or fit is None else stream.kept(fit.depth)
+
+    def close(self) -> None:
+        """Receive nothing more; afterwards `take` of the subscriber is not called any more."""
+        self.is_closed = True
+        self._left(self)
+        self.leave()
+        self.clear()
+
+    def clear(self) -> None:
+        """Forget what waits: afterwards the subscriber is handed nothing that came before."""
+        with self._taking:
+            self.take()
+
+    # What follows is for the source.
+
+    def post(self, samples: Sequence[RawSample]) -> None:
+        """Put in what came; what there is no room for falls out, the oldest first."""
+        with self._lock:
+            self.received += len(samples)
+            waiting = self._waiting
+            if self._most == 1:
+                waiting.clear()
+                waiting.append(samples[-1])
+                self._waiting_bytes = len(samples[-1].payload)
+                return
+            waiting.extend(samples)
+            self._waiting_bytes += sum([len(one.payload) for one in samples])
+            while len(waiting) > self._most or (
+                self._waiting_bytes > WAITING_BYTES_MAX and len(waiting) > 1
+            ):
+                self._waiting_bytes -= len(waiting.popleft().payload)
+                self.dropped += 1
+
+    @property
+    def is_taken_by_source(self) -> bool:
+        """Whether the source hands over what waits."""
+        return self._take is not None
+
+    def hand_over(self) -> None:
+        """Call the subscriber with all that waits."""
+        take = self._take
+        if take is None:
+            return
+        with self._taking:
+            for sample in self.take_each():
+                if self.is_closed:
+                    return
+                try:
+                    take(sample)
+                except Exception:  # noqa: BLE001 - one message that cannot be used must not end the rest
+                    _log.exception("A message on %s could not be used.", self.request.topic)
+
+    def stand(self, state: SubscriptionState) -> None:
+        """Take another state, and say so where it is news."""
+        if state != self.state:
+            self.state = state
+            if self._changed is not None:
+                self._changed()
+
+    def join(self, stream: Stream, depth: int) -> None:
+        """Share a stream from now on, and no other."""
+        if stream is not self._stream:
+            self.leave()
+            self._stream, self._missed_before = stream, stream.lost
+        stream.join(self, depth)
+
+    def leave(self) -> None:
+        """Share no stream; what waits may still be taken."""
+        stream, self._stream = self._stream, None
+        if stream is not None:
+            self._missed += stream.lost - self._missed_before
+            stream.remove(self)
+
+
+class WireSubscription(Protocol):
+    """What a source has subscribed for a stream."""
+
+    @property
+    def lost(self) -> int:
+        """Samples that were sent and did not come."""
+        ...
+
+    def read(self, *, newest_only: bool) -> None:
+        """Give of what comes together the newest alone, or all."""
+        ...
+
+    def hurry(self, *, wanted: bool) -> None:
+        """Give what comes as soon as can be, or as all others."""
+        ...
+
+    def deepen(self, depth: int, swapped: Callable[[], object]) -> None:
+        """Subscribe with a greater depth; calls `swapped` before the first that may come again."""
+        ...
+
+    def close(self) -> None:
+        """Receive nothing more."""
+        ...
+
+
+class Stream:
+    """One subscription of a source, for all who want a topic in the same way.
+
+    The deepest subscriber sets the depth. Of a latched topic what came is kept, as much of each
+    sender as is deep, for those who come later.
+
+    Args:
+        fit: Type, QoS, and the depth at first.
+        subscribe: Begins to receive; is given what takes the samples, in a thread of the source.
+        hand_over: Sees to it that `Subscription.hand_over` is called.
+
+    Raises:
+        StudioError: It cannot be subscribed so.
+    """
+
+    def __init__(
+        self,
+        fit: Fit,
+        subscribe: Callable[[Stream], WireSubscription],
+        hand_over: Callable[[Subscription], object],
+    ) -> None:
+        self.depth = fit.depth
+        self._hand_over = hand_over
+        self._lock = threading.Lock()
+        self._subscribers: tuple[Subscription, ...] = ()
+        self._cache = Cache() if fit.latched else None
+        self._repeats_to: dict[bytes, int] = {}
+        """By sender: what has no greater number has come before it was deepened."""
+        self._newcomers: frozenset[Subscription] = frozenset()
+        """Who joined since then, and so wants what comes again."""
+        self._wire = subscribe(self)
+
+    @property
+    def is_used(self) -> bool:
+        """Whether anybody shares it."""
+        return bool(self._subscribers)
+
+    @property
+    def lost(self) -> int:
+        """Samples that were sent and did not come."""
+        return self._wire.lost
+
+    def kept(self, depth: int) -> list[RawSample]:
+        """Give what a latched topic told, so much of each sender, in the order in which it came."""
+        with self._lock:
+            return [] if self._cache is None else self._cache.samples(depth)
+
+    def forget_senders(self, there: frozenset[bytes]) -> None:
+        """Keep nothing of latched senders that were among those there, and are not any more."""
+        with self._lock:
+            if self._cache is not None:
+                self._cache.keep_senders(there)
+
+    def join(self, one: Subscription, depth: int) -> None:
+        """Give to one more, to whom a latched topic is told anew; in a thread, for it may wait."""
+        if one in self._subscribers:
+            if depth <= self.depth:
+                return
+            self._remove(one)
+        if depth > self.depth:
+            self._deepen(one, depth)
+            return
+        with self._lock:
+            kept = [] if self._cache is None else self._cache.samples(depth)
+            if kept:
+                one.post(kept)
+            self._add(one)
+        if kept:
+            self._tell((one,))
+
+    def remove(self, one: Subscription) -> None:
+        """Give to this one no more."""
+        self._remove(one)
+
+    def close(self) -> None:
+        """Receive nothing more; in a thread, for it may wait."""
+        self._wire.close()
+
+    def take(self, samples: list[RawSample], _count: int, _size: int) -> None:
+        """Give all their share of what came; in a thread of the source."""
+        with self._lock:
+            fresh = samples
+            if self._cache is not None:
+                if self._repeats_to:
+                    fresh = [one for one in samples if not self._is_repeated(one)]
+                self._cache.put(samples, self.depth)
+            given: list[Subscription] = []
+            for one in self._subscribers:
+                if share := samples if one in self._newcomers else fresh:
+                    one.post(share)
+                    given.append(one)
+        self._tell(given)
+
+    def _tell(self, given: Sequence[Subscription]) -> None:
+        for one in given:
+            if one.arrived is not None:
+                one.arrived()
+            if one.is_taken_by_source:
+                self._hand_over(one)
+
+    def _is_repeated(self, sample: RawSample) -> bool:
+        sequence, _, sender = sample.attachment
+        return sequence <= self._repeats_to.get(sender, -1)
+
+    def _deepen(self, one: Subscription, depth: int) -> None:
+        self.depth = depth
+
+        def swapped() -> None:
+            with self._lock:
+                if self._cache is not None:
+                    self._repeats_to |= self._cache.last
+                    self._cache = Cache()
+                    self._newcomers = frozenset({one})
+                self._add(one)
+
+        self._wire.deepen(depth, swapped)
+
+    def _add(self, one: Subscription) -> None:
+        if one.is_closed:
+            return
+        self._subscribers = (*self._subscribers, one)
+        if self._repeats_to:
+            self._newcomers |= {one}
+        self._fit_reading()
+
+    def _remove(self, one: Subscription) -> None:
+        with self._lock:
+            self._subscribers = tuple(each for each in self._subscribers if each is not one)
+            self._newcomers -= {one}
+            self._fit_reading()
+
+    def _fit_reading(self) -> None:
+        """Read no more than somebody wants, and no sooner."""
+        requests = [one.request for one in self._subscribers]
+        newest_only = all(one.newest_only for one in requests)
+        self._wire.read(newest_only=newest_only and self._cache is None)
+        self._wire.hurry(wanted=any(one.at_once for one in requests))
+
+
+class Cache:
+    """The last samples of each sender of a latched topic.
+
+    Attributes:
+        last: The number of the last sample of each sender.
+    """
+
+    def __init__(self) -> None:
+        self.last: dict[bytes, int] = {}
+        self._kept: dict[bytes, deque[RawSample]] = {}
+        self._count = self._bytes = 0
+        self._seen: frozenset[bytes] = frozenset()
+
+    def put(self, samples: Sequence[RawSample], depth: int) -> None:
+        """Keep more of them, of each sender as many as that."""
+        for sample in samples:
+            sender = sample.attachment.gid
+            self.last[sender] = sample.attachment.sequence
+            kept = self._kept.setdefault(sender, deque())
+            kept.append(sample)
+            self._count += 1
+            self._bytes += len(sample.payload)
+            if len(kept) > depth:
+                self._drop_first(sender)
+        while len(self._kept) > _SENDERS_MAX or (self._bytes > _CACHE_BYTES and self._count > 1):
+            self._drop_first(min(self._kept, key=lambda one: self._kept[one][0].received_ns))
+        if len(self.last) > _SENDERS_MAX:
+            self.last = {sender: self.last[sender] for sender in self._kept}
+
+    def samples(self, most_each: int) -> list[RawSample]:
+        """Give the newest of each sender, so many at most, in the order in which they came."""
+        found = [one for kept in self._kept.values() for one in tuple(kept)[-most_each:]]
+        return sorted(found, key=lambda one: one.received_ns)
+
+    def keep_senders(self, there: frozenset[bytes]) -> None:
+        """Drop what senders said that were seen before and are not there any more."""
+        for gone in (self._seen - there) & self._kept.keys():
+            while gone in self._kept:
+                self._drop_first(gone)
+        self._seen = there
+
+    def _drop_first(self, sender: bytes) -> None:
+        kept = self._kept[sender]
+        self._count -= 1
+        self._bytes -= len(kept.popleft().payload)
+        if not kept:
+            del self._kept[sender]
