@@ -10,7 +10,7 @@ from studio.displays.display import Display, Status
 from studio.displays.drawing import NOTHING, Axes, Placed, Rgb, Solids, Text
 from studio.displays.name_pattern import PatternProperty, pattern_of
 from studio.displays.properties import UPDATE_INTERVAL, Property
-from studio.displays.turning import turned
+from studio.displays.turning import products, turned, turns_from_z
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from studio.displays.properties import Value
     from studio.displays.turning import Flags, Floats
     from studio.ros.types.library import TypeLibrary
-    from studio.tf.frames_now import FramesNow
+    from studio.tf.frames import FramesNow
 
 FRAMES: Final = "Frames"
 WHITELIST: Final = "Filter (whitelist)"
@@ -152,7 +152,7 @@ def faded_axes(poses: Floats, shades: Shades, scale: float, alpha: float) -> Sol
     """Crosses at poses (N, 7), each axis a cylinder with a colour of its own."""
     count = len(poses)
     turns = np.repeat(poses[:, :4], 3, axis=0)
-    wxyz = _products(turns, np.tile(_ALONG_AXES, (count, 1)))
+    wxyz = products(turns, np.tile(_ALONG_AXES, (count, 1)))
     middles = turned(wxyz, np.array([0.0, 0.0, _AXIS_LENGTH_M * scale / 2]))
     thick, long = 2 * _AXIS_RADIUS_M * scale, _AXIS_LENGTH_M * scale
     grey = np.repeat(shades.grey, 3)
@@ -182,7 +182,7 @@ def arrows_to_parents(
     shaft = Solids(
         "cylinder",
         (children + along * (shafts / 2)[:, None]).astype(np.float32),
-        _turns_of_z(along),
+        turns_from_z(along).astype(np.float32),
         _sizes(_SHAFT_M * scale, shafts),
         _greyed(np.tile(_SHAFT, (len(along), 1)), shades.grey),
         opacities,
@@ -191,7 +191,7 @@ def arrows_to_parents(
     head = Solids(
         "cone",
         (children + along * lengths[:, None]).astype(np.float32),
-        _turns_of_z(-along),
+        turns_from_z(-along).astype(np.float32),
         _sizes(_HEAD_M * scale, heads),
         _greyed(np.tile(_HEAD, (len(along), 1)), shades.grey),
         opacities,
@@ -225,22 +225,6 @@ def _sizes(thick_m: float, lengths_m: Floats) -> NDArray[np.float32]:
     sizes = np.full((len(lengths_m), 3), thick_m, np.float32)
     sizes[:, 2] = lengths_m
     return sizes
-
-
-def _turns_of_z(directions: Floats) -> NDArray[np.float32]:
-    """Unit quaternions (N, 4) that turn z onto directions (N, 3) on the shortest way."""
-    x, y, z = directions.T
-    turns = np.stack([1.0 + z, -y, x, np.zeros_like(z)], axis=1)
-    turns[z < -1.0 + 1e-9] = (0.0, 1.0, 0.0, 0.0)
-    return (turns / np.linalg.norm(turns, axis=1)[:, None]).astype(np.float32)
-
-
-def _products(first: Floats, second: Floats) -> Floats:
-    """Quaternions (N, 4): the turn `second`, then `first`."""
-    w, v = first[:, :1], first[:, 1:]
-    ow, ov = second[:, :1], second[:, 1:]
-    real = w * ow - np.einsum("ij,ij->i", v, ov)[:, None]
-    return np.concatenate([real, w * ov + ow * v + np.cross(v, ov)], axis=1)
 
 
 class _Seen(NamedTuple):

@@ -1,4 +1,4 @@
-"""Turning: quaternions of many poses at once, vectors turned by them, and what can be drawn."""
+"""Rotations of many poses at once by quaternions, and which numbers can be drawn."""
 
 from __future__ import annotations
 
@@ -55,8 +55,31 @@ def product(one: Floats, other: Floats) -> Floats:
     return other @ np.array([[w, x, y, z], [-x, w, z, -y], [-y, -z, w, x], [-z, y, -x, w]])
 
 
+def products(one: Floats, other: Floats) -> Floats:
+    """Return the turns `other` followed by `one`, unit quaternions (N, 4)."""
+    w, x, y, z = one.T
+    a, b, c, d = other.T
+    return np.stack(
+        (
+            w * a - x * b - y * c - z * d,
+            w * b + x * a + y * d - z * c,
+            w * c - x * d + y * a + z * b,
+            w * d + x * c - y * b + z * a,
+        ),
+        axis=1,
+    )
+
+
+def turns_from_z(directions: Floats) -> Floats:
+    """Return unit quaternions (N, 4) that turn z to unit vectors (N, 3), the short way."""
+    x, y, z = directions.T
+    turns = np.stack((1.0 + z, -y, x, np.zeros_like(z)), axis=1)
+    turns[z < -1.0 + 1e-12] = (0.0, 1.0, 0.0, 0.0)
+    return turns / np.linalg.norm(turns, axis=1, keepdims=True)
+
+
 def shortest_turn(start: Floats, end: Floats) -> Floats:
-    """The unit quaternion (4,) that turns one direction (3,) to another on the shortest way.
+    """Return the unit quaternion (4,) that turns one direction (3,) to another the short way.
 
     Directions have length 1; opposite ones are half a turn about an axis across.
     """

@@ -24,7 +24,7 @@ from studio.ros.columns.transforms import TransformCodec
 from studio.ros.duration import NANOSECONDS
 from studio.ros.messages import message
 from studio.ros.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
-from studio.tf.columns import TransformColumns
+from studio.tf.transforms import TransformColumns
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

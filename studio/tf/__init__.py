@@ -1,1 +1,1 @@
-"""Transforms between frames in, any frame's pose in any other out; pure."""
+"""Transforms between frames in, the pose of any frame in any other out; pure."""

@@ -1,4 +1,4 @@
-"""TransformBuffer: where every frame was in the last seconds, seen from any other."""
+"""TransformBuffer: the pose of every frame in any other, in the last seconds."""
 
 from __future__ import annotations
 
@@ -9,21 +9,20 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 import numpy as np
 
 from studio.errors import ExtrapolationError, UnconnectedFramesError, UnknownFrameError
-from studio.tf.admission import plain
-from studio.tf.all_frames import AllFrames
 from studio.tf.arrivals import Arrivals
 from studio.tf.forest import Forest
+from studio.tf.frames import AllFrames
 from studio.tf.histories import Histories
 from studio.tf.intake import Intake
 from studio.tf.report import FrameReport, Reporting
 from studio.tf.rotations import IDENTITY, Pose, compose, inverse
+from studio.tf.transforms import plain_name
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from studio.tf.admission import Notice
-    from studio.tf.columns import Numbers, TransformColumns
-    from studio.tf.frames_now import FramesNow
+    from studio.tf.frames import FramesNow
+    from studio.tf.transforms import Notice, Numbers, TransformColumns
 
 HISTORY_NS: Final = 10_000_000_000
 
@@ -40,11 +39,13 @@ class FramePose(NamedTuple):
 
 
 class TransformBuffer:
-    """Keeps what /tf and /tf_static tell for 10 s of stamps, and answers as tf2 does. Any thread.
+    """Keeps the transforms of /tf and /tf_static for 10 s of stamps, and looks up as tf2 does.
+
+    All methods may be called in any thread.
 
     Args:
         history_ns: How far back from the newest stamp of each frame.
-        clock: Tells the time of arrivals, in ns; stamps are of any clock.
+        clock: Returns the time of arrivals, in ns; stamps are of any clock.
     """
 
     def __init__(
@@ -53,7 +54,7 @@ class TransformBuffer:
         self._clock, self._lock = clock, threading.Lock()
         self._history_ns = history_ns
         self.changes = 0
-        """Grows with all that is told: who waits for a transform looks at this first."""
+        """Grows with every change, so that a caller who waits for a transform can poll it."""
         self._begin()
 
     def put(
@@ -64,13 +65,13 @@ class TransformBuffer:
         publisher: str = "",
         received_ns: int | None = None,
     ) -> tuple[Notice, ...]:
-        """Take transforms up.
+        """Add transforms.
 
         Args:
             columns: As of one message.
             static: Whether they hold at all times.
-            publisher: Who tells, by any name; who is not known is nobody.
-            received_ns: By the buffer's clock; now, if it is not said.
+            publisher: Any name; empty if it is not known.
+            received_ns: By the buffer's clock; None is now.
 
         Returns:
             What was left out, and what is worth knowing; empty when all is well.
@@ -89,15 +90,15 @@ class TransformBuffer:
             stamp_ns: When; 0 is the newest time at which the whole way is known.
 
         Raises:
-            UnknownFrameError: No transform has told of one of them.
+            UnknownFrameError: One of them is in no transform.
             UnconnectedFramesError: No chain leads from one to the other.
             ExtrapolationError: A transform on the way is not known at that time.
         """
-        fixed, frame = plain(fixed), plain(frame)
+        fixed, frame = plain_name(fixed), plain_name(frame)
         if fixed == frame:
             return FramePose(IDENTITY[:4], IDENTITY[4:], stamp_ns)
         with self._lock:
-            down, up = self._way(fixed, frame)
+            down, up = self._chains(fixed, frame)
             poses, stamp_ns = self._poses(down + up, stamp_ns)
         ancestor_from_fixed, ancestor_from_frame = IDENTITY, IDENTITY
         for pose in poses[: len(down)]:
@@ -117,18 +118,18 @@ class TransformBuffer:
         """
         now_ns = self._clock() if now_ns is None else now_ns
         with self._lock:
-            return self._all.seen_from(plain(fixed), stamp_ns, now_ns)
+            return self._all.seen_from(plain_name(fixed), stamp_ns, now_ns)
 
     def chain(self, fixed: str, frame: str) -> tuple[str, ...]:
         """The frames on the way from one to another, both with it.
 
         Raises:
-            UnknownFrameError: No transform has told of one of them.
+            UnknownFrameError: One of them is in no transform.
             UnconnectedFramesError: No chain leads from one to the other.
         """
-        fixed, frame = plain(fixed), plain(frame)
+        fixed, frame = plain_name(fixed), plain_name(frame)
         with self._lock:
-            down, up = self._way(fixed, frame)
+            down, up = self._chains(fixed, frame)
             names, parents = self._forest.names, self._forest.parents
             last = (down or up)[-1] if down or up else None
             ancestor = fixed if last is None else names[parents[last]]
@@ -156,23 +157,23 @@ class TransformBuffer:
     def report(
         self, fixed: str = "", now_ns: int | None = None, most: int | None = None
     ) -> list[FrameReport]:
-        """What is to be said of each frame, in the order of the alphabet.
+        """Return a report of each frame, in the order of the alphabet.
 
         Args:
             fixed: What is not connected with it is broken; without one, the root of the largest
                 tree.
             now_ns: By the buffer's clock.
-            most: So many are told of, the first ones; None: all.
+            most: Report so many, the first ones; None: all.
         """
         now_ns = self._clock() if now_ns is None else now_ns
         with self._lock:
             shape = self._all.shape()
-            fixed = plain(fixed) or next(iter(shape.tree_sizes), "")
+            fixed = plain_name(fixed) or next(iter(shape.tree_sizes), "")
             found = Reporting(shape, self._histories, self._arrivals, fixed, now_ns, most)
         return found.reports()
 
     def jump_back(self, stamp_ns: int, from_ns: int | None = None) -> None:
-        """Time begins anew here, as /clock tells: what is newer is forgotten.
+        """Forget what is newer than a time to which /clock went back.
 
         What is static stays; of the others a frame of which nothing is left loses its edge.
 
@@ -189,11 +190,11 @@ class TransformBuffer:
             self._intake.jump_back(frames.tolist(), stamp_ns)
 
     def drop(self, children: Iterable[str]) -> None:
-        """Forget the edges of frames, as when links are no more."""
+        """Forget the edges of frames, as of links that were removed."""
         with self._lock:
             self.changes += 1
             for child in children:
-                number = self._forest.number(plain(child))
+                number = self._forest.number(plain_name(child))
                 if number is not None and self._forest.parents[number] >= 0:
                     self._intake.drop(number)
 
@@ -213,11 +214,11 @@ class TransformBuffer:
         parents = self._forest.parents
         return [number for number in self._forest.numbers() if parents[number] >= 0]
 
-    def _way(self, fixed: str, frame: str) -> tuple[list[int], list[int]]:
+    def _chains(self, fixed: str, frame: str) -> tuple[list[int], list[int]]:
         """The frames whose edges lead up from the fixed frame, and from the other, to an ancestor.
 
         Raises:
-            UnknownFrameError: No transform has told of one of them.
+            UnknownFrameError: One of them is in no transform.
             UnconnectedFramesError: No chain leads from one to the other.
         """
         chains: list[list[int]] = []

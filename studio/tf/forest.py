@@ -1,22 +1,25 @@
-"""Forest: frames by number, each with at most one parent, never in a circle."""
+"""The forest of frames: each has at most one parent; and its shape as arrays, for all at once."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final
+from functools import cached_property
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 import numpy as np
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Sequence
 
+    from studio.tf.transforms import Flags, Floats, Numbers
+
 NONE: Final = -1
 FRAMES_MAX: Final = 20_000
 DEPTH_MAX: Final = 1000
-"""Of frames above one to which another is tied: else a long chain would take ages to tie."""
+"""Of frames above a new one: to add to a longer chain would take too long."""
 
 
 class Forest:
-    """Which frame hangs on which; `version` changes with every edge that comes or goes.
+    """The parent of each frame; `version` changes with every edge that comes or goes.
 
     A frame keeps its number as long as an edge begins or ends there, then the number is free.
     """
@@ -47,7 +50,7 @@ class Forest:
         return len(self) + sum(name not in self._numbers for name in names) <= FRAMES_MAX
 
     def is_above(self, frame: str, parent: str) -> bool | None:
-        """Whether a parent is this frame, or hangs on it; None when it hangs too deep to tell."""
+        """Whether a parent is this frame or below it; None when it is too deep to tell."""
         number, looked_for = self._numbers.get(parent, NONE), self._numbers.get(frame)
         for _ in range(DEPTH_MAX):
             if number == NONE:
@@ -58,7 +61,7 @@ class Forest:
         return None
 
     def hang(self, parent: str, child: str) -> int:
-        """Tie a frame to a parent, away from the one it had; answers the child's number."""
+        """Give a frame a parent, instead of the one it had; return the child's number."""
         upper, lower = self._made(parent), self._made(child)
         former = self.parents[lower]
         if former != upper:
@@ -69,11 +72,11 @@ class Forest:
         return lower
 
     def hang_new(self, edges: Sequence[tuple[str, str]]) -> list[int] | None:
-        """Tie many new frames, each named once as a child, to their parents at once.
+        """Give many new frames, each named once as a child, their parents at once.
 
         Returns:
-            The children's numbers; None when one of them closes a circle or hangs too deep, or when
-            there is no room for all: then nothing was tied.
+            The children's numbers; None when one of them closes a circle or is too deep, or when
+            there is no room for all: then nothing was changed.
         """
         new = {name: None for edge in edges for name in edge if name not in self._numbers}
         if len(self) + len(new) > FRAMES_MAX or not self._can_hang(edges, new):
@@ -81,21 +84,21 @@ class Forest:
         return [self.hang(parent, child) for parent, child in edges]
 
     def cut(self, child: int) -> None:
-        """Untie a frame from its parent; who has no edge any more is forgotten."""
+        """Take a frame away from its parent; frames without any edge are forgotten."""
         former, self.parents[child] = self.parents[child], NONE
         self._leave(former)
         self._forget_if_alone(child)
         self.version += 1
 
     def chain(self, number: int) -> list[int]:
-        """A frame and everything that it hangs on, up to the root."""
+        """Return a frame and everything above it, up to the root."""
         chain = [number]
         while (number := self.parents[number]) != NONE:
             chain.append(number)
         return chain
 
     def root(self, number: int) -> int:
-        """What a frame hangs on in the end."""
+        """Return the root above a frame."""
         while (parent := self.parents[number]) != NONE:
             number = parent
         return number
@@ -138,3 +141,109 @@ class Forest:
             del self._numbers[self.names[number]]
             self.names[number] = ""
             self._free.append(number)
+
+
+class Round(NamedTuple):
+    """One doubling: each row is taken over by the row that it has reached."""
+
+    rows: Numbers
+    reached: Numbers
+
+
+class Structure:
+    """Parents of F rows, made ready: as many rounds as the depth has binary digits.
+
+    Attributes:
+        parents: Shape (F,), row of each row's parent, NONE for a root.
+        roots: Shape (F,), row of each row's root.
+    """
+
+    def __init__(self, parents: Numbers) -> None:
+        self.parents = parents
+        self._rounds: list[Round] = []
+        reached = np.where(parents == NONE, np.arange(len(parents)), parents)
+        while True:
+            is_root = reached[reached] == reached
+            rows = np.flatnonzero(~is_root)
+            # What is left out has reached its root, where nothing is to be added any more.
+            if not rows.size:
+                break
+            self._rounds.append(Round(rows, reached[rows]))
+            reached = reached[reached]
+        self.roots = reached
+
+    def root_from_rows(self, parent_from_rows: Floats) -> Floats:
+        """Multiply matrices (F, 4, 4) down from the roots, whose own are the identity."""
+        products = parent_from_rows
+        for rows, reached in self._rounds:
+            products[rows] = products[reached] @ products[rows]
+        return products
+
+    def greatest_above(self, values: Floats) -> Floats:
+        """Of each row the greatest of its own value (F,) and those above it, roots left out."""
+        greatest = values.copy()
+        for rows, reached in self._rounds:
+            greatest[rows] = np.maximum(greatest[rows], greatest[reached])
+        return greatest
+
+    def first_above(self, flags: Flags) -> Numbers:
+        """Of each row the nearest with a flag (F,), itself or one above it; NONE if there is none.
+
+        A root's own flag does not count.
+        """
+        first = np.where(flags & (self.parents != NONE), np.arange(len(flags)), NONE)
+        for rows, reached in self._rounds:
+            first[rows] = np.where(first[rows] == NONE, first[reached], first[rows])
+        return first
+
+    def without(self, cut: Flags) -> Structure:
+        """Return the structure in which some rows have no parent."""
+        return Structure(np.where(cut, NONE, self.parents))
+
+    def seen_from(self, row: int) -> tuple[Structure, Numbers]:
+        """Return the tree with this row as its root.
+
+        Returns:
+            That structure, and shape (F,): the row whose edge leads from each to its new parent.
+        """
+        parents, edges = self.parents.copy(), np.arange(len(self.parents))
+        below, above = row, int(self.parents[row])
+        parents[row] = NONE
+        while above != NONE:
+            parents[above], edges[above] = below, below
+            below, above = above, int(self.parents[above])
+        return Structure(parents), edges
+
+
+class ForestShape:
+    """A forest at one moment, as arrays.
+
+    Attributes:
+        names: Of the frames, in the order of their numbers.
+        rows: Where each name is in `names`.
+        numbers: Of the forest, row by row.
+        structure: Parents and roots by row.
+        hung: Rows that have a parent.
+    """
+
+    def __init__(self, forest: Forest) -> None:
+        numbers = forest.numbers()
+        self.numbers: Numbers = np.array(numbers, np.int64)
+        self.names = tuple(forest.names[number] for number in numbers)
+        self.rows = {name: row for row, name in enumerate(self.names)}
+        parents = np.array(forest.parents, np.int64)[self.numbers]
+        rows = np.searchsorted(self.numbers, parents)
+        self.structure = Structure(np.where(parents == NONE, NONE, rows))
+        self.hung: Numbers = np.flatnonzero(parents != NONE)
+
+    @cached_property
+    def alphabetical(self) -> Numbers:
+        """The rows in the order of their names."""
+        return np.array(sorted(range(len(self.names)), key=self.names.__getitem__), np.int64)
+
+    @cached_property
+    def tree_sizes(self) -> dict[str, int]:
+        """How many frames each tree has, by its root, from the most."""
+        counts = np.bincount(self.structure.roots).tolist()
+        sizes = {self.names[row]: int(count) for row, count in enumerate(counts) if count}
+        return dict(sorted(sizes.items(), key=lambda one: (-one[1], one[0])))

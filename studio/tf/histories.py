@@ -1,26 +1,37 @@
-"""Histories: what was told of each frame in the last seconds, by the order of its stamps."""
+"""Histories: the poses of each frame in the last seconds, by stamp."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final, TypeVar
 
 import numpy as np
 
-from studio.tf.growing import grown
 from studio.tf.rotations import between, between_two
 
 if TYPE_CHECKING:
-    from studio.tf.columns import Flags, Floats, Numbers
-    from studio.tf.rotations import Pose
+    from numpy.typing import NDArray
 
+    from studio.tf.rotations import Pose
+    from studio.tf.transforms import Flags, Floats, Numbers
+
+_T = TypeVar("_T", bound=np.generic)
 _BLOCK: Final = 8
 _ROWS_MAX: Final = 2**21
 """128 MB; beside it every frame has a first block."""
 _STEPS_TOGETHER: Final = 3
 
 
+def grown(array: NDArray[_T], rows: int) -> NDArray[_T]:
+    """The array, or a longer copy with zeros at its end, so that it has this many rows."""
+    if rows <= len(array):
+        return array
+    longer: NDArray[Any] = np.zeros((max(rows, 2 * len(array)), *array.shape[1:]), array.dtype)
+    longer[: len(array)] = array
+    return longer
+
+
 class Histories:
-    """Poses with stamps, of frames by number; no frame's rows lie apart.
+    """Poses with stamps, of frames by number; the rows of a frame lie together.
 
     A frame has a block of one pool. Rows are appended at its end and dropped at its beginning;
     a block that is full is moved together, or into one of twice its size while the pool lasts:
@@ -41,13 +52,13 @@ class Histories:
         self._static = np.zeros(0, np.bool_)
 
     def fit(self, count: int) -> None:
-        """Let there be frames of numbers below this."""
+        """Make room for frames of numbers below this."""
         if count > len(self._block):
             for name in ("_block", "_size", "_first", "_end", "_static"):
                 setattr(self, name, grown(getattr(self, name), count))
 
     def is_static(self, frames: Numbers) -> Flags:
-        """Whether what is known of each holds at all times."""
+        """Return whether the pose of each holds at all times."""
         return self._static[frames]
 
     def has_rows(self, frame: int) -> bool:
@@ -67,13 +78,13 @@ class Histories:
         return self._poses[self._end[frames] - 1]
 
     def put_static(self, frame: int, stamp_ns: int, pose: Floats) -> None:
-        """Let one pose hold at all times; everything else of the frame is forgotten."""
+        """Make one pose hold at all times; forget everything else of the frame."""
         self.clear(frame)
         self._insert(frame, 0, stamp_ns, pose)
         self._static[frame] = True
 
     def begin(self, frames: Numbers, stamps_ns: Numbers, poses: Floats, *, static: bool) -> None:
-        """Give the first row to frames of which nothing is known, each named once."""
+        """Add the first row of frames that have none, each named once."""
         blocks = np.array([self._take(_BLOCK) for _ in range(len(frames))], np.int64)
         self._block[frames] = self._first[frames] = blocks
         self._size[frames], self._end[frames] = _BLOCK, blocks + 1
@@ -81,7 +92,7 @@ class Histories:
         self._stamps_ns[blocks], self._poses[blocks] = stamps_ns, poses
 
     def replace_static(self, frames: Numbers, stamps_ns: Numbers, poses: Floats) -> None:
-        """Let other poses hold at all times, of frames that are static, each named once."""
+        """Replace the poses of static frames, each named once."""
         rows = self._first[frames]
         self._stamps_ns[rows], self._poses[rows] = stamps_ns, poses
 
@@ -185,7 +196,7 @@ class Histories:
         return low
 
     def _guess(self, first: Numbers, end: Numbers, stamp_ns: int) -> tuple[Numbers, Numbers]:
-        """Between which rows those are for which `_places` looks: few, where stamps are even."""
+        """Return bounds of the rows that `_places` searches: narrow ones, where stamps are even."""
         last = end - 1
         from_ns, to_ns = self._stamps_ns[first], self._stamps_ns[last]
         share = (stamp_ns - from_ns) / np.maximum(to_ns - from_ns, 1)
@@ -219,7 +230,7 @@ class Histories:
         self._end[frame] = end + 1
 
     def _make_room(self, frame: int) -> None:
-        """Let one more row fit at the end of a frame's block."""
+        """Make room for one more row at the end of a frame's block."""
         first, end = int(self._first[frame]), int(self._end[frame])
         block, size = int(self._block[frame]), int(self._size[frame])
         wanted = max(_BLOCK, 2 * size)
@@ -237,7 +248,7 @@ class Histories:
             self._spare.setdefault(size, []).append(block)
 
     def _take(self, size: int) -> int | None:
-        """A block of the pool, or None when it must not grow further for it."""
+        """Return a block of the pool, or None when the pool must not grow further."""
         if self._spare.get(size):
             return self._spare[size].pop()
         if size > _BLOCK and self._used + size > _ROWS_MAX:

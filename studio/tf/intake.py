@@ -1,4 +1,4 @@
-"""Intake: takes transforms up into forest, histories and arrivals, and says what it leaves out."""
+"""Intake: adds transforms to forest, histories and arrivals, and returns what it leaves out."""
 
 from __future__ import annotations
 
@@ -7,35 +7,51 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 
 import numpy as np
 
-from studio.tf.admission import (
-    Notice,
-    fault_of_names,
-    fault_of_numbers,
-    plain,
-    poses_of,
-    refusal,
-    sound,
-)
+from studio.errors import TransformError
 from studio.tf.forest import DEPTH_MAX, FRAMES_MAX, NONE
-from studio.tf.newcomers import newcomers_among
+from studio.tf.transforms import Notice, name_fault, number_fault, plain_name, poses_of, valid_rows
 
 if TYPE_CHECKING:
-    from studio.tf.admission import Kind
     from studio.tf.arrivals import Arrivals
-    from studio.tf.columns import Flags, Floats, Numbers, TransformColumns
     from studio.tf.forest import Forest
     from studio.tf.histories import Histories
-    from studio.tf.newcomers import Newcomers
+    from studio.tf.transforms import Flags, Floats, Kind, Numbers, TransformColumns
 
+MANY: Final = 32
+"""Fewer are added one by one; those of a large robot all at once."""
 _NOTICES_MAX: Final = 20
 _LAYOUTS_MAX: Final = 64
 _LAYOUT_LETTERS_MAX: Final = 200_000
 _SILENT_NS: Final = 1_000_000_000
-"""After this long without a word, a publisher's place is free for another one."""
+"""After this long without a message, another publisher may take over a frame."""
 _REST_NS: Final = 1_000_000_000
 """For this long a publisher that moved its own frame cannot move it again."""
 _BEHIND_MAX: Final = 10
-"""So many transforms in a row behind what their own publisher told are a jump of time."""
+"""So many transforms in a row older than their publisher's last are a jump of time."""
+
+
+class NewFrames(NamedTuple):
+    """Rows of a message whose children are new and named once, and their names, parent first."""
+
+    rows: Numbers
+    edges: list[tuple[str, str]]
+
+
+def new_frames(columns: TransformColumns, chosen: Flags, forest: Forest) -> NewFrames | None:
+    """Return those among the given rows, shape (N,); None when they are few."""
+    if np.count_nonzero(chosen) < MANY:
+        return None
+    rows: list[int] = np.flatnonzero(chosen).tolist()
+    edges = [(plain_name(columns.parents[at]), plain_name(columns.children[at])) for at in rows]
+    counts = Counter(child for _, child in edges)
+    new = [
+        (at, edge)
+        for at, edge in zip(rows, edges, strict=True)
+        if counts[edge[1]] == 1 and forest.number(edge[1]) is None and not name_fault(*edge)
+    ]
+    if len(new) < MANY:
+        return None
+    return NewFrames(np.array([at for at, _ in new], np.int64), [edge for _, edge in new])
 
 
 class _Row(NamedTuple):
@@ -48,11 +64,12 @@ class _Row(NamedTuple):
     now_ns: int
 
     def refused(self, kind: Kind, reason: str) -> Notice:
-        return refusal(kind, self.parent, self.child, self.publisher, reason)
+        sentence = str(TransformError(self.parent, self.child, reason))
+        return Notice(kind, self.parent, self.child, self.publisher, sentence)
 
 
 class Intake:
-    """Who feeds the buffer comes here; whoever calls holds the buffer's lock."""
+    """Adds transforms to the parts of a buffer, whose lock the caller holds."""
 
     def __init__(self, forest: Forest, histories: Histories, arrivals: Arrivals) -> None:
         self._forest, self._histories, self._arrivals = forest, histories, arrivals
@@ -63,8 +80,8 @@ class Intake:
     def put(
         self, columns: TransformColumns, publisher: str, now_ns: int, *, static: bool
     ) -> tuple[Notice, ...]:
-        """Take columns up; answers what was left out, and what is worth knowing."""
-        good, poses = sound(columns), poses_of(columns)
+        """Add columns; return what was left out, and what is worth knowing."""
+        good, poses = valid_rows(columns), poses_of(columns)
         frames = self._frames(columns)
         fast = good & (frames != NONE)
         fast[fast] = self._is_usual(frames[fast], columns.stamps_ns[fast], static=static)
@@ -73,7 +90,7 @@ class Intake:
             store = self._histories.replace_static if static else self._histories.append
             store(known, stamps_ns, poses[fast])
             self._note(known, publisher, now_ns)
-        new = newcomers_among(columns, good & ~fast, self._forest)
+        new = new_frames(columns, good & ~fast, self._forest)
         hung = self._hang_new(new, columns, poses, static=static) if new else None
         if new and hung is not None:
             self._note(hung, publisher, now_ns)
@@ -82,17 +99,17 @@ class Intake:
         notices: list[Notice] = []
         for at in rest:
             row = _Row(
-                plain(columns.parents[at]),
-                plain(columns.children[at]),
+                plain_name(columns.parents[at]),
+                plain_name(columns.children[at]),
                 int(columns.stamps_ns[at]),
                 poses[at],
                 publisher,
                 static,
                 now_ns,
             )
-            said = self._put_row(row) if good[at] else _unsound(row, columns, at)
-            if said is not None:
-                notices.append(said)
+            notice = self._put_row(row) if good[at] else _unsound(row, columns, at)
+            if notice is not None:
+                notices.append(notice)
         return _shortened(notices)
 
     def drop(self, frame: int) -> None:
@@ -112,9 +129,9 @@ class Intake:
                 self.drop(frame)
 
     def _hang_new(
-        self, new: Newcomers, columns: TransformColumns, poses: Floats, *, static: bool
+        self, new: NewFrames, columns: TransformColumns, poses: Floats, *, static: bool
     ) -> Numbers | None:
-        """Hang frames that nothing was known of, all at once; None when one of them cannot be."""
+        """Add new frames all at once; return None when one of them cannot be added."""
         hung = self._forest.hang_new(new.edges)
         if hung is None:
             return None
@@ -126,7 +143,7 @@ class Intake:
         return frames
 
     def _frames(self, columns: TransformColumns) -> Numbers:
-        """The children's numbers; NONE where no such edge stands, or a message names it twice."""
+        """Return the children's numbers; NONE where there is no such edge, or it is named twice."""
         key = columns.parents, columns.children
         found = self._layouts.get(key)
         if found is not None and found[0] == self._forest.version:
@@ -142,14 +159,17 @@ class Intake:
         return frames
 
     def _edge(self, parent: str, child: str) -> int:
-        """The child's number, if it hangs on that parent; else NONE."""
-        number, upper = self._forest.number(plain(child)), self._forest.number(plain(parent))
+        """Return the child's number, if that is its parent; else NONE."""
+        number, upper = (
+            self._forest.number(plain_name(child)),
+            self._forest.number(plain_name(parent)),
+        )
         if number is None or upper is None or self._forest.parents[number] != upper:
             return NONE
         return number
 
     def _is_usual(self, frames: Numbers, stamps_ns: Numbers, *, static: bool) -> Flags:
-        """Which frames stay static, or go on to move: their stamps are not older than the last."""
+        """Return which frames stay static, or move on with stamps that are not older."""
         are_static = self._histories.is_static(frames)
         if static:
             return are_static
@@ -162,7 +182,7 @@ class Intake:
                 self._behind.pop(frame, None)
 
     def _put_row(self, row: _Row) -> Notice | None:
-        fault = fault_of_names(row.parent, row.child)
+        fault = name_fault(row.parent, row.child)
         if fault is not None:
             return row.refused(*fault)
         frame = self._forest.number(row.child)
@@ -182,7 +202,7 @@ class Intake:
         return moved
 
     def _hang(self, row: _Row) -> None:
-        """A frame gets a parent, or another one: what was known of it does not hold there."""
+        """Give a frame a parent, or another one; forget its poses in the former."""
         frame = self._forest.hang(row.parent, row.child)
         for one in (self._histories, self._arrivals):
             one.fit(len(self._forest.names))
@@ -199,7 +219,7 @@ class Intake:
         self._behind.pop(frame, None)
 
     def _put_pose(self, row: _Row, frame: int) -> Notice | None:
-        """Take up a pose of an edge that stands."""
+        """Add a pose of an existing edge."""
         at = np.array([frame])
         newest_ns = int(self._histories.newest_ns(at)[0])
         if row.static or self._histories.is_static(at)[0] or row.stamp_ns >= newest_ns:
@@ -219,10 +239,10 @@ class Intake:
     def _time_jumped(self, row: _Row, frame: int, newest_ns: int) -> bool:
         """Whether a stamp behind the newest means that time began anew.
 
-        It does when it comes from who told the newest, or from somebody else after silence; a stamp
-        of 0 is one that was forgotten.
+        It does when it comes from the publisher of the newest, or from another one after a pause; a
+        stamp of 0 is one that was never set.
         """
-        is_own = self._is_from_teller(row, frame)
+        is_own = self._is_own(row, frame)
         if row.stamp_ns >= newest_ns - self._histories.history_ns:
             self._behind[frame] = self._behind.get(frame, 0) + 1 if is_own else 0
             return self._behind[frame] >= _BEHIND_MAX
@@ -230,8 +250,10 @@ class Intake:
         return row.stamp_ns > 0 and (is_own or is_silent)
 
     def _jump(self, row: _Row, frame: int, newest_ns: int) -> Notice:
-        """The clock of a publisher went back: what it told of later times does not hold."""
-        self.jump_back(self._arrivals.told_by(self._arrivals.teller(frame)), row.stamp_ns)
+        """Forget what a publisher sent of later times: its clock went back."""
+        self.jump_back(
+            self._arrivals.frames_of(self._arrivals.publisher_number(frame)), row.stamp_ns
+        )
         if self._edge(row.parent, row.child) == NONE:
             self._hang(row)
         else:
@@ -254,10 +276,10 @@ class Intake:
         return None
 
     def _refused_move(self, row: _Row, frame: int) -> Notice | None:
-        """Another parent is taken from the frame's own publisher, or when the edge is old."""
+        """Refuse another parent, unless the frame's own publisher sends it or the edge is old."""
         newest_ns = int(self._histories.newest_ns(np.array([frame]))[0])
         is_old = row.stamp_ns - newest_ns > self._histories.history_ns
-        moves_own = bool(row.publisher) and self._is_from_teller(row, frame)
+        moves_own = bool(row.publisher) and self._is_own(row, frame)
         has_rested = row.now_ns - self._moved_ns.get(frame, row.now_ns - _REST_NS) >= _REST_NS
         if is_old or (moves_own and has_rested):
             return None
@@ -265,8 +287,8 @@ class Intake:
         who = "its publisher tells of both" if moves_own else "another publisher tells of that"
         return row.refused("other_parent", f'"{row.child}" hangs on "{parent}", and {who}')
 
-    def _is_from_teller(self, row: _Row, frame: int) -> bool:
-        return self._arrivals.publisher(row.publisher) == self._arrivals.teller(frame)
+    def _is_own(self, row: _Row, frame: int) -> bool:
+        return self._arrivals.publisher(row.publisher) == self._arrivals.publisher_number(frame)
 
     def _moved(self, row: _Row, frame: int) -> Notice:
         parent = self._forest.names[self._forest.parents[frame]]
@@ -275,7 +297,7 @@ class Intake:
 
 
 def _unsound(row: _Row, columns: TransformColumns, at: int) -> Notice:
-    fault = fault_of_names(row.parent, row.child) or fault_of_numbers(
+    fault = name_fault(row.parent, row.child) or number_fault(
         columns.translations[at], columns.rotations_wxyz[at], row.stamp_ns
     )
     return row.refused(*fault)

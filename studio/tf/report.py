@@ -1,4 +1,4 @@
-"""FrameReport: what is to be said of a frame: its parent, who tells of it, how often, how old."""
+"""FrameReport: the parent of a frame, its publishers, its rate, age and state."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from studio.tf.forest import NONE
 
 if TYPE_CHECKING:
     from studio.tf.arrivals import Arrivals
-    from studio.tf.columns import Flags, Numbers
+    from studio.tf.forest import ForestShape
     from studio.tf.histories import Histories
-    from studio.tf.shape import ForestShape
+    from studio.tf.transforms import Flags, Numbers
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,15 +23,15 @@ class FrameReport:
     Attributes:
         frame: Its name.
         parent: None for a root.
-        root: What its tree hangs on.
-        publishers: Who tells of it; the one of the newest transform first.
+        root: The root of its tree.
+        publishers: Its publishers; that of the newest transform first.
         static: Whether its transform holds at all times.
-        rate_hz: How often it comes; 0 when that is not known yet.
-        age_s: How long it has not come; None for a root.
+        rate_hz: How often transforms come; 0 when that is not known yet.
+        age_s: Time since its last transform; None for a root.
         oldest_ns: The first stamp from which it is known.
         newest_ns: The stamp of the newest.
-        state: Broken when nothing connects it with the fixed frame, stale when it has been silent
-            for long, else fresh.
+        state: "broken" if nothing connects it with the fixed frame, "stale" if it has been silent
+            for long, else "fresh".
         behind: The nearest stale frame above it, if one is; its own transform may be fresh.
     """
 
@@ -49,9 +49,9 @@ class FrameReport:
 
 
 class Reporting:
-    """What is known of frames at one time: gathered in one go, put into words at leisure.
+    """What is known of frames at one time: gathered at once, made into reports later.
 
-    Whoever makes it holds the buffer's lock; `reports` needs none.
+    The constructor needs the buffer's lock; `reports` needs none.
 
     Args:
         shape: Of the forest.
@@ -59,7 +59,7 @@ class Reporting:
         arrivals: Of its frames.
         fixed: What is not connected with it is broken.
         now_ns: By the clock of the arrivals.
-        most: So many are told of, the first of the alphabet; None: all.
+        most: Report so many, the first of the alphabet; None: all.
     """
 
     def __init__(
@@ -78,39 +78,39 @@ class Reporting:
         fixed_root = NONE if fixed_row is None else structure.roots[fixed_row]
         self._broken: list[bool] = (structure.roots != fixed_root).tolist()
         hung = chosen[structure.parents[chosen] != NONE]
-        told = _told_of(shape.numbers[hung], histories, arrivals, now_ns)
-        self._told = dict(zip(hung.tolist(), told, strict=True))
+        facts = _facts_of(shape.numbers[hung], histories, arrivals, now_ns)
+        self._facts = dict(zip(hung.tolist(), facts, strict=True))
         self._stale = _stale(shape, histories, arrivals, now_ns)
 
     def reports(self) -> list[FrameReport]:
-        """Of each frame, in the order of the alphabet."""
+        """Return a report of each frame, in the order of the alphabet."""
         structure = self._shape.structure
-        ways = _Ways(
+        columns = _Columns(
             structure.parents.tolist(),
             structure.roots.tolist(),
             self._stale.tolist(),
             structure.first_above(self._stale).tolist(),
         )
-        return [self._report(row, ways) for row in self._chosen]
+        return [self._report(row, columns) for row in self._chosen]
 
-    def _report(self, row: int, ways: _Ways) -> FrameReport:
-        names, told = self._shape.names, self._told.get(row)
-        if told is None:
+    def _report(self, row: int, columns: _Columns) -> FrameReport:
+        names, facts = self._shape.names, self._facts.get(row)
+        if facts is None:
             return _root(names[row], is_broken=self._broken[row])
-        parent = ways.parents[row]
-        behind = ways.first_stale[parent]
+        parent = columns.parents[row]
+        behind = columns.first_stale[parent]
         return FrameReport(
             names[row],
             names[parent],
-            names[ways.roots[row]],
-            *told,
-            _state(is_broken=self._broken[row], is_stale=ways.stale[row]),
+            names[columns.roots[row]],
+            *facts,
+            _state(is_broken=self._broken[row], is_stale=columns.stale[row]),
             None if behind == NONE else names[behind],
         )
 
 
-class _Told(NamedTuple):
-    """What is known of a frame that hangs on one, as in a FrameReport."""
+class _Facts(NamedTuple):
+    """What is known of a frame with a parent, as in a FrameReport."""
 
     publishers: tuple[str, ...]
     static: bool
@@ -120,7 +120,7 @@ class _Told(NamedTuple):
     newest_ns: int
 
 
-class _Ways(NamedTuple):
+class _Columns(NamedTuple):
     """Of all rows; `first_stale` is the nearest stale frame from each upwards, or NONE."""
 
     parents: list[int]
@@ -129,7 +129,9 @@ class _Ways(NamedTuple):
     first_stale: list[int]
 
 
-def _told_of(frames: Numbers, histories: Histories, arrivals: Arrivals, now_ns: int) -> list[_Told]:
+def _facts_of(
+    frames: Numbers, histories: Histories, arrivals: Arrivals, now_ns: int
+) -> list[_Facts]:
     publishers = [arrivals.publishers_of(frame, now_ns) for frame in frames.tolist()]
     columns = (
         publishers,
@@ -139,7 +141,7 @@ def _told_of(frames: Numbers, histories: Histories, arrivals: Arrivals, now_ns: 
         histories.oldest_ns(frames).tolist(),
         histories.newest_ns(frames).tolist(),
     )
-    return [_Told(*row) for row in zip(*columns, strict=True)]
+    return [_Facts(*row) for row in zip(*columns, strict=True)]
 
 
 def _stale(shape: ForestShape, histories: Histories, arrivals: Arrivals, now_ns: int) -> Flags:

@@ -1,4 +1,4 @@
-"""Turns as unit quaternions and as matrices, many at once."""
+"""Rotations and poses as unit quaternions and as matrices, many at once."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from studio.tf.columns import Floats
+    from studio.tf.transforms import Floats
 
 Pose: TypeAlias = tuple[float, float, float, float, float, float, float]
 """w, x, y, z of a unit quaternion, then x, y, z in m."""
@@ -23,7 +23,7 @@ _ROWS_AT_ONCE = 1000
 
 
 def between(before: Floats, after: Floats, shares: Floats) -> Floats:
-    """Poses on the way: places along a line, turns along the shorter arc.
+    """Return poses in between: positions along a line, rotations along the shorter arc.
 
     Args:
         before: Shape (N, 7), as `Pose`.
@@ -36,7 +36,7 @@ def between(before: Floats, after: Floats, shares: Floats) -> Floats:
 
 
 def between_two(before: Pose, after: Pose, share: float) -> Pose:
-    """One pose on the way, as `between`, for who asks for few: a tenth of the time."""
+    """Return one pose in between, as `between`: for a few poses a tenth of its time."""
     w, x, y, z, *place = before
     ow, ox, oy, oz, *other = after
     dot = w * ow + x * ox + y * oy + z * oz
@@ -53,7 +53,7 @@ def between_two(before: Pose, after: Pose, share: float) -> Pose:
 
 
 def _slerp(before: Floats, after: Floats, shares: Floats) -> Floats:
-    # A quaternion and its negative are one turn: the nearer of both is the shorter way.
+    # A quaternion and its negative are one rotation: the nearer of both is the shorter arc.
     dots = np.einsum("ij,ij->i", before, after)
     angles = np.arccos(np.minimum(np.abs(dots), 1.0))
     sines = np.sin(angles)
@@ -84,7 +84,7 @@ def poses_from_matrices(matrices: Floats) -> Floats:
 
 
 def _product(rows: Floats, table: Floats) -> Floats:
-    """Many rows times a small matrix, in the thread that asks.
+    """Multiply many rows with a small matrix, in the calling thread.
 
     Of more rows at once numpy's library starts threads, and on a busy machine they wait for one
     another: five times as long, and more than that of all processors.

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from studio.tf.buffer import TransformBuffer
-from studio.tf.columns import TransformColumns
 from studio.tf.rotations import IDENTITY, compose, inverse
+from studio.tf.transforms import TransformColumns
 from tests.benchmarks.report import Timings, judge, judge_ratio, judge_that, say, say_beside
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from studio.ros.columns.markers import MarkerColumns, MarkerTexts, Texture
-from studio.tf.columns import TransformColumns
+from studio.tf.transforms import TransformColumns
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from studio.tf.columns import TransformColumns
+from studio.tf.transforms import TransformColumns
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

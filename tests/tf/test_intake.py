@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from studio.errors import ExtrapolationError
-from studio.tf.admission import NAME_LETTERS_MAX
 from studio.tf.buffer import TransformBuffer
 from studio.tf.forest import DEPTH_MAX, FRAMES_MAX
+from studio.tf.transforms import NAME_LETTERS_MAX
 from tests.support.transforms import HandClock, S, Told, Vector, about_z, columns
 
 ALONG = (1.0, 0.0, 0.0)

@@ -16,6 +16,7 @@ from studio.displays.markers.items import (
     rgb_of,
 )
 from studio.displays.markers.kinds import Kind
+from studio.displays.turning import products, turns_from_z
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -219,7 +220,7 @@ def _by_points(markers: Rows, head_share: float) -> Arrow:
     return Arrow(
         tails,
         tips,
-        _turns_from_z(tips - tails, lengths_m),
+        turns_from_z(_unit_or_z(tips - tails, lengths_m)),
         np.abs(scales[:, [0, 0]]),
         np.abs(scales[:, [1, 1]]),
         np.where(scales[:, 2] == 0, head_share * lengths_m, given),
@@ -266,26 +267,8 @@ def _solid(bodies: Bodies) -> Bodies:
     return Bodies(bodies.positions[kept], bodies.wxyz[kept], bodies.scales[kept], bodies.rgba[kept])
 
 
-def products(one: Floats, other: Floats) -> Floats:
-    """Turns `other` followed by `one`, both (N, 4) of length 1."""
-    w, x, y, z = one.T
-    a, b, c, d = other.T
-    return np.stack(
-        (
-            w * a - x * b - y * c - z * d,
-            w * b + x * a + y * d - z * c,
-            w * c - x * d + y * a + z * b,
-            w * d + x * c - y * b + z * a,
-        ),
-        axis=1,
-    )
-
-
-def _turns_from_z(directions: Floats, lengths_m: Floats) -> Floats:
-    """Quaternions (N, 4) from the z axis to directions (N, 3) on the shortest way."""
-    units = directions / np.where(lengths_m == 0, 1.0, lengths_m)[:, None]
+def _unit_or_z(vectors: Floats, lengths_m: Floats) -> Floats:
+    """Return vectors (N, 3) at length 1; z for those of length 0."""
+    units = vectors / np.where(lengths_m == 0, 1.0, lengths_m)[:, None]
     units[lengths_m == 0] = _Z
-    turns = np.stack((1 + units[:, 2], -units[:, 1], units[:, 0], np.zeros(len(units))), axis=1)
-    opposite = units[:, 2] < -1 + 1e-12
-    turns[opposite] = _HALF_TURN
-    return turns / np.linalg.norm(turns, axis=1, keepdims=True)
+    return units

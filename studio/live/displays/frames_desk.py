@@ -13,8 +13,8 @@ from studio.live.displays.own_frames import OwnFrames
 from studio.protocol.displays import FrameView, GetTf, TfFrames, TfPose
 from studio.ros.columns.transforms import TransformCodec
 from studio.ros.qos import DurabilityPolicy, QoSProfile
-from studio.tf.admission import Notice, plain
 from studio.tf.buffer import TransformBuffer
+from studio.tf.transforms import Notice, plain_name
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -24,9 +24,9 @@ if TYPE_CHECKING:
     from studio.live.displays.placing import Pose
     from studio.ros.graph.endpoints import GraphEndpoint
     from studio.ros.node.samples import MessageInfo, RawCallback
-    from studio.tf.columns import TransformColumns
-    from studio.tf.frames_now import FramesNow
+    from studio.tf.frames import FramesNow
     from studio.tf.report import FrameReport
+    from studio.tf.transforms import TransformColumns
 
 STILL: Final[Pose] = (NO_TURN, ORIGIN)
 _TF_TYPE: Final = "tf2_msgs/msg/TFMessage"
@@ -198,7 +198,7 @@ class FramesDesk:
             return frame
         if now.fixed not in now.rows:
             return now.root_of_most()
-        return frame if plain(frame) in now.rows else ""
+        return frame if plain_name(frame) in now.rows else ""
 
     def trouble_of(self, frame: str) -> str:
         """Why it is not known where a frame is, in a sentence; empty: it is."""

@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING, Final, NamedTuple, Protocol
 
 import numpy as np
 
-from studio.tf.admission import plain
-from studio.tf.columns import TransformColumns
 from studio.tf.forest import FRAMES_MAX
+from studio.tf.transforms import TransformColumns, plain_name
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Container
@@ -17,7 +16,7 @@ if TYPE_CHECKING:
     from studio.robot.kinematics import Floats, Kinematics
     from studio.robot.values import Robot
     from studio.tf.buffer import TransformBuffer
-    from studio.tf.columns import Numbers
+    from studio.tf.transforms import Numbers
 
 PUBLISHER: Final = "this robot"
 
@@ -92,7 +91,7 @@ class OwnFrames:
         """Tell no more of frames that somebody on the wire tells of."""
         if all(name in self._told_by_others for name in names):
             return
-        children = frozenset(map(plain, names))
+        children = frozenset(map(plain_name, names))
         with self._lock:
             own = children & self._children
             # Names without end must not fill the memory.

@@ -20,7 +20,7 @@ from studio.ros.columns.layout import (
     put_nanoseconds,
     view,
 )
-from studio.tf.columns import TransformColumns
+from studio.tf.transforms import TransformColumns
 
 TYPE_NAME = "tf2_msgs/msg/TFMessage"
 _TRANSFORM_BYTES_LEAST = 74

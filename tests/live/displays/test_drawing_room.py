@@ -9,7 +9,7 @@ from studio.live.displays.display_list import DisplayList, DisplaySpec, Listenin
 from studio.live.displays.drawing_room import DrawingRoom
 from studio.ros.columns.transforms import TransformCodec
 from studio.scene import DocumentScene
-from studio.tf.columns import TransformColumns
+from studio.tf.transforms import TransformColumns
 from tests.support.display_messages import NOW_NS, encoded, pose, received
 from tests.support.heard_topics import HeardTopics, publisher
 from tests.support.transforms import S, Told, columns

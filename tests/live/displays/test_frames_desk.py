@@ -9,7 +9,7 @@ from studio.errors import UnknownFrameError
 from studio.live.displays.frames_desk import FramesDesk
 from studio.protocol.displays import GetTf
 from studio.ros.columns.transforms import TransformCodec
-from studio.tf.columns import TransformColumns
+from studio.tf.transforms import TransformColumns
 from tests.support.display_messages import encoded
 from tests.support.heard_topics import HeardTopics, publisher
 from tests.support.posed import Posed, arm

@@ -12,8 +12,7 @@ from tests.support.posed import Posed, arm
 from tests.support.transforms import Told, columns
 
 if TYPE_CHECKING:
-    from studio.tf.admission import Notice
-    from studio.tf.columns import TransformColumns
+    from studio.tf.transforms import Notice, TransformColumns
 
 
 class CountingBuffer(TransformBuffer):

@@ -12,7 +12,7 @@ from studio.errors import CdrError, MessageValueError
 from studio.ros.cdr import Codec
 from studio.ros.columns.transforms import TYPE_NAME, TransformCodec
 from studio.ros.types.library import TypeLibrary
-from studio.tf.columns import TransformColumns
+from studio.tf.transforms import TransformColumns
 from tests.support.fast_values import assert_same, transform_columns
 from tests.support.ros_values import values_of
 

@@ -1,28 +1,69 @@
-"""AllFrames: all frames into one of them at once; the forest's shape is kept while it stands."""
+"""The poses of all frames in one of them, at one time."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from studio.tf.forest import NONE
-from studio.tf.frames_now import FramesNow
-from studio.tf.rotations import IDENTITY, inverse_of, matrices_from_poses, poses_from_matrices
-from studio.tf.shape import ForestShape
+from studio.tf.forest import NONE, ForestShape
+from studio.tf.rotations import IDENTITY, Pose, inverse_of, matrices_from_poses, poses_from_matrices
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from studio.tf.arrivals import Arrivals
-    from studio.tf.columns import Flags, Floats, Numbers
-    from studio.tf.forest import Forest
+    from studio.tf.forest import Forest, Structure
     from studio.tf.histories import Histories
-    from studio.tf.structure import Structure
+    from studio.tf.transforms import Flags, Floats, Numbers
 
 _KEPT_MAX: Final = 8
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class FramesNow:
+    """All F frames, seen from the fixed frame.
+
+    Attributes:
+        fixed: The name of the fixed frame.
+        names: Of the frames; the same object as long as no edge comes or goes.
+        rows: Where each name is in `names`.
+        parents: Shape (F,): where the parent of each is in `names`; -1 for a root.
+        wxyz_xyz: Shape (F, 7): unit quaternion and m; anything for what is not connected.
+        connected: Shape (F,): whether transforms lead from each to the fixed frame at that time.
+        ages_s: Shape (F,): the age of the oldest transform on that chain; static ones have none.
+    """
+
+    fixed: str
+    names: tuple[str, ...]
+    rows: Mapping[str, int]
+    parents: Numbers
+    wxyz_xyz: Floats
+    connected: Flags
+    ages_s: Floats
+
+    def pose_of(self, frame: str) -> Pose | None:
+        """The pose of a frame in the fixed frame; None when it is not connected."""
+        row = self.rows.get(frame)
+        if row is None or not self.connected[row]:
+            return IDENTITY if frame == self.fixed else None
+        w, x, y, z, px, py, pz = self.wxyz_xyz[row].tolist()
+        return w, x, y, z, px, py, pz
+
+    def root_of_most(self) -> str:
+        """The root of the largest tree, of several the first by name; empty without any frame."""
+        if not self.names:
+            return ""
+        reached = np.where(self.parents == NONE, np.arange(len(self.names)), self.parents)
+        while (further := reached[reached]).tobytes() != reached.tobytes():
+            reached = further
+        counts = np.bincount(reached)
+        return min(self.names[row] for row in np.flatnonzero(counts == counts.max()).tolist())
+
+
 class AllFrames:
-    """Each edge is evaluated once, then products double; whoever asks holds the buffer's lock."""
+    """Evaluates each edge once and multiplies in doubling steps, under the lock of the buffer."""
 
     def __init__(self, forest: Forest, histories: Histories, arrivals: Arrivals) -> None:
         self._forest, self._histories, self._arrivals = forest, histories, arrivals
@@ -46,7 +87,7 @@ class AllFrames:
         return FramesNow(fixed, shape.names, shape.rows, parents, poses, connected, ages_s)
 
     def _nowhere(self) -> tuple[Floats, Flags, Floats]:
-        """Poses, connections and ages when nothing tells of the fixed frame."""
+        """Return poses, connections and ages when the fixed frame is unknown."""
         count = len(self._shape.names)
         return np.tile(IDENTITY, (count, 1)), np.zeros(count, np.bool_), np.zeros(count)
 
@@ -59,7 +100,7 @@ class AllFrames:
         return poses_from_matrices(fixed_from), structure.roots == structure.roots[row]
 
     def shape(self) -> ForestShape:
-        """The forest as it stands; the same object as long as no edge comes or goes."""
+        """Return the forest as arrays; the same object as long as no edge comes or goes."""
         if self._version != self._forest.version:
             self._version = self._forest.version
             self._shape = ForestShape(self._forest)

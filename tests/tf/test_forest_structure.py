@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from studio.tf.structure import Structure
+from studio.tf.forest import Structure
 
 # Each row hangs on an earlier one, or on nothing; then rows are shuffled.
 FORESTS = st.integers(1, 40).flatmap(

@@ -6,7 +6,7 @@ from studio.ros.columns.transforms import TransformCodec
 from studio.ros.types.convert import from_dict
 from studio.ros.types.library import TypeLibrary
 from studio.tf.buffer import TransformBuffer
-from studio.tf.columns import TransformColumns
+from studio.tf.transforms import TransformColumns
 
 MESSAGE = TypeLibrary("jazzy").message("tf2_msgs/msg/TFMessage")
 

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from studio.tf.buffer import TransformBuffer
 from studio.tf.forest import DEPTH_MAX, FRAMES_MAX
-from studio.tf.newcomers import MANY
+from studio.tf.intake import MANY
 from tests.support.transforms import S, Told, columns
 
 COUNT = 2 * MANY

@@ -1,22 +1,23 @@
-"""Admission: which transforms are none, said by sentence."""
+"""The transforms of one message as columns, and why some of them cannot be used."""
 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
-from studio.errors import TransformError
-
 if TYPE_CHECKING:
-    from studio.tf.columns import Flags, Floats, TransformColumns
+    from numpy.typing import NDArray
 
+Floats: TypeAlias = "NDArray[np.float64]"
+Numbers: TypeAlias = "NDArray[np.int64]"
+Flags: TypeAlias = "NDArray[np.bool_]"
 NAME_LETTERS_MAX: Final = 256
 _FAR_M: Final = 1e12
 _SQUARED_LENGTH_OFF: Final = 1e-2
 """Of a quaternion: tf2 leaves out what is farther from 1."""
-
 Kind: TypeAlias = Literal[
     "no_name", "long_name", "own_parent", "not_finite", "too_far", "zero_quaternion",
     "no_unit_quaternion", "no_stamp", "circle", "other_parent", "too_deep", "too_many", "too_old",
@@ -24,8 +25,27 @@ Kind: TypeAlias = Literal[
 ]  # fmt: skip
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class TransformColumns:
+    """The transforms of one message, in its order; nobody writes into the arrays.
+
+    Attributes:
+        parents: Of each the `header.frame_id`.
+        children: Of each the `child_frame_id`.
+        stamps_ns: Shape (N,), int64, since the epoch.
+        translations: Shape (N, 3), float64, metres: the child's origin in the parent.
+        rotations_wxyz: Shape (N, 4), float64, as they were sent, of whatever length.
+    """
+
+    parents: tuple[str, ...]
+    children: tuple[str, ...]
+    stamps_ns: Numbers
+    translations: Floats
+    rotations_wxyz: Floats
+
+
 class Notice(NamedTuple):
-    """Something about a transform that was told."""
+    """A remark on a transform that was received."""
 
     kind: Kind
     parent: str
@@ -33,21 +53,16 @@ class Notice(NamedTuple):
     publisher: str
     sentence: str
     left_out: bool = True
-    """Whether it was not taken up; else it was, and this is worth knowing."""
+    """Whether the transform was left out; else it was taken, and this is worth knowing."""
 
 
-def refusal(kind: Kind, parent: str, child: str, publisher: str, reason: str) -> Notice:
-    """A transform is left out for a reason."""
-    return Notice(kind, parent, child, publisher, str(TransformError(parent, child, reason)))
-
-
-def plain(frame: str) -> str:
-    """Names of tf2 begin with no slash; some that publish still write the old one."""
+def plain_name(frame: str) -> str:
+    """Return a name without the leading slash that some publishers still write."""
     return frame.removeprefix("/")
 
 
-def fault_of_names(parent: str, child: str) -> tuple[Kind, str] | None:
-    """Why two plain names are no edge."""
+def name_fault(parent: str, child: str) -> tuple[Kind, str] | None:
+    """Return why two plain names cannot be parent and child; None if they can."""
     if not parent or not child:
         which = "parent" if not parent else "child"
         return "no_name", f"its {which} has no name"
@@ -58,19 +73,19 @@ def fault_of_names(parent: str, child: str) -> tuple[Kind, str] | None:
     return None
 
 
-def sound(columns: TransformColumns) -> Flags:
-    """Which rows, shape (N,), hold a pose at a time."""
+def valid_rows(columns: TransformColumns) -> Flags:
+    """Return which rows, shape (N,), hold a pose and a stamp that can be used."""
     translations, rotations = columns.translations, columns.rotations_wxyz
     with np.errstate(over="ignore", invalid="ignore"):
         lengths = np.einsum("ij,ij->i", rotations, rotations)
-        # What is no number is within no bounds.
+        # NaN is within no bounds.
         are_turns = np.abs(lengths - 1) <= _SQUARED_LENGTH_OFF
         are_near = (np.abs(translations) <= _FAR_M).all(axis=1)
     return are_turns & are_near & (columns.stamps_ns >= 0)
 
 
-def fault_of_numbers(xyz_m: Floats, wxyz: Floats, stamp_ns: int) -> tuple[Kind, str]:
-    """Why a row that is not sound is none."""
+def number_fault(xyz_m: Floats, wxyz: Floats, stamp_ns: int) -> tuple[Kind, str]:
+    """Return why a row that is not valid cannot be used."""
     if not (np.isfinite(xyz_m).all() and np.isfinite(wxyz).all()):
         return "not_finite", "not all its numbers are finite"
     if not wxyz.any():
@@ -85,7 +100,7 @@ def fault_of_numbers(xyz_m: Floats, wxyz: Floats, stamp_ns: int) -> tuple[Kind, 
 
 
 def poses_of(columns: TransformColumns) -> Floats:
-    """Poses, shape (N, 7), with quaternions of length 1; rows that are not sound hold anything."""
+    """Return poses, shape (N, 7), with quaternions of length 1; invalid rows hold anything."""
     poses = np.empty((len(columns.parents), 7))
     rotations = columns.rotations_wxyz
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
