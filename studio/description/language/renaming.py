@@ -9,7 +9,6 @@ from __future__ import annotations
 import keyword
 import re
 from typing import TYPE_CHECKING, Final
-from xml.parsers import expat
 
 from studio.description.evaluator.output_tree import write_xml
 from studio.description.language.definitions import parameter_bytes
@@ -93,7 +92,6 @@ def macro_spots(
         yield from attribute_value(element, "name")
     for tree in definitions.trace.trees.values():
         calls = [one for one in tree.elements if _calls(one, name, members, definitions)]
-        closings = closing_names(tree) if calls else {}
         for call in calls:
             in_run = call in definitions.called
             if call.tag == "xacro:call":
@@ -101,8 +99,9 @@ def macro_spots(
                 continue
             start = call.offset + 1
             yield Spot(tree.path, start, start + len(call.tag.encode(tree.encoding)), in_run)
-            if call.offset in closings:
-                yield Spot(tree.path, *closings[call.offset], in_run)
+            if not call.closes_itself:
+                start = call.end_tag + 2
+                yield Spot(tree.path, start, start + len(call.tag.encode(tree.encoding)), in_run)
 
 
 def same_macros(
@@ -164,25 +163,6 @@ def _is_of(
         f"{element.tree.path}:{element.line} may call another macro with {name} as well: rename it "
         "there by hand first."
     )
-
-
-def closing_names(tree: SourceTree) -> dict[int, tuple[int, int]]:
-    """By the byte of each `<`, the bytes of the name in its closing tag; none for `<empty/>`."""
-    found: dict[int, tuple[int, int]] = {}
-    opened: list[int] = []
-    parser = expat.ParserCreate(tree.encoding)
-
-    def start(_tag: str, _attributes: dict[str, str]) -> None:
-        opened.append(parser.CurrentByteIndex)
-
-    def end(tag: str) -> None:
-        at, begun = parser.CurrentByteIndex, opened.pop()
-        if tree.data.startswith(b"</", at) and at != begun:
-            found[begun] = at + 2, at + 2 + len(tag.encode(tree.encoding))
-
-    parser.StartElementHandler, parser.EndElementHandler = start, end
-    parser.Parse(tree.data, True)  # noqa: FBT003 - expat's own way
-    return found
 
 
 NAME_LIMIT: Final = 200

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING, Final, TypeAlias
 
-from studio.description.language.token_at import segments_in, tags_before
+from studio.description.language.token_at import segments_in
 from studio.description.syntax.attribute_spans import attribute_spans, character_offsets
 from studio.description.syntax.source_tree import SourceText
 from studio.description.values import Span
@@ -149,7 +149,7 @@ def _quoted(found: re.Match[str]) -> Step:
 
 
 _SUBSTITUTION: Final = re.compile(r"\s*(\w+)\s+(\S+)")
-_NO_MARKUP: Final = re.compile(r"<!--.*?-->|<!\[CDATA\[.*?\]\]>", re.DOTALL)
+_NO_TEXT: Final = re.compile(rb"<!--.*?-->|<!\[CDATA\[.*?\]\]>", re.DOTALL)
 _PACKAGE: Final = re.compile(r"(?:package|model)://([^/\s\"']+)")
 
 
@@ -192,31 +192,24 @@ def _of_contents(tree: SourceTree) -> Iterator[Use]:
     if not any("$" in one.text and not one.literal for one in texts):
         return
     try:
-        for element, start, end in _contents(tree):
+        for element, start, end in _contents(tree.root):
             yield from _of_value(tree, element, Span(start, end, ""))
     except EditError:
         return
 
 
-def _contents(tree: SourceTree) -> Iterator[tuple[SourceElement, int, int]]:
+def _contents(element: SourceElement) -> Iterator[tuple[SourceElement, int, int]]:
     """The texts between tags that hold a `$`: the element around, and the bytes."""
-    # As many characters as bytes; what is no markup here keeps its length.
-    text = _NO_MARKUP.sub(_blanked, tree.data.decode("latin-1"))
-    elements = {one.offset: one for one in tree.elements}
-    opened: list[SourceElement | None] = []
-    behind = 0
-    for tag, is_closing, is_empty in tags_before(text, len(text)):
-        if opened and (around := opened[-1]) and "$" in text[behind : tag.start]:
-            yield around, behind, tag.start
-        behind = tag.end
-        if is_closing:
-            del opened[-1:]
-        elif not is_empty:
-            opened.append(elements.get(tag.start))
-
-
-def _blanked(found: re.Match[str]) -> str:
-    return " " * len(found[0])
+    if element.closes_itself:
+        return
+    data, behind = element.tree.data, element.inside
+    for child in element.elements():
+        if b"$" in _NO_TEXT.sub(b"", data[behind : child.offset]):
+            yield element, behind, child.offset
+        yield from _contents(child)
+        behind = child.end
+    if b"$" in _NO_TEXT.sub(b"", data[behind : element.end_tag]):
+        yield element, behind, element.end_tag
 
 
 def _of_value(tree: SourceTree, element: SourceElement, span: Span) -> Iterator[Use]:

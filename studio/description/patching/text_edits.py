@@ -259,9 +259,14 @@ class _XmlEdit:
         behind = bisect_right(tree.elements, edit.start, key=_offset)
         for element in tree.elements[behind:]:
             element.offset += growth
+            element.end_tag += growth
             if element.line == line:
                 element.column += growth
                 moved[element.ordinal] = element.place
+        around: SourceElement | None = tree.elements[self._draft.ordinal]
+        while around is not None:
+            around.end_tag += growth
+            around = around.parent
         for comment in tree.comments:
             if comment.offset > edit.start:
                 comment.offset += growth

@@ -293,15 +293,8 @@ def _xml_remarks(tree: SourceTree) -> dict[int, Remark]:
 
 def _entry(element: SourceElement) -> Entry:
     is_value = element.tag in _TEXTS
-    tag = element.tree.data[element.offset : tag_end(element)] if is_value else b""
+    tag = element.tree.data[element.offset : element.inside] if is_value else b""
     return Entry(element.line, element.line + len(_LINE_END.findall(tag)), is_value=is_value)
-
-
-def tag_end(element: SourceElement) -> int:
-    """Byte offset behind the start tag's `>`."""
-    spans = attribute_spans(element.tree.data, element.offset)
-    last = max((span.end for span in spans.values()), default=element.offset)
-    return element.tree.data.index(b">", last) + 1
 
 
 def _comments(parent: SourceElement) -> list[Comment]:

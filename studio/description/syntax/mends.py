@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Final
 from xml.sax.saxutils import quoteattr
 
 from studio.description.syntax.attribute_spans import attribute_spans
-from studio.description.syntax.element_ends import element_end
 from studio.errors import EditError
 from studio.problems import Fix, Replacement
 
@@ -122,15 +121,15 @@ class ElementMends:
         data, name = self._tree.data, self._element.tag.encode()
         start = self._element.offset + 1
         try:
-            end = element_end(self._element)
+            end = self._element.end
         except EditError:
             return ()
         if not data.startswith(name, start):
             return ()
         first = self._mends.replaced(start, start + len(name), other)
-        if end.closes_itself:
+        if self._element.closes_itself:
             return (first,)
-        closing = data.find(name, end.tag, end.end)
+        closing = data.find(name, self._element.end_tag, end)
         return (first, self._mends.replaced(closing, closing + len(name), other))
 
     def before(self, xml: str) -> Replacement:
@@ -142,7 +141,7 @@ class ElementMends:
     def after(self, xml: str) -> Replacement | None:
         """An element put in on a line behind this one."""
         try:
-            end = element_end(self._element).end
+            end = self._element.end
         except EditError:
             return None
         indent = self._mends.indent_at(self._element.offset)
@@ -152,7 +151,7 @@ class ElementMends:
         """The element taken out, with its line when it has that for itself."""
         data, start = self._tree.data, self._element.offset
         try:
-            end = element_end(self._element).end
+            end = self._element.end
         except EditError:
             return None
         line_end = _BLANKS.match(data, end)

@@ -52,6 +52,8 @@ class OpenElements:
         self._open: list[SourceElement] = []
         self._start_ends: dict[int, int] = {}
         """By the ordinal of an element that was open, where its start tag ends."""
+        self._faults_before: dict[int, int] = {}
+        """By the ordinal of an element that was open, how many faults stand before it."""
         self._unclosed = _unclosed_tags(tree.data)
         self._root_end: tuple[int, int] | None = None
         self._root_is_moved = False
@@ -63,8 +65,8 @@ class OpenElements:
         """What is open now."""
         return self._open[-1] if self._open else None
 
-    def start(self, tag: BrokenTag, at: int) -> None:
-        """A start tag, whose < is at a place."""
+    def start(self, tag: BrokenTag, at: int, faults_before: int) -> None:
+        """A start tag, whose < is at a place, and how many faults stand before it."""
         if not self._open and not self._begin_root(tag, at):
             return
         self._close_before(tag.name, at)
@@ -73,7 +75,11 @@ class OpenElements:
         if not tag.closes_itself:
             self._open.append(element)
             self._start_ends[element.ordinal] = tag.end
-        elif len(self._open) == 0:
+            self._faults_before[element.ordinal] = faults_before
+            return
+        if self._data.endswith(b"/>", at, tag.end):
+            element.end_tag = tag.end
+        if not self._open:
             self._root_end = (at, tag.end)
 
     def _element(self, name: str, attributes: dict[str, str], at: int) -> SourceElement:
@@ -183,7 +189,9 @@ class OpenElements:
             self._stray(name, at, end)
 
     def _pop(self, at: int, end: int) -> None:
-        self._open.pop()
+        element = self._open.pop()
+        if self._book.malformed == self._faults_before.get(element.ordinal):
+            element.end_tag = at
         if not self._open:
             self._root_end = (at, end)
 
@@ -333,13 +341,14 @@ class _Recovery:
                 end = read(at)
                 self._elements.content_end = end
                 return end
+        faults_before = self._book.malformed
         tag = self._tags.read(self._name_of(at))
         if tag is None:
             fix = self._mends.fix("Write &lt;", self._mends.replaced(at, at + 1, "&lt;"))
             sentence = "A tag's name follows its < at once: a < that means itself is written &lt;."
             self._book.add("xml-less-than", sentence, at, fix)
             return at + 1
-        self._elements.start(tag, at)
+        self._elements.start(tag, at, faults_before)
         self._elements.content_end = at + len(self._data[at : tag.end].rstrip())
         return tag.end
 

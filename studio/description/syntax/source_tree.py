@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from xml.parsers import expat
 
 from studio.description.syntax.xml_faults import cause_of, sentence_of
+from studio.errors import EditError
 from studio.packages.lfs import LFS_REASON, is_lfs_pointer
 from studio.problems import Place
 from studio.settings import SOURCE_SIZE_LIMIT_BYTES
@@ -27,6 +28,7 @@ DEPTH_LIMIT = 256
 
 _UTF16_MARKS = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE, b"<\0", b"\0<")
 _DECLARATION = re.compile(rb"<\?xml\s")
+_START_TAG = re.compile(rb"""<(?:[^"'>]|"[^"]*"|'[^']*')*>""")
 OUTSIDE_XML = re.compile(rb"[\0-\x08\x0b\x0c\x0e-\x1f]")
 """Bytes that no XML holds."""
 _IMPLIED_PREFIXES = frozenset({"xml", "xmlns"})
@@ -63,12 +65,14 @@ class SourceElement:
 
     `attributes` are raw (only XML's own references resolved) in written order, xmlns included.
     `offset` is the byte of `<` in the file; `line` and `column` are 1-based, in characters.
+    `end_tag` is the byte of its end tag, or behind its `/>`; -1 where a broken text has none.
     """
 
     __slots__ = (
         "attributes",
         "children",
         "column",
+        "end_tag",
         "line",
         "offset",
         "ordinal",
@@ -84,6 +88,7 @@ class SourceElement:
         self.children: list[SourceNode] = []
         self.line = self.column = 1
         self.offset = self.ordinal = 0
+        self.end_tag = -1
         self.plan: object | None = None
         """What the evaluator keeps about this element between runs."""
 
@@ -101,6 +106,35 @@ class SourceElement:
     def place(self) -> Place:
         """Where its `<` stands."""
         return Place(self.tree.path, self.line, self.column)
+
+    @property
+    def closes_itself(self) -> bool:
+        """Whether it has no end tag, as `<a/>`."""
+        return not self.children and self.tree.data[self.end_tag - 2 : self.end_tag] == b"/>"
+
+    @property
+    def inside(self) -> int:
+        """The byte behind its start tag.
+
+        Raises:
+            EditError: A broken text has no sure end of it; so for `end`.
+        """
+        if self.closes_itself:
+            return self.end_tag
+        start = _START_TAG.match(self.tree.data, self.offset)
+        if start is None:
+            raise self._endless()
+        return start.end()
+
+    @property
+    def end(self) -> int:
+        """The byte behind its end tag; errors as for `inside`."""
+        if self.end_tag < 0:
+            raise self._endless()
+        return self.end_tag if self.closes_itself else self.tree.data.index(b">", self.end_tag) + 1
+
+    def _endless(self) -> EditError:
+        return EditError(f"{self.place}: the end of this element was not found: reload the file.")
 
     def elements(self) -> Iterator[SourceElement]:
         """Its child elements, in order."""
@@ -272,7 +306,7 @@ class _Builder:
                 raise SourceError("xml-unbound-prefix", unbound_sentence(prefix), element.place)
 
     def _end(self, _tag: str) -> None:
-        self._open.pop()
+        self._open.pop().end_tag = self._parser.CurrentByteIndex
         self._prefixes.pop()
 
     def _text(self, text: str) -> None:

@@ -216,6 +216,11 @@ class FaultBook:
             raise EnoughFaultsError
 
     @property
+    def malformed(self) -> int:
+        """How many there are so far that make a text no XML: a prefix may well be undeclared."""
+        return sum(one.code != "xml-unbound-prefix" for one in self._found)
+
+    @property
     def faults(self) -> tuple[XmlFault, ...]:
         """All of them, in the order in which they were met: what closes first is mended first."""
         return tuple(self._found)

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Final
 from xml.sax.saxutils import quoteattr
 
 from studio.description.syntax.attribute_spans import attribute_spans
-from studio.description.syntax.element_ends import element_end
 from studio.description.syntax.source_tree import SourceElement, SourceError, parse_source
 from studio.errors import EditError
 from studio.problems import Fix, Replacement
@@ -160,25 +159,25 @@ def _text(element: SourceElement, span: Span) -> str:
 
 def _add(xml: str, element: SourceElement) -> Replacement:
     """Put an element in front of the end tag, on a line of its own where the others have one."""
-    end, data = element_end(element), element.tree.data
-    if end.closes_itself:
+    data, end_tag, end = element.tree.data, element.end_tag, element.end
+    if element.closes_itself:
         raise EditError(f"{element.place}: this element holds nothing to stand beside.")
     first = next(element.elements(), None)
     indent = _INDENT.search(data[: first.offset]) if first else None
-    own = _INDENT.search(data[: end.tag])
-    closing = data[end.tag : end.end].decode(element.tree.encoding)
+    own = _INDENT.search(data[:end_tag])
+    closing = data[end_tag:end].decode(element.tree.encoding)
     if indent is None or own is None:
-        return Replacement(element.tree.path, end.tag, end.end, closing, xml + closing)
+        return Replacement(element.tree.path, end_tag, end, closing, xml + closing)
     step, back = indent[0][1:].decode(), own[0].decode()
-    start = end.tag - len(back) + 1
-    line = data[start : end.end].decode(element.tree.encoding)
+    start = end_tag - len(back) + 1
+    line = data[start:end].decode(element.tree.encoding)
     newline = "\r\n" if data[: own.start()].endswith(b"\r") else "\n"
-    return Replacement(element.tree.path, start, end.end, line, f"{step}{xml}{newline}{line}")
+    return Replacement(element.tree.path, start, end, line, f"{step}{xml}{newline}{line}")
 
 
 def _remove(element: SourceElement) -> Replacement:
     """Take an element out, with its line where it has that for itself."""
-    data, start, end = element.tree.data, element.offset, element_end(element).end
+    data, start, end = element.tree.data, element.offset, element.end
     indent = _INDENT.search(data[:start])
     if indent and data[end : end + 2].strip(b"\r")[:1] == b"\n":
         start -= len(indent[0]) + (1 if data[: indent.start()].endswith(b"\r") else 0)

@@ -2,15 +2,15 @@ from __future__ import annotations
 
 import pytest
 
-from studio.description.syntax.element_ends import element_end
+from studio.description.syntax.recovery import recover
 from studio.description.syntax.source_tree import parse_source
+from studio.errors import EditError
 
 
 def written(data: bytes, tag: str) -> tuple[bytes, bytes]:
     """An element as a whole, and what stands inside it."""
     (element,) = [one for one in parse_source("x", data).elements if one.tag == tag]
-    end = element_end(element)
-    return data[element.offset : end.end], data[end.inside : end.tag]
+    return data[element.offset : element.end], data[element.inside : element.end_tag]
 
 
 @pytest.mark.parametrize(
@@ -46,4 +46,15 @@ def test_an_element_of_the_same_name_inside_is_not_the_end():
     (outer, _) = [
         one for one in parse_source("x", b"<r><a><a/></a></r>").elements if one.tag == "a"
     ]
-    assert element_end(outer).end == len(b"<r><a><a/></a>")
+    assert outer.end == len(b"<r><a><a/></a>")
+
+
+def test_an_element_of_a_broken_text_ends_where_it_is_whole():
+    tree = recover("x", b"<robot><a><b/></a><c><d x=1/></c><e></robot>").tree
+    whole, broken, open_one = (
+        next(one for one in tree.elements if one.tag == tag) for tag in ("a", "c", "e")
+    )
+    assert tree.data[whole.offset : whole.end] == b"<a><b/></a>"
+    for one in (broken, open_one):
+        with pytest.raises(EditError, match="was not found"):
+            _ = one.end
