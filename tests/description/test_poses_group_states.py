@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio.description import poses as group_states
+from studio.description.poses import group_states
 from studio.description.session import Session
 from studio.description.values import Expansion, OpenRequest, ReadPolicy
 

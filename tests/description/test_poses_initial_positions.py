@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from studio.description import poses as initial_positions
+from studio.description.poses import initial_positions
 
 
 def test_a_bare_map_and_one_under_its_key_are_the_same_pose():

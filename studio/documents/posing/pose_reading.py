@@ -6,9 +6,7 @@ import asyncio
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
-from studio.description import poses as group_states
-from studio.description import poses as initial_positions
-from studio.description.poses import INITIAL_POSITIONS_LIMIT_BYTES
+from studio.description.poses import INITIAL_POSITIONS_LIMIT_BYTES, group_states, initial_positions
 from studio.description.values import Expansion, OpenRequest
 from studio.errors import PackageError
 from studio.packages.pose_files import pose_files
