@@ -41,13 +41,30 @@ if TYPE_CHECKING:
 
     from studio.description.values import Expansion, Part
 
-
 JOINT_LIMIT: Final = 2_000
 """Joints of one pose."""
 NAME_LIMIT: Final = 100
 _NUMBER: Final = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
 _LARGEST: Final = 1e9
 """rad or m; no joint goes so far."""
+INITIAL_POSITIONS_LIMIT_BYTES: Final = 1 << 18
+_KEY: Final = "initial_positions"
+POSE_LIMIT: Final = 200
+_DIGITS: Final = 9
+"""Behind the point: a nanometre."""
+_KIND: Final = ListKind(
+    noun="pose",
+    error=PosesFileError,
+    item_limit=POSE_LIMIT,
+    entry_limit=JOINT_LIMIT,
+    depth_limit=6,
+)
+_HEAD: Final = (
+    "# Poses of {entry}: named joint positions, rad or m.\n"
+    "# Written by the studio; edit it as you like.\n"
+    f"version: {VERSION}\n"
+    "poses:\n"
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,10 +122,6 @@ def _pose(part: Part) -> NamedPose:
     )
 
 
-INITIAL_POSITIONS_LIMIT_BYTES: Final = 1 << 18
-_KEY: Final = "initial_positions"
-
-
 def initial_positions(path: str, data: bytes) -> NamedPose | None:
     """The pose of a file; None when it is no map of joints to numbers, whatever else it may be."""
     try:
@@ -135,24 +148,6 @@ def _positions(found: object) -> dict[str, float] | None:
             return None
         positions[joint] = position
     return positions
-
-
-POSE_LIMIT: Final = 200
-_DIGITS: Final = 9
-"""Behind the point: a nanometre."""
-_KIND: Final = ListKind(
-    noun="pose",
-    error=PosesFileError,
-    item_limit=POSE_LIMIT,
-    entry_limit=JOINT_LIMIT,
-    depth_limit=6,
-)
-_HEAD: Final = (
-    "# Poses of {entry}: named joint positions, rad or m.\n"
-    "# Written by the studio; edit it as you like.\n"
-    f"version: {VERSION}\n"
-    "poses:\n"
-)
 
 
 @dataclass(frozen=True, slots=True)

@@ -37,11 +37,8 @@ from studio.workers import Codec
 
 Query: TypeAlias = PartOriginQuery | SiteEffectsQuery | CheckQuery | LanguageQuery
 Reply: TypeAlias = PartOrigin | SiteEffects | Checked | NoReply | LanguageReply
-
 QUERIES: Final = (PartOriginQuery, SiteEffectsQuery, CheckQuery, *LANGUAGE_QUERIES)
 REPLIES: Final = (PartOrigin, SiteEffects, Checked, NoReply, *LANGUAGE_REPLIES)
-
-
 CODEC = Codec(
     OpenRequest,
     EditRequest,

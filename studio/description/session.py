@@ -57,11 +57,10 @@ if TYPE_CHECKING:
     from studio.description.requests import Query, Reply
     from studio.description.values import ReadPolicy, Site
 
-
 NOT_OPEN = "No robot is open in this worker: open it again."
-
-
 _log = logging.getLogger(__name__)
+Answer: TypeAlias = Expansion | Failure
+Request: TypeAlias = OpenRequest | EditRequest | ArgumentsRequest | ReloadRequest | VerifyRequest
 
 
 def verified(
@@ -104,10 +103,6 @@ def _corrections(answer: Expansion, told: Expansion | None) -> Iterator[str]:
     for name in ("robot_name", "root_attributes", "files", "include_tree", "warnings"):
         if getattr(answer, name) != getattr(told, name):
             yield name
-
-
-Answer: TypeAlias = Expansion | Failure
-Request: TypeAlias = OpenRequest | EditRequest | ArgumentsRequest | ReloadRequest | VerifyRequest
 
 
 class Session:
@@ -158,10 +153,6 @@ class Session:
             problem = Problem(Severity.ERROR, "edit-refused", str(error), Place(self._entry))
             return Failure(problem, tuple(self._store.asked))
         return self.run()
-
-    def forget_run(self) -> None:
-        """Make a full run for the next request."""
-        self._live = None
 
     def _patch(self, live: LiveRun, request: Request) -> Patch | None:
         match request:

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from studio.description.editing.sources import Sources
-from studio.description.session import Session, open_session
+from studio.description.session import Session
 from studio.description.values import (
     ArgumentsRequest,
     EditRequest,
@@ -22,6 +22,15 @@ if TYPE_CHECKING:
 
     from studio.description.session import Answer, Request
     from studio.description.values import Edit, Part, ReadPolicy, Site
+
+
+class FullSession(Session):
+    """A session that makes a full run for each request."""
+
+    def answer(self, request: Request) -> Answer:
+        """Answer as if no run came before."""
+        self._live = None
+        return super().answer(request)
 
 
 @dataclass
@@ -81,7 +90,7 @@ class SideBySide:
     ) -> None:
         self.request = OpenRequest(str(file), dict(arguments or {}), policy, {})
         self.patching, self.told = _opened(self.request)
-        self.full, self.full_told = _opened(self.request)
+        self.full, self.full_told = _opened(self.request, FullSession)
         self.patched = self.ran = 0
         self.last: Answer | None = None
         """What the patching one answered last."""
@@ -112,7 +121,6 @@ class SideBySide:
             self.request = replace(self.request, arguments=request.arguments)
         answer = self.last = self.patching.answer(request)
         self.told.take(answer)
-        self.full.forget_run()
         self.full_told.take(self.full.answer(request))
         is_patch = isinstance(answer, Expansion) and answer.is_patch
         self.patched += is_patch
@@ -142,16 +150,18 @@ class SideBySide:
         `differences` cannot tell: there both sides hear answers, and move sites between them.
         """
         overlay = self.told.sources.overlay()
-        anew = _opened(replace(self.request, overlay=overlay), self.told.sources.text)[1]
+        anew = _opened(replace(self.request, overlay=overlay), text=self.told.sources.text)[1]
         found = {name: (self.told.place(name), anew.place(name)) for name in anew.sites}
         return [f"{name}: {ours}, anew {new}" for name, (ours, new) in found.items() if ours != new]
 
 
 def _opened(
-    request: OpenRequest, text: Callable[[str], bytes] | None = None
+    request: OpenRequest,
+    kind: type[Session] = Session,
+    text: Callable[[str], bytes] | None = None,
 ) -> tuple[Session, Told]:
-    session, answer = open_session(request)
-    assert session is not None
+    session = kind(request)
+    answer = session.run()
     assert isinstance(answer, Expansion), answer
 
     def read(file: Path) -> bytes:

@@ -19,21 +19,6 @@ if TYPE_CHECKING:
     from studio.problems import Place, Problem
 
 
-def check_texts(run: CheckedRun) -> tuple[Problem, ...]:
-    """Everything that the checks find, what keeps the robot from being whole first."""
-    held = tuple(Holding(run).problems())
-    ties = (*held, *(_unless_mended(one, held) for one in loose_ties(run)))
-    names = (*repeated_names(run), *odd_names(run), *misspelt_names(run))
-    return (*ties, *names, *unused_names(run))
-
-
-def _unless_mended(problem: Problem, held: tuple[Problem, ...]) -> Problem:
-    """Roots are not tied once more where a joint's own mend ties them: both would be too much."""
-    if problem.code == "several-roots" and any(one.fix for one in held):
-        return replace(problem, fix=None)
-    return problem
-
-
 def checked_good(run: GoodRun, chain_to: Callable[[str], tuple[Place, ...]]) -> Checked:
     """The findings of a run; of one that stock xacro made none, for it tells no places."""
     if run.evaluator != "studio":
@@ -55,3 +40,18 @@ def checked_broken(run: RecoveredRun) -> Checked:
     found = check_texts(CheckedRun(run.root, trees, bindings, evaluation.chain_to))
     parts = tuple(part_of(one) for one in write_parts(run.root))
     return Checked((*run.problems, *found), ReadRobot(run.root.attributes.get("name", ""), parts))
+
+
+def check_texts(run: CheckedRun) -> tuple[Problem, ...]:
+    """Everything that the checks find, what keeps the robot from being whole first."""
+    held = tuple(Holding(run).problems())
+    ties = (*held, *(_unless_mended(one, held) for one in loose_ties(run)))
+    names = (*repeated_names(run), *odd_names(run), *misspelt_names(run))
+    return (*ties, *names, *unused_names(run))
+
+
+def _unless_mended(problem: Problem, held: tuple[Problem, ...]) -> Problem:
+    """Roots are not tied once more where a joint's own mend ties them: both would be too much."""
+    if problem.code == "several-roots" and any(one.fix for one in held):
+        return replace(problem, fix=None)
+    return problem

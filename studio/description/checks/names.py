@@ -24,6 +24,15 @@ if TYPE_CHECKING:
     from studio.description.evaluator.output_tree import OutputElement
     from studio.problems import Fix, Problem
 
+_FOUND_LIMIT = 100
+_WORD: Final = re.compile(r"[^\W\d]\w*")
+_KINDS: Final = {SiteKind.PROPERTY: ("property", "properties"), SiteKind.ARG: ("arg", "args")}
+_DEFINING: Final = frozenset({"xacro:property", "xacro:arg"})
+_ONE_BY_ONE: Final = 3
+"""So many of one file are findings of their own; a library that offers more is one finding."""
+_SHOWN: Final = 6
+_MENDED: Final = 500
+
 
 def odd_names(run: CheckedRun) -> Iterator[Problem]:
     """A robot without a name, and materials of one name that look different."""
@@ -64,9 +73,6 @@ def _look(material: OutputElement) -> str:
     return "".join(write_xml(child) for child in material.elements())
 
 
-_FOUND_LIMIT = 100
-
-
 def repeated_names(run: CheckedRun) -> Iterator[Problem]:
     """Each link and joint whose name is taken by one before it, in the words of the robot's check.
 
@@ -98,15 +104,6 @@ def _fix(element: OutputElement, names: set[tuple[str, str]]) -> Fix | None:
     names.add((element.tag, free))
     mends = ElementMends(element.origin)
     return mends.fix(f'Rename it to "{free}"', mends.value("name", free))
-
-
-_WORD: Final = re.compile(r"[^\W\d]\w*")
-_KINDS: Final = {SiteKind.PROPERTY: ("property", "properties"), SiteKind.ARG: ("arg", "args")}
-_DEFINING: Final = frozenset({"xacro:property", "xacro:arg"})
-_ONE_BY_ONE: Final = 3
-"""So many of one file are findings of their own; a library that offers more is one finding."""
-_SHOWN: Final = 6
-_MENDED: Final = 500
 
 
 def unused_names(run: CheckedRun) -> Iterator[Problem]:

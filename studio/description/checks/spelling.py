@@ -20,6 +20,12 @@ if TYPE_CHECKING:
     from studio.description.syntax.source_tree import SourceElement, SourceTree
     from studio.problems import Fix, Problem, Replacement
 
+_TAG_LIKENESS: Final = 0.7
+_ATTRIBUTE_LIKENESS: Final = 0.6
+_LIMIT: Final = 50
+_SEGMENT: Final = re.compile(rb"\$\{[^}]*\}|\$\([^)]*\)")
+_CALL: Final = "xacro:"
+
 
 class _Kind(NamedTuple):
     """What an element may hold."""
@@ -33,6 +39,8 @@ def _kind(children: str, attributes: str = "") -> _Kind:
 
 
 _SHAPED: Final = _kind("origin geometry material", "name")
+
+
 _URDF: Final = {
     "robot": _kind("link joint material"),
     "link": _kind("inertial visual collision", "name"),
@@ -61,9 +69,6 @@ _URDF: Final = {
     "mimic": _kind("", "joint multiplier offset"),
 }
 """Source: the elements that urdfdom reads."""
-_TAG_LIKENESS: Final = 0.7
-_ATTRIBUTE_LIKENESS: Final = 0.6
-_LIMIT: Final = 50
 
 
 def misspelt_names(run: CheckedRun) -> Iterator[Problem]:
@@ -120,10 +125,6 @@ def _misspelt_attribute(
     mends = ElementMends(element.origin)
     fix = mends.fix(f"Write {meant}", mends.attribute_name(name, meant))
     return run.problem(Severity.WARNING, "unknown-attribute", sentence, element, fix, parts)
-
-
-_SEGMENT: Final = re.compile(rb"\$\{[^}]*\}|\$\([^)]*\)")
-_CALL: Final = "xacro:"
 
 
 def mend_of(fault: Fault, trees: Mapping[str, SourceTree]) -> Fix | None:

@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from studio.description.syntax.source_tree import SourceElement
     from studio.problems import Fix, Problem, Replacement
 
-
 _OF_JOINTS: Final = frozenset(
     {
         *("origin", "parent", "child", "axis", "calibration", "dynamics", "limit", "mimic"),
@@ -31,6 +30,25 @@ _OF_JOINTS: Final = frozenset(
     }
 )
 """A joint that holds something else may have its parent or child there, misspelt."""
+_LIKENESS: Final = 0.7
+_NAMES_LOOKED_AT: Final = 2_000
+_FOUND_LIMIT: Final = 100
+_SHOWN: Final = 5
+_BASE: Final = "base_link"
+_SEPARATORS: Final = re.compile(r"[\s_-]+")
+
+
+def loose_ties(run: CheckedRun) -> Iterator[Problem]:
+    """What is wrong with how joints hold links: one finding for each fact."""
+    links = {name: one for one in run.keys if one.tag == "link" and (name := _name(one))}
+    ties = [tie for one in run.keys if one.tag == "joint" for tie in _ties(one)]
+    named = {tie.link for tie in ties}
+    dangling = [tie for tie in ties if tie.link not in links]
+    holding = Holding(run) if dangling else None
+    for tie in dangling[:_FOUND_LIMIT]:
+        yield _dangling(run, tie, links, named, holding)
+    if not dangling:
+        yield from _several_roots(run, links, ties)
 
 
 class _Joint(NamedTuple):
@@ -173,14 +191,6 @@ def _said(joint: _Joint) -> tuple[str | None, list[str]]:
     return element.attributes.get("type"), [write_xml(one) for one in element.elements()]
 
 
-_LIKENESS: Final = 0.7
-_NAMES_LOOKED_AT: Final = 2_000
-_FOUND_LIMIT: Final = 100
-_SHOWN: Final = 5
-_BASE: Final = "base_link"
-_SEPARATORS: Final = re.compile(r"[\s_-]+")
-
-
 class _Tie(NamedTuple):
     """A joint and the element in it that names its parent or its child."""
 
@@ -188,19 +198,6 @@ class _Tie(NamedTuple):
     end: OutputElement
     role: str
     link: str
-
-
-def loose_ties(run: CheckedRun) -> Iterator[Problem]:
-    """What is wrong with how joints hold links: one finding for each fact."""
-    links = {name: one for one in run.keys if one.tag == "link" and (name := _name(one))}
-    ties = [tie for one in run.keys if one.tag == "joint" for tie in _ties(one)]
-    named = {tie.link for tie in ties}
-    dangling = [tie for tie in ties if tie.link not in links]
-    holding = Holding(run) if dangling else None
-    for tie in dangling[:_FOUND_LIMIT]:
-        yield _dangling(run, tie, links, named, holding)
-    if not dangling:
-        yield from _several_roots(run, links, ties)
 
 
 def _ties(joint: OutputElement) -> Iterator[_Tie]:

@@ -25,7 +25,6 @@ from studio.errors import EditError
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-
 _LINE_BREAK: Final = re.compile(r"\r\n|\r|\n")
 _BREAK_TO_COME: Final = re.compile(r"\r\n?|\n")
 _NOT_TEXT: Final = re.compile("[\udc80-\udcff]")

@@ -21,7 +21,6 @@ if TYPE_CHECKING:
 
     from studio.problems import Replacement
 
-
 _XML_QUOTES = {"param": '"', "param'": "'"}
 
 

@@ -11,8 +11,13 @@ from studio.description.editing.editor_text import EditorText
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
-
 LineKind: TypeAlias = Literal["same", "old", "new"]
+LINES_SHOWN: Final = 1500
+"""Of one file; of more than that nobody reads every one."""
+_LINES_COMPARED: Final = 4000
+"""Where more lines lie between the first and the last difference, all of them are one change."""
+_AROUND: Final = 3
+_LETTERS_SHOWN: Final = 1000
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,14 +60,6 @@ def _cut(hunks: Iterable[tuple[DiffLine, ...]], limit: int) -> Iterator[tuple[Di
             return
         yield hunk[:left]
         left -= len(hunk)
-
-
-LINES_SHOWN: Final = 1500
-"""Of one file; of more than that nobody reads every one."""
-_LINES_COMPARED: Final = 4000
-"""Where more lines lie between the first and the last difference, all of them are one change."""
-_AROUND: Final = 3
-_LETTERS_SHOWN: Final = 1000
 
 
 def file_diff(before: bytes, after: bytes) -> LineDiff:

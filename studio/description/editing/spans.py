@@ -16,6 +16,11 @@ if TYPE_CHECKING:
 
     from studio.description.values import Edit, Site
 
+_QUOTES: Final = {'"': b'"', "'": b"'"}
+"""What ends an attribute; it stands just outside the span."""
+_ONE_VALUE: Final = re.compile(rb"[\w.+-]+", re.ASCII)
+"""What is one value, and the whole of it, in YAML and among the parameters of a macro."""
+
 
 @dataclass(frozen=True, slots=True)
 class Region:
@@ -104,12 +109,6 @@ class ChangedRegions:
                 return
             self._at += 1
             self._shift += one.growth
-
-
-_QUOTES: Final = {'"': b'"', "'": b"'"}
-"""What ends an attribute; it stands just outside the span."""
-_ONE_VALUE: Final = re.compile(rb"[\w.+-]+", re.ASCII)
-"""What is one value, and the whole of it, in YAML and among the parameters of a macro."""
 
 
 @dataclass(frozen=True, slots=True)

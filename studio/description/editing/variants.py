@@ -43,9 +43,37 @@ if TYPE_CHECKING:
 
     from studio.description.sites.editable_texts import Draft
 
-
 _YAML_ENDINGS = (".yaml", ".yml")
 _BOM = b"\xef\xbb\xbf"
+VARIANT_LIMIT: Final = 200
+NOTE_LIMIT: Final = 2000
+_TEXT_LIMIT: Final = 100_000
+_ENTRY_LIMIT: Final = 5000
+"""Arguments, or texts, of one variant."""
+_NUMBER_LIMIT: Final = 100_000
+_KIND: Final = ListKind(
+    noun="variant",
+    error=VariantsFileError,
+    item_limit=VARIANT_LIMIT,
+    entry_limit=_ENTRY_LIMIT,
+    depth_limit=12,
+)
+_KEYS: Final = {
+    "argument": SiteKind.ARG,
+    "property": SiteKind.PROPERTY,
+    "key": SiteKind.YAML,
+    "parameter": SiteKind.PARAM_DEFAULT,
+    "attribute": SiteKind.LITERAL,
+}
+_KEY_OF: Final = {kind: key for key, kind in _KEYS.items()}
+_WITHIN: Final = {SiteKind.PARAM_DEFAULT: "macro", SiteKind.LITERAL: "of"}
+"""The key of `TextName.within`."""
+_ITEM: Final = re.compile(r"\s*-\s")
+_HEAD: Final = (
+    "# Variants of {entry}: named sets of arguments and values on top of what the files say.\n"
+    "# Written by the studio; edit it as you like.\n"
+    f"version: {VERSION}\n"
+)
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -204,37 +232,6 @@ def texts_by_file(texts: Mapping[TextName, str]) -> dict[str, dict[TextName, str
     for name, text in texts.items():
         found.setdefault(name.file, {})[name] = text
     return found
-
-
-VARIANT_LIMIT: Final = 200
-NOTE_LIMIT: Final = 2000
-_TEXT_LIMIT: Final = 100_000
-_ENTRY_LIMIT: Final = 5000
-"""Arguments, or texts, of one variant."""
-_NUMBER_LIMIT: Final = 100_000
-_KIND: Final = ListKind(
-    noun="variant",
-    error=VariantsFileError,
-    item_limit=VARIANT_LIMIT,
-    entry_limit=_ENTRY_LIMIT,
-    depth_limit=12,
-)
-_KEYS: Final = {
-    "argument": SiteKind.ARG,
-    "property": SiteKind.PROPERTY,
-    "key": SiteKind.YAML,
-    "parameter": SiteKind.PARAM_DEFAULT,
-    "attribute": SiteKind.LITERAL,
-}
-_KEY_OF: Final = {kind: key for key, kind in _KEYS.items()}
-_WITHIN: Final = {SiteKind.PARAM_DEFAULT: "macro", SiteKind.LITERAL: "of"}
-"""The key of `TextName.within`."""
-_ITEM: Final = re.compile(r"\s*-\s")
-_HEAD: Final = (
-    "# Variants of {entry}: named sets of arguments and values on top of what the files say.\n"
-    "# Written by the studio; edit it as you like.\n"
-    f"version: {VERSION}\n"
-)
 
 
 @dataclass(frozen=True, slots=True)

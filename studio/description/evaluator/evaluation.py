@@ -44,6 +44,7 @@ INCLUDE_DEPTH: Final = 64
 """Files inside files; the deepest robot of the corpus has 7."""
 _MUTATES: Final = re.compile(rf"\.(?:{'|'.join(sorted(MUTATING))})\s*\(")
 _MAGIC: Final = re.compile(r"[*[?]+")
+_Handler: TypeAlias = "Callable[[Evaluation, Node, OutputElement, MacroTable, Scope], None]"
 
 
 class Evaluation(Walk):
@@ -351,7 +352,6 @@ def _set_attribute(
         out.made(name, record)
 
 
-_Handler: TypeAlias = "Callable[[Evaluation, Node, OutputElement, MacroTable, Scope], None]"
 _HANDLERS: Final[dict[str, _Handler]] = {
     "xacro:insert_block": insert_block,
     "xacro:include": include,

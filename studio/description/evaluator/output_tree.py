@@ -16,8 +16,21 @@ if TYPE_CHECKING:
 
     from studio.description.evaluator.graph import Record
 
-
 _AS_WRITTEN: Final[Mapping[str, Record]] = {}
+OUTPUT_LIMIT: Final = 64_000_000
+"""Characters of one robot."""
+_IN_TEXT: Final = re.compile(r"[&<>]")
+_IN_ATTRIBUTE: Final = re.compile(r"[&<>\"\t\n\r]")
+_ESCAPES: Final = {
+    "&": "&amp;",
+    "<": "&lt;",
+    ">": "&gt;",
+    '"': "&quot;",
+    "\t": "&#9;",
+    "\n": "&#10;",
+    "\r": "&#13;",
+}
+_NAMED: Final = frozenset({"link", "joint", "material"})
 
 
 class CallFrame:
@@ -68,22 +81,12 @@ class OutputElement:
 
 
 Node: TypeAlias = SourceElement | OutputElement
-OutputChild: TypeAlias = OutputElement | SourceText | SourceComment
-ChildNode: TypeAlias = SourceElement | OutputElement | SourceText | SourceComment
 
-OUTPUT_LIMIT: Final = 64_000_000
-"""Characters of one robot."""
-_IN_TEXT: Final = re.compile(r"[&<>]")
-_IN_ATTRIBUTE: Final = re.compile(r"[&<>\"\t\n\r]")
-_ESCAPES: Final = {
-    "&": "&amp;",
-    "<": "&lt;",
-    ">": "&gt;",
-    '"': "&quot;",
-    "\t": "&#9;",
-    "\n": "&#10;",
-    "\r": "&#13;",
-}
+
+OutputChild: TypeAlias = OutputElement | SourceText | SourceComment
+
+
+ChildNode: TypeAlias = SourceElement | OutputElement | SourceText | SourceComment
 
 
 def macro_calls(frame: CallFrame | None) -> tuple[MacroCall, ...]:
@@ -130,9 +133,6 @@ def _write(element: OutputElement, out: list[str], attributes: dict[str, str]) -
 
 def _escape(match: re.Match[str]) -> str:
     return _ESCAPES[match[0]]
-
-
-_NAMED: Final = frozenset({"link", "joint", "material"})
 
 
 def part_keys(root: OutputElement) -> list[tuple[str, OutputElement]]:

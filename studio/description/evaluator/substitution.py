@@ -16,7 +16,6 @@ from studio.packages.near_files import is_misspelt
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, Sequence
 
-
 _COMMANDS: Final = ("find", "env", "optenv", "dirname", "arg")
 _FIND_ONLY: Final = ("find",)
 _COMMAND: Final = re.compile(r"\$\(([^$()]+)\)")

@@ -34,7 +34,6 @@ if TYPE_CHECKING:
     from studio.description.syntax.source_tree import SourceElement
     from studio.description.values import ReadPolicy
 
-
 _PURE_LIMITS: Final = Limits(seconds=0.5)
 """Of one expression in a YAML file."""
 _TEXT_FOR_NUMBER: Final = re.compile(
@@ -42,6 +41,21 @@ _TEXT_FOR_NUMBER: Final = re.compile(
     r"|must be real number, not str|can only concatenate str|must be str, not"
 )
 """What Python says of arithmetic with a text."""
+_ARG_COMPARED: Final = re.compile(r"""['"]?\$\(arg\s+(\w+)\)['"]?\s*[=!]=\s*['"]([^'"]*)['"]""")
+_STRUCTURE: Final = Role.STRUCTURE
+_PLAIN: Final = frozenset({int, float, str, bool, type(None)})
+_LONG: Final = 1_000
+"""Characters; shorter texts are bounded by their number."""
+_NOT_XML: Final = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
+WARNINGS_LIMIT: Final = 1_000
+_MESSAGE_LIMIT: Final = 2_000
+"""Characters."""
+_SEVERITIES: Final = {
+    "message": Severity.INFO,
+    "deprecated": Severity.INFO,
+    "warning": Severity.WARNING,
+    "error": Severity.WARNING,
+}
 
 
 def pure_value(text: str) -> Any:  # noqa: ANN401
@@ -78,23 +92,6 @@ def out_of_bounds(error: BaseException) -> Refusal:
     if isinstance(error, MemoryError):
         return Refusal("value-too-large", "An expression needs too much memory.")
     return Refusal("nested-too-deep", "Properties or expressions are nested too deeply.")
-
-
-_ARG_COMPARED: Final = re.compile(r"""['"]?\$\(arg\s+(\w+)\)['"]?\s*[=!]=\s*['"]([^'"]*)['"]""")
-_STRUCTURE: Final = Role.STRUCTURE
-_PLAIN: Final = frozenset({int, float, str, bool, type(None)})
-_LONG: Final = 1_000
-"""Characters; shorter texts are bounded by their number."""
-_NOT_XML: Final = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
-WARNINGS_LIMIT: Final = 1_000
-_MESSAGE_LIMIT: Final = 2_000
-"""Characters."""
-_SEVERITIES: Final = {
-    "message": Severity.INFO,
-    "deprecated": Severity.INFO,
-    "warning": Severity.WARNING,
-    "error": Severity.WARNING,
-}
 
 
 class Texts:

@@ -17,7 +17,6 @@ from studio.description.faults import Refusal
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Iterator
 
-
 SIZE_LIMIT: Final = 1_000_000
 """Characters of a text."""
 BITS_LIMIT: Final = 2_048
@@ -42,8 +41,15 @@ _KINDS: Final[frozenset[type[object]]] = frozenset(
     )
 )
 """Those of Python; what a YAML file holds is bounded when it is read."""
-
 _HASHED: Final[frozenset[type[object]]] = frozenset((dict, set, frozenset))
+_USUAL_BYTES: Final = 1 << 20
+"""Of all files of a robot together; they have the usual time."""
+_BYTES_A_SECOND: Final = 150_000
+_MOST_READING_S: Final = 30.0
+_CLOCK_EVERY: Final = 16
+"""Steps between two looks at the clock."""
+_LOOK_AFTER_S: Final = 0.05
+"""Or so long after the last one: a step may be the search of a long text."""
 
 
 def too_large() -> Refusal:
@@ -121,16 +127,6 @@ def _items(value: Any) -> Iterable[Any]:  # noqa: ANN401
     if isinstance(value, list):
         return cast("Any", list).__iter__(value)
     return iter(cast("Iterable[Any]", value))
-
-
-_USUAL_BYTES: Final = 1 << 20
-"""Of all files of a robot together; they have the usual time."""
-_BYTES_A_SECOND: Final = 150_000
-_MOST_READING_S: Final = 30.0
-_CLOCK_EVERY: Final = 16
-"""Steps between two looks at the clock."""
-_LOOK_AFTER_S: Final = 0.05
-"""Or so long after the last one: a step may be the search of a long text."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -27,7 +27,6 @@ from studio.description.faults import Refusal
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Sized
 
-
 WORK_LIMIT: Final = 100_000_000
 """Comparisons of characters; a tenth of a second."""
 _PADDING_LIMIT: Final = 10_000
@@ -35,6 +34,10 @@ _WIDE_FIELD: Final = re.compile(r"\d{5,}|\*")
 _WIDTH: Final = re.compile(r"\d+")
 _GROWING: Final = frozenset({"add", "append", "extend", "insert", "setdefault", "update"})
 _SORT_KEYS: Final[tuple[object, ...]] = (None, len, str, int, float, bool)
+PRINTED_LIMIT: Final = 100_000
+"""Items of a value that is printed; a YAML file may hold more than an expression may make."""
+_WITH_METHODS: Final = frozenset({str, list, dict, set})
+"""Types of which some methods are guarded."""
 
 
 def guarded_method(value: Any, name: str) -> Callable[..., Any]:  # noqa: ANN401
@@ -205,10 +208,6 @@ def _printed_size(value: Any) -> int:  # noqa: ANN401
     return len(value) if isinstance(value, str) else 64 * weight(value)
 
 
-PRINTED_LIMIT: Final = 100_000
-"""Items of a value that is printed; a YAML file may hold more than an expression may make."""
-
-
 def _names(text: str) -> frozenset[str]:
     return frozenset(text.split())
 
@@ -220,18 +219,31 @@ _STR: Final = _names(
     "splitlines startswith strip swapcase title upper "
     "center expandtabs ljust rjust zfill"
 )
+
+
 _DICT_READING: Final = _names("copy get items keys values")
+
+
 _DICT: Final = _DICT_READING | _names("clear fromkeys pop popitem setdefault update")
+
+
 _LIST: Final = _names("append clear copy count extend index insert pop remove reverse sort")
+
+
 _SET: Final = _names(
     "add clear copy difference discard intersection isdisjoint issubset issuperset pop remove "
     "symmetric_difference union update"
 )
+
+
 _NUMBER: Final = _names("bit_length conjugate imag is_integer real")
+
+
 MUTATING: Final = _names(
     "add append clear discard extend insert pop popitem remove reverse setdefault sort update"
 )
 """Methods that change the value they are called on: evaluating twice is then not the same."""
+
 
 METHODS: Final[dict[type, frozenset[str]]] = {
     str: _STR,
@@ -248,8 +260,6 @@ METHODS: Final[dict[type, frozenset[str]]] = {
     date: frozenset({"day", "month", "year"}),
 }
 """Attributes that an expression may ask for, by exact type."""
-_WITH_METHODS: Final = frozenset({str, list, dict, set})
-"""Types of which some methods are guarded."""
 
 
 def attribute(value: Any, name: str) -> Any:  # noqa: ANN401 - any value of a description

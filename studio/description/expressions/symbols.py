@@ -20,7 +20,6 @@ from studio.description.faults import Fault, Refusal
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
 
-
 RANGE_LIMIT: Final = 100_000
 """Steps of a `range`."""
 _RANGE_BITS: Final = 62
@@ -182,7 +181,11 @@ _LONG_EXPOSED: Final[dict[str, Any]] = {
     "max": max,
     "round": bounded_round,
 }
+
+
 _RECENT: Final[dict[str, Any]] = {"sorted": sorted, "range": bounded_range}
+
+
 _PYTHON: Final[dict[str, Any]] = {
     **_LONG_EXPOSED,
     **_RECENT,
@@ -207,8 +210,12 @@ _PYTHON: Final[dict[str, Any]] = {
     "type": type_of,
     "zip": zip,
 }
+
+
 PURE_SYMBOLS: Final[dict[str, Any]] = {**_LONG_EXPOSED, **MATH}
 """What needs no run: for the tags of YAML files, and to know what a property hides."""
+
+
 SAFE_BUILTINS: Final[dict[str, Any]] = _PYTHON
 """Builtins that `$(eval ...)` sees, with the counted functions of its run in their place."""
 

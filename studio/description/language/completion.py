@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from pathlib import PurePath
 from typing import TYPE_CHECKING, Final
 
@@ -41,9 +40,52 @@ if TYPE_CHECKING:
     from studio.description.language.questions import Parameter
     from studio.description.language.token_at import Attribute, Segment, Tag
 
-
 _LIKELY, _FITTING, _MACRO, _POSSIBLE = range(4)
-_NUMBER: Final = re.compile(r"[+-]?(?:\d|\.\d)")
+_BOOLEANS: Final = ("true", "false")
+_SCHEME: Final = "package://"
+
+
+def completions_at(cursor: Cursor) -> Completions:
+    """What may be typed at a cursor; nothing inside of comments and the like."""
+    token = cursor.token
+    match token.where:
+        case Where.SILENT:
+            return _nothing(cursor)
+        case Where.TAG_NAME:
+            return chosen(tag_offers(cursor), cursor, token.start, token.end)
+        case Where.CLOSING:
+            return chosen(closing_offers(cursor), cursor, token.start, token.end)
+        case Where.ATTRIBUTE_NAME if token.tag is not None:
+            offers = attribute_offers(cursor, token.tag)
+            return chosen(offers, cursor, token.start, token.end)
+        case _:
+            return _in_text(cursor)
+
+
+def _in_text(cursor: Cursor) -> Completions:
+    """In a value, or between tags."""
+    token = cursor.token
+    if cursor.segment is not None:
+        return _in_segment(cursor, cursor.segment)
+    if token.tag is not None and token.attribute is not None:
+        offers, start, end = value_offers(cursor, token.tag, token.attribute)
+        return chosen(offers, cursor, start, end)
+    if token.where is Where.CONTENT and not cursor.text[token.start : cursor.index].strip():
+        return chosen(tag_offers(cursor, opening="<"), cursor, cursor.index, cursor.index)
+    return _nothing(cursor)
+
+
+def _in_segment(cursor: Cursor, segment: Segment) -> Completions:
+    if not segment.is_expression:
+        offers, start, end = substitution_offers(cursor, segment)
+        return chosen(offers, cursor, start, end)
+    start, end = word_around(cursor)
+    return chosen(expression_offers(cursor, segment), cursor, start, min(end, segment.end))
+
+
+def _nothing(cursor: Cursor) -> Completions:
+    here, _ = cursor.offsets(cursor.index, cursor.index)
+    return Completions(here, here)
 
 
 def tag_offers(cursor: Cursor, *, opening: str = "") -> Iterator[Offer]:
@@ -192,10 +234,6 @@ def _parameters(cursor: Cursor, macro: str, given: set[str]) -> Iterator[Offer]:
                 yield _attribute(cursor, group, Kind.PARAMETER, one.name, detail, said)
 
 
-_BOOLEANS: Final = ("true", "false")
-_SCHEME: Final = "package://"
-
-
 def value_offers(cursor: Cursor, tag: Tag, attribute: Attribute) -> tuple[list[Offer], int, int]:
     """What may be typed in a value, and the part of it that this takes the place of."""
     if cursor.text[cursor.index - 1 : cursor.index] == "$":
@@ -314,46 +352,3 @@ def _packages(cursor: Cursor, slash: str) -> Iterator[Offer]:
     for name, folders in cursor.reading.policy.packages.items():
         is_own = any(cursor.file.startswith(f"{one}/") for one in folders)
         yield plain(0 if is_own else 1, Kind.PACKAGE, f"{name}{slash}")
-
-
-def completions_at(cursor: Cursor) -> Completions:
-    """What may be typed at a cursor; nothing inside of comments and the like."""
-    token = cursor.token
-    match token.where:
-        case Where.SILENT:
-            return _nothing(cursor)
-        case Where.TAG_NAME:
-            return chosen(tag_offers(cursor), cursor, token.start, token.end)
-        case Where.CLOSING:
-            return chosen(closing_offers(cursor), cursor, token.start, token.end)
-        case Where.ATTRIBUTE_NAME if token.tag is not None:
-            offers = attribute_offers(cursor, token.tag)
-            return chosen(offers, cursor, token.start, token.end)
-        case _:
-            return _in_text(cursor)
-
-
-def _in_text(cursor: Cursor) -> Completions:
-    """In a value, or between tags."""
-    token = cursor.token
-    if cursor.segment is not None:
-        return _in_segment(cursor, cursor.segment)
-    if token.tag is not None and token.attribute is not None:
-        offers, start, end = value_offers(cursor, token.tag, token.attribute)
-        return chosen(offers, cursor, start, end)
-    if token.where is Where.CONTENT and not cursor.text[token.start : cursor.index].strip():
-        return chosen(tag_offers(cursor, opening="<"), cursor, cursor.index, cursor.index)
-    return _nothing(cursor)
-
-
-def _in_segment(cursor: Cursor, segment: Segment) -> Completions:
-    if not segment.is_expression:
-        offers, start, end = substitution_offers(cursor, segment)
-        return chosen(offers, cursor, start, end)
-    start, end = word_around(cursor)
-    return chosen(expression_offers(cursor, segment), cursor, start, min(end, segment.end))
-
-
-def _nothing(cursor: Cursor) -> Completions:
-    here, _ = cursor.offsets(cursor.index, cursor.index)
-    return Completions(here, here)

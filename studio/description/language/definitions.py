@@ -22,9 +22,13 @@ if TYPE_CHECKING:
     from studio.description.syntax.params import Default
     from studio.description.syntax.source_tree import SourceElement
 
-
 _VALUES = frozenset({"xacro:property", "xacro:arg"})
 _PARTS = frozenset({"link", "joint"})
+_LENGTH: Final = 2_000
+_MARKUP: Final = re.compile(r"<\s*/?[A-Za-z][^>]*>")
+_LICENCE: Final = re.compile(r"copyright|licen[sc]e|all rights reserved", re.IGNORECASE)
+_RULE: Final = re.compile(r"[=*#~_+/|-]{3,}")
+_LIST_MARK: Final = re.compile(r"^[-*@\s]*(?:param(?:eter)?\s+)?")
 
 
 class Definitions:
@@ -151,13 +155,6 @@ def parameter_bytes(macro: SourceElement, name: str) -> tuple[int, int] | None:
     if at < 0:
         return None
     return span.start + offsets[at], span.start + offsets[at + len(name)]
-
-
-_LENGTH: Final = 2_000
-_MARKUP: Final = re.compile(r"<\s*/?[A-Za-z][^>]*>")
-_LICENCE: Final = re.compile(r"copyright|licen[sc]e|all rights reserved", re.IGNORECASE)
-_RULE: Final = re.compile(r"[=*#~_+/|-]{3,}")
-_LIST_MARK: Final = re.compile(r"^[-*@\s]*(?:param(?:eter)?\s+)?")
 
 
 def documentation_of(element: SourceElement) -> str:

@@ -30,9 +30,46 @@ if TYPE_CHECKING:
     from studio.description.syntax.source_tree import SourceElement
     from studio.description.syntax.yaml_spans import YamlScalar
 
-
 _PLAIN = Widget(WidgetKind.TEXT)
 _OF_MACROS = frozenset({Kind.PARAMETER, Kind.BLOCK})
+_WORD: Final = re.compile(r"[^\s=:^|]+")
+_NAMING: Final = {
+    "xacro:property": Kind.PROPERTY,
+    "xacro:arg": Kind.ARG,
+    "xacro:macro": Kind.MACRO,
+    "link": Kind.LINK,
+    "joint": Kind.JOINT,
+}
+
+
+def subject_at(cursor: Cursor) -> Subject | None:
+    """What stands under a cursor; None when nothing that is known does."""
+    token = cursor.token
+    if token.where is Where.SILENT:
+        return None
+    if token.where in {Where.TAG_NAME, Where.CLOSING}:
+        return _tag(cursor)
+    if token.where is Where.ATTRIBUTE_NAME:
+        return _attribute_name(cursor)
+    if cursor.segment is not None:
+        return _segment(cursor, cursor.segment)
+    if token.where is Where.VALUE and cursor.tag and token.attribute:
+        return _value(cursor, cursor.tag, token.attribute)
+    return None
+
+
+def yaml_subject_at(cursor: Cursor) -> Subject | None:
+    """The key or value of a YAML file that is on the line of a cursor; the nearest one there."""
+    editor = cursor.editor
+    line = cursor.text.count("\n", 0, cursor.index) + 1
+    scalars = [one for one in read_yaml_document(editor.data).scalars if one.line == line]
+    if not scalars:
+        return None
+    byte = editor.byte_at(editor.offset_of(cursor.index))
+    near = min(scalars, key=lambda one: max(byte - one.span.end, 0))
+    start, end = (editor.index_of(editor.offset_at(b)) for b in (near.span.start, near.span.end))
+    name = str(near.path[-1]) if near.path else ""
+    return Subject(Kind.YAML, name, start, end, yaml=(cursor.file, near.path), values=(near.text,))
 
 
 def meaning_of(subject: Subject, cursor: Cursor) -> Meaning:
@@ -137,46 +174,6 @@ def _yaml_places(subject: Subject, reading: Reading) -> tuple[TextPlace, ...]:
     places = reading.places(subject.yaml[0])
     found = _yaml_scalars(subject, reading)
     return tuple(places.place(one.span.start, one.span.end) for one in found)
-
-
-_WORD: Final = re.compile(r"[^\s=:^|]+")
-_NAMING: Final = {
-    "xacro:property": Kind.PROPERTY,
-    "xacro:arg": Kind.ARG,
-    "xacro:macro": Kind.MACRO,
-    "link": Kind.LINK,
-    "joint": Kind.JOINT,
-}
-
-
-def subject_at(cursor: Cursor) -> Subject | None:
-    """What stands under a cursor; None when nothing that is known does."""
-    token = cursor.token
-    if token.where is Where.SILENT:
-        return None
-    if token.where in {Where.TAG_NAME, Where.CLOSING}:
-        return _tag(cursor)
-    if token.where is Where.ATTRIBUTE_NAME:
-        return _attribute_name(cursor)
-    if cursor.segment is not None:
-        return _segment(cursor, cursor.segment)
-    if token.where is Where.VALUE and cursor.tag and token.attribute:
-        return _value(cursor, cursor.tag, token.attribute)
-    return None
-
-
-def yaml_subject_at(cursor: Cursor) -> Subject | None:
-    """The key or value of a YAML file that is on the line of a cursor; the nearest one there."""
-    editor = cursor.editor
-    line = cursor.text.count("\n", 0, cursor.index) + 1
-    scalars = [one for one in read_yaml_document(editor.data).scalars if one.line == line]
-    if not scalars:
-        return None
-    byte = editor.byte_at(editor.offset_of(cursor.index))
-    near = min(scalars, key=lambda one: max(byte - one.span.end, 0))
-    start, end = (editor.index_of(editor.offset_at(b)) for b in (near.span.start, near.span.end))
-    name = str(near.path[-1]) if near.path else ""
-    return Subject(Kind.YAML, name, start, end, yaml=(cursor.file, near.path), values=(near.text,))
 
 
 def _tag(cursor: Cursor) -> Subject | None:

@@ -24,8 +24,9 @@ if TYPE_CHECKING:
     from studio.description.syntax.source_tree import SourceElement, SourceTree
     from studio.description.values import ReadPolicy, Site
 
-
 _LINE_BREAK: Final = re.compile(rb"\r\n|\r|\n")
+_REST_S: Final = 1.0
+"""Between two runs that are watched while somebody types."""
 
 
 class TextPlaces:
@@ -101,10 +102,6 @@ def _common(left: bytes, right: bytes) -> int:
         else:
             high = middle - 1
     return low
-
-
-_REST_S: Final = 1.0
-"""Between two runs that are watched while somebody types."""
 
 
 class _Mirror(SourceStore):

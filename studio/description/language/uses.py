@@ -23,9 +23,7 @@ if TYPE_CHECKING:
 
     from studio.description.syntax.source_tree import SourceElement, SourceTree
 
-
 Key: TypeAlias = str | int
-
 _TOKEN: Final = re.compile(
     r"(?P<string>&quot;.*?(?:&quot;|$)|&apos;.*?(?:&apos;|$)|'[^']*'?|\"[^\"]*\"?)|&#?\w+;"
     r"|(?P<number>\d[\w.]*|\.\d\w*)|(?P<name>[^\W\d]\w*)|(?P<sign>\S)",
@@ -34,6 +32,9 @@ _TOKEN: Final = re.compile(
 _LOOP: Final = re.compile(r"\bfor\s+([\w\s,()]+?)\s+in\b")
 _WORD: Final = re.compile(r"[^\W\d]\w*")
 _QUOTES: Final = ("&quot;", "&apos;", "'", '"')
+_SUBSTITUTION: Final = re.compile(r"\s*(\w+)\s+(\S+)")
+_NO_TEXT: Final = re.compile(rb"<!--.*?-->|<!\[CDATA\[.*?\]\]>", re.DOTALL)
+_PACKAGE: Final = re.compile(r"(?:package|model)://([^/\s\"']+)")
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,11 +147,6 @@ def _quoted(found: re.Match[str]) -> Step:
     closed = found[0].endswith(quote) and len(found[0]) >= 2 * len(quote)
     end = found.end() - len(quote) if closed else found.end()
     return Step(found.string[start:end], start, end)
-
-
-_SUBSTITUTION: Final = re.compile(r"\s*(\w+)\s+(\S+)")
-_NO_TEXT: Final = re.compile(rb"<!--.*?-->|<!\[CDATA\[.*?\]\]>", re.DOTALL)
-_PACKAGE: Final = re.compile(r"(?:package|model)://([^/\s\"']+)")
 
 
 @dataclass(frozen=True, slots=True)

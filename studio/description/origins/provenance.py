@@ -39,63 +39,7 @@ if TYPE_CHECKING:
     from studio.description.origins.tracing import Trace
     from studio.description.syntax.source_tree import SourceElement
 
-
 _LINE_END: Final = re.compile(rb"\r\n?|\n")
-
-
-def attribute_place(element: SourceElement, attribute: str, param: str = "") -> Place:
-    """Where an attribute's text begins; with `param`, the default of that macro parameter.
-
-    An element that has no such attribute is answered by its own place.
-    """
-    data = element.tree.data
-    try:
-        span = attribute_spans(data, element.offset)[attribute]
-        start = span.start
-        if param:
-            defaults = param_defaults(data, span, element.tree.encoding)
-            start = next((one.span.start for one in defaults if one.name == param), start)
-    except (EditError, KeyError):
-        return element.place
-    return _place_at(element, start)
-
-
-def _place_at(element: SourceElement, byte: int) -> Place:
-    """The place of a byte at or behind the `<` of an element."""
-    before = element.tree.data[element.offset : byte]
-    ends = list(_LINE_END.finditer(before))
-    if not ends:
-        column = element.column + _characters(element, before)
-        return Place(element.tree.path, element.line, column)
-    column = _characters(element, before[ends[-1].end() :]) + 1
-    return Place(element.tree.path, element.line + len(ends), column)
-
-
-def _characters(element: SourceElement, data: bytes) -> int:
-    return len(data) if data.isascii() else len(data.decode(element.tree.encoding, "replace"))
-
-
-def walk_named(top: OutputElement, path: str = "") -> Iterator[tuple[str, OutputElement]]:
-    """A part and every element below it in document order, each with its path inside the part.
-
-    The part's own path is empty.
-    """
-    yield path, top
-    counts: dict[str, int] = {}
-    for child in top.elements():
-        counts[child.tag] = counts.get(child.tag, 0) + 1
-    seen: dict[str, int] = {}
-    for child in top.elements():
-        seen[child.tag] = number = seen.get(child.tag, 0) + 1
-        name = f"{child.tag}[{number}]" if counts[child.tag] > 1 else child.tag
-        yield from walk_named(child, f"{path}/{name}" if path else name)
-
-
-def tags_of(path: str) -> tuple[str, ...]:
-    """The tags of a path, without their numbers."""
-    return tuple(step.partition("[")[0] for step in path.split("/")) if path else ()
-
-
 ATTRIBUTES_KEPT: Final = 400
 """PR2's largest part has 130."""
 INPUTS_KEPT: Final = 500
@@ -306,3 +250,56 @@ def _governors(innermost: Governor | None) -> list[Governor]:
 
 def _cut(text: str) -> str:
     return text if len(text) <= _TEXT_KEPT else text[:_TEXT_KEPT] + "..."
+
+
+def attribute_place(element: SourceElement, attribute: str, param: str = "") -> Place:
+    """Where an attribute's text begins; with `param`, the default of that macro parameter.
+
+    An element that has no such attribute is answered by its own place.
+    """
+    data = element.tree.data
+    try:
+        span = attribute_spans(data, element.offset)[attribute]
+        start = span.start
+        if param:
+            defaults = param_defaults(data, span, element.tree.encoding)
+            start = next((one.span.start for one in defaults if one.name == param), start)
+    except (EditError, KeyError):
+        return element.place
+    return _place_at(element, start)
+
+
+def _place_at(element: SourceElement, byte: int) -> Place:
+    """The place of a byte at or behind the `<` of an element."""
+    before = element.tree.data[element.offset : byte]
+    ends = list(_LINE_END.finditer(before))
+    if not ends:
+        column = element.column + _characters(element, before)
+        return Place(element.tree.path, element.line, column)
+    column = _characters(element, before[ends[-1].end() :]) + 1
+    return Place(element.tree.path, element.line + len(ends), column)
+
+
+def _characters(element: SourceElement, data: bytes) -> int:
+    return len(data) if data.isascii() else len(data.decode(element.tree.encoding, "replace"))
+
+
+def walk_named(top: OutputElement, path: str = "") -> Iterator[tuple[str, OutputElement]]:
+    """A part and every element below it in document order, each with its path inside the part.
+
+    The part's own path is empty.
+    """
+    yield path, top
+    counts: dict[str, int] = {}
+    for child in top.elements():
+        counts[child.tag] = counts.get(child.tag, 0) + 1
+    seen: dict[str, int] = {}
+    for child in top.elements():
+        seen[child.tag] = number = seen.get(child.tag, 0) + 1
+        name = f"{child.tag}[{number}]" if counts[child.tag] > 1 else child.tag
+        yield from walk_named(child, f"{path}/{name}" if path else name)
+
+
+def tags_of(path: str) -> tuple[str, ...]:
+    """The tags of a path, without their numbers."""
+    return tuple(step.partition("[")[0] for step in path.split("/")) if path else ()

@@ -38,7 +38,6 @@ if TYPE_CHECKING:
     from studio.description.values import ReadPolicy
     from studio.problems import Place
 
-
 Inputs: TypeAlias = "tuple[Input, ...]"
 _GOVERNING: Final = frozenset(
     {"xacro:if", "xacro:unless", "xacro:include", "xacro:call", "xacro:element", "xacro:property"}

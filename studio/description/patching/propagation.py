@@ -32,8 +32,9 @@ if TYPE_CHECKING:
     from studio.description.evaluator.output_tree import OutputElement, OutputIndex
     from studio.description.evaluator.texts import Texts
 
-
 _SIMPLE: Final = frozenset({int, str, bool, type(None)})
+_COMPARES: Final = re.compile(r"[=<>]|\bin\b")
+_NAME: Final = re.compile(r"[A-Za-z_]\w*")
 
 
 class PatchRefused(Exception):  # noqa: N818 - no error: the full run does it
@@ -227,10 +228,6 @@ class Propagation:
             raise PatchRefused("a text comes or goes")
         record.value = node.text = text
         self.parts.update(dict.fromkeys(self._index.parts_of_text.get(node, ())))
-
-
-_COMPARES: Final = re.compile(r"[=<>]|\bin\b")
-_NAME: Final = re.compile(r"[A-Za-z_]\w*")
 
 
 class Detaching:

@@ -27,6 +27,12 @@ if TYPE_CHECKING:
     from studio.description.values import Edit, Site
     from studio.problems import Problem
 
+_LINE_END: Final = re.compile(rb"\r\n?|\n")
+_ONE_LINE: Final = re.compile(rb"[\x20-\x7e]*")
+_PLAIN: Final = re.compile(rb"[\x20\x21\x23\x25\x28-\x3b\x3d-\x7e]*")
+"""Printable ASCII without `"`, `'`, `$`, `&` and `<`."""
+_WORD: Final = re.compile(rb"[\w.+-]*[a-zA-Z0-9][\w.+-]*", re.ASCII)
+
 
 class LiveDrafts:
     """Follows the edits of one file, each inside one draft and on its line."""
@@ -90,13 +96,6 @@ class LiveDrafts:
 
     def _place(self, index: int, place: Place) -> None:
         self._drafts[index] = replace(self._drafts[index], place=place)
-
-
-_LINE_END: Final = re.compile(rb"\r\n?|\n")
-_ONE_LINE: Final = re.compile(rb"[\x20-\x7e]*")
-_PLAIN: Final = re.compile(rb"[\x20\x21\x23\x25\x28-\x3b\x3d-\x7e]*")
-"""Printable ASCII without `"`, `'`, `$`, `&` and `<`."""
-_WORD: Final = re.compile(rb"[\w.+-]*[a-zA-Z0-9][\w.+-]*", re.ASCII)
 
 
 class TextEdits:

@@ -27,7 +27,6 @@ if TYPE_CHECKING:
 
     from studio.description.syntax.source_tree import SourceElement, SourceTree
 
-
 CHOICES_KEPT: Final = 100
 _NAMED: Final = r"(?:['\"]?\$\(arg\s+(?P<arg>[\w.-]+)\s*\)['\"]?|(?P<name>[A-Za-z_]\w*))"
 _LITERAL: Final = r"(?P<literal>'[^'$]*'|\"[^\"$]*\")"
@@ -41,6 +40,19 @@ _INSIDE: Final = re.compile(r"\$\{([^}]*)\}|\$\(eval\s+([^)]*\)?[^)]*)\)")
 _READ: Final = re.compile(r"\$\(arg\s+([\w.-]+)\s*\)|\$\{\s*(\w+)\s*\}")
 _PATH: Final = re.compile(r"(?:file://)?\$\(find\s|package://|/")
 _TRUTH: Final = re.compile(r"\$\(arg\s+([\w.-]+)\s*\)|\$\{\s*(?:not\s+)?(\w+)\s*\}")
+_FILES: Final = 100
+_ROUNDS: Final = 12
+"""Includes inside includes that are followed."""
+_TEXTS: Final = 20_000
+_DEPTH: Final = 8
+"""Names behind names that are followed."""
+_SUBSTITUTION: Final = re.compile(
+    r"\$\(find\s+(?P<find>[\w.-]+)\s*\)|package://(?P<package>[\w.-]+)"
+    r"|\$\(arg\s+(?P<arg>[\w.-]+)\s*\)|\$\{\s*(?P<name>\w+)\s*\}"
+)
+_ARG: Final = re.compile(r"\$\(arg\s+([\w.-]+)\s*\)")
+_ALIAS: Final = re.compile(r"\$\(arg\s+(?P<arg>[\w.-]+)\s*\)|\$\{\s*(?P<name>\w+)\s*\}")
+_CONDITIONS: Final = frozenset({"xacro:if", "xacro:unless"})
 
 
 class Folders(Protocol):
@@ -162,21 +174,6 @@ def _natural(text: str) -> list[tuple[int, int | str]]:
     """Sorts ur5 before ur10."""
     parts = re.split(r"(\d{1,9})", text)
     return [(0, int(part)) if part.isdigit() else (1, part) for part in parts if part]
-
-
-_FILES: Final = 100
-_ROUNDS: Final = 12
-"""Includes inside includes that are followed."""
-_TEXTS: Final = 20_000
-_DEPTH: Final = 8
-"""Names behind names that are followed."""
-_SUBSTITUTION: Final = re.compile(
-    r"\$\(find\s+(?P<find>[\w.-]+)\s*\)|package://(?P<package>[\w.-]+)"
-    r"|\$\(arg\s+(?P<arg>[\w.-]+)\s*\)|\$\{\s*(?P<name>\w+)\s*\}"
-)
-_ARG: Final = re.compile(r"\$\(arg\s+([\w.-]+)\s*\)")
-_ALIAS: Final = re.compile(r"\$\(arg\s+(?P<arg>[\w.-]+)\s*\)|\$\{\s*(?P<name>\w+)\s*\}")
-_CONDITIONS: Final = frozenset({"xacro:if", "xacro:unless"})
 
 
 class World(Folders, Protocol):

@@ -8,6 +8,17 @@ from dataclasses import dataclass
 from enum import Enum, auto
 from functools import lru_cache
 
+_BOUNDS = frozenset({"min", "max", "minimum", "maximum", "lower", "upper", "limit", "limits"})
+_AXES = frozenset({"x", "y", "z", "xyz"})
+_CONSTANTS = re.compile(
+    r"(?:m_)?pi|half_pi|two_pi|deg(?:rees?)?_?(?:2|to)_?rad(?:ians?)?"
+    r"|rad(?:ians?)?_?(?:2|to)_?deg(?:rees?)?",
+    re.IGNORECASE,
+)
+_WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
+_DEGREE_WORDS = frozenset({"deg", "degs", "degree", "degrees"})
+_NUMBER = re.compile(r"\s*[+-]?(\d*)(\.?)(\d*)(?:([eE])([+-]?)(\d+))?\s*")
+
 
 class Sweep(Enum):
     """How a slider's range follows from the value."""
@@ -39,25 +50,64 @@ class Quantity:
 
 
 UNKNOWN = Quantity("", Sweep.FREE)
+
+
 ANGLE = Quantity("rad", Sweep.ANGLE)
+
+
 DEGREES = Quantity("deg", Sweep.ANGLE)
+
+
 LENGTH = Quantity("m", Sweep.POSITIVE)
+
+
 POSITION = Quantity("m", Sweep.SYMMETRIC)
+
+
 MASS = Quantity("kg", Sweep.POSITIVE)
+
+
 INERTIA = Quantity("kg m^2", Sweep.POSITIVE)
+
+
 PRODUCT_OF_INERTIA = Quantity("kg m^2", Sweep.SYMMETRIC)
+
+
 EFFORT = Quantity("N m", Sweep.POSITIVE)
+
+
 FORCE = Quantity("N", Sweep.POSITIVE)
+
+
 ANGULAR_SPEED = Quantity("rad/s", Sweep.POSITIVE)
+
+
 LINEAR_SPEED = Quantity("m/s", Sweep.POSITIVE)
+
+
 ANGULAR_ACCELERATION = Quantity("rad/s^2", Sweep.POSITIVE)
+
+
 POSITIVE = Quantity("", Sweep.POSITIVE)
+
+
 FRACTION = Quantity("", Sweep.FRACTION)
+
+
 DIRECTION = Quantity("", Sweep.DIRECTION)
+
+
 RATIO = Quantity("", Sweep.SYMMETRIC)
+
+
 COUNT = Quantity("", Sweep.COUNT)
+
+
 RATE = Quantity("Hz", Sweep.POSITIVE)
+
+
 CONSTANT = Quantity("", Sweep.CONSTANT)
+
 
 _BY_ATTRIBUTE: dict[tuple[str, str], Quantity] = {
     ("mass", "value"): MASS,
@@ -94,7 +144,10 @@ _BY_ATTRIBUTE: dict[tuple[str, str], Quantity] = {
     ("inertia", "iyz"): PRODUCT_OF_INERTIA,
 }
 """The numbers of URDF, those that say most about their input first (an inertia says least)."""
+
+
 NUMBERED_TAGS = frozenset(tag for tag, _ in _BY_ATTRIBUTE)
+
 
 _PRISMATIC: dict[tuple[str, str], Quantity] = {
     ("limit", "lower"): POSITION,
@@ -105,6 +158,7 @@ _PRISMATIC: dict[tuple[str, str], Quantity] = {
     ("safety_controller", "soft_upper_limit"): POSITION,
     ("mimic", "offset"): POSITION,
 }
+
 
 _WORDS: dict[Quantity, str] = {
     CONSTANT: "pi halfpi twopi rad2deg deg2rad gravity",
@@ -137,16 +191,9 @@ _WORDS: dict[Quantity, str] = {
     RATE: "rate frequency hz",
     DIRECTION: "reflect mirror axis sign side direction",
 }
+
+
 _BY_WORD = {word: quantity for quantity, words in _WORDS.items() for word in words.split()}
-_BOUNDS = frozenset({"min", "max", "minimum", "maximum", "lower", "upper", "limit", "limits"})
-_AXES = frozenset({"x", "y", "z", "xyz"})
-_CONSTANTS = re.compile(
-    r"(?:m_)?pi|half_pi|two_pi|deg(?:rees?)?_?(?:2|to)_?rad(?:ians?)?"
-    r"|rad(?:ians?)?_?(?:2|to)_?deg(?:rees?)?",
-    re.IGNORECASE,
-)
-_WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
-_DEGREE_WORDS = frozenset({"deg", "degs", "degree", "degrees"})
 
 
 def in_unit(quantity: Quantity, unit: str) -> Quantity:
@@ -237,9 +284,6 @@ def _refined(named: Quantity, used: set[Quantity]) -> Quantity:
     loose = {POSITION: ANGLE, ANGLE: POSITION, ANGULAR_SPEED: LINEAR_SPEED, EFFORT: FORCE}
     other = loose.get(named)
     return other if other is not None and used == {other} else named
-
-
-_NUMBER = re.compile(r"\s*[+-]?(\d*)(\.?)(\d*)(?:([eE])([+-]?)(\d+))?\s*")
 
 
 def parse_number(text: str) -> float | None:

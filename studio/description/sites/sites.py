@@ -23,8 +23,12 @@ if TYPE_CHECKING:
     from studio.description.syntax.yaml_spans import KeyPath
     from studio.description.values import Widget
 
-
 CONSUMERS_KEPT: Final = 8
+_BindingKey: TypeAlias = tuple[str, int, str, str]
+"""File, ordinal of the element, attribute; for `params` the parameter's name."""
+_OWNERS = ("link:", "joint:")
+_MERGE = "<<"
+_ALIAS_STEPS = 16
 
 
 class Links(NamedTuple):
@@ -97,13 +101,6 @@ def _links_of(one: Input) -> Links:
         elif record.consumer is not None and len(consumers) < CONSUMERS_KEPT:
             consumers[record.consumer] = None
     return Links(len(readings), tuple(consumers), tuple(dependents))
-
-
-_BindingKey: TypeAlias = tuple[str, int, str, str]
-"""File, ordinal of the element, attribute; for `params` the parameter's name."""
-_OWNERS = ("link:", "joint:")
-_MERGE = "<<"
-_ALIAS_STEPS = 16
 
 
 class Seen(NamedTuple):

@@ -16,9 +16,9 @@ from studio.problems import Fix, Replacement
 if TYPE_CHECKING:
     from studio.description.syntax.source_tree import SourceElement
 
-
 _BESIDE: Final = 12
 """Bytes that are repeated beside what is put in."""
+_BLANKS: Final = re.compile(rb"[ \t]*\r?\n")
 
 
 class TextMends:
@@ -68,9 +68,6 @@ class TextMends:
                 break
             at -= 1
         return at
-
-
-_BLANKS: Final = re.compile(rb"[ \t]*\r?\n")
 
 
 class ElementMends:

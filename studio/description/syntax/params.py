@@ -28,6 +28,11 @@ _AS_XACRO: Final = re.compile(re.sub(r"\(\?>([^)]*)\)", r"\1", _PARAMETER.patter
 _QUOTES_LIMIT: Final = 12
 PARAMS_LIMIT: Final = 20_000
 """Characters of `params`."""
+_PARAM = re.compile(rf"\s*([^\s:=]+?)\s*:?=\s*(?:\^\|?)?({DEFAULT})(?:\s+|$)")
+_NO_DEFAULT = re.compile(r"\s*\S+(?:\s+|$)")
+_UNAMBIGUOUS = re.compile(r"""\$\{.*\}|\$\(.*\)|(?!\$[{(])(?:'[^']*'|"[^"]*"|[^\s'"]++)+""")
+"""Defaults that end where they should, whatever follows: the grammar's `.*?` reaches further."""
+_QUOTED = re.compile(r"""'[^']*'|"[^"]*\"""")
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,13 +74,6 @@ def parameter(text: str) -> tuple[str, Default | None, str]:
         return name, None, rest[0] if rest else ""
     name, forward, default, rest = match.groups()
     return name, Default(forward is not None, default or None), rest
-
-
-_PARAM = re.compile(rf"\s*([^\s:=]+?)\s*:?=\s*(?:\^\|?)?({DEFAULT})(?:\s+|$)")
-_NO_DEFAULT = re.compile(r"\s*\S+(?:\s+|$)")
-_UNAMBIGUOUS = re.compile(r"""\$\{.*\}|\$\(.*\)|(?!\$[{(])(?:'[^']*'|"[^"]*"|[^\s'"]++)+""")
-"""Defaults that end where they should, whatever follows: the grammar's `.*?` reaches further."""
-_QUOTED = re.compile(r"""'[^']*'|"[^"]*\"""")
 
 
 @dataclass(frozen=True, slots=True)

@@ -35,12 +35,18 @@ if TYPE_CHECKING:
 
     from studio.description.syntax.broken_tags import BrokenTag
 
-
 _TAG_COUNTED: Final = re.compile(rb"<(/?)([\w:.-]+)(?:[^<>]*?(/?)>)?")
 _SIBLINGS: Final = frozenset({"link", "joint"})
 _WITHIN_PARTS: Final = frozenset({"collision", "geometry", "inertial", "material", "visual"})
 _FRAGMENTS: Final = frozenset({"link", "joint", "material", "transmission", "gazebo"})
 _NAMESPACE: Final = "http://www.ros.org/wiki/xacro"
+RECOVERABLE: Final = frozenset({"xml-malformed", "xml-unbound-prefix", "xml-not-first"})
+"""Codes of what a text can have and still be read; the others are refused as before."""
+_END_TAG: Final = re.compile(rb"</\s*([^\s<>/]*)\s*[^<>]*(>?)")
+_NAME_APART: Final = re.compile(rb"<[ \t]+(?=[A-Za-z_][\w:.-]*(?:\s+[\w:.-]+\s*=|\s*/?>))")
+_ENTITY: Final = re.compile(r"&(?:#\d{1,7}|#x[0-9A-Fa-f]{1,6}|lt|gt|amp|quot|apos);")
+_DASHES: Final = re.compile(rb"-{2,}")
+_NAMES: Final = {"&lt;": "<", "&gt;": ">", "&amp;": "&", "&quot;": '"', "&apos;": "'"}
 
 
 class OpenElements:
@@ -258,16 +264,6 @@ def _unclosed_tags(data: bytes) -> set[str]:
         elif not found[3]:
             counts[found[2]] += 1
     return {name.decode("utf-8", "replace") for name, count in counts.items() if count > 0}
-
-
-RECOVERABLE: Final = frozenset({"xml-malformed", "xml-unbound-prefix", "xml-not-first"})
-"""Codes of what a text can have and still be read; the others are refused as before."""
-
-_END_TAG: Final = re.compile(rb"</\s*([^\s<>/]*)\s*[^<>]*(>?)")
-_NAME_APART: Final = re.compile(rb"<[ \t]+(?=[A-Za-z_][\w:.-]*(?:\s+[\w:.-]+\s*=|\s*/?>))")
-_ENTITY: Final = re.compile(r"&(?:#\d{1,7}|#x[0-9A-Fa-f]{1,6}|lt|gt|amp|quot|apos);")
-_DASHES: Final = re.compile(rb"-{2,}")
-_NAMES: Final = {"&lt;": "<", "&gt;": ">", "&amp;": "&", "&quot;": '"', "&apos;": "'"}
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,6 +13,11 @@ from typing import Any, Final, TypeAlias
 
 from studio.description.faults import Fault, shorten
 
+_SEGMENT: Final = re.compile(
+    r"(?P<escaped>\$\$+[{(])|\$\{(?P<expression>[^}]*)\}|\$\((?P<substitution>[^)]*)\)"
+    r"|(?P<text>[^$]+|\$[^{($]+|\$$)"
+)
+
 
 class Cut(Enum):
     """What a segment is."""
@@ -24,11 +29,6 @@ class Cut(Enum):
 
 Segment: TypeAlias = tuple[Cut, str]
 """The cut and its text without `${ }` or `$( )`."""
-
-_SEGMENT: Final = re.compile(
-    r"(?P<escaped>\$\$+[{(])|\$\{(?P<expression>[^}]*)\}|\$\((?P<substitution>[^)]*)\)"
-    r"|(?P<text>[^$]+|\$[^{($]+|\$$)"
-)
 
 
 @lru_cache(maxsize=20_000)

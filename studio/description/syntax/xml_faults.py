@@ -15,7 +15,6 @@ if TYPE_CHECKING:
 
     from studio.problems import Fix
 
-
 _SENTENCES: Final = {
     errors.XML_ERROR_MISPLACED_XML_PI: (
         "<?xml ...?> must be the very first thing of the file: move it up or remove it."
@@ -39,6 +38,8 @@ _VALUELESS: Final = re.compile(rb"\s([\w:.-]+)\s*$")
 _QUOTED: Final = re.compile(rb"\"[^\"]*\"|'[^']*'")
 _IN_COMMENT: Final = re.compile(rb"<!--(?!.*-->)", re.DOTALL)
 _IN_TAG: Final = re.compile(rb"<([\w:.-]+)([^<]*)$")
+FAULTS_LIMIT: Final = 200
+"""Of one text; behind that many nothing more is read."""
 
 
 class Element(Protocol):
@@ -177,10 +178,6 @@ _CAUSES: Final[tuple[Callable[[bytes, bytes], str], ...]] = (
     _open_value,
     _attribute,
 )
-
-
-FAULTS_LIMIT: Final = 200
-"""Of one text; behind that many nothing more is read."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -26,11 +26,8 @@ from studio.errors import EditError
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-
 KeyPath: TypeAlias = tuple[str | int, ...]
 """Where a YAML value stands: mapping keys as text and list indices, outermost first."""
-
-
 _ESCAPE = re.compile(r"\\(?:x([0-9A-Fa-f]{2})|u([0-9A-Fa-f]{4})|U([0-9A-Fa-f]{8})|(.))")
 _MEANING = {
     "0": "\0", "a": "\a", "b": "\b", "t": "\t", "n": "\n", "v": "\v", "f": "\f", "r": "\r",
@@ -45,6 +42,13 @@ _PRINTABLE = re.compile(
 )
 _PLAIN = re.compile(r"(?:[^\s\-?:,\[\]{}#&*!|>'\"%@`]|-(?=\S))(?:.*\S)?")
 _NOT_PLAIN = re.compile(r"[,\[\]{}]|:(?:\s|$)|\s#")
+_LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+_UNNAMED = "?"
+_DEPTH_LIMIT = 100
+_EVENT_LIMIT = 200_000
+_PROPERTIES = re.compile(r"\s*(?:[!&]\S*\s+)*")
+_COMMENT = re.compile(r"(?:^|(?<=\s))#([^\r\n]*)", re.MULTILINE)
+_SIMPLE_KEY = re.compile(r"[^\s.\[\]\"']+")
 
 
 def yaml_text(raw: bytes) -> str:
@@ -109,15 +113,6 @@ def _spelled(character: str) -> str:
     if _PRINTABLE.fullmatch(character):
         return character
     return f"\\x{ord(character):02x}" if ord(character) < 0x100 else f"\\u{ord(character):04x}"
-
-
-_LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
-_UNNAMED = "?"
-_DEPTH_LIMIT = 100
-_EVENT_LIMIT = 200_000
-_PROPERTIES = re.compile(r"\s*(?:[!&]\S*\s+)*")
-_COMMENT = re.compile(r"(?:^|(?<=\s))#([^\r\n]*)", re.MULTILINE)
-_SIMPLE_KEY = re.compile(r"[^\s.\[\]\"']+")
 
 
 @dataclass(frozen=True, slots=True)
