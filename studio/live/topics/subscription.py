@@ -92,9 +92,9 @@ class Subscription:
     def close(self) -> None:
         """Receive nothing more; afterwards `take` of the subscriber is not called any more."""
         self.is_closed = True
-        self._left(self)
         self.leave()
         self.clear()
+        self._left(self)
 
     def clear(self) -> None:
         """Forget what waits: afterwards the subscriber is handed nothing that came before."""
