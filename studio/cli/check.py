@@ -26,8 +26,7 @@ def run(options: argparse.Namespace) -> int:
     """Check every robot at a path; 1 when one has errors."""
     import asyncio
 
-    from studio.documents.check_run import check_path
-    from studio.documents.checks.check_report import exit_code, report_json, report_lines
+    from studio.documents.check_run import check_path, exit_code, report_json, report_lines
     from studio.server.progress_bar import ProgressBar
     from studio.settings import Settings, data_folder
 

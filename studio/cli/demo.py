@@ -44,7 +44,7 @@ def open_demo(
     models = repository_or_wheel("models")
     package = working_copy(models, settings.data_folder, _PACKAGE, fresh=fresh)
     if fresh:
-        from studio.documents.keeping.draft_store import forget_drafts
+        from studio.documents.draft_files import forget_drafts
 
         forget_drafts(settings.data_folder, package.rglob("*"))
     if not moving:

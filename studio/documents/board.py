@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from studio.documents.checks.findings import Findings
-from studio.documents.site_book import SiteBook
-from studio.documents.views import RobotViews
+from studio.documents.robot_view import RobotViews
+from studio.documents.sites import SiteBook
 from studio.protocol.documents import DocumentState, Progress
 from studio.protocol.edits import History, Problems
 from studio.protocol.listeners import Audience, Listener, tell

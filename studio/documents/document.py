@@ -11,30 +11,27 @@ from typing import TYPE_CHECKING, Literal, TypeVar
 from studio.description.editing.sources import Change, Sources
 from studio.description.values import Expansion, Failure, NoReply
 from studio.documents.board import Board
-from studio.documents.checks.checking import CheckDesk
-from studio.documents.checks.mending import MendingDesk
-from studio.documents.checks.robot_checking import RobotChecks
-from studio.documents.edit_loop import EditLoop, Outcome, Target
-from studio.documents.keeping.disk import DiskDesk
-from studio.documents.keeping.drafts import DraftDesk
-from studio.documents.keeping.exports import ExportDesk
-from studio.documents.keeping.history import HistoryDesk
-from studio.documents.keeping.saving import SaveDesk
-from studio.documents.keeping.sharing import SharedFile, place_edits
-from studio.documents.meshes.mesh_desk import MeshDesk
+from studio.documents.checks.findings import Fixes
+from studio.documents.checks.robot_checks import RobotChecks
+from studio.documents.checks.text_checks import TextChecks
+from studio.documents.drafts import Drafts
+from studio.documents.exports import Exports
+from studio.documents.file_watch import FileWatch
+from studio.documents.history import HistoryDesk
+from studio.documents.inspection import Inspection
+from studio.documents.joints import Motion
+from studio.documents.links import SharedFile, place_edits
+from studio.documents.meshes import Meshes
 from studio.documents.model import Model
-from studio.documents.packages_used import PackagesUsed
-from studio.documents.policy import target_of
-from studio.documents.posing.motion import Motion
-from studio.documents.posing.poses import PoseDesk
-from studio.documents.questions.expanded import ExpandedDesk
-from studio.documents.questions.inspection import InspectionDesk
-from studio.documents.questions.language import LanguageDesk
-from studio.documents.questions.origins import OriginDesk
-from studio.documents.questions.rewriting import RewritingDesk
-from studio.documents.questions.texts import TextDesk
-from studio.documents.states.variants import VariantDesk
-from studio.documents.watching import FileWatch
+from studio.documents.origins import Origins
+from studio.documents.poses import NamedPoses
+from studio.documents.rewriting import Rewriting
+from studio.documents.runs import Outcome, Runs, Target
+from studio.documents.saving import DiskDesk, SaveDesk
+from studio.documents.texts import EditorQuestions, Texts
+from studio.documents.urdf import UrdfText
+from studio.documents.variants.variants import NamedVariants
+from studio.documents.workspace import PackagesUsed, target_of
 from studio.errors import CommandError
 from studio.live.connection.feed import FeedDesk
 from studio.live.connection.opened_types import take_types
@@ -93,26 +90,26 @@ class Document:
         )
         self.board = Board(self)
         self.board.find("packages", location.problems)
-        self.texts, self.origins = TextDesk(self), OriginDesk(self)
-        self.inspection = InspectionDesk(self, services.meshes)
-        self.language = LanguageDesk(self)
-        self.rewriting = RewritingDesk(self)
-        self.expanded = ExpandedDesk(self, services.description_worker)
-        self.mending, self.checks = MendingDesk(self), CheckDesk(self, services)
+        self.texts, self.origins = Texts(self), Origins(self)
+        self.inspection = Inspection(self, services.meshes)
+        self.language = EditorQuestions(self)
+        self.rewriting = Rewriting(self)
+        self.expanded = UrdfText(self, services.description_worker)
+        self.mending, self.checks = Fixes(self), TextChecks(self, services)
         self.disk = DiskDesk(self)
         self.history, self.saving = HistoryDesk(self), SaveDesk(self)
-        self.drafts, self.exports = DraftDesk(self, services.settings.data_folder), ExportDesk(self)
+        self.drafts, self.exports = Drafts(self, services.settings.data_folder), Exports(self)
         self.motion = Motion(self.model, self.board)
-        self.poses = PoseDesk(self, services)
+        self.poses = NamedPoses(self, services)
         self.feed = FeedDesk(
             self.model, self.motion, lambda: self.expansion, services.wire, self.board.audience
         )
         self._services = services
         worker = services.description_worker(self.opened)
-        self._runs = EditLoop(worker, self.sources, self.target, self._take)
-        self._meshes = MeshDesk(self, services.meshes, self._watch_files)
+        self._runs = Runs(worker, self.sources, self.target, self._take)
+        self._meshes = Meshes(self, services.meshes, self._watch_files)
         self.robot_checks = RobotChecks(self, services, self._meshes)
-        self.variants = VariantDesk(self, services, self._meshes.want)
+        self.variants = NamedVariants(self, services, self._meshes.want)
         self.live = self._displays_of(services)
         self._files: tuple[str, ...] = (self.path,)
         self._watch = FileWatch(self._changed_on_disk, troubled=self.disk.tell_watch)

@@ -10,15 +10,15 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
+from studio.documents.arguments import form_at, form_of
 from studio.documents.commands import COMMANDS as DOCUMENT_COMMANDS
 from studio.documents.document import Document
-from studio.documents.keeping.left_work import LeftWorkDesk
-from studio.documents.keeping.sharing import found_again, link_to, read_link
-from studio.documents.launching import form_at, form_of
+from studio.documents.left_work import LeftDrafts
 from studio.documents.library import COMMANDS as LIBRARY_COMMANDS
 from studio.documents.library import Library
+from studio.documents.links import found_again, link_to, read_link
 from studio.documents.services import Services
-from studio.documents.upload_desk import UploadDesk
+from studio.documents.uploads import Uploads
 from studio.errors import CommandError, OutsideRootsError, UnknownDocumentError
 from studio.live.connection.rejoining import Rejoining
 from studio.live.connection.robots import COMMANDS as ROBOT_COMMANDS
@@ -75,7 +75,7 @@ class Engine:
         self._lobby = Audience()
         self._watching: dict[Listener, Document] = {}
         self.library = Library(settings, self)
-        self.uploads = UploadDesk(settings.data_folder, self)
+        self.uploads = Uploads(settings.data_folder, self)
         wire = self._services.wire
         self._rejoining = Rejoining(wire, settings.data_folder)
         self.ros = RosSystem(wire)
@@ -83,7 +83,7 @@ class Engine:
         self.wire_robots = WireRobotDesk(wire, settings.data_folder, self, self.ros)
         self.served = ServedRoots((self.library.robots_folder,))
         """What can be listed and opened out of the page."""
-        self.left_work = LeftWorkDesk(self, settings.data_folder)
+        self.left_work = LeftDrafts(self, settings.data_folder)
 
     async def start(self) -> None:
         """Warm the workers in the background; pages are served meanwhile."""

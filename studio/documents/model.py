@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from studio.documents.posing.joints import JointPositions
+from studio.documents.joints import JointPositions
 from studio.robot.assembly import Assembly, Change
 from studio.robot.kinematics import Kinematics
 from studio.robot.meshes.textured import mesh_uris

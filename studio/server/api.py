@@ -10,7 +10,7 @@ from starlette.background import BackgroundTask
 from starlette.responses import JSONResponse, PlainTextResponse, Response, StreamingResponse
 
 import studio
-from studio.documents.keeping.exports import Download
+from studio.documents.exports import Download
 from studio.errors import CommandError
 from studio.protocol import Event
 from studio.protocol.commands import COMMAND_LIMIT_BYTES

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Protocol
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
 
-    from studio.documents.keeping.exports import Download, MeshNames
+    from studio.documents.exports import Download, MeshNames
     from studio.live.topics.browsers import DataLaneEnd
     from studio.protocol import Command
     from studio.protocol.hearing import Wish

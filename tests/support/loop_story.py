@@ -12,7 +12,7 @@ from studio.description.client import EXPANSION_TIMEOUT_S, DescriptionWorker
 from studio.description.editing.sources import Sources
 from studio.description.origins.origin_values import PartOrigin, PartOriginQuery
 from studio.description.values import Edit, Expansion
-from studio.documents.edit_loop import EditLoop, Target
+from studio.documents.runs import Runs, Target
 from studio.packages.roots import ServedRoots
 from tests.support.descriptions import policy_for, robot, write
 from tests.support.open_documents import Ear, until
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
         OpenRequest,
         ReloadRequest,
     )
-    from studio.documents.edit_loop import Outcome
+    from studio.documents.runs import Outcome
 
 SOURCE = robot(
     '<xacro:arg name="side" default="left"/><xacro:property name="m" value="1"/>'
@@ -81,7 +81,7 @@ class LoopStory:
         self.file = file
         self.outcomes: list[Outcome] = []
         self.sources = Sources(roots.read, roots.resolve, lambda _: True, {})
-        self.loop = EditLoop(
+        self.loop = Runs(
             worker,
             self.sources,
             Target(str(file), policy_for(file.parent)),

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from starlette.requests import ClientDisconnect
 
-from studio.documents.keeping.exports import Download
+from studio.documents.exports import Download
 from studio.errors import ExportError, SaveConflictError, UnknownDocumentError, UploadError
 from studio.live.topics.frames import Tick, chunk_of
 from studio.protocol.documents import CloseDocument, DocumentEntry, Documents, Done
@@ -24,7 +24,7 @@ from studio.scene.host import SUBPROTOCOL
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator, Callable
 
-    from studio.documents.keeping.exports import MeshNames
+    from studio.documents.exports import MeshNames
     from studio.live.topics.browsers import DataLaneEnd
     from studio.protocol import Command
     from studio.protocol.hearing import Wish

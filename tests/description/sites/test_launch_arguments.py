@@ -8,7 +8,7 @@ import pytest
 
 from studio.description.sites.launch_arguments import LaunchArgument, launch_arguments
 from studio.description.values import WidgetKind
-from studio.documents.launching import RoomWorld
+from studio.documents.arguments import RoomWorld
 from studio.packages.workspace import open_location
 from tests.support.corpus import corpus
 from tests.support.packages import write_package

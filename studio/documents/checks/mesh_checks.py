@@ -1,0 +1,182 @@
+"""Checks of meshes: those that the scene does not show, and names that miss a file by a typo."""
+
+from __future__ import annotations
+
+import asyncio
+import re
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Final, TypeAlias
+
+from studio.description.syntax.attribute_spans import attribute_spans
+from studio.description.syntax.source_tree import SourceError, parse_source
+from studio.documents.meshes import mesh_problem
+from studio.errors import EditError, PackageError, RobotError, WorkerError
+from studio.packages.near_files import near_file
+from studio.packages.uris import resolve_uri
+from studio.problems import Fix, Replacement
+from studio.robot.meshes.reading import MESH_SUFFIXES
+from studio.robot.meshes.textured import split_textured
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+    from pathlib import Path
+
+    from studio.description.syntax.source_tree import SourceElement, SourceTree
+    from studio.documents.document import Document
+    from studio.packages.workspace import Location
+    from studio.problems import Problem
+    from studio.robot.measures import Bounds
+    from studio.robot.meshes.library import MeshLibrary
+
+
+_Stamp: TypeAlias = "tuple[Path, int, int]"
+
+
+class HiddenMeshes:
+    """Sizes and problems of meshes by URI, as they were looked at last.
+
+    Collision shapes are loaded by the scene when somebody wants to see them; the checks want to
+    know of them before.
+    """
+
+    def __init__(self, document: Document, library: MeshLibrary) -> None:
+        self._document, self._library = document, library
+        self._seen: dict[str, _Stamp | None] = {}
+        self.bounds: dict[str, Bounds] = {}
+        self.problems: dict[str, Problem] = {}
+
+    async def look(self, uris: Iterable[str]) -> bool:
+        """Look at these and forget the others; one after the other, for nobody waits for them.
+
+        Returns:
+            Whether anything is other than before.
+        """
+        before = dict(self.bounds), dict(self.problems)
+        wanted = set(uris)
+        for known in (self._seen, self.bounds, self.problems):
+            for uri in known.keys() - wanted:
+                del known[uri]
+        for uri in sorted(wanted):
+            await self._look_at(uri)
+        return before != (self.bounds, self.problems)
+
+    async def _look_at(self, uri: str) -> None:
+        stamp: _Stamp | None = None
+        try:
+            stamp = await asyncio.to_thread(self._stamp, uri)
+            if self._seen.get(uri) == stamp:
+                return
+            mesh = await self._library.load(stamp[0], self._document.location.served.all)
+            self.bounds[uri] = mesh.bounds_m
+            self.problems.pop(uri, None)
+        except (PackageError, RobotError, WorkerError) as error:
+            self.bounds.pop(uri, None)
+            self.problems[uri] = mesh_problem(uri, error)
+        self._seen[uri] = stamp
+
+    def _stamp(self, uri: str) -> _Stamp:
+        """Where a mesh lies, when it was written and how long it is."""
+        document = self._document
+        location = document.location
+        path = resolve_uri(uri, document.entry, location.index, location.served)
+        status = path.stat()
+        return path, status.st_mtime_ns, status.st_size
+
+
+_FIND: Final = re.compile(r"\$\(\s*find\s[^()]*\)")
+"""Comes to the same folder in every call of a macro."""
+_LOOKED_AT: Final = 200
+"""Missing meshes; a robot whose whole folder is gone has more."""
+
+
+@dataclass(frozen=True, slots=True)
+class NearMeshes:
+    """Looks for what was meant; touches the disk, so it is asked in a thread.
+
+    Args:
+        location: Of the robot.
+        entry: The file that its URIs stand in.
+        text: Of a file as it is edited now; None when it cannot be read.
+        named: All mesh URIs of the robot.
+    """
+
+    location: Location
+    entry: Path
+    text: Callable[[str], bytes | None]
+    named: Collection[str]
+
+    def mended(self, found: Mapping[str, Problem]) -> dict[str, Problem]:
+        """The problems by URI that can be mended, each with its fix; `found` has their places."""
+        trees: dict[str, SourceTree | None] = {}
+        made: dict[str, Problem] = {}
+        for uri, problem in list(found.items())[:_LOOKED_AT]:
+            meant = self._meant(uri) if problem.fix is None and problem.place else ""
+            if not meant or problem.place is None:
+                continue
+            file = problem.place.file
+            if file not in trees:
+                trees[file] = self._tree(file)
+            tree = trees[file]
+            if tree is not None:
+                made[uri] = _with_fix(problem, uri, meant, tree)
+        return made
+
+    def _meant(self, uri: str) -> str:
+        if split_textured(uri)[1] != uri:
+            return ""
+        index, served = self.location.index, self.location.served
+        return near_file(uri, self.entry, index, served, MESH_SUFFIXES, self.named)
+
+    def _tree(self, file: str) -> SourceTree | None:
+        data = self.text(file)
+        try:
+            return parse_source(file, data) if data is not None else None
+        except SourceError:
+            return None
+
+
+def _with_fix(problem: Problem, uri: str, meant: str, tree: SourceTree) -> Problem:
+    """The name that was meant is said in any case; the fix is there where the name stands so."""
+    edits = tuple(_edits(problem, uri, meant, tree))
+    sentence = f'{problem.sentence.removesuffix(".")}: did you mean "{meant}"?'
+    fix = Fix(f'Write "{meant}"', "edit", edits=edits) if edits else None
+    return replace(problem, sentence=sentence, fix=fix)
+
+
+def _edits(problem: Problem, uri: str, meant: str, tree: SourceTree) -> Iterator[Replacement]:
+    """Each <mesh> of the link that says this URI gets the other name behind the last slash."""
+    part = next((one for one in tree.elements if one.place == problem.place), None)
+    for mesh in _meshes(part) if part is not None else ():
+        written = mesh.attributes.get("filename", "")
+        if _says(written, uri) and (edit := _renamed(mesh, written, meant)):
+            yield edit
+
+
+def _meshes(element: SourceElement) -> Iterator[SourceElement]:
+    for one in element.elements():
+        if one.tag == "mesh":
+            yield one
+        yield from _meshes(one)
+
+
+def _says(written: str, uri: str) -> bool:
+    """Whether the text is the URI, but for folders of packages that are found."""
+    literal = _FIND.split(written)
+    if any("$" in piece for piece in literal):
+        return False
+    return re.fullmatch(".*".join(map(re.escape, literal)), uri, re.DOTALL) is not None
+
+
+def _renamed(mesh: SourceElement, written: str, meant: str) -> Replacement | None:
+    name = written.rstrip().rpartition("/")[2]
+    data, encoding = mesh.tree.data, mesh.tree.encoding
+    try:
+        span = attribute_spans(data, mesh.offset)["filename"]
+    except (EditError, KeyError):
+        return None
+    raw = name.encode(encoding, "replace")
+    at = data.rfind(raw, span.start, span.end) if raw else -1
+    plain = not re.search(r"[<>&\"'$]", name + meant)
+    if at < 0 or not plain or data[at + len(raw) : span.end].strip():
+        return None
+    return Replacement(mesh.tree.path, at, at + len(raw), name, meant)

@@ -1,0 +1,108 @@
+"""What a page measures the robot by: the frames of its joints, the masses of its links."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import TYPE_CHECKING, Final
+
+from studio.errors import PackageError, RobotError, WorkerError
+from studio.packages.uris import resolve_uri
+from studio.protocol.robot import Frames, LinkMassView, Masses, VolumeView
+from studio.robot.masses import link_mass
+from studio.robot.measures import mesh_volume, shapes_volume
+from studio.robot.values import Mesh
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from studio.documents.document import Document
+    from studio.protocol.robot import GetFrames, GetMasses
+    from studio.robot.masses import LinkMass
+    from studio.robot.measures import MeshVolumes, Volume
+    from studio.robot.meshes.library import MeshLibrary
+    from studio.robot.values import Link, Robot
+
+
+_KEPT: Final = 2_000
+"""Volumes of meshes."""
+
+
+class Inspection:
+    """Answers from the robot of a document; meshes are loaded only for their volume."""
+
+    def __init__(self, document: Document, meshes: MeshLibrary) -> None:
+        self._document, self._meshes = document, meshes
+        self._volumes: dict[str, Volume] = {}
+        """By digest of the mesh."""
+
+    def frames(self, command: GetFrames) -> Frames:
+        """Where the joints stand."""
+        model = self._document.model
+        return Frames.model_construct(
+            request=command.request,
+            revision=model.revision,
+            origins={
+                name: (*joint.origin.xyz, *joint.origin.rpy)
+                for name, joint in model.robot.joints.items()
+            },
+        )
+
+    async def masses(self, command: GetMasses) -> Masses:
+        """What the links weigh."""
+        robot = self._document.model.robot
+        weighed = [link for link in robot.links.values() if link.inertial]
+        volumes = await self._volumes_of(_mesh_uris(weighed))
+        # a large robot takes a while, and nobody else shall wait for it
+        return await asyncio.to_thread(masses_event, command.request, robot, volumes.get)
+
+    async def _volumes_of(self, uris: Iterable[str]) -> dict[str, Volume]:
+        """By URI; without the meshes that cannot be read, of which the problems tell."""
+        asked = list(uris)
+        found = await asyncio.gather(*map(self._volume, asked))
+        return {uri: one for uri, one in zip(asked, found, strict=True) if one is not None}
+
+    async def _volume(self, uri: str) -> Volume | None:
+        location = self._document.location
+        try:
+            path = resolve_uri(uri, self._document.entry, location.index, location.served)
+            mesh = await self._meshes.load(path, location.served.all)
+        except (PackageError, RobotError, WorkerError):
+            return None
+        known = self._volumes.get(mesh.digest)
+        if known is None:
+            known = await asyncio.to_thread(mesh_volume, mesh)
+            if len(self._volumes) >= _KEPT:
+                self._volumes.clear()
+            self._volumes[mesh.digest] = known
+        return known
+
+
+def masses_event(request: int, robot: Robot, of_mesh: MeshVolumes) -> Masses:
+    """The links with an inertial; `of_mesh` as for `shapes_volume`."""
+    found = ((link, link_mass(link)) for link in robot.links.values())
+    views = (_view(link, mass, of_mesh) for link, mass in found if mass)
+    return Masses.model_construct(request=request, links=tuple(views))
+
+
+def _view(link: Link, mass: LinkMass, of_mesh: MeshVolumes) -> LinkMassView:
+    return LinkMassView.model_construct(
+        link=link.name,
+        mass_kg=mass.mass_kg,
+        centre_m=mass.centre_m,
+        moments_kg_m2=mass.moments_kg_m2,
+        inertia_kg_m2=mass.inertia_kg_m2,
+        visual=_volume_view(shapes_volume(link.visuals, of_mesh)),
+        collision=_volume_view(shapes_volume(link.collisions, of_mesh)),
+    )
+
+
+def _volume_view(found: Volume | None) -> VolumeView | None:
+    if found is None:
+        return None
+    return VolumeView.model_construct(volume_m3=found.volume_m3, is_exact=found.is_exact)
+
+
+def _mesh_uris(links: Iterable[Link]) -> dict[str, None]:
+    """Each mesh of these links once."""
+    shapes = (shape for link in links for shape in (*link.visuals, *link.collisions))
+    return {one.geometry.uri: None for one in shapes if isinstance(one.geometry, Mesh)}

@@ -1,0 +1,269 @@
+"""Joint positions of a document, and what moves them: sliders, a glide, a swing, a source."""
+
+from __future__ import annotations
+
+import asyncio
+import struct
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from studio.errors import CommandError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from numpy.typing import NDArray
+
+    from studio.documents.board import Board
+    from studio.documents.model import Model
+    from studio.robot.kinematics import Kinematics
+
+
+_JOINTS_FRAME = struct.Struct("<BxxxI")
+JOINTS_FRAME_KIND = 1
+_POSITION_LIMIT = 1e9
+"""rad or m that no robot is at: beyond it poses are no numbers any more."""
+
+
+class JointPositions:
+    """Positions of the movable joints, rad or m, kept by name so that they outlive the model."""
+
+    def __init__(self, kinematics: Kinematics) -> None:
+        self._remembered: dict[str, float] = {}
+        self._rng = np.random.default_rng()
+        self.kinematics = kinematics
+        self.adopt(kinematics)
+
+    def adopt(self, kinematics: Kinematics) -> None:
+        """Go on with another model: joints of the same name stay where they are, in its limits."""
+        before, self.kinematics = self.kinematics, kinematics
+        if kinematics is not before and kinematics.reaches_as(before):
+            return
+        at_zero = zip(kinematics.movable, kinematics.zero_positions(), strict=True)
+        kept = {
+            name: kinematics.clamp(name, self._remembered.get(name, float(position)))
+            for name, position in at_zero
+        }
+        self._set_all(kinematics.positions_with_mimic(kept))
+
+    def set(self, positions: Mapping[str, float]) -> None:
+        """Move some joints, clamped to their limits; unknown and following joints are ignored."""
+        free = set(self.kinematics.free)
+        asked = {
+            name: self.kinematics.clamp(name, value)
+            for name, value in positions.items()
+            if name in free and np.isfinite(value)
+        }
+        self._set_all(self.kinematics.positions_with_mimic(self.by_name() | asked))
+
+    def follow(self, positions: Mapping[str, float]) -> None:
+        """Stand where a robot that runs says it does, be it beyond the limits of the model."""
+        free = set(self.kinematics.free)
+        told = {
+            name: value
+            for name, value in positions.items()
+            if name in free and abs(value) < _POSITION_LIMIT
+        }
+        self._set_all(self.kinematics.positions_with_mimic(self.by_name() | told))
+
+    def zero(self) -> None:
+        """All to zero, or to the nearest position within the limits."""
+        self._set_all(self.kinematics.zero_positions())
+
+    def randomize(self) -> None:
+        """All to random positions within the limits."""
+        self._set_all(self.kinematics.random_positions(self._rng))
+
+    def swing(self, time_s: float, start: NDArray[np.float64]) -> None:
+        """Where the joints are `time_s` into their swing, which began at `start`."""
+        self._set_all(self.kinematics.swing(time_s, start))
+
+    def by_name(self) -> dict[str, float]:
+        """Position of every movable joint of the model."""
+        return dict(zip(self.kinematics.movable, self.values.tolist(), strict=True))
+
+    def frame(self, revision: int) -> bytes:
+        """The positions as a packed frame: kind, 3 pad bytes, revision (u32), float64 each."""
+        return _JOINTS_FRAME.pack(JOINTS_FRAME_KIND, revision) + self.values.tobytes()
+
+    def _set_all(self, values: NDArray[np.float64]) -> None:
+        self.values = np.ascontiguousarray(values, dtype="<f8")
+        self._remembered |= self.by_name()
+
+
+TICK_S = 1 / 60
+
+
+class Animation:
+    """Calls `step(time_s)` once per tick between `start` and `stop`; late ticks are skipped."""
+
+    def __init__(self, step: Callable[[float], None]) -> None:
+        self._step = step
+        self._task: asyncio.Task[None] | None = None
+
+    @property
+    def running(self) -> bool:
+        """Whether the joints swing now."""
+        return self._task is not None and not self._task.done()
+
+    def start(self) -> None:
+        """Begin, unless it runs."""
+        if not self.running:
+            self._task = asyncio.create_task(self._run())
+
+    def stop(self) -> None:
+        """End where the joints are."""
+        if self._task:
+            self._task.cancel()
+        self._task = None
+
+    async def _run(self) -> None:
+        loop = asyncio.get_running_loop()
+        began_s = next_s = loop.time()
+        while True:
+            self._step(loop.time() - began_s)
+            next_s = max(next_s + TICK_S, loop.time())
+            await asyncio.sleep(next_s - loop.time())
+
+
+class Glide:
+    """Calls `move` with positions between two poses, once per tick, and at last with the second."""
+
+    def __init__(self, move: Callable[[Mapping[str, float]], None]) -> None:
+        self._move = move
+        self._animation = Animation(self._step)
+        self._from: dict[str, float] = {}
+        self._to: dict[str, float] = {}
+        self._duration_s = 0.0
+
+    @property
+    def running(self) -> bool:
+        """Whether the joints are on their way."""
+        return self._animation.running
+
+    def start(
+        self, begin: Mapping[str, float], end: Mapping[str, float], duration_s: float
+    ) -> None:
+        """Begin; joints that are not in `begin` are not moved. `duration_s` 0 moves at once."""
+        self.stop()
+        self._from = {name: begin[name] for name in end if name in begin}
+        self._to, self._duration_s = dict(end), duration_s
+        if duration_s > 0:
+            self._animation.start()
+        else:
+            self._step(0.0)
+
+    def stop(self) -> None:
+        """End where the joints are."""
+        self._animation.stop()
+
+    def _step(self, time_s: float) -> None:
+        share = min(1.0, time_s / self._duration_s) if self._duration_s > 0 else 1.0
+        eased = share * share * (3 - 2 * share)
+        if share >= 1:
+            self.stop()
+        self._move(
+            {
+                name: self._to[name] if share >= 1 else begin + eased * (self._to[name] - begin)
+                for name, begin in self._from.items()
+            }
+        )
+
+
+class Motion:
+    """Moves the joints of one model and tells the board where they stand."""
+
+    def __init__(self, model: Model, board: Board) -> None:
+        self._model, self._board = model, board
+        self._animation = Animation(self._swing)
+        self._glide = Glide(self._move)
+        self._swing_start = model.joints.values
+        self.leader = ""
+        """What else moves the joints, in a word; while it does, nobody else may. Empty: nothing."""
+
+    @property
+    def swinging(self) -> bool:
+        """Whether the joints swing now."""
+        return self._animation.running
+
+    def set(self, positions: Mapping[str, float]) -> None:
+        """Move joints, rad or m by name; ends a swing.
+
+        Raises:
+            CommandError: Something else moves them; so for all that follow.
+        """
+        self._begin()
+        self._move(positions)
+
+    def glide(self, positions: Mapping[str, float], duration_s: float) -> None:
+        """Move joints, rad or m by name, within a time; ends a swing."""
+        self._begin()
+        self._glide.start(self._model.joints.by_name(), positions, duration_s)
+
+    def zero(self) -> None:
+        """All joints to zero."""
+        self._begin()
+        self._model.joints.zero()
+        self._show()
+
+    def randomize(self) -> None:
+        """All joints to random positions."""
+        self._begin()
+        self._model.joints.randomize()
+        self._show()
+
+    def animate(self, *, running: bool) -> None:
+        """Swing the joints from where they are, or stop."""
+        if running:
+            self._demand_freedom()
+        self._glide.stop()
+        if running and not self.swinging:
+            self._swing_start = self._model.joints.values
+            self._animation.start()
+        elif not running:
+            self._animation.stop()
+        self._board.joints()
+
+    def lead(self, leader: str) -> None:
+        """Let something else move the joints from now on, by `follow`; empty: nobody."""
+        self._stop_swinging()
+        self.leader = leader
+
+    def follow(self, positions: Mapping[str, float]) -> None:
+        """Move joints, rad or m by name, to where their leader says they are."""
+        self._model.joints.follow(positions)
+        self._show()
+
+    def close(self) -> None:
+        """End a swing without telling anybody."""
+        self._glide.stop()
+        self._animation.stop()
+
+    def _swing(self, time_s: float) -> None:
+        self._model.joints.swing(time_s, self._swing_start)
+        self._show()
+
+    def _move(self, positions: Mapping[str, float]) -> None:
+        self._model.joints.set(positions)
+        self._show()
+
+    def _begin(self) -> None:
+        self._demand_freedom()
+        self._stop_swinging()
+
+    def _demand_freedom(self) -> None:
+        if self.leader:
+            raise CommandError(
+                f"The joints follow {self.leader}: choose the sliders as their source first."
+            )
+
+    def _stop_swinging(self) -> None:
+        self._glide.stop()
+        if self.swinging:
+            self._animation.stop()
+            self._board.joints()
+
+    def _show(self) -> None:
+        self._model.pose()
+        self._board.joint_frame()

@@ -1,0 +1,223 @@
+"""Questions to the worker of a document: queued, few of each asker, answered between two runs."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import TYPE_CHECKING, Final
+
+from studio.description.language.questions import CompletionQuery, LookUpQuery
+from studio.description.origins.origin_values import PartOriginQuery
+from studio.errors import SupersededError
+from studio.protocol.roles import Role
+
+if TYPE_CHECKING:
+    from collections.abc import Awaitable, Callable, Iterator
+
+    from studio.description.requests import Query, Reply
+    from studio.protocol.listeners import Listener
+
+
+KEPT: Final = 4
+"""Of one asker and one kind in `_TOGETHER`."""
+_TOGETHER: Final = frozenset({PartOriginQuery, LookUpQuery})
+"""Kinds that a page asks together: a link, its joint and the part that a panel explains; the word
+under the pointer and the one whose definition is wanted. Of all others only the newest counts."""
+WAITING_LIMIT: Final = 64
+"""Questions of viewers that wait: whoever is no browser has no number, and may ask at will."""
+
+
+class Waiting:
+    """One question and all who have asked it."""
+
+    def __init__(self, query: Query) -> None:
+        self.query = query
+        self._answers: dict[asyncio.Future[Reply], Listener] = {}
+
+    def join(self, asker: Listener) -> asyncio.Future[Reply]:
+        """Have the answer go to one more."""
+        answer: asyncio.Future[Reply] = asyncio.get_running_loop().create_future()
+        self._answers = {one: by for one, by in self._answers.items() if not one.done()}
+        self._answers[answer] = asker
+        return answer
+
+    @property
+    def askers(self) -> set[Listener]:
+        """Those who still wait for the answer."""
+        return {asker for answer, asker in self._answers.items() if not answer.done()}
+
+    def supersede(self, asker: Listener) -> None:
+        """Tell one of them that there are newer questions."""
+        for answer, one in self._answers.items():
+            if one is asker and not answer.done():
+                answer.set_exception(SupersededError())
+
+    def settle(self, reply: Reply) -> None:
+        """Answer all who still wait."""
+        for answer in self._open():
+            answer.set_result(reply)
+
+    def fail(self, error: Exception) -> None:
+        """Hand an error on to all who still wait."""
+        for answer in self._open():
+            answer.set_exception(error)
+
+    def cancel(self) -> None:
+        """Have nobody wait any more."""
+        for answer in self._open():
+            answer.cancel()
+
+    def _open(self) -> Iterator[asyncio.Future[Reply]]:
+        return (answer for answer in self._answers if not answer.done())
+
+
+class QuestionQueue:
+    """The questions of one document, oldest first; one that several ask alike is in it once.
+
+    Of one asker and kind only the newest are kept, for a page asks again whenever somebody looks
+    elsewhere; those before end in a SupersededError.
+    """
+
+    def __init__(self) -> None:
+        self._waiting: list[Waiting] = []
+        self._served: set[Listener] = set()
+        """Who got the last answer: the next one goes to another viewer, if one waits."""
+
+    def add(self, query: Query, asker: Listener) -> asyncio.Future[Reply]:
+        """Have a question wait; the future gets its reply."""
+        self._forget_those_left()
+        waiting = next((one for one in self._waiting if one.query == query), None)
+        if waiting is None:
+            waiting = Waiting(query)
+            self._waiting.append(waiting)
+        answer = waiting.join(asker)
+        self._keep_newest(waiting, asker)
+        self._keep_within_limit()
+        return answer
+
+    def take(self, *, is_held: bool) -> Waiting | None:
+        """The one to answer next; while held, only what is asked in the midst of typing."""
+        self._forget_those_left()
+        ready = [one for one in self._waiting if not (is_held and _is_long(one.query))]
+        if not ready:
+            return None
+        taken = min(ready, key=lambda one: (_is_viewers(one), one.askers <= self._served))
+        self._waiting.remove(taken)
+        self._served = taken.askers
+        return taken
+
+    def cancel(self) -> None:
+        """Have nobody wait any more."""
+        waiting, self._waiting = self._waiting, []
+        for one in waiting:
+            one.cancel()
+
+    def _keep_newest(self, newest: Waiting, asker: Listener) -> None:
+        kind = type(newest.query)
+        others = [
+            one
+            for one in self._waiting
+            if one is not newest and type(one.query) is kind and asker in one.askers
+        ]
+        beside = KEPT - 1 if kind in _TOGETHER else 0
+        for one in others[: max(0, len(others) - beside)]:
+            one.supersede(asker)
+
+    def _keep_within_limit(self) -> None:
+        self._forget_those_left()
+        of_viewers = [one for one in self._waiting if _is_viewers(one)]
+        for one in of_viewers[:-WAITING_LIMIT]:
+            one.fail(SupersededError())
+            self._waiting.remove(one)
+
+    def _forget_those_left(self) -> None:
+        self._waiting = [one for one in self._waiting if one.askers]
+
+
+def _is_long(query: Query) -> bool:
+    """Whether an answer may need the whole robot once more, traced."""
+    return not isinstance(query, CompletionQuery)
+
+
+def _is_viewers(waiting: Waiting) -> bool:
+    return all(asker.role is Role.VIEWER for asker in waiting.askers)
+
+
+REST_S: Final = 0.3
+"""Quiet time after which a drag, or a round of typing, counts as at rest."""
+
+
+class Questions:
+    """No question is begun while a run is under way or waits: an edit overtakes all but one.
+
+    Args:
+        runs_end: Waits until no run is under way; does not wait when none is.
+        reply: Gives the answer to one question.
+    """
+
+    def __init__(
+        self,
+        runs_end: Callable[[], Awaitable[None]],
+        reply: Callable[[Query], Awaitable[Reply]],
+    ) -> None:
+        self._runs_end, self._reply = runs_end, reply
+        self._queue = QuestionQueue()
+        self._answering: asyncio.Task[None] | None = None
+        self._rest: asyncio.TimerHandle | None = None
+        """Counts the quiet time while long questions are held."""
+        self._is_held = False
+
+    async def ask(self, query: Query, asker: Listener) -> Reply:
+        """Wait for the turn of a question, and for its answer.
+
+        Raises:
+            SupersededError: The asker has newer questions of that kind.
+        """
+        answer = self._queue.add(query, asker)
+        self._go_on()
+        return await answer
+
+    def hold(self) -> None:
+        """Somebody drags or types, and a run comes of it: what takes long waits until they rest."""
+        self._is_held = True
+        self._keep_waiting()
+
+    def run_ended(self) -> None:
+        """Count the quiet time from now on."""
+        if self._is_held:
+            self._keep_waiting()
+            self._rest = asyncio.get_running_loop().call_later(REST_S, self._release)
+
+    async def close(self) -> None:
+        """Answer nothing any more; whoever waits is cancelled."""
+        self._keep_waiting()
+        self._queue.cancel()
+        if self._answering is not None:
+            self._answering.cancel()
+            await asyncio.gather(self._answering, return_exceptions=True)
+
+    def _keep_waiting(self) -> None:
+        if self._rest is not None:
+            self._rest.cancel()
+            self._rest = None
+
+    def _release(self) -> None:
+        self._is_held = False
+        self._go_on()
+
+    def _go_on(self) -> None:
+        if self._answering is None or self._answering.done():
+            self._answering = asyncio.create_task(self._answer_all())
+
+    async def _answer_all(self) -> None:
+        while True:
+            await self._runs_end()
+            taken = self._queue.take(is_held=self._is_held)
+            if taken is None:
+                return
+            try:
+                taken.settle(await self._reply(taken.query))
+            except asyncio.CancelledError:
+                taken.cancel()
+                raise
+            except Exception as error:  # noqa: BLE001 - handed on to everyone who asked
+                taken.fail(error)

@@ -1,0 +1,290 @@
+"""Feeds the xacro worker: while one run is under way, everything new waits for the next one."""
+
+from __future__ import annotations
+
+import asyncio
+import gc
+import logging
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Final, TypeAlias
+
+from studio.description.values import (
+    ArgumentsRequest,
+    Edit,
+    EditRequest,
+    Expansion,
+    Failure,
+    NoReply,
+    OpenRequest,
+    ReadPolicy,
+    ReloadRequest,
+)
+from studio.documents.questions import Questions
+from studio.errors import WorkerDiedError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    from studio.description.client import DescriptionWorker
+    from studio.description.editing.sources import Sources
+    from studio.description.requests import Query, Reply
+    from studio.protocol.listeners import Listener
+
+
+CHECK_AFTER_S: Final = 0.15
+"""Quiet time after the last of some patches."""
+
+_GONE: Final = frozenset({"worker-died", "no-session"})
+"""Codes of a worker that has lost its robot, through no fault of what it was asked for."""
+
+_log = logging.getLogger(__name__)
+
+Outcome: TypeAlias = Expansion | Failure
+
+
+@dataclass(frozen=True, slots=True)
+class Target:
+    """What is run: the entry file, and what it may read."""
+
+    entry: str
+    policy: ReadPolicy
+
+
+class Runs:
+    """One run at a time over the newest texts; a burst of edits costs as many runs as fit.
+
+    `take` gets every outcome and the version of the sources' spans that it holds for, on the loop,
+    before those who waited for it go on.
+    """
+
+    def __init__(
+        self,
+        worker: DescriptionWorker,
+        sources: Sources,
+        target: Target,
+        take: Callable[[Outcome, int], None],
+    ) -> None:
+        self.target = target
+        self._worker, self._sources, self._take = worker, sources, take
+        self._opened_with = sources.arguments
+        self._edits: list[Edit] = []
+        self._reload: set[str] = set()
+        self._open = True
+        self._has_robot = False
+        """A run has given one."""
+        self._arguments_changed = False
+        self._waiters: list[asyncio.Future[None]] = []
+        self._turns: asyncio.Task[None] | None = None
+        self._check: asyncio.TimerHandle | None = None
+        """Counts the quiet time after a patch."""
+        self._questions = Questions(self._runs_end, self._reply)
+        self._is_closed = False
+
+    @property
+    def worker_pid(self) -> int | None:
+        """Process id of the worker while it runs."""
+        return self._worker.pid
+
+    async def edit(self, edits: Iterable[Edit], *, in_gesture: bool = False) -> None:
+        """Run with these edits, which the sources already hold.
+
+        Of a gesture more are to come: questions that take long wait until it rests.
+        """
+        self._edits.extend(edits)
+        if in_gesture:
+            self._questions.hold()
+        await self._next_run()
+
+    async def reload(self, files: Iterable[str]) -> None:
+        """Run with these files read anew."""
+        self._reload.update(files)
+        await self._next_run()
+
+    async def arguments_changed(self) -> None:
+        """Run with the sources' arguments as they are now."""
+        self._arguments_changed = True
+        await self._next_run()
+
+    async def reopen(self, target: Target | None = None) -> None:
+        """Run from scratch, for instance after the packages changed."""
+        self.target = target or self.target
+        self._open = True
+        await self._next_run()
+
+    async def ask(self, query: Query, asker: Listener) -> Reply:
+        """Ask about the last good run, in a gap that edits leave.
+
+        A worker that has no robot, for it is opening or has ended, gets one first.
+
+        Raises:
+            SupersededError: The asker has newer questions of that kind.
+        """
+        return await self._questions.ask(query, asker)
+
+    async def close(self) -> None:
+        """End the worker; those who wait, and who come later, are cancelled."""
+        self._is_closed = True
+        self._keep_quiet()
+        await self._questions.close()
+        for waiter in self._waiters:
+            waiter.cancel()
+        if self._turns:
+            self._turns.cancel()
+            await asyncio.gather(self._turns, return_exceptions=True)
+        await self._worker.close()
+
+    async def _reply(self, query: Query) -> Reply:
+        try:
+            return await self._question(query)
+        except WorkerDiedError:
+            pass  # it may have ended long ago, unnoticed: it gets its robot again
+        try:
+            return await self._question(query)
+        except WorkerDiedError as error:
+            return NoReply(str(error))
+
+    async def _question(self, query: Query) -> Reply:
+        await self._runs_end()
+        if self._worker.needs_reopen:
+            await self._next_run()
+        return await self._worker.query(query)
+
+    async def _runs_end(self) -> None:
+        while self._turns is not None and not self._turns.done():
+            await asyncio.wait({self._turns})
+
+    async def _next_run(self) -> None:
+        if self._is_closed:  # a run would start a process that nobody ends
+            raise asyncio.CancelledError
+        waiter: asyncio.Future[None] = asyncio.get_running_loop().create_future()
+        self._waiters.append(waiter)
+        self._keep_quiet()
+        if self._turns is None or self._turns.done():
+            self._turns = asyncio.create_task(self._take_turns())
+        await waiter
+
+    async def _take_turns(self) -> None:
+        while self._waiters:
+            waiters, self._waiters = self._waiters, []
+            try:
+                self._check_later(await self._run())
+            except asyncio.CancelledError:
+                for waiter in waiters:
+                    waiter.cancel()
+                raise
+            except Exception as error:  # noqa: BLE001 - handed on to everyone who waits for it
+                _settle(waiters, error)
+            else:
+                _settle(waiters, None)
+            self._questions.run_ended()
+
+    def _keep_quiet(self) -> None:
+        if self._check is not None:
+            self._check.cancel()
+            self._check = None
+
+    def _check_later(self, outcome: Outcome) -> None:
+        """When it is quiet for a while, have a full run look at what edits have patched."""
+        self._keep_quiet()
+        if isinstance(outcome, Expansion) and outcome.is_patch:
+            loop = asyncio.get_running_loop()
+            self._check = loop.call_later(CHECK_AFTER_S, self._begin_check)
+
+    def _begin_check(self) -> None:
+        if self._turns is None or self._turns.done():
+            self._turns = asyncio.create_task(self._check_patches())
+
+    async def _check_patches(self) -> None:
+        """Compare with a full run; whoever comes meanwhile has the next turn."""
+        try:
+            await self._check_once()
+        except Exception:  # noqa: BLE001 - those who wait for a turn must get it
+            _log.exception("A look at what was patched failed.")
+        if not self._waiters:
+            gc.collect(1)  # what edits left: now nobody waits for it
+        await self._take_turns()
+
+    async def _check_once(self) -> None:
+        version = self._sources.spans.version
+        outcome = await self._worker.verify()
+        if self._worker.needs_reopen:
+            await self._run()
+        elif isinstance(outcome, Failure) or not outcome.is_patch:
+            self._take(outcome, version)
+
+    async def _run(self) -> Outcome:
+        """Run with what changed since the last run, and have it taken.
+
+        A worker that has lost its robot, be it at this moment or long ago, gets everything once
+        more: then nobody notices.
+        """
+        version = self._sources.spans.version
+        outcome = await self._run_changes()
+        if isinstance(outcome, Failure) and outcome.problem.code in _GONE:
+            version = self._sources.spans.version
+            self._forget_changes()
+            outcome = await self._worker.open(self._whole())
+        if isinstance(outcome, Failure) and not self._has_robot:
+            await self._run_saved()
+        self._has_robot = self._has_robot or isinstance(outcome, Expansion)
+        self._take(outcome, version)
+        return outcome
+
+    async def _run_saved(self) -> None:
+        """Have the files taken as they are saved: unsaved work of an earlier run gives no robot.
+
+        With its arguments where they give one, else with those that the document was opened with.
+        """
+        since, arguments = self._sources.since_saved(), self._sources.arguments
+        choices = [arguments] if since else []
+        if arguments != self._opened_with:
+            choices.append(self._opened_with)
+        version = self._sources.spans.version
+        self._sources.spans.note(since)  # first: what is edited meanwhile comes after it
+        for choice in choices:
+            outcome = await self._worker.open(replace(self._whole(), arguments=choice, overlay={}))
+            self._open = True  # the worker does not hold the unsaved work
+            if isinstance(outcome, Expansion):
+                self._has_robot = True
+                self._take(outcome, version)
+                return
+
+    async def _run_changes(self) -> Outcome:
+        """Send what changed; more than one kind of change opens anew."""
+        edits, reload = tuple(self._edits), tuple(self._reload)
+        arguments, is_whole = self._arguments_changed, self._open or self._worker.needs_reopen
+        self._forget_changes()
+        if is_whole or bool(edits) + bool(reload) + arguments != 1:
+            return await self._worker.open(self._whole())
+        if reload:
+            overlay = self._sources.overlay()
+            return await self._worker.reload(
+                ReloadRequest(reload, {file: overlay[file] for file in reload if file in overlay})
+            )
+        if arguments:
+            return await self._worker.set_arguments(ArgumentsRequest(self._sources.arguments))
+        return await self._worker.edit(EditRequest(edits))
+
+    def _forget_changes(self) -> None:
+        """What is sent now holds all of them."""
+        self._edits, self._reload = [], set[str]()
+        self._open = self._arguments_changed = False
+
+    def _whole(self) -> OpenRequest:
+        return OpenRequest(
+            entry=self.target.entry,
+            arguments=self._sources.arguments,
+            policy=self.target.policy,
+            overlay=self._sources.overlay(),
+            known=self._sources.spans.numbers,
+        )
+
+
+def _settle(waiters: list[asyncio.Future[None]], error: Exception | None) -> None:
+    for waiter in waiters:
+        if waiter.done():
+            continue
+        if error is None:
+            waiter.set_result(None)
+        else:
+            waiter.set_exception(error)
