@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import atexit
 import contextlib
 import logging
 import os
 import threading
+import time
 from typing import TYPE_CHECKING, Any, Final, Generic, Protocol, TypeVar, cast
 
 import zenoh
@@ -58,11 +60,14 @@ BATCH_MAX: Final = 512
 _HEARTBEAT_S: Final = 0.5
 _CLOSE_TIMEOUT_S: Final = 1.0
 _END_TIMEOUT_S: Final = 1.0
+_EXIT_TIMEOUT_S: Final = 3.0
 _RUNTIME_VARIABLE: Final = "ZENOH_RUNTIME"
 _FEW_THREADS: Final = "(rx: (handover: app), app: (worker_threads: 1))"
 
 ItemT = TypeVar("ItemT")
 _log = logging.getLogger(__name__)
+_late_threads: set[threading.Thread] = set()
+"""Those that were still inside Zenoh when nobody waited for them any longer."""
 
 
 def use_few_threads() -> None:
@@ -115,12 +120,31 @@ def close(session: Session) -> None:
     except RuntimeError:  # since Python 3.12 none starts any more while the process ends
         _close(session)
     else:
-        closing.join(_CLOSE_TIMEOUT_S)
+        _wait_for(closing, _CLOSE_TIMEOUT_S)
 
 
 def _close(session: Session) -> None:
     with contextlib.suppress(ZError):  # somebody was slower than Zenoh waits
         cast("Any", session).close()
+
+
+def _wait_for(thread: threading.Thread, timeout_s: float) -> None:
+    thread.join(timeout_s)
+    if thread.is_alive():
+        _late_threads.difference_update([one for one in _late_threads if not one.is_alive()])
+        _late_threads.add(thread)
+
+
+@atexit.register
+def _wait_for_late_threads() -> None:
+    """Wait again before the interpreter ends.
+
+    Until Python 3.14 a thread that wants the interpreter back while it ends is unwound. Zenoh's
+    frames catch that, and glibc then aborts the process ("exception not rethrown").
+    """
+    end_s = time.monotonic() + _EXIT_TIMEOUT_S
+    for thread in tuple(_late_threads):
+        thread.join(max(0.0, end_s - time.monotonic()))
 
 
 class Declaration(Protocol):
@@ -196,7 +220,7 @@ class ReadingThread(Generic[ItemT]):
         """Undeclare the source and end; again is harmless, and so is a session that has ended."""
         self._source.undeclare()
         if self._thread is not threading.current_thread():
-            self._thread.join(_END_TIMEOUT_S)
+            _wait_for(self._thread, _END_TIMEOUT_S)
 
     def _run(self) -> None:
         for first in self._source:

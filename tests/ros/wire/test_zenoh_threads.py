@@ -28,6 +28,17 @@ with open_wire(WireSettings((sys.argv[1],), profile=profile_named("jazzy")), "of
 print(sum(name.startswith("rx-") for name in names))
 """
 
+_END_WHILE_CLOSING = """
+import sys
+from studio.ros.wire import zenoh
+from studio.ros.wire.session import open_session
+from studio.ros.wire.settings import WireSettings
+zenoh._CLOSE_TIMEOUT_S = zenoh._END_TIMEOUT_S = 0.0
+wire = open_session(WireSettings((sys.argv[1],)))
+zenoh.ReadingThread("reader", zenoh.watch_tokens(wire.zenoh, "**"), print).close()
+wire.close()
+"""
+
 
 def receiving_threads(chosen: str | None) -> int:
     """How many threads of its own Zenoh has for what comes in, with this choice of a user's."""
@@ -46,3 +57,10 @@ def test_zenoh_has_no_threads_of_its_own_for_what_comes_in():
 
 def test_who_chose_threads_of_zenoh_is_not_overruled():
     assert receiving_threads("(rx: (worker_threads: 3))") > 0
+
+
+def test_a_process_that_ends_while_a_session_closes_is_not_aborted():
+    with running_router() as endpoint:
+        words = [sys.executable, "-c", _END_WHILE_CLOSING, endpoint]
+        done = subprocess.run(words, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
