@@ -13,7 +13,7 @@ import pytest
 import studio.ros
 
 ROOM = Path(studio.ros.__file__).parent
-NEEDED = {"errors", "interfaces", "ros", "tf.columns"}
+NEEDED = {"errors", "interfaces", "ros", "tf.transforms"}
 ALL_MODULES = """
 import importlib, pkgutil, sys
 import studio.ros
