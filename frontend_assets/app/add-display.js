@@ -7,16 +7,13 @@ import { t } from "../lib/i18n.js";
 import { foundTopics, includesAll } from "../lib/live-displays.js";
 import { LongList } from "../lib/long-list.js";
 import { remembered } from "../lib/remembered.js";
-import { ageWords, flowWords } from "../lib/topic-rates.js";
 import { Dialog, Icon, SearchBox } from "../lib/ui.js";
-import { ask } from "./actions.js";
-import { addDisplay, needKinds, topicsNow } from "./live.js";
-import { useTold } from "./looking.js";
-import { connectRos } from "./ros.js";
-import { mayEdit } from "./state/connection.js";
-import { kinds } from "./state/live.js";
-import { ros } from "./state/ros.js";
-import { useTopicRates } from "./topic-rates.js";
+import { useTold } from "../model/asking.js";
+import { mayEdit } from "../model/connection.js";
+import { addDisplay, kinds, needKinds, topicsNow } from "../model/live-displays.js";
+import { ask } from "../model/requests.js";
+import { connectRos, ros } from "../model/ros.js";
+import { ageWords, flowWords, useTopicRates } from "../model/topics.js";
 
 /** @typedef {"topic" | "kind"} By */
 /** @typedef {{key: string, icon: string, label: string, note: string, aside: string, off: string, kind: string, topic: string}} Offer `off`: why it cannot be added */

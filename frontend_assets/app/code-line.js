@@ -4,7 +4,7 @@ import { html } from "vendor/preact.js";
 import { copyText } from "../lib/clipboard.js";
 import { t } from "../lib/i18n.js";
 import { IconButton } from "../lib/ui.js";
-import { notify } from "./state/view.js";
+import { notify } from "../model/view.js";
 
 /** @param {{code: string}} props */
 export function CodeLine({ code }) {

@@ -3,10 +3,9 @@
 import { html, useSignal } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
 import { EmptyState, Icon } from "../lib/ui.js";
-import { connectRos } from "./ros.js";
-import { mayEdit } from "./state/connection.js";
-import { ros } from "./state/ros.js";
-import { dialog } from "./state/view.js";
+import { mayEdit } from "../model/connection.js";
+import { connectRos, ros } from "../model/ros.js";
+import { dialog } from "../model/view.js";
 
 /** @returns {boolean} it was connected, and its router is away: nobody is seen, heard or told anything */
 export const isRouterAway = () => ros.value.state === "lost";

@@ -1,18 +1,18 @@
 /** The windows over the page: one at a time. */
 
+/** @import { Shown } from "../model/view.js" */
+
 import { html } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
 import { later } from "../lib/later.js";
 import { Dialog, DialogParts } from "../lib/ui.js";
+import { dialog } from "../model/view.js";
 import { GraphicsDialog } from "./graphics.js";
 import { DialogHelp } from "./help.js";
 import { MergeDialog } from "./merge-dialog.js";
 import { Notices } from "./notices.js";
 import { Palette } from "./palette.js";
 import { ShareDialog } from "./share.js";
-import { dialog } from "./state/view.js";
-
-/** @import { Shown } from "./state/view.js" */
 
 const AddDisplayDialog = later(async () => (await import("./add-display.js")).AddDisplayDialog);
 const KeysDialog = later(async () => (await import("./keys-dialog.js")).KeysDialog);

@@ -5,13 +5,13 @@ import { chosenFiles, droppedFiles, holdsFiles } from "../lib/dropped.js";
 import { t } from "../lib/i18n.js";
 import { takesText } from "../lib/keys.js";
 import { Icon, ProgressBar } from "../lib/ui.js";
-import { ask, goTo } from "./actions.js";
-import { takeDroppedTypes, takePastedType } from "./add-types.js";
-import { mayEdit } from "./state/connection.js";
+import { mayEdit } from "../model/connection.js";
+import { takeDroppedTypes, takePastedType } from "../model/interfaces.js";
+import { ask, goTo } from "../model/requests.js";
+import { dialog, notify } from "../model/view.js";
+import { viewport } from "../model/viewport.js";
 import { dropping, sending } from "./state/sending.js";
-import { dialog, notify } from "./state/view.js";
 import { uploadFiles } from "./upload.js";
-import { viewport } from "./viewport.js";
 
 const MEGABYTE = 1 << 20;
 /** The studio reads no longer command; longer texts come as a file. */

@@ -1,17 +1,17 @@
 /** The robot for other programs: files that the studio makes, and pictures that this page takes. */
 
-/** @import { Command } from "./commands.js" */
+/** @import { Command } from "../lib/commands.js" */
 /** @import { MenuItem } from "../lib/ui.js" */
 
 import { html } from "vendor/preact.js";
+import { commandById } from "../lib/commands.js";
 import { t } from "../lib/i18n.js";
 import { allSettled } from "../lib/latest.js";
 import { Icon, MenuButton } from "../lib/ui.js";
-import { commandById } from "./commands.js";
-import { connection, mayEdit } from "./state/connection.js";
-import { documentId, robot, title } from "./state/document.js";
-import { isFree, notify, theme } from "./state/view.js";
-import { viewport } from "./viewport.js";
+import { connection, documentId, mayEdit } from "../model/connection.js";
+import { robot, title } from "../model/document.js";
+import { isFree, notify, theme } from "../model/view.js";
+import { viewport } from "../model/viewport.js";
 
 const KEPT_MS = 60_000;
 const SCALES = [1, 2, 4];

@@ -9,8 +9,8 @@ import { t } from "../lib/i18n.js";
 import { baseName, isFilePath, pastedPath } from "../lib/paths.js";
 import { recall, remember } from "../lib/remembered.js";
 import { EmptyState, Icon, IconButton, ProgressBar, SearchBox } from "../lib/ui.js";
-import { dialog } from "./state/view.js";
-import { RefusedError, send } from "./wire.js";
+import { dialog } from "../model/view.js";
+import { RefusedError, send } from "../model/wire.js";
 
 /**
  * @typedef {{folder: Signal<Folder | null>, roots: Signal<readonly string[]>, error: Signal<string>,

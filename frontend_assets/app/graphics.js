@@ -1,8 +1,14 @@
 /** Says when this browser draws the 3D view lightly, and lets the person choose. */
 
+/** @import { MenuItem } from "../lib/ui.js" */
+/** @import { Command } from "../lib/commands.js" */
+/** @import { GraphicsChoice } from "./state/graphics.js" */
+
 import { effect, html } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
 import { Dialog, Icon, IconButton } from "../lib/ui.js";
+import { dialog } from "../model/view.js";
+import { viewport } from "../model/viewport.js";
 import {
   GRAPHICS,
   graphics,
@@ -13,12 +19,6 @@ import {
   provedSlow,
   slowHz,
 } from "./state/graphics.js";
-import { dialog } from "./state/view.js";
-import { viewport } from "./viewport.js";
-
-/** @import { MenuItem } from "../lib/ui.js" */
-/** @import { Command } from "./commands.js" */
-/** @import { GraphicsChoice } from "./state/graphics.js" */
 
 /** Ask the 3D view what it draws with, and hear when it proves slow, and what it leaves out. */
 export function followGraphics() {

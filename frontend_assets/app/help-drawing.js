@@ -3,11 +3,11 @@
 /** @import { Block, Part } from "../lib/help-text.js" */
 
 import { html } from "vendor/preact.js";
+import { onMac } from "../lib/commands.js";
 import { shortcutText } from "../lib/keys.js";
 import { Icon } from "../lib/ui.js";
-import { onMac } from "./commands.js";
+import { theme } from "../model/view.js";
 import { helpPicture } from "./help-texts.js";
-import { theme } from "./state/view.js";
 
 /** @typedef {(page: string, about: readonly string[]) => void} Choose */
 

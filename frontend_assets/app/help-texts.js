@@ -2,8 +2,7 @@
 
 /** @import { Block } from "../lib/help-text.js" */
 
-import { readHelp } from "../lib/help-text.js";
-import { textFiles } from "../lib/text-files.js";
+import { readHelp, textFiles } from "../lib/help-text.js";
 
 const FOLDER = new URL("../help/", import.meta.url).href;
 const known = textFiles(FOLDER, readHelp);

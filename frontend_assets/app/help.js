@@ -1,14 +1,14 @@
 /** The way to the help: its pages by name, and the commands and buttons that open them. */
 
-/** @import { Command } from "./commands.js" */
+/** @import { Command } from "../lib/commands.js" */
 
 import { html } from "vendor/preact.js";
 import { ICON_OF, OF_DIALOG, OTHER_PAGES } from "../lib/help-pages.js";
 import { t } from "../lib/i18n.js";
 import { IconButton } from "../lib/ui.js";
+import { dialog } from "../model/view.js";
 import { PANELS, panelTitle } from "./panels.js";
 import { help, helpTrail } from "./state/help.js";
-import { dialog } from "./state/view.js";
 
 const TRAIL_MOST = 20;
 /** What had the focus before. @type {Element | null} */

@@ -6,9 +6,9 @@ import { html } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
 import { allSettled } from "../lib/latest.js";
 import { Icon, MenuButton } from "../lib/ui.js";
-import { ask } from "./actions.js";
-import { mayEdit } from "./state/connection.js";
-import { history } from "./state/document.js";
+import { mayEdit } from "../model/connection.js";
+import { history } from "../model/document.js";
+import { ask } from "../model/requests.js";
 
 const SHOWN = 200;
 

@@ -1,13 +1,10 @@
 /** What an editor asks the studio about a text; an answer that does not come is no answer. */
 
-/**
- * @import { Completions, Meaning, References } from "../types/wire.d.ts"
- * @import { Answer, Asked } from "./wire.js"
- * @import { Command } from "../types/wire.d.ts"
- * @import { TextLink } from "./texts.js"
- */
+/** @import { Command, Completions, Meaning, References } from "../types/wire.d.ts" */
+/** @import { Answer, Asked } from "../model/wire.js" */
+/** @import { TextLink } from "./texts.js" */
 
-import { send } from "./wire.js";
+import { send } from "../model/wire.js";
 
 /** @param {Asked<Command>} command @returns {Promise<Answer | null>} */
 const asked = (command) => send(command).catch(() => null);

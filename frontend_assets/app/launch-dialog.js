@@ -1,6 +1,6 @@
 /** The arguments of a robot as a form: before it opens, when it lacks one, and at any time after. */
 
-/** @import { Arguments, ArgumentView, SiteView } from "../types/wire.d.ts" */
+/** @import { ArgumentView, Arguments, SiteView } from "../types/wire.d.ts" */
 /** @import { Signal } from "vendor/preact.js" */
 
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
@@ -8,15 +8,15 @@ import { t } from "../lib/i18n.js";
 import { baseName } from "../lib/paths.js";
 import { isChanged } from "../lib/sites.js";
 import { Dialog, EmptyState, Icon, IconButton, ProgressBar, Switch } from "../lib/ui.js";
-import { ask, openPath, resetSite } from "./actions.js";
 import {
   allSites,
   documentState,
   problems,
   showingLastGood,
   sitesRevision,
-} from "./state/document.js";
-import { RefusedError, send } from "./wire.js";
+} from "../model/document.js";
+import { ask, openPath, resetSite } from "../model/requests.js";
+import { RefusedError, send } from "../model/wire.js";
 
 /** What is to be passed, by name; null: nothing, the default counts. @typedef {ReadonlyMap<string, string | null>} Values */
 /** @typedef {(value: string | null) => void} Write */

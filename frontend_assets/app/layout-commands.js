@@ -3,18 +3,17 @@
 /** @import { Dock } from "../lib/dock.js" */
 /** @import { Place } from "../lib/dock-places.js" */
 /** @import { MenuItem } from "../lib/ui.js" */
-/** @import { Command } from "./commands.js" */
+/** @import { Command } from "../lib/commands.js" */
 
 import { effect } from "vendor/preact.js";
+import { addCommands, replaceCommands } from "../lib/commands.js";
 import { t } from "../lib/i18n.js";
 import { openMenu } from "../lib/ui.js";
-import { addCommands, replaceCommands } from "./commands.js";
+import { dialog, isFree, layoutDesk, size } from "../model/view.js";
 import { helpTitle, openHelp } from "./help.js";
-import { layoutDesk } from "./layouts.js";
 import { LIVE } from "./live-layout.js";
 import { PANELS, panelTitle } from "./panels.js";
 import { layoutInUse, ownLayouts } from "./state/own-layouts.js";
-import { dialog, isFree, size } from "./state/view.js";
 
 /** So many layouts have a key of their own. */
 const KEYS_MOST = 9;

@@ -1,13 +1,16 @@
 /** The window of the layouts: save the present one, use, rename and delete them, take them along as a file. */
 
+/** @import { OwnLayout } from "../lib/layout-file.js" */
+
 import { html, useRef, useSignal } from "vendor/preact.js";
 import { saveAsFile } from "../lib/files.js";
 import { t } from "../lib/i18n.js";
 import { FILE_LARGEST, LayoutFileError, layoutFile, readLayoutFile } from "../lib/layout-file.js";
 import { Dialog, Icon, IconButton } from "../lib/ui.js";
+import { layoutDesk, notify } from "../model/view.js";
 import { layoutName } from "./layout-commands.js";
-import { isPanel, layoutDesk } from "./layouts.js";
 import { LIVE } from "./live-layout.js";
+import { PANELS } from "./panels.js";
 import {
   addLayouts,
   deleteLayout,
@@ -16,9 +19,6 @@ import {
   renameLayout,
   saveLayout,
 } from "./state/own-layouts.js";
-import { notify } from "./state/view.js";
-
-/** @import { OwnLayout } from "../lib/layout-file.js" */
 
 const FILE = "layouts.studio.json";
 
@@ -123,7 +123,7 @@ function ImportButton() {
 async function importFile(file) {
   try {
     if (file.size > FILE_LARGEST) throw new LayoutFileError("layouts.import.too_large");
-    const { layouts, dropped } = readLayoutFile(await file.text(), isPanel);
+    const { layouts, dropped } = readLayoutFile(await file.text(), (id) => id in PANELS);
     const count = addLayouts(layouts);
     notify(t("layouts.import.done", { count }), { bad: count < layouts.length });
     if (dropped.length > 0)

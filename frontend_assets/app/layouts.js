@@ -3,13 +3,12 @@
 /** @import { Arrangement, Split } from "../lib/arrangement.js" */
 /** @import { Dock } from "../lib/dock.js" */
 
-import { effect, signal, untracked } from "vendor/preact.js";
+import { effect, untracked } from "vendor/preact.js";
 import { readArrangement } from "../lib/arrangement.js";
 import { recall, remember } from "../lib/remembered.js";
+import { layoutDesk, size } from "../model/view.js";
 import { LIVE, liveLayout } from "./live-layout.js";
-import { PANELS } from "./panels.js";
 import { layoutInUse, ownArrangement } from "./state/own-layouts.js";
-import { size } from "./state/view.js";
 
 const PHONE_BELOW_PX = 700;
 const LOW_BELOW_PX = 480;
@@ -29,10 +28,11 @@ export function sizeOf(width, height) {
  * @param {"wide" | "medium" | "phone"} kind
  * @param {number} width px
  * @param {number} height px
+ * @param {readonly string[]} panels all that there are
  * @returns {Split[]} a row, left to right; a split in it stacks from top to bottom
  */
-export function modelLayout(kind, width, height) {
-  if (kind === "phone") return [{ tabs: Object.keys(PANELS), size: width }];
+export function modelLayout(kind, width, height, panels) {
+  if (kind === "phone") return [{ tabs: [...panels], size: width }];
   if (kind === "medium") {
     const right = Math.round(Math.min(340, width * 0.42));
     const low = Math.round(height * LOW_SHARE);
@@ -63,34 +63,21 @@ export function modelLayout(kind, width, height) {
 /** @param {"wide" | "medium" | "phone"} kind */
 const storeName = (kind) => `layout.${VERSION}.${kind}`;
 
-/** @param {string} id */
-export const isPanel = (id) => Object.hasOwn(PANELS, id);
-
-/**
- * @typedef {object} LayoutDesk
- * @property {() => Arrangement} present how the panels stand now
- * @property {(name: string) => void} use a layout; the empty name is the studio's own
- * @property {(id: string, other: string) => void} showBeside a panel, with another one kept in sight
- * @property {() => void} reset to the layout in use as it was saved
- */
-
-/** What arranges the dock; null until it stands. @type {import("vendor/preact.js").Signal<LayoutDesk | null>} */
-export const layoutDesk = signal(null);
-
 /**
  * Keep the dock arranged as the size of the window asks.
  *
  * @param {Dock} dock
  * @param {HTMLElement} element that holds it
+ * @param {readonly string[]} panels all that there are
  * @returns {{keep: () => void}} to be called when a person moved something
  */
-export function followSize(dock, element) {
+export function followSize(dock, element, panels) {
   const arrange = () => {
     const kind = size.value;
     // The words of a panel come with it: they must not arrange all anew.
     untracked(() => {
       dock.setSingle(kind === "phone");
-      dock.arrange(arrangementFor(kind, element));
+      dock.arrange(arrangementFor(kind, element, panels));
     });
   };
   const measure = () => {
@@ -108,22 +95,22 @@ export function followSize(dock, element) {
   };
 }
 
-/** @param {"wide" | "medium" | "phone"} kind @param {HTMLElement} element @returns {Arrangement} */
-function arrangementFor(kind, element) {
-  const given = { parts: givenLayout(kind, element.clientWidth, element.clientHeight) };
+/** @param {"wide" | "medium" | "phone"} kind @param {HTMLElement} element @param {readonly string[]} panels @returns {Arrangement} */
+function arrangementFor(kind, element, panels) {
+  const given = { parts: givenLayout(kind, element.clientWidth, element.clientHeight, panels) };
   if (kind === "phone") return given;
   const chosen = recall(storeName(kind)) ?? ownArrangement(layoutInUse.value);
-  return readArrangement(chosen, isPanel)?.arrangement ?? given;
+  return readArrangement(chosen, (id) => panels.includes(id))?.arrangement ?? given;
 }
 
-/** @param {"wide" | "medium" | "phone"} kind @param {number} width px @param {number} height px */
-function givenLayout(kind, width, height) {
+/** @param {"wide" | "medium" | "phone"} kind @param {number} width px @param {number} height px @param {readonly string[]} panels */
+function givenLayout(kind, width, height, panels) {
   if (kind !== "phone" && layoutInUse.value === LIVE)
-    return liveLayout(kind, width, height, isPanel);
-  return modelLayout(kind, width, height);
+    return liveLayout(kind, width, height, (id) => panels.includes(id));
+  return modelLayout(kind, width, height, panels);
 }
 
-/** @param {Dock} dock @param {() => void} arrange @returns {LayoutDesk} */
+/** @param {Dock} dock @param {() => void} arrange @returns {import("../model/view.js").LayoutDesk} */
 function deskFor(dock, arrange) {
   const forget = () => {
     for (const kind of /** @type {const} */ (["wide", "medium"]))

@@ -5,11 +5,11 @@
 import { html } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
 import { Icon, IconButton } from "../lib/ui.js";
-import { ask, openPath } from "./actions.js";
+import { mayEdit } from "../model/connection.js";
+import { leftWork } from "../model/document.js";
+import { ask, openPath } from "../model/requests.js";
+import { dialog } from "../model/view.js";
 import { timeText } from "./restored-bar.js";
-import { mayEdit } from "./state/connection.js";
-import { leftWork } from "./state/keeping.js";
-import { dialog } from "./state/view.js";
 
 /** @param {LeftWorkEntry} one */
 function giveUp({ path, title }) {

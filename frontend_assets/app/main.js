@@ -1,32 +1,41 @@
 /** Begins the page: words, theme, frame, dock, keys, and the lane to the studio. */
 
 import { effect, html, render } from "vendor/preact.js";
+import { addCommands, onKey } from "../lib/commands.js";
 import { createDock } from "../lib/dock.js";
 import { nearestLanguage, t, useLanguage } from "../lib/i18n.js";
 import { matches, takesText } from "../lib/keys.js";
 import { anyUnderWay } from "../lib/latest.js";
 import { documentOf } from "../lib/paths.js";
 import { iconElement } from "../lib/ui.js";
-import { clearSelection, redo, save, toggleAnimation, undo, watch, zeroJoints } from "./actions.js";
-import { addCommands, onKey } from "./commands.js";
+import { documentId, mayEdit, role } from "../model/connection.js";
+import { history, movable, title, unsaved } from "../model/document.js";
+import { addMeasuring } from "../model/measuring.js";
+import {
+  clearSelection,
+  redo,
+  save,
+  toggleAnimation,
+  undo,
+  watch,
+  zeroJoints,
+} from "../model/requests.js";
+import { mayMove } from "../model/ros.js";
+import { selected } from "../model/selection.js";
+import { activePanel, dialog, isFree, languageChoice, theme } from "../model/view.js";
+import { viewport } from "../model/viewport.js";
+import { connect } from "../model/wire.js";
 import { listenToDrops } from "./drop.js";
 import { followGraphics } from "./graphics.js";
 import { helpCommands, helpTitle, openHelp } from "./help.js";
 import { addLayoutCommands } from "./layout-commands.js";
 import { followSize } from "./layouts.js";
-import { addMeasuring } from "./measuring.js";
 import { menuCommands } from "./menu-commands.js";
 import { followDisk } from "./merge-dialog.js";
 import { followMissing } from "./missing-arguments.js";
-import { dockPanels, panelTitle } from "./panels.js";
+import { dockPanels, PANELS, panelTitle } from "./panels.js";
 import { followLink } from "./share.js";
 import { Shell } from "./shell.js";
-import { mayEdit, role } from "./state/connection.js";
-import { documentId, history, movable, title, unsaved } from "./state/document.js";
-import { mayMove } from "./state/ros.js";
-import { activePanel, dialog, isFree, languageChoice, selected, theme } from "./state/view.js";
-import { viewport } from "./viewport.js";
-import { connect } from "./wire.js";
 
 const EDITING = { enabled: () => mayEdit.value && isFree() };
 
@@ -47,7 +56,7 @@ function startDock(element) {
       activePanel.value = id;
     },
   });
-  arrangement = followSize(dock, element);
+  arrangement = followSize(dock, element, Object.keys(PANELS));
   addLayoutCommands(dock, element);
 }
 
@@ -122,7 +131,7 @@ function addPageCommands() {
   ]);
 }
 
-/** @param {import("./state/view.js").Shown} shown */
+/** @param {import("../model/view.js").Shown} shown */
 function show(shown) {
   dialog.value = shown;
 }

@@ -1,18 +1,17 @@
 /** What stands in menus and has no key of its own, so that the palette finds it by name, too. */
 
-/** @import { Command } from "./commands.js" */
+/** @import { Command } from "../lib/commands.js" */
 
+import { commandById } from "../lib/commands.js";
 import { LANGUAGES, language, t } from "../lib/i18n.js";
-import { closeDocument, goTo, reload } from "./actions.js";
-import { commandById } from "./commands.js";
+import { documentId, mayEdit } from "../model/connection.js";
+import { unsaved } from "../model/document.js";
+import { closeDocument, goTo, reload } from "../model/requests.js";
+import { canCompare, compareSides } from "../model/variants.js";
+import { dialog, isFree, languageChoice, notify, themeChoice } from "../model/view.js";
 import { exportCommands } from "./export.js";
 import { graphicsCommands } from "./graphics.js";
 import { copyLink } from "./share.js";
-import { mayEdit } from "./state/connection.js";
-import { documentId, unsaved } from "./state/document.js";
-import { canCompare } from "./state/variants.js";
-import { dialog, isFree, languageChoice, notify, themeChoice } from "./state/view.js";
-import { compareSides } from "./variants.js";
 
 const onDocument = () => mayEdit.value && isFree() && documentId.value !== "";
 
@@ -57,7 +56,7 @@ function documentCommands() {
 /** @returns {Command[]} */
 function openingCommands() {
   const mayOpen = () => mayEdit.value && isFree();
-  /** @param {import("./open-dialog.js").OpenTab} tab */
+  /** @param {import("../model/view.js").OpenTab} tab */
   const show = (tab) => () => {
     dialog.value = { kind: "open", tab };
   };

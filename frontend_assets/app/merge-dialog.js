@@ -1,16 +1,16 @@
 /** Files that another program changed: told when merged, put to a choice where both changed one place. */
 
-/** @import { Collisions, CollisionView } from "../types/wire.d.ts" */
+/** @import { CollisionView, Collisions } from "../types/wire.d.ts" */
 
 import { effect, html, useEffect, useId, useSignal } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
-import { markedTexts } from "../lib/marked-text.js";
 import { baseName } from "../lib/paths.js";
+import { markedTexts } from "../lib/text-differences.js";
 import { Dialog, Icon, ProgressBar } from "../lib/ui.js";
-import { ask } from "./actions.js";
-import { mayEdit } from "./state/connection.js";
-import { diskMerged, problems } from "./state/document.js";
-import { dialog, notify } from "./state/view.js";
+import { mayEdit } from "../model/connection.js";
+import { diskMerged, problems } from "../model/document.js";
+import { ask } from "../model/requests.js";
+import { dialog, notify } from "../model/view.js";
 
 /** @typedef {"mine" | "theirs"} Side */
 

@@ -1,9 +1,9 @@
 /** The form of the arguments, shown by itself: the page begins without it and has it once it is needed. */
 
 import { effect } from "vendor/preact.js";
-import { role } from "./state/connection.js";
-import { documentState, problems } from "./state/document.js";
-import { dialog } from "./state/view.js";
+import { role } from "../model/connection.js";
+import { documentState, problems } from "../model/document.js";
+import { dialog } from "../model/view.js";
 
 /** Show the form by itself when the robot that was opened cannot be without a value. */
 export function followMissing() {

@@ -3,8 +3,9 @@
 import { html, useSignal } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
 import { nameFault, robotOf } from "../lib/package-names.js";
+import { openNamed } from "../model/requests.js";
 import { PlaceFields, usePlace } from "./place-form.js";
-import { openNamed, Picture } from "./start-lists.js";
+import { Picture } from "./start-lists.js";
 
 const TEMPLATES = /** @type {const} */ (["rover", "arm", "blank"]);
 

@@ -3,7 +3,7 @@
 import { html } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
 import { Icon, IconButton } from "../lib/ui.js";
-import { dismiss, notices } from "./state/view.js";
+import { dismiss, notices } from "../model/view.js";
 
 export function Notices() {
   return html`<div class="notices" aria-live="polite">${notices.value.map(

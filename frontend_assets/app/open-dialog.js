@@ -2,21 +2,21 @@
 
 /** @import { FolderEntry } from "../types/wire.d.ts" */
 
+/** @import { OpenTab } from "../model/view.js" */
+
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { chosenFiles } from "../lib/dropped.js";
 import { parseArguments } from "../lib/expressions.js";
 import { t } from "../lib/i18n.js";
 import { remembered } from "../lib/remembered.js";
 import { Dialog, Icon } from "../lib/ui.js";
-import { choosePackage, openPath } from "./actions.js";
+import { choosePackage, openPath } from "../model/requests.js";
 import { EverythingSwitch, FolderList, useBrowser } from "./file-browser.js";
 import { NewForm } from "./new-robot.js";
 import { PasteForm } from "./paste-form.js";
 import { RosForm } from "./ros-form.js";
 import { ExampleCards, RecentList } from "./start-lists.js";
 import { uploadFiles } from "./upload.js";
-
-/** @typedef {"recent" | "browse" | "examples" | "new" | "paste" | "ros"} OpenTab */
 
 const ICONS = /** @type {const} */ ({
   recent: "history",

@@ -5,25 +5,22 @@
 /** @import { ExampleEntry, JointView, Problem, SiteView } from "../types/wire.d.ts" */
 
 import { signal } from "vendor/preact.js";
+import { commandById, commandLabel, commands, onMac } from "../lib/commands.js";
 import { shownText } from "../lib/expressions.js";
 import { t } from "../lib/i18n.js";
 import { shortcutText } from "../lib/keys.js";
 import { baseName, placeText, shortPath } from "../lib/paths.js";
-import { ask } from "./actions.js";
-import { commandById, commandLabel, commands, onMac } from "./commands.js";
+import { mayEdit } from "../model/connection.js";
+import { allSites, documentState, movable, problems, robot, siteOrder } from "../model/document.js";
+import { applyPose, poses } from "../model/poses.js";
+import { ask, openNamed } from "../model/requests.js";
+import { selectPart } from "../model/selection.js";
+import { showFile, shownFile, showSource } from "../model/source.js";
+import { applyVariant, variants } from "../model/variants.js";
+import { propertyFilter, soughtSite } from "../model/view.js";
+import { focusLink, viewport } from "../model/viewport.js";
 import { compareWith } from "./menu-commands.js";
 import { panelTitle } from "./panels.js";
-import { applyPose } from "./poses.js";
-import { openNamed } from "./start-lists.js";
-import { mayEdit } from "./state/connection.js";
-import { allSites, documentState, movable, problems, robot, siteOrder } from "./state/document.js";
-import { poses } from "./state/poses.js";
-import { selectPart } from "./state/selection.js";
-import { showFile, shownFile, showSource } from "./state/source.js";
-import { variants } from "./state/variants.js";
-import { propertyFilter, soughtSite } from "./state/view.js";
-import { applyVariant } from "./variants.js";
-import { focusLink, viewport } from "./viewport.js";
 
 /**
  * @typedef {Ranked & {key: string, icon: string, hint: string, does: string, run: () => void}} Choice

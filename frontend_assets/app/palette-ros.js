@@ -4,18 +4,25 @@
 /** @import { LessonView } from "../types/wire.d.ts" */
 /** @import { Choice } from "./palette-choices.js" */
 
+import { commandById, commandLabel } from "../lib/commands.js";
 import { language, t } from "../lib/i18n.js";
-import { readLine } from "../lib/pasted-line.js";
-import { ros2LinesFor } from "../lib/ros2-lines.js";
-import { commandById, commandLabel } from "./commands.js";
-import { fetchLessons, startDemos, stopDemo } from "./lessons.js";
+import { readLine, ros2LinesFor } from "../lib/ros2-lines.js";
+import { mayEdit } from "../model/connection.js";
+import {
+  askLessons,
+  chosenLesson,
+  fetchLessons,
+  isUnderWay,
+  lessons,
+  lessonTexts,
+  startDemos,
+  stopDemo,
+} from "../model/lessons.js";
+import { goalForm, publishForm, serviceForm } from "../model/message-forms.js";
+import { chooseNode } from "../model/parameters.js";
+import { ros } from "../model/ros.js";
+import { chosenTopic } from "../model/topics.js";
 import { panelTitle } from "./panels.js";
-import { mayEdit } from "./state/connection.js";
-import { askLessons, chosenLesson, isUnderWay, lessons, lessonTexts } from "./state/lessons.js";
-import { goalForm, publishForm, serviceForm } from "./state/message-forms.js";
-import { chooseNode } from "./state/parameters.js";
-import { ros } from "./state/ros.js";
-import { chosenTopic } from "./state/topics.js";
 
 /** Have the list of lessons, what runs of them, and their texts. */
 export async function askForLessons() {

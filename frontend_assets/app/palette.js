@@ -10,6 +10,7 @@ import { fitting, readSearch, SIGNS, sectionsOf } from "../lib/palette-search.js
 import { marksOf } from "../lib/ranking.js";
 import { recall, remember } from "../lib/remembered.js";
 import { Dialog, Icon } from "../lib/ui.js";
+import { mayEdit } from "../model/connection.js";
 import {
   allChoices,
   askExamples,
@@ -18,7 +19,6 @@ import {
   fileChoices,
   lineChoices,
 } from "./palette-choices.js";
-import { mayEdit } from "./state/connection.js";
 
 const RECENT = "palette.recent";
 const RECENT_MOST = 5;

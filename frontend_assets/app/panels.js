@@ -6,8 +6,8 @@ import { html, render, useEffect, useRef, useState } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
 import { until, untilIdle } from "../lib/idle.js";
 import { Icon, ProgressBar } from "../lib/ui.js";
-import { heldBack } from "./state/alarm.js";
-import { changedCount, problems, robot } from "./state/document.js";
+import { changedCount, problems, robot } from "../model/document.js";
+import { heldBack } from "../model/source.js";
 import { wired } from "./wired.js";
 
 /** What a panel is for, in the order in which menus list them. */
@@ -154,12 +154,12 @@ export const PANELS = {
   turtlesim: {
     group: "learn",
     icon: "route",
-    load: wired(async () => (await import("../panels/turtlesim.js")).TurtlesimPanel),
+    load: wired(async () => (await import("../panels/turtlesim/turtlesim.js")).TurtlesimPanel),
   },
   jerry: {
     group: "learn",
     icon: "grid",
-    load: wired(async () => (await import("../panels/jerry.js")).JerryPanel),
+    load: wired(async () => (await import("../panels/jerry/jerry.js")).JerryPanel),
   },
   urdf: {
     group: "files",

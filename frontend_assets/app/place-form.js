@@ -6,7 +6,7 @@ import { html, useEffect, useId, useSignal } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
 import { nameFault } from "../lib/package-names.js";
 import { Icon } from "../lib/ui.js";
-import { ask } from "./actions.js";
+import { ask } from "../model/requests.js";
 
 /** @typedef {{name: Signal<string>, folder: Signal<string>, folders: Signal<readonly string[]>}} Place */
 

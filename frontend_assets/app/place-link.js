@@ -5,7 +5,7 @@
 import { html } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
 import { placeText } from "../lib/paths.js";
-import { showSource } from "./state/source.js";
+import { showSource } from "../model/source.js";
 
 /** @param {{place: Place | null | undefined, words?: string}} props `words` in place of `name.xacro:12` */
 export function PlaceLink({ place, words }) {

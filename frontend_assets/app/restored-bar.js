@@ -3,9 +3,9 @@
 import { html } from "vendor/preact.js";
 import { language, t } from "../lib/i18n.js";
 import { Icon, IconButton } from "../lib/ui.js";
-import { ask } from "./actions.js";
-import { mayEdit } from "./state/connection.js";
-import { restored } from "./state/keeping.js";
+import { mayEdit } from "../model/connection.js";
+import { restored } from "../model/document.js";
+import { ask } from "../model/requests.js";
 
 const discard = () => ask({ type: "discard_restored" });
 

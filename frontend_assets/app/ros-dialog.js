@@ -1,18 +1,16 @@
 /** The window on ROS 2: how the studio is connected, where it looks, and why nobody may be seen. */
 
 /** @import { WireReport } from "../types/wire.d.ts" */
-/** @import { Place } from "../lib/wire-places.js" */
+/** @import { Place } from "../model/ros.js" */
 
 import { html, useEffect, useSignal } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
 import { Dialog, Icon } from "../lib/ui.js";
-import { isDomain, isSamePlace } from "../lib/wire-places.js";
-import { connectAt, disconnectRos, examineAt } from "./ros.js";
+import { mayEdit } from "../model/connection.js";
+import { connectAt, disconnectRos, examineAt, isDomain, isSamePlace, ros } from "../model/ros.js";
 import { PlaceFields, RecentPlaces } from "./ros-place.js";
 import { Recipes } from "./ros-recipes.js";
 import { Report } from "./ros-report.js";
-import { mayEdit } from "./state/connection.js";
-import { ros } from "./state/ros.js";
 
 /** @returns {Place} where the studio is, or looks */
 const placeNow = () => ({

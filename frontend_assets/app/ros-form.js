@@ -5,8 +5,7 @@
 import { html, useEffect, useSignal } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
 import { Icon, ProgressBar } from "../lib/ui.js";
-import { findRobots, openFromRos } from "./ros.js";
-import { ros } from "./state/ros.js";
+import { findRobots, openFromRos, ros } from "../model/ros.js";
 
 const TOPIC = "/robot_description";
 const PARAMETER = "robot_description";

@@ -1,13 +1,12 @@
 /** Where a ROS 2 system is looked for: the fields of it, and the places that were joined of late. */
 
-/** @import { Place } from "../lib/wire-places.js" */
+/** @import { Place } from "../model/ros.js" */
 /** @import { Signal } from "vendor/preact.js" */
 
 import { html } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
-import { DISTROS, DOMAIN_MAX } from "../lib/wire-places.js";
-import { mayEdit } from "./state/connection.js";
-import { recentPlaces } from "./state/ros.js";
+import { mayEdit } from "../model/connection.js";
+import { DISTROS, DOMAIN_MAX, recentPlaces } from "../model/ros.js";
 
 const EXAMPLE = "robot.local:7447";
 

@@ -2,12 +2,12 @@
 
 /** @import { ComponentChildren } from "vendor/preact.js" */
 /** @import { WireReport } from "../types/wire.d.ts" */
-/** @import { Place } from "../lib/wire-places.js" */
+/** @import { Place } from "../model/ros.js" */
 
 import { html } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
 import { Icon } from "../lib/ui.js";
-import { DISTROS, hostOf } from "../lib/wire-places.js";
+import { DISTROS, hostOf } from "../model/ros.js";
 import { CodeLine } from "./code-line.js";
 
 const NAMED = 3;

@@ -3,10 +3,9 @@
 import { html } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
 import { Icon } from "../lib/ui.js";
-import { connectRos } from "./ros.js";
-import { connection, mayEdit } from "./state/connection.js";
-import { ros } from "./state/ros.js";
-import { dialog } from "./state/view.js";
+import { connection, mayEdit } from "../model/connection.js";
+import { connectRos, ros } from "../model/ros.js";
+import { dialog } from "../model/view.js";
 
 const TONES = { off: "", connecting: "", connected: "good", lost: "bad", failed: "bad" };
 

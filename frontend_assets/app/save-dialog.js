@@ -1,18 +1,17 @@
 /** What saving writes, file by file, before it is written; Enter writes it. */
 
 /** @import { Changes, FileChanges } from "../types/wire.d.ts" */
-/** @import { DrawnLine } from "../lib/marked-text.js" */
+/** @import { DrawnLine } from "../lib/text-differences.js" */
 /** @import { Signal } from "vendor/preact.js" */
 
 import { html, useEffect, useMemo, useSignal } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
-import { drawnLines } from "../lib/marked-text.js";
 import { baseName } from "../lib/paths.js";
+import { drawnLines } from "../lib/text-differences.js";
 import { Dialog, Icon, ProgressBar } from "../lib/ui.js";
-import { ask, saveFiles } from "./actions.js";
-import { documentState } from "./state/document.js";
-import { SAVE_CHOICES, showBeforeSaving } from "./state/keeping.js";
-import { notify } from "./state/view.js";
+import { documentState, SAVE_CHOICES, showBeforeSaving } from "../model/document.js";
+import { ask, saveFiles } from "../model/requests.js";
+import { notify } from "../model/view.js";
 
 /** @param {{onClose: () => void}} props */
 export function SaveDialog({ onClose }) {

@@ -1,16 +1,16 @@
 /** The menus at the right of the bar above: the panels and their layouts; and the page's own settings. */
 
+/** @import { MenuItem } from "../lib/ui.js" */
+
 import { html } from "vendor/preact.js";
+import { commandById } from "../lib/commands.js";
 import { LANGUAGES, language, t } from "../lib/i18n.js";
 import { Icon, MenuButton } from "../lib/ui.js";
-import { commandById } from "./commands.js";
+import { mayEdit, role } from "../model/connection.js";
+import { languageChoice, size, themeChoice } from "../model/view.js";
 import { graphicsItems } from "./graphics.js";
 import { layoutItems } from "./layout-commands.js";
 import { PANEL_GROUPS, PANELS, panelTitle } from "./panels.js";
-import { mayEdit, role } from "./state/connection.js";
-import { languageChoice, size, themeChoice } from "./state/view.js";
-
-/** @import { MenuItem } from "../lib/ui.js" */
 
 export function PanelsMenu() {
   if (size.value === "phone") return null;

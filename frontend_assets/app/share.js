@@ -10,9 +10,9 @@ import { linkContents } from "../lib/link-contents.js";
 import { baseName } from "../lib/paths.js";
 import { recall, remember } from "../lib/remembered.js";
 import { Dialog } from "../lib/ui.js";
-import { ask, goTo } from "./actions.js";
-import { role } from "./state/connection.js";
-import { dialog, notify } from "./state/view.js";
+import { role } from "../model/connection.js";
+import { ask, goTo } from "../model/requests.js";
+import { dialog, notify } from "../model/view.js";
 
 const MARK = "#robot=";
 const LEFT_OUT = "link.left_out";

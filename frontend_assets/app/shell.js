@@ -1,11 +1,14 @@
 /** The frame of the page: bars, the dock between them, notices, and the tabs of a phone. */
 
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
+import { commandById } from "../lib/commands.js";
 import { t } from "../lib/i18n.js";
 import { later } from "../lib/later.js";
 import { Icon, MenuButton } from "../lib/ui.js";
-import { goTo, openPath } from "./actions.js";
-import { commandById } from "./commands.js";
+import { connection, documentId, role, turnedAway } from "../model/connection.js";
+import { documentState, gone } from "../model/document.js";
+import { goTo, openPath } from "../model/requests.js";
+import { activePanel, dialog, size } from "../model/view.js";
 import { Dialogs } from "./dialogs.js";
 import { DropLayer } from "./drop.js";
 import { LeftWorkBar } from "./left-work-bar.js";
@@ -13,10 +16,7 @@ import { DiskBars } from "./merge-dialog.js";
 import { Notices } from "./notices.js";
 import { PANELS, panelTitle } from "./panels.js";
 import { RestoredBar } from "./restored-bar.js";
-import { connection, role, turnedAway } from "./state/connection.js";
-import { documentId, documentState, gone } from "./state/document.js";
 import { help } from "./state/help.js";
-import { activePanel, dialog, size } from "./state/view.js";
 import { StatusBar } from "./status-bar.js";
 import { TopBar } from "./top-bar.js";
 

@@ -3,11 +3,10 @@
 import { html } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
 import { Icon } from "../lib/ui.js";
+import { connection, documentId, role } from "../model/connection.js";
+import { dialog } from "../model/view.js";
 import { FileButtons } from "./open-dialog.js";
 import { ExampleCards, RecentList } from "./start-lists.js";
-import { connection, role } from "./state/connection.js";
-import { documentId } from "./state/document.js";
-import { dialog } from "./state/view.js";
 
 export function StartCard() {
   if (documentId.value !== "" || connection.value !== "connected") return null;
@@ -31,7 +30,7 @@ export function StartCard() {
   </section></div>`;
 }
 
-/** @param {{tab: import("./open-dialog.js").OpenTab, icon: string, label: string, primary: boolean}} props */
+/** @param {{tab: import("../model/view.js").OpenTab, icon: string, label: string, primary: boolean}} props */
 function StartButton({ tab, icon, label, primary }) {
   const show = () => {
     dialog.value = { kind: "open", tab };

@@ -3,12 +3,12 @@
 /** @import { ExampleEntry, RecentEntry } from "../types/wire.d.ts" */
 
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
-import { timeAgo } from "../lib/dates.js";
 import { language, t } from "../lib/i18n.js";
+import { timeAgo } from "../lib/times.js";
 import { EmptyState, Icon, IconButton, ProgressBar } from "../lib/ui.js";
-import { ask, goTo } from "./actions.js";
+import { ask, openNamed } from "../model/requests.js";
+import { theme } from "../model/view.js";
 import { moveFocus } from "./file-browser.js";
-import { theme } from "./state/view.js";
 
 const ICONS = { file: "fileCode", example: "robot", upload: "upload", untitled: "clipboard" };
 
@@ -16,7 +16,7 @@ const ICONS = { file: "fileCode", example: "robot", upload: "upload", untitled: 
 export function RecentList({ limit = 30 }) {
   const files = useSignal(/** @type {readonly RecentEntry[] | null} */ (null));
   const list = useRef(/** @type {HTMLElement | null} */ (null));
-  /** @param {import("./wire.js").Answer | null} answer */
+  /** @param {import("../model/wire.js").Answer | null} answer */
   const take = (answer) => {
     if (answer?.type === "recent") files.value = answer.files;
   };
@@ -83,11 +83,4 @@ function ExampleCard({ example }) {
 export function Picture({ name }) {
   const address = new URL(`../pictures/${name}-${theme.value}.webp`, import.meta.url);
   return html`<img class="card-picture" src=${address.href} alt="" width="240" height="150" loading="lazy" />`;
-}
-
-/** @param {import("./wire.js").Asked<import("../types/wire.d.ts").Command>} command */
-export async function openNamed(command) {
-  const opened = await ask(command);
-  if (opened?.type === "opened") goTo(opened.document);
-  return opened?.type === "opened";
 }

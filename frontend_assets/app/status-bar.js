@@ -1,14 +1,10 @@
 /** The bar below: is the studio there, how was the robot made, what is wrong, what is unsaved. */
 
 import { html, useEffect } from "vendor/preact.js";
+import { commandById } from "../lib/commands.js";
 import { t } from "../lib/i18n.js";
 import { Icon } from "../lib/ui.js";
-import { commandById } from "./commands.js";
-import { RosStatus } from "./ros-status.js";
-import { heldBack } from "./state/alarm.js";
-import { connection, role, version } from "./state/connection.js";
-import { followDeeds } from "./state/deed-following.js";
-import { repeatedPublications } from "./state/deeds.js";
+import { connection, role, version } from "../model/connection.js";
 import {
   built,
   documentState,
@@ -17,9 +13,12 @@ import {
   progress,
   robot,
   showingLastGood,
-} from "./state/document.js";
-import { ros } from "./state/ros.js";
-import { viewport, viewportConnected } from "./viewport.js";
+} from "../model/document.js";
+import { followDeeds, repeatedPublications } from "../model/operations.js";
+import { ros } from "../model/ros.js";
+import { heldBack } from "../model/source.js";
+import { viewport, viewportConnected } from "../model/viewport.js";
+import { RosStatus } from "./ros-status.js";
 
 export function StatusBar() {
   return html`<footer class="status-bar" aria-label=${t("status")}>

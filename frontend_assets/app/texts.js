@@ -1,21 +1,18 @@
 /** The way between an editor here and a file's text at the studio. */
 
-/**
- * @import { ChangeSet } from "vendor/codemirror.js"
- * @import { EditText } from "../types/wire.d.ts"
- * @import { Asked } from "./wire.js"
- * @import { Fate } from "../lib/shared-text.js"
- */
+/** @import { ChangeSet } from "vendor/codemirror.js" */
+/** @import { EditText } from "../types/wire.d.ts" */
+/** @import { Asked } from "../model/wire.js" */
+/** @import { Fate } from "../lib/shared-text.js" */
 
 import { effect, untracked } from "vendor/preact.js";
 import { settleFirst } from "../lib/latest.js";
 import { SharedText } from "../lib/shared-text.js";
+import { connection, documentId } from "../model/connection.js";
+import { followText } from "../model/source.js";
+import { notify } from "../model/view.js";
+import { LostError, RefusedError, send } from "../model/wire.js";
 import { Text } from "../vendor/codemirror.js";
-import { connection } from "./state/connection.js";
-import { documentId } from "./state/document.js";
-import { followText } from "./state/source.js";
-import { notify } from "./state/view.js";
-import { LostError, RefusedError, send } from "./wire.js";
 
 const OWN = crypto.getRandomValues(new Uint32Array(2)).join("-");
 let links = 0;

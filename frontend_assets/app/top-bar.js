@@ -1,23 +1,22 @@
 /** The bar above: what is open, undo and redo, saving, and the page's own settings. */
 
+/** @import { MenuItem } from "../lib/ui.js" */
+
 import { html } from "vendor/preact.js";
+import { commandById, onMac } from "../lib/commands.js";
 import { t } from "../lib/i18n.js";
 import { shortcutText } from "../lib/keys.js";
 import { Icon, IconButton, MenuButton } from "../lib/ui.js";
-import { closeDocument, goTo, redo, reload, save, undo } from "./actions.js";
-import { commandById, onMac } from "./commands.js";
+import { documentId, mayEdit, role } from "../model/connection.js";
+import { documents, history, title, unsaved } from "../model/document.js";
+import { closeDocument, goTo, redo, reload, save, undo } from "../model/requests.js";
+import { dialog, layoutDesk, size, theme, themeChoice } from "../model/view.js";
 import { ExportMenu, exportItems } from "./export.js";
 import { HistoryMenu } from "./history-menu.js";
 import { layoutName } from "./layout-commands.js";
-import { layoutDesk } from "./layouts.js";
 import { LIVE } from "./live-layout.js";
 import { PanelsMenu, SettingsMenu } from "./settings-menu.js";
-import { mayEdit, role } from "./state/connection.js";
-import { documentId, documents, history, title, unsaved } from "./state/document.js";
 import { layoutInUse } from "./state/own-layouts.js";
-import { dialog, size, theme, themeChoice } from "./state/view.js";
-
-/** @import { MenuItem } from "../lib/ui.js" */
 
 export function TopBar() {
   const { unsaved_count: count } = history.value;

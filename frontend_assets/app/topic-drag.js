@@ -2,8 +2,8 @@
 
 import { signal } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
-import { addDisplay } from "./live.js";
-import { mayEdit } from "./state/connection.js";
+import { mayEdit } from "../model/connection.js";
+import { addDisplay } from "../model/live-displays.js";
 
 /**
  * @typedef {object} Dragged

@@ -4,10 +4,10 @@
 
 import { t } from "../lib/i18n.js";
 import { baseName } from "../lib/paths.js";
-import { goTo } from "./actions.js";
-import { mayEdit } from "./state/connection.js";
+import { mayEdit } from "../model/connection.js";
+import { goTo } from "../model/requests.js";
+import { dialog, notify } from "../model/view.js";
 import { sending } from "./state/sending.js";
-import { dialog, notify } from "./state/view.js";
 
 /** @param {readonly DroppedFile[]} files */
 export async function uploadFiles(files) {

@@ -7,10 +7,10 @@ import { t } from "../lib/i18n.js";
 import { niceStep, parseNumber } from "../lib/numbers.js";
 import { TextBox } from "../lib/slider.js";
 import { replacement } from "../lib/written-text.js";
-import { ask } from "./actions.js";
-import { mayEdit } from "./state/connection.js";
-import { documentState } from "./state/document.js";
-import { notify } from "./state/view.js";
+import { mayEdit } from "../model/connection.js";
+import { documentState } from "../model/document.js";
+import { ask } from "../model/requests.js";
+import { notify } from "../model/view.js";
 
 let gestures = 0;
 

@@ -1,4 +1,7 @@
-/** The frames of TF as a tree: what hangs on what, which rows are shown, and the way between two. */
+/**
+ * The frames of TF as a tree with what is wrong in it, the way between two frames, and the order
+ * in which frames are offered.
+ */
 
 /** @import { FrameView, TfFrames } from "../types/wire.d.ts" */
 
@@ -167,3 +170,15 @@ export function troubleOf(frames) {
     frames.filter((one) => one.state === state).length;
   return { stale: count("stale"), broken: count("broken") };
 }
+
+const REP_105 = ["earth", "map", "odom", "world", "base_footprint", "base_link"];
+
+/** @param {string} frame @returns {number} its place in REP 105, also below a prefix as in `robot1/odom` */
+function placeOf(frame) {
+  const at = REP_105.indexOf(frame.split("/").at(-1) ?? "");
+  return at < 0 ? REP_105.length : at;
+}
+
+/** @param {readonly string[]} frames @returns {string[]} those without a place in REP 105 keep their order */
+export const inFrameOrder = (frames) =>
+  [...frames].sort((one, other) => placeOf(one) - placeOf(other));

@@ -1,9 +1,10 @@
 /**
- * The texts of the help: a small part of Markdown, with keys, icons and marks.
+ * The texts of the help and the lessons: a small part of Markdown, with keys, icons and marks,
+ * each fetched when it is first asked for.
  *
- * A line `![what it shows](name)` is a picture, `## Words` a heading, `- words` an entry of a list;
- * all else is text. In a text: `**name of a control**`, code in backticks, `[words](page)` or, with
- * what is to be seen there, `[words](page /name type)`, `{key Mod+K}`, `{icon eye}`, and
+ * A line `![what it shows](name)` is a picture, `## Words` a heading, `- words` an entry of a
+ * list; all else is text. In a text: `**name of a control**`, code in backticks, `[words](page)`
+ * or, with what is to be seen there, `[words](page /name type)`, `{key Mod+K}`, `{icon eye}`, and
  * `{mark amber}` for a dot of that tone.
  */
 
@@ -78,3 +79,27 @@ export function plainHelp(blocks) {
 /** @param {Part} part @returns {string} */
 const spoken = ({ kind, text }) =>
   kind === "icon" || kind === "mark" ? "" : kind === "key" ? text.replace("Mod", "Ctrl") : text;
+
+/**
+ * @template T
+ * @param {string} folder its address
+ * @param {(text: string) => T} read is given an empty text when there is none now
+ * @returns {(name: string) => Promise<T>} by the name of a file in the folder
+ */
+export function textFiles(folder, read) {
+  /** @type {Map<string, Promise<T>>} */
+  const known = new Map();
+  const fetched = async (/** @type {string} */ name) => {
+    const text = await fetch(`${folder}${name}`)
+      .then((answer) => (answer.ok ? answer.text() : ""))
+      .catch(() => "");
+    // What failed is asked for anew the next time.
+    if (text === "") known.delete(name);
+    return read(text);
+  };
+  return (name) => {
+    const asked = known.get(name) ?? fetched(name);
+    known.set(name, asked);
+    return asked;
+  };
+}

@@ -3,20 +3,29 @@
 /** @import { GoalView } from "../types/wire.d.ts" */
 
 import { html, useEffect } from "vendor/preact.js";
-import { commandById } from "../app/commands.js";
-import { cancelGoal, sendGoal } from "../app/deeds.js";
-import { mayEdit } from "../app/state/connection.js";
-import { followDeeds } from "../app/state/deed-following.js";
-import { goals } from "../app/state/deeds.js";
 import { followStatuses, goalStatuses } from "../app/state/goal-statuses.js";
-import { filterLogTo } from "../app/state/log.js";
-import { goalForm } from "../app/state/message-forms.js";
-import { actions, askActions, followActions, offersRefused } from "../app/state/offers.js";
-import { isGoalOver, plainOf, shortOf, tookText, turnedRad } from "../lib/deeds.js";
+import { commandById } from "../lib/commands.js";
 import { progressOf } from "../lib/goal-progress.js";
 import { t } from "../lib/i18n.js";
-import { levelOf } from "../lib/log-lines.js";
 import { Icon, ProgressBar } from "../lib/ui.js";
+import { mayEdit } from "../model/connection.js";
+import { filterLogTo, levelOf } from "../model/log.js";
+import { goalForm } from "../model/message-forms.js";
+import {
+  actions,
+  askActions,
+  cancelGoal,
+  followActions,
+  followDeeds,
+  goals,
+  isGoalOver,
+  offersRefused,
+  plainOf,
+  sendGoal,
+  shortOf,
+  tookText,
+  turnedRad,
+} from "../model/operations.js";
 import { DeedForm, DeedPanel, DeedState, Offers, openLine } from "./deed-panel.js";
 import { ValueTree } from "./value-tree.js";
 

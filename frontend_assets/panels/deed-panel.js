@@ -2,18 +2,18 @@
 
 /** @import { ComponentChildren } from "vendor/preact.js" */
 /** @import { OfferView } from "../types/wire.d.ts" */
-/** @import { PastedLine } from "../lib/pasted-line.js" */
-/** @import { MessageForm } from "../app/state/message-forms.js" */
+/** @import { PastedLine } from "../lib/ros2-lines.js" */
+/** @import { MessageForm } from "../model/message-forms.js" */
 
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { ConnectFirst, isUnconnected, NothingThere, RouterAway } from "../app/connect-first.js";
 import { Refusal } from "../app/refusal.js";
-import { mayEdit, role } from "../app/state/connection.js";
-import { matchingOffers } from "../lib/deeds.js";
 import { t } from "../lib/i18n.js";
-import { readLine } from "../lib/pasted-line.js";
+import { readLine } from "../lib/ros2-lines.js";
 import { useSeen } from "../lib/seen.js";
 import { Icon, IconButton, SearchBox } from "../lib/ui.js";
+import { mayEdit, role } from "../model/connection.js";
+import { matchingOffers } from "../model/operations.js";
 import { FormOfMessage } from "./message-form.js";
 
 /** @type {Record<string, string>} */

@@ -6,12 +6,12 @@
 
 import { html, useSignal } from "vendor/preact.js";
 import { ConnectFirst, isUnconnected, NothingThere, RouterAway } from "../app/connect-first.js";
-import { useLooking } from "../app/looking.js";
 import { diagnostics, diagnosticsRefused, followDiagnostics } from "../app/state/diagnostics.js";
 import { byHardware, LEVELS, levelCounts, levelOf, shownParts } from "../lib/diagnostics.js";
 import { t } from "../lib/i18n.js";
-import { shortTime } from "../lib/short-time.js";
+import { shortTime } from "../lib/times.js";
 import { Icon, ProgressBar, SearchBox } from "../lib/ui.js";
+import { useLooking } from "../model/asking.js";
 
 const ICONS = { ok: "check", warn: "alert", error: "error", stale: "help" };
 

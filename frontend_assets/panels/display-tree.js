@@ -3,16 +3,14 @@
 /** @import { ComponentChildren } from "vendor/preact.js" */
 
 import { html, useRef } from "vendor/preact.js";
-import { mayEdit } from "../app/state/connection.js";
-import { selectLink } from "../app/state/selection.js";
-import { hovered, selected } from "../app/state/view.js";
-import { focusLink } from "../app/viewport.js";
 import { t } from "../lib/i18n.js";
-import { LongList } from "../lib/long-list.js";
+import { LongList, siblingPlaces } from "../lib/long-list.js";
 import { parseNumber, shownNumber } from "../lib/numbers.js";
-import { siblingPlaces } from "../lib/pieces.js";
 import { TextBox } from "../lib/slider.js";
 import { Icon, LongName } from "../lib/ui.js";
+import { mayEdit } from "../model/connection.js";
+import { hovered, selected, selectLink } from "../model/selection.js";
+import { focusLink } from "../model/viewport.js";
 
 /**
  * @typedef {object} Row one line of the tree

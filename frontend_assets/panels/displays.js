@@ -4,17 +4,16 @@
 /** @import { Row } from "./display-tree.js" */
 
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
-import { setDisplay } from "../app/actions.js";
-import { displays, links, problems, robot } from "../app/state/document.js";
-import { liveDisplays } from "../app/state/live.js";
-import { selection } from "../app/state/selection.js";
-import { hiddenLinks, selected, showLink } from "../app/state/view.js";
 import { t } from "../lib/i18n.js";
 import { addedDisplay } from "../lib/live-displays.js";
 import { shownNumber } from "../lib/numbers.js";
 import { whenPlaced } from "../lib/seen.js";
 import { ancestorsOf, linkRows, withoutInertia } from "../lib/tree.js";
 import { EmptyState, SearchBox } from "../lib/ui.js";
+import { displays, links, problems, robot } from "../model/document.js";
+import { liveDisplays } from "../model/live-displays.js";
+import { setDisplay } from "../model/requests.js";
+import { hiddenLinks, selected, selection, showLink } from "../model/selection.js";
 import { rowId, Tree } from "./display-tree.js";
 import { LinkDetails } from "./link-details.js";
 import { dropTopic, takeTopic } from "./live-drag.js";

@@ -3,11 +3,10 @@
 /** @import { Effects } from "../types/wire.d.ts" */
 
 import { html } from "vendor/preact.js";
-import { site } from "../app/state/document.js";
-import { effects, pointedWords } from "../app/state/origin.js";
 import { t } from "../lib/i18n.js";
-import { countedAspects } from "../lib/origin.js";
 import { shortName } from "../lib/sites.js";
+import { site } from "../model/document.js";
+import { countedAspects, effects, pointedWords } from "../model/origin.js";
 
 export function EffectLine() {
   const known = effects.value;

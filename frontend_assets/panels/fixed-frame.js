@@ -1,14 +1,13 @@
 /** In which frame everything is drawn: a box among the tools of the 3D view. */
 
 import { html } from "vendor/preact.js";
-import { framesNow, setFixedFrame } from "../app/live.js";
-import { mayEdit } from "../app/state/connection.js";
-import { robot } from "../app/state/document.js";
-import { fixedFrame, frameTrouble } from "../app/state/live.js";
-import { inFrameOrder } from "../lib/frame-order.js";
+import { inFrameOrder } from "../lib/frame-tree.js";
 import { t } from "../lib/i18n.js";
 import { PickBox } from "../lib/pick-box.js";
 import { Icon, IconButton } from "../lib/ui.js";
+import { mayEdit } from "../model/connection.js";
+import { robot } from "../model/document.js";
+import { fixedFrame, framesNow, frameTrouble, setFixedFrame } from "../model/live-displays.js";
 
 export function FixedFrame() {
   if (!robot.value) return null;

@@ -4,8 +4,6 @@
 /** @import { MenuItem } from "../lib/ui.js" */
 
 import { html } from "vendor/preact.js";
-import { millimetres } from "../app/state/frame-pair.js";
-import { notify } from "../app/state/view.js";
 import { copyText } from "../lib/clipboard.js";
 import {
   asList,
@@ -22,6 +20,8 @@ import { t } from "../lib/i18n.js";
 import { translationOf } from "../lib/kinematics.js";
 import { shownMeasure, toDegrees } from "../lib/numbers.js";
 import { Icon, MenuButton } from "../lib/ui.js";
+import { millimetres } from "../model/tf.js";
+import { notify } from "../model/view.js";
 
 /** @param {{pose: Pose}} props */
 export function PoseForms({ pose }) {

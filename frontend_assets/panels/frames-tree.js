@@ -5,18 +5,24 @@
 /** @import { Signal } from "vendor/preact.js" */
 
 import { html, useEffect, useSignal } from "vendor/preact.js";
-import { robot } from "../app/state/document.js";
-import { chain, reference, setReference, setTarget, target } from "../app/state/frame-pair.js";
-import { fixedFrame, tfFrames } from "../app/state/tf.js";
-import { hovered } from "../app/state/view.js";
-import { viewport } from "../app/viewport.js";
 import { frameRows, framesAbove, isOwn } from "../lib/frame-tree.js";
 import { t } from "../lib/i18n.js";
-import { LongList } from "../lib/long-list.js";
-import { siblingPlaces } from "../lib/pieces.js";
+import { LongList, siblingPlaces } from "../lib/long-list.js";
 import { reveal } from "../lib/seen.js";
-import { shortTime } from "../lib/short-time.js";
+import { shortTime } from "../lib/times.js";
 import { Icon, IconButton, LongName } from "../lib/ui.js";
+import { robot } from "../model/document.js";
+import { hovered } from "../model/selection.js";
+import {
+  chain,
+  fixedFrame,
+  reference,
+  setReference,
+  setTarget,
+  target,
+  tfFrames,
+} from "../model/tf.js";
+import { viewport } from "../model/viewport.js";
 
 /** @param {{filter: string}} props */
 export function FramesTree({ filter }) {

@@ -6,15 +6,31 @@
 
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { Refusal } from "../app/refusal.js";
-import { mayEdit } from "../app/state/connection.js";
-import { robot } from "../app/state/document.js";
+import { troubleOf } from "../lib/frame-tree.js";
+import { t } from "../lib/i18n.js";
+import { LinkPicker } from "../lib/pick-box.js";
+import { useSeen } from "../lib/seen.js";
+import { shortTime } from "../lib/times.js";
+import { EmptyState, Icon, IconButton, SearchBox } from "../lib/ui.js";
+import { mayEdit } from "../model/connection.js";
+import { robot } from "../model/document.js";
+import { askFrames, followFrames, framesRefused } from "../model/frames.js";
+import { ros } from "../model/ros.js";
+import { part, selectPart } from "../model/selection.js";
 import {
+  answered,
+  askPair,
+  askTf,
   BY_FRAMES,
   chain,
   comparing,
+  fixedFrame,
+  followTf,
   frameNames,
   isToldByOthers,
   jointWay,
+  pairAnswer,
+  pairRefused,
   reference,
   referenceFromTarget,
   setReference,
@@ -22,29 +38,11 @@ import {
   source,
   swapFrames,
   target,
-  tfWay,
-} from "../app/state/frame-pair.js";
-import { askFrames, followFrames, framesRefused } from "../app/state/frames.js";
-import { ros } from "../app/state/ros.js";
-import { part, selectPart } from "../app/state/selection.js";
-import {
-  answered,
-  askPair,
-  askTf,
-  fixedFrame,
-  followTf,
-  pairAnswer,
-  pairRefused,
   tfFrames,
   tfRefused,
-} from "../app/state/tf.js";
-import { dialog } from "../app/state/view.js";
-import { troubleOf } from "../lib/frame-tree.js";
-import { t } from "../lib/i18n.js";
-import { LinkPicker } from "../lib/link-picker.js";
-import { useSeen } from "../lib/seen.js";
-import { shortTime } from "../lib/short-time.js";
-import { EmptyState, Icon, IconButton, SearchBox } from "../lib/ui.js";
+  tfWay,
+} from "../model/tf.js";
+import { dialog } from "../model/view.js";
 import { PoseForms } from "./frames-forms.js";
 import { FramesTree } from "./frames-tree.js";
 

@@ -4,15 +4,15 @@
 /** @import { Signal } from "vendor/preact.js" */
 
 import { html, useEffect, useSignal } from "vendor/preact.js";
-import { commandById } from "../app/commands.js";
 import { graph } from "../app/state/graph.js";
-import { showInterface } from "../app/state/interfaces.js";
-import { askOrKeepWhy } from "../app/state/refusals.js";
-import { notify } from "../app/state/view.js";
 import { copyText } from "../lib/clipboard.js";
+import { commandById } from "../lib/commands.js";
 import { isNamespace, namesWithin } from "../lib/graph-groups.js";
 import { t } from "../lib/i18n.js";
 import { Icon, IconButton } from "../lib/ui.js";
+import { askOrKeepWhy } from "../model/asking.js";
+import { showInterface } from "../model/interfaces.js";
+import { notify } from "../model/view.js";
 
 const GROUPS = /** @type {const} */ ([
   "publishers",

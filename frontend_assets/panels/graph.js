@@ -6,14 +6,14 @@
 
 import { computed, html, useEffect, useMemo, useRef, useSignal } from "vendor/preact.js";
 import { ConnectFirst, isUnconnected, NothingThere, RouterAway } from "../app/connect-first.js";
-import { useLooking } from "../app/looking.js";
 import { followGraph, graph, graphRefused } from "../app/state/graph.js";
-import { useTopicRates } from "../app/topic-rates.js";
 import { READABLE_NODES } from "../lib/graph-groups.js";
 import { t } from "../lib/i18n.js";
 import { drawnGraph, USUAL } from "../lib/node-graph.js";
 import { remembered } from "../lib/remembered.js";
 import { EmptyState, Icon, ProgressBar, SearchBox } from "../lib/ui.js";
+import { useLooking } from "../model/asking.js";
+import { useTopicRates } from "../model/topics.js";
 import { GraphDetails } from "./graph-details.js";
 import { GraphDrawing } from "./graph-drawing.js";
 

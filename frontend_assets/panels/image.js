@@ -8,15 +8,14 @@
 
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { ConnectFirst, isUnconnected, NothingThere, RouterAway } from "../app/connect-first.js";
-import { laneOpen, watch } from "../app/data.js";
-import { useLooking } from "../app/looking.js";
-import { topics } from "../app/state/topics.js";
-import { followTopics } from "../app/topics.js";
 import { saveAsFile } from "../lib/files.js";
 import { t } from "../lib/i18n.js";
 import { allDigits, shownNumber } from "../lib/numbers.js";
-import { useSilence } from "../lib/silence.js";
+import { useSilence } from "../lib/times.js";
 import { Icon, IconButton, MenuButton, ProgressBar, Switch } from "../lib/ui.js";
+import { useLooking } from "../model/asking.js";
+import { laneOpen, watch } from "../model/data-lane.js";
+import { followTopics, topics } from "../model/topics.js";
 import { ImageCanvas } from "./image-canvas.js";
 
 const TYPES = ["sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"];

@@ -3,17 +3,18 @@
 /** @import { InterfaceAnswer, MessageView } from "../types/wire.d.ts" */
 
 import { html, useSignal } from "vendor/preact.js";
+import { copyText } from "../lib/clipboard.js";
+import { t } from "../lib/i18n.js";
+import { EmptyState, Icon, IconButton } from "../lib/ui.js";
 import {
+  fieldType,
   interfaceName,
   interfaceRefused,
   interfaceShown,
   showInterface,
-} from "../app/state/interfaces.js";
-import { notify } from "../app/state/view.js";
-import { copyText } from "../lib/clipboard.js";
-import { t } from "../lib/i18n.js";
-import { fieldType, valueText } from "../lib/interface-texts.js";
-import { EmptyState, Icon, IconButton } from "../lib/ui.js";
+  valueText,
+} from "../model/interfaces.js";
+import { notify } from "../model/view.js";
 
 const PARTS = { msg: [""], srv: ["request", "response"], action: ["goal", "result", "feedback"] };
 

@@ -1,11 +1,9 @@
 /** A type of one's own as text: named, checked by the studio, and usable at once. */
 
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
-import { addTypes } from "../app/add-types.js";
-import { mayEdit } from "../app/state/connection.js";
-import { draft } from "../app/state/interfaces.js";
 import { t } from "../lib/i18n.js";
-import { kindOf, nameParts } from "../lib/interface-texts.js";
+import { mayEdit } from "../model/connection.js";
+import { addTypes, draft, kindOf, nameParts } from "../model/interfaces.js";
 
 const EXAMPLE = "string robot_name\nfloat32 battery_percent\n";
 

@@ -4,18 +4,20 @@
 
 import { html, useEffect, useSignal } from "vendor/preact.js";
 import { Refusal } from "../app/refusal.js";
-import { connection, mayEdit } from "../app/state/connection.js";
+import { t } from "../lib/i18n.js";
+import { Icon, ProgressBar, SearchBox } from "../lib/ui.js";
+import { connection, mayEdit } from "../model/connection.js";
 import {
   askInterfaces,
+  byPackage,
   draft,
+  faultPlace,
+  foundNames,
   interfaceName,
   interfaces,
   interfacesRefused,
   showInterface,
-} from "../app/state/interfaces.js";
-import { t } from "../lib/i18n.js";
-import { byPackage, faultPlace, foundNames } from "../lib/interface-texts.js";
-import { Icon, ProgressBar, SearchBox } from "../lib/ui.js";
+} from "../model/interfaces.js";
 import { InterfaceDetails } from "./interfaces-details.js";
 import { InterfaceForm } from "./interfaces-form.js";
 

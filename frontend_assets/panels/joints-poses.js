@@ -4,17 +4,16 @@
 /** @import { MenuItem } from "../lib/ui.js" */
 
 import { computed, html, useLayoutEffect, useMemo, useRef, useSignal } from "vendor/preact.js";
-import { applyPose, deletePose, renamePose, savePose, updatePose } from "../app/poses.js";
-import { mayEdit } from "../app/state/connection.js";
-import { documentState, movable, position } from "../app/state/document.js";
-import { poses } from "../app/state/poses.js";
-import { feed, mayMove } from "../app/state/ros.js";
-import { showSource } from "../app/state/source.js";
-import { dialog } from "../app/state/view.js";
 import { t } from "../lib/i18n.js";
 import { baseName, shortPath } from "../lib/paths.js";
 import { remembered } from "../lib/remembered.js";
 import { Icon, IconButton, MenuButton } from "../lib/ui.js";
+import { mayEdit } from "../model/connection.js";
+import { documentState, movable, position } from "../model/document.js";
+import { applyPose, deletePose, poses, renamePose, savePose, updatePose } from "../model/poses.js";
+import { feed, mayMove } from "../model/ros.js";
+import { showSource } from "../model/source.js";
+import { dialog } from "../model/view.js";
 
 /** rad or m: nearer than anybody sees, farther than files round. */
 const NEAR = 1e-4;

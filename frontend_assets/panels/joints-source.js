@@ -1,13 +1,12 @@
 /** Above the joints: who moves them, and what of them and of the robot goes out to ROS 2. */
 
 import { html, useSignal } from "vendor/preact.js";
-import { chooseSource, publishJoints, publishRobot } from "../app/ros.js";
-import { mayEdit } from "../app/state/connection.js";
-import { animating, movable, robot } from "../app/state/document.js";
-import { feed, ros } from "../app/state/ros.js";
 import { t } from "../lib/i18n.js";
 import { remembered } from "../lib/remembered.js";
 import { Icon, Switch } from "../lib/ui.js";
+import { mayEdit } from "../model/connection.js";
+import { animating, movable, robot } from "../model/document.js";
+import { chooseSource, feed, publishJoints, publishRobot, ros } from "../model/ros.js";
 
 /** @typedef {"sliders" | "animation" | "joint_states" | "tf"} Source */
 const SOURCES = /** @type {const} */ (["sliders", "animation", "joint_states", "tf"]);

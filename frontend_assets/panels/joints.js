@@ -3,17 +3,6 @@
 /** @import { JointView } from "../types/wire.d.ts" */
 
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
-import {
-  jointsSettled,
-  moveJoint,
-  randomizeJoints,
-  toggleAnimation,
-  zeroJoints,
-} from "../app/actions.js";
-import { animating, movable, position, robot } from "../app/state/document.js";
-import { mayMove } from "../app/state/ros.js";
-import { selection, selectPart } from "../app/state/selection.js";
-import { degrees, hovered, selected } from "../app/state/view.js";
 import { t } from "../lib/i18n.js";
 import { rangeOf, unitsOf } from "../lib/joints.js";
 import { LongList } from "../lib/long-list.js";
@@ -21,6 +10,17 @@ import { allDigits, parseNumber, shownMeasure, shownNumber } from "../lib/number
 import { reveal } from "../lib/seen.js";
 import { Slider, TextBox } from "../lib/slider.js";
 import { EmptyState, Icon, SearchBox } from "../lib/ui.js";
+import { animating, movable, position, robot } from "../model/document.js";
+import {
+  jointsSettled,
+  moveJoint,
+  randomizeJoints,
+  toggleAnimation,
+  zeroJoints,
+} from "../model/requests.js";
+import { mayMove } from "../model/ros.js";
+import { hovered, selected, selection, selectPart } from "../model/selection.js";
+import { degrees } from "../model/view.js";
 import { PosesSection } from "./joints-poses.js";
 import { SourceSection } from "./joints-source.js";
 

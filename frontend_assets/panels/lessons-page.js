@@ -4,19 +4,20 @@
 
 import { html, useEffect, useLayoutEffect, useRef, useSignal } from "vendor/preact.js";
 import { drawnBlock } from "../app/help-drawing.js";
-import { fetchCode, followLink } from "../app/lessons.js";
+import { copyText } from "../lib/clipboard.js";
+import { t } from "../lib/i18n.js";
+import { IconButton } from "../lib/ui.js";
 import {
   chosenLesson,
   demoCode,
   demos,
+  fetchCode,
+  followLink,
   lessonTexts,
   output,
   showOutput,
-} from "../app/state/lessons.js";
-import { notify } from "../app/state/view.js";
-import { copyText } from "../lib/clipboard.js";
-import { t } from "../lib/i18n.js";
-import { IconButton } from "../lib/ui.js";
+} from "../model/lessons.js";
+import { notify } from "../model/view.js";
 import { LessonRuns } from "./lessons-runs.js";
 
 /** So far from its end a list still counts as scrolled to it. */

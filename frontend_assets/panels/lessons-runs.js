@@ -4,14 +4,12 @@
 
 import { html, useSignal } from "vendor/preact.js";
 import { isUnconnected } from "../app/connect-first.js";
-import { pressKey, startDemos, stopDemo } from "../app/lessons.js";
-import { connectRos } from "../app/ros.js";
-import { mayEdit } from "../app/state/connection.js";
-import { demos, elsewhere, isUnderWay } from "../app/state/lessons.js";
-import { ros } from "../app/state/ros.js";
 import { t } from "../lib/i18n.js";
-import { shortTime } from "../lib/short-time.js";
+import { shortTime } from "../lib/times.js";
 import { Icon } from "../lib/ui.js";
+import { mayEdit } from "../model/connection.js";
+import { demos, elsewhere, isUnderWay, pressKey, startDemos, stopDemo } from "../model/lessons.js";
+import { connectRos, ros } from "../model/ros.js";
 
 /** @param {{parts: readonly LessonView[]}} props in the order in which they are started */
 export function LessonRuns({ parts }) {

@@ -3,25 +3,26 @@
 /** @import { LessonView } from "../types/wire.d.ts" */
 
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
-import { fetchLessons, stopAllDemos } from "../app/lessons.js";
-import { useLooking } from "../app/looking.js";
 import { Refusal } from "../app/refusal.js";
-import { mayEdit } from "../app/state/connection.js";
+import { language, t } from "../lib/i18n.js";
+import { EmptyState, Icon, ProgressBar, SearchBox } from "../lib/ui.js";
+import { useLooking } from "../model/asking.js";
+import { mayEdit } from "../model/connection.js";
 import {
   askLessons,
   chosenLesson,
   demos,
   elsewhere,
+  fetchLessons,
   followLessons,
+  isSought,
   isUnderWay,
   lessons,
   lessonsRefused,
   lessonTexts,
+  stopAllDemos,
   underWay,
-} from "../app/state/lessons.js";
-import { language, t } from "../lib/i18n.js";
-import { isSought } from "../lib/lesson-text.js";
-import { EmptyState, Icon, ProgressBar, SearchBox } from "../lib/ui.js";
+} from "../model/lessons.js";
 import { LessonPage } from "./lessons-page.js";
 
 export function LessonsPanel() {

@@ -3,14 +3,14 @@
 /** @import { ManagedNodeView, TransitionView } from "../types/wire.d.ts" */
 
 import { html, useSignal } from "vendor/preact.js";
-import { ask } from "../app/actions.js";
 import { ConnectFirst, isUnconnected, NothingThere, RouterAway } from "../app/connect-first.js";
-import { useLooking } from "../app/looking.js";
 import { Refusal } from "../app/refusal.js";
-import { mayEdit } from "../app/state/connection.js";
 import { askManaged, followManaged, managed, managedRefused } from "../app/state/lifecycle.js";
 import { t } from "../lib/i18n.js";
 import { Icon, ProgressBar } from "../lib/ui.js";
+import { useLooking } from "../model/asking.js";
+import { mayEdit } from "../model/connection.js";
+import { ask } from "../model/requests.js";
 
 /** The states that a node stays in, in the order of its life. */
 const PRIMARY = /** @type {const} */ (["unconfigured", "inactive", "active", "finalized"]);

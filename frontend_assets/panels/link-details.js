@@ -1,17 +1,16 @@
 /** What is known of the selected link, below the tree; its opacity is this person's own. */
 
 import { html } from "vendor/preact.js";
-import { commandById } from "../app/commands.js";
 import { PlaceLink } from "../app/place-link.js";
-import { documentState, robot } from "../app/state/document.js";
-import { tellIn } from "../app/state/frame-pair.js";
-import { selectPart } from "../app/state/selection.js";
-import { fadeLink, linkOpacity, onlySelected, selected } from "../app/state/view.js";
-import { focusLink } from "../app/viewport.js";
+import { commandById } from "../lib/commands.js";
 import { t } from "../lib/i18n.js";
 import { shownNumber } from "../lib/numbers.js";
 import { baseName, shortPath } from "../lib/paths.js";
 import { IconButton } from "../lib/ui.js";
+import { documentState, robot } from "../model/document.js";
+import { fadeLink, linkOpacity, onlySelected, selected, selectPart } from "../model/selection.js";
+import { tellIn } from "../model/tf.js";
+import { focusLink } from "../model/viewport.js";
 
 export function LinkDetails() {
   const link = robot.value?.links.find(({ name }) => name === selected.value);

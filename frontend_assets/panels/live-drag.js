@@ -1,13 +1,12 @@
 /** Rows of live displays that are dragged to another place, into a group or out of it. */
 
-/** @import { Drop } from "../lib/live-drop.js" */
+/** @import { Drop } from "../lib/live-displays.js" */
 
 import { signal } from "vendor/preact.js";
-import { addDisplay, placeDisplays } from "../app/live.js";
-import { mayEdit } from "../app/state/connection.js";
-import { liveDisplays } from "../app/state/live.js";
 import { endDrag, takesDrop, dragged as topic } from "../app/topic-drag.js";
-import { dropOn } from "../lib/live-drop.js";
+import { dropOn } from "../lib/live-displays.js";
+import { mayEdit } from "../model/connection.js";
+import { addDisplay, liveDisplays, placeDisplays } from "../model/live-displays.js";
 
 /** Id of the row that is dragged; empty: none. */
 const dragged = signal("");

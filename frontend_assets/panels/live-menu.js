@@ -3,21 +3,21 @@
 /** @import { MenuItem } from "../lib/ui.js" */
 
 import { html, signal, useEffect, useRef } from "vendor/preact.js";
+import { t } from "../lib/i18n.js";
+import { freeName, moveOfDisplay, moveOfGroup } from "../lib/live-displays.js";
+import { Icon, openMenu } from "../lib/ui.js";
 import {
   duplicateDisplay,
   groupDisplay,
   groupsNow,
+  liveDisplays,
   moveDisplay,
   moveGroup,
   removeDisplay,
   removeGroup,
   renameDisplay,
   renameGroup,
-} from "../app/live.js";
-import { liveDisplays } from "../app/state/live.js";
-import { t } from "../lib/i18n.js";
-import { freeName, moveOfDisplay, moveOfGroup } from "../lib/live-displays.js";
-import { Icon, openMenu } from "../lib/ui.js";
+} from "../model/live-displays.js";
 import { rowId } from "./display-tree.js";
 
 /** Id of the row whose name is being written; empty: none. */

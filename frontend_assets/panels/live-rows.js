@@ -4,14 +4,21 @@
 /** @import { Row } from "./display-tree.js" */
 
 import { html, signal } from "vendor/preact.js";
-import { mendDisplay, needKinds, switchDisplay, switchGroup } from "../app/live.js";
-import { mayEdit } from "../app/state/connection.js";
-import { documentId } from "../app/state/document.js";
-import { displayStates, groupsOff, kinds, liveDisplays } from "../app/state/live.js";
-import { dialog } from "../app/state/view.js";
 import { t } from "../lib/i18n.js";
 import { firstTrouble, inGroups, rateWords } from "../lib/live-displays.js";
 import { Icon } from "../lib/ui.js";
+import { documentId, mayEdit } from "../model/connection.js";
+import {
+  displayStates,
+  groupsOff,
+  kinds,
+  liveDisplays,
+  mendDisplay,
+  needKinds,
+  switchDisplay,
+  switchGroup,
+} from "../model/live-displays.js";
+import { dialog } from "../model/view.js";
 import { draggable, dropMark, droppable } from "./live-drag.js";
 import { displayKeys, groupKeys, NameBox, RowMenu, renaming } from "./live-menu.js";
 import { settingsOf } from "./live-settings.js";

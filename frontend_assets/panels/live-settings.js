@@ -2,18 +2,24 @@
 
 /** @import { DisplayKindView, DisplayView, PropertyView } from "../types/wire.d.ts" */
 /** @import { Row } from "./display-tree.js" */
-/** @import { Listening } from "../app/live.js" */
+/** @import { Listening } from "../model/live-displays.js" */
 
 import { html } from "vendor/preact.js";
-import { framesNow, listenTo, setProperty, topicsNow } from "../app/live.js";
-import { mayEdit } from "../app/state/connection.js";
-import { kinds, settingOf } from "../app/state/live.js";
 import { t } from "../lib/i18n.js";
 import { counts, settingRows } from "../lib/live-displays.js";
 import { niceStep, parseNumber, shownNumber } from "../lib/numbers.js";
 import { PickBox } from "../lib/pick-box.js";
 import { TextBox } from "../lib/slider.js";
 import { Switch } from "../lib/ui.js";
+import { mayEdit } from "../model/connection.js";
+import {
+  framesNow,
+  kinds,
+  listenTo,
+  setProperty,
+  settingOf,
+  topicsNow,
+} from "../model/live-displays.js";
 
 /** @param {DisplayView} display @param {number} level @param {(id: string) => boolean} isOpen @returns {Row[]} */
 export function settingsOf(display, level, isOpen) {

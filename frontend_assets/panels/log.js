@@ -1,27 +1,32 @@
 /** What the nodes of ROS 2 say: by level, node and words, the newest at the bottom. */
 
 /** @import { LogLine } from "../types/wire.d.ts" */
-/** @import { Filter } from "../lib/log-lines.js" */
+/** @import { Filter } from "../model/log.js" */
 /** @import { Signal } from "vendor/preact.js" */
 
 import { html, useEffect, useLayoutEffect, useRef, useSignal } from "vendor/preact.js";
 import { ConnectFirst, isUnconnected, NothingThere, RouterAway } from "../app/connect-first.js";
-import { useLooking } from "../app/looking.js";
-import { clearLog, followLog, logFilter, logLines, logRefused, missed } from "../app/state/log.js";
-import { notify } from "../app/state/view.js";
 import { copyText } from "../lib/clipboard.js";
 import { t } from "../lib/i18n.js";
 import { rowsNear } from "../lib/line-window.js";
+import { Icon, IconButton, SearchBox } from "../lib/ui.js";
+import { useLooking } from "../model/asking.js";
 import {
+  clearLog,
   clockTime,
+  followLog,
   goneBefore,
   LEVELS,
   levelOf,
+  logFilter,
+  logLines,
+  logRefused,
   logText,
   matchingLines,
+  missed,
   nodesOf,
-} from "../lib/log-lines.js";
-import { Icon, IconButton, SearchBox } from "../lib/ui.js";
+} from "../model/log.js";
+import { notify } from "../model/view.js";
 
 const ICONS = { debug: "info", info: "info", warn: "alert", error: "error", fatal: "error" };
 /** So far from its end a list still counts as scrolled to it. */

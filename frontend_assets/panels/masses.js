@@ -1,33 +1,36 @@
 /** What the robot weighs: its links in a table, their sum, and where its centre of mass is now. */
 
-/** @import { MassOrder, MassRow } from "../lib/masses.js" */
+/** @import { MassOrder, MassRow } from "../model/masses.js" */
 /** @import { Signal } from "vendor/preact.js" */
 
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
-import { commandById } from "../app/commands.js";
 import { PlaceLink } from "../app/place-link.js";
 import { Refusal } from "../app/refusal.js";
-import { robot } from "../app/state/document.js";
-import { followFrames, linkPoses } from "../app/state/frames.js";
-import { askMasses, followMasses, masses, massesRefused } from "../app/state/masses.js";
-import { selection, selectPart } from "../app/state/selection.js";
-import { hovered, notify, selected } from "../app/state/view.js";
 import { copyText } from "../lib/clipboard.js";
+import { commandById } from "../lib/commands.js";
 import { t } from "../lib/i18n.js";
 import { LongList } from "../lib/long-list.js";
+import { allDigits, shownMeasure, shownNumber } from "../lib/numbers.js";
+import { baseName } from "../lib/paths.js";
+import { EmptyState, Icon, IconButton, MenuButton, ProgressBar, SearchBox } from "../lib/ui.js";
+import { robot } from "../model/document.js";
+import { followFrames, linkPoses } from "../model/frames.js";
 import {
+  askMasses,
   centreOfMass,
+  followMasses,
   isOddDensity,
   isPossible,
+  masses,
+  massesRefused,
   massRows,
   massText,
   matchingMasses,
   sortedMasses,
   sumOf,
-} from "../lib/masses.js";
-import { allDigits, shownMeasure, shownNumber } from "../lib/numbers.js";
-import { baseName } from "../lib/paths.js";
-import { EmptyState, Icon, IconButton, MenuButton, ProgressBar, SearchBox } from "../lib/ui.js";
+} from "../model/masses.js";
+import { hovered, selected, selection, selectPart } from "../model/selection.js";
+import { notify } from "../model/view.js";
 
 export function MassesPanel() {
   const filter = useSignal("");

@@ -1,16 +1,24 @@
 /** The card of the measuring tool over the 3D view: what to click next, and what was measured. */
 
-/** @import { Anchor, Measured, Placed, Units, Write } from "../lib/measuring.js" */
-/** @import { Measure } from "../app/state/measuring.js" */
+/** @import { Anchor } from "../model/viewport.js" */
+/** @import { Measure, Measured, Placed, Units, Write } from "../model/measuring.js" */
 
 import { html, useSignal } from "vendor/preact.js";
-import { robot } from "../app/state/document.js";
-import { millimetres } from "../app/state/frame-pair.js";
+import { copyText } from "../lib/clipboard.js";
+import { t } from "../lib/i18n.js";
+import { allDigits } from "../lib/numbers.js";
+import { LinkPicker } from "../lib/pick-box.js";
+import { Icon, IconButton } from "../lib/ui.js";
+import { robot } from "../model/document.js";
 import {
   addEnd,
+  anchorName,
+  anchorOfPart,
+  angleText,
   deleteMeasure,
   deleteMeasures,
   endsWanted,
+  lengthsText,
   MODES,
   measuredNow,
   measureMode,
@@ -20,14 +28,10 @@ import {
   startMeasuring,
   stopMeasuring,
   wantEnds,
-} from "../app/state/measuring.js";
-import { degrees, hovered, notify } from "../app/state/view.js";
-import { copyText } from "../lib/clipboard.js";
-import { t } from "../lib/i18n.js";
-import { LinkPicker } from "../lib/link-picker.js";
-import { anchorName, anchorOfPart, angleText, lengthsText } from "../lib/measuring.js";
-import { allDigits } from "../lib/numbers.js";
-import { Icon, IconButton } from "../lib/ui.js";
+} from "../model/measuring.js";
+import { hovered } from "../model/selection.js";
+import { millimetres } from "../model/tf.js";
+import { degrees, notify } from "../model/view.js";
 
 export function MeasureCard() {
   if (!measuring.value && measures.value.length === 0) return null;

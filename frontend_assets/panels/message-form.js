@@ -1,11 +1,11 @@
 /** A form of a message: a row for each field, those of messages in it folded, or its YAML. */
 
 /** @import { FieldView, MessageView } from "../types/wire.d.ts" */
-/** @import { FormMessage, FormValue, Types } from "../lib/message-form.js" */
-/** @import { MessageForm } from "../app/state/message-forms.js" */
+/** @import { FormMessage, FormValue, MessageForm, Types } from "../model/message-forms.js" */
 
 import { html, useEffect, useId } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
+import { IconButton } from "../lib/ui.js";
 import {
   blank,
   boundsOf,
@@ -18,8 +18,7 @@ import {
   troubleOf,
   typeText,
   WORDS,
-} from "../lib/message-form.js";
-import { IconButton } from "../lib/ui.js";
+} from "../model/message-forms.js";
 
 const READ_AFTER_MS = 400;
 /** Messages with more boxes are folded at first. */

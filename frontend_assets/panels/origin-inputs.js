@@ -4,15 +4,14 @@
 
 import { html, useSignal } from "vendor/preact.js";
 import { PlaceLink } from "../app/place-link.js";
-import { site, sitesRevision } from "../app/state/document.js";
-import { hoverSite } from "../app/state/origin.js";
-import { degrees } from "../app/state/view.js";
 import { WrittenText } from "../app/written-text.js";
 import { t } from "../lib/i18n.js";
 import { shownNumbers } from "../lib/numbers.js";
-import { valueText } from "../lib/origin.js";
 import { baseName } from "../lib/paths.js";
 import { Icon } from "../lib/ui.js";
+import { site, sitesRevision } from "../model/document.js";
+import { hoverSite, valueText } from "../model/origin.js";
+import { degrees } from "../model/view.js";
 import { PropertyRow } from "./property-row.js";
 
 /** No robot needs more; a circle is not possible, but nothing here depends on that. */

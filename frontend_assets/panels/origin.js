@@ -5,14 +5,21 @@
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { PlaceLink } from "../app/place-link.js";
 import { Refusal } from "../app/refusal.js";
-import { documentState, robot, showingLastGood } from "../app/state/document.js";
-import { askOrigin, followOrigin, origin } from "../app/state/origin.js";
-import { part, selection, selectPart, splitKey } from "../app/state/selection.js";
-import { degrees } from "../app/state/view.js";
 import { t } from "../lib/i18n.js";
-import { byElement, isComputed, referredPart, valueText } from "../lib/origin.js";
 import { baseName, shortPath } from "../lib/paths.js";
 import { EmptyState, Icon } from "../lib/ui.js";
+import { documentState, robot, showingLastGood } from "../model/document.js";
+import {
+  askOrigin,
+  byElement,
+  followOrigin,
+  isComputed,
+  origin,
+  referredPart,
+  valueText,
+} from "../model/origin.js";
+import { part, selection, selectPart, splitKey } from "../model/selection.js";
+import { degrees } from "../model/view.js";
 import { EffectLine } from "./effect-line.js";
 import { Inputs, OwnButton, OwnText } from "./origin-inputs.js";
 

@@ -4,12 +4,12 @@
 
 import { html, useSignal } from "vendor/preact.js";
 import { PlaceLink } from "../app/place-link.js";
-import { mayEdit } from "../app/state/connection.js";
-import { shownFile, showSource, writeSnippet } from "../app/state/source.js";
 import { t } from "../lib/i18n.js";
 import { LongList } from "../lib/long-list.js";
 import { callOf } from "../lib/outline.js";
 import { Icon } from "../lib/ui.js";
+import { mayEdit } from "../model/connection.js";
+import { shownFile, showSource, writeSnippet } from "../model/source.js";
 
 /** @typedef {{key: string, macro: OutlineMacro}} Keyed */
 

@@ -5,16 +5,15 @@
 import { html, useEffect, useSignal } from "vendor/preact.js";
 import { PlaceLink } from "../app/place-link.js";
 import { Refusal } from "../app/refusal.js";
-import { connection } from "../app/state/connection.js";
-import { built, documentId, documentState } from "../app/state/document.js";
 import { fetchOutline, outline, outlineRefused } from "../app/state/outline.js";
-import { showFile, shownFile } from "../app/state/source.js";
 import { t } from "../lib/i18n.js";
-import { LongList } from "../lib/long-list.js";
+import { LongList, siblingPlaces } from "../lib/long-list.js";
 import { fileRows, macrosOf, valuesOf } from "../lib/outline.js";
 import { baseName, shortPath } from "../lib/paths.js";
-import { siblingPlaces } from "../lib/pieces.js";
 import { EmptyState, Icon, SearchBox } from "../lib/ui.js";
+import { connection, documentId } from "../model/connection.js";
+import { built, documentState } from "../model/document.js";
+import { showFile, shownFile } from "../model/source.js";
 import { MacroList } from "./outline-macros.js";
 
 const SETTLE_MS = 400;

@@ -3,28 +3,30 @@
 /** @import { ParameterView } from "../types/wire.d.ts" */
 
 import { html, useEffect, useSignal } from "vendor/preact.js";
-import { ask } from "../app/actions.js";
 import { NothingThere } from "../app/connect-first.js";
 import { Refusal } from "../app/refusal.js";
-import { mayEdit } from "../app/state/connection.js";
-import { chosenNode, parameters, setRefused } from "../app/state/parameter-values.js";
-import {
-  askNodes,
-  askParameters,
-  chooseNode,
-  followNodes,
-  followParameters,
-  nodesRefused,
-  parameterNodes,
-  parametersRefused,
-  setParameter,
-} from "../app/state/parameters.js";
-import { notify } from "../app/state/view.js";
-import { plainOf } from "../lib/deeds.js";
 import { saveAsFile } from "../lib/files.js";
 import { t } from "../lib/i18n.js";
 import { TextBox } from "../lib/slider.js";
 import { Icon, IconButton, SearchBox, Switch } from "../lib/ui.js";
+import { mayEdit } from "../model/connection.js";
+import { plainOf } from "../model/operations.js";
+import {
+  askNodes,
+  askParameters,
+  chooseNode,
+  chosenNode,
+  followNodes,
+  followParameters,
+  nodesRefused,
+  parameterNodes,
+  parameters,
+  parametersRefused,
+  setParameter,
+  setRefused,
+} from "../model/parameters.js";
+import { ask } from "../model/requests.js";
+import { notify } from "../model/view.js";
 import { DeedPanel } from "./deed-panel.js";
 
 const FOLLOW = [followNodes, followParameters];

@@ -4,12 +4,18 @@
 /** @import { Span } from "./plot.js" */
 
 import { html, useEffect, useRef } from "vendor/preact.js";
-import { nowOfSamples, samplesOf } from "../app/plotting.js";
-import { keyOf, series, span_s } from "../app/state/plot.js";
-import { theme } from "../app/state/view.js";
 import { createChart } from "../lib/chart.js";
 import { t } from "../lib/i18n.js";
-import { columnsOf, columnTimes } from "../lib/samples.js";
+import {
+  columnsOf,
+  columnTimes,
+  keyOf,
+  nowOfSamples,
+  samplesOf,
+  series,
+  span_s,
+} from "../model/plotting.js";
+import { theme } from "../model/view.js";
 
 const FRAME_MS = 30;
 const COLORS = 8;

@@ -1,17 +1,23 @@
 /** The names of the lines of a plot, with their values: now, or where the pointer is. */
 
 /** @import { Signal } from "vendor/preact.js" */
-/** @import { Series } from "../app/state/plot.js" */
+/** @import { Series } from "../model/plotting.js" */
 
 import { html, useEffect, useSignal } from "vendor/preact.js";
-import { laneOpen } from "../app/data.js";
-import { heardTopics, nowOfSamples, samplesOf, unreadTopics } from "../app/plotting.js";
-import { keyOf, removeSeries, series } from "../app/state/plot.js";
 import { t } from "../lib/i18n.js";
 import { shownNumber } from "../lib/numbers.js";
-import { overdue_s } from "../lib/overdue.js";
-import { shortTime } from "../lib/short-time.js";
+import { overdue_s, shortTime } from "../lib/times.js";
 import { IconButton } from "../lib/ui.js";
+import { laneOpen } from "../model/data-lane.js";
+import {
+  heardTopics,
+  keyOf,
+  nowOfSamples,
+  removeSeries,
+  samplesOf,
+  series,
+  unreadTopics,
+} from "../model/plotting.js";
 import { colorOf } from "./plot-chart.js";
 
 const REFRESH_MS = 200;

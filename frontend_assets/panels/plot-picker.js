@@ -1,12 +1,11 @@
 /** Which number is drawn, by hand: a topic, and a path into its messages. */
 
 import { html, useEffect, useSignal } from "vendor/preact.js";
-import { typeOf } from "../app/message-types.js";
-import { addSeries } from "../app/state/plot.js";
-import { topics } from "../app/state/topics.js";
-import { followTopics } from "../app/topics.js";
 import { t } from "../lib/i18n.js";
 import { numberPaths } from "../lib/number-paths.js";
+import { typeOf } from "../model/interfaces.js";
+import { addSeries } from "../model/plotting.js";
+import { followTopics, topics } from "../model/topics.js";
 import { stepsOf } from "../workers/message-paths.js";
 
 /** @param {{onDone: () => void}} props */

@@ -1,22 +1,30 @@
 /** Numbers of messages over time: every one of them, as many lines as are wished. */
 
+/** @import { Signal } from "vendor/preact.js" */
+
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { ConnectFirst, isUnconnected, RouterAway } from "../app/connect-first.js";
-import { dropped } from "../app/data.js";
 import { ListeningMenu } from "../app/listening-menu.js";
-import { followSeries, forgetOthers, nowOfSamples, samplesOf } from "../app/plotting.js";
-import { addSeries, plotListening, series, span_s } from "../app/state/plot.js";
 import { dragged, endDrag, takesDrop } from "../app/topic-drag.js";
 import { saveAsFile } from "../lib/files.js";
 import { t } from "../lib/i18n.js";
-import { csvOf } from "../lib/samples.js";
 import { useSeen } from "../lib/seen.js";
 import { EmptyState, Icon, IconButton, MenuButton } from "../lib/ui.js";
+import { dropped } from "../model/data-lane.js";
+import {
+  addSeries,
+  csvOf,
+  followSeries,
+  forgetOthers,
+  nowOfSamples,
+  plotListening,
+  samplesOf,
+  series,
+  span_s,
+} from "../model/plotting.js";
 import { PlotChart } from "./plot-chart.js";
 import { PlotLegend } from "./plot-legend.js";
 import { PlotPicker } from "./plot-picker.js";
-
-/** @import { Signal } from "vendor/preact.js" */
 
 /** @typedef {{from_s: number, to_s: number, now_s: number}} Span of time that is seen, and the moment from which its axis counts */
 

@@ -3,17 +3,17 @@
 /** @import { MacroCall, Place, Problem, SiteView } from "../types/wire.d.ts" */
 
 import { html, useId, useSignal } from "vendor/preact.js";
-import { mend } from "../app/actions.js";
-import { commandById } from "../app/commands.js";
 import { PlaceLink } from "../app/place-link.js";
-import { mayEdit } from "../app/state/connection.js";
-import { allSites, sitesRevision } from "../app/state/document.js";
-import { selectPart } from "../app/state/selection.js";
-import { showSource } from "../app/state/source.js";
-import { propertyFilter, soughtSite } from "../app/state/view.js";
+import { commandById } from "../lib/commands.js";
 import { t } from "../lib/i18n.js";
 import { baseName, placeText } from "../lib/paths.js";
 import { Icon } from "../lib/ui.js";
+import { mayEdit } from "../model/connection.js";
+import { allSites, sitesRevision } from "../model/document.js";
+import { mend } from "../model/requests.js";
+import { selectPart } from "../model/selection.js";
+import { showSource } from "../model/source.js";
+import { propertyFilter, soughtSite } from "../model/view.js";
 
 /** @type {Record<Problem["severity"], string>} */
 export const SEVERITY_ICONS = { error: "error", warning: "alert", info: "info" };

@@ -1,15 +1,9 @@
 /** What is wrong: how bad, in one sentence, where, and one click that mends it when there is one. */
 
-/**
- * @import { Problem } from "../types/wire.d.ts"
- * @import { FileProblems, Severity } from "../lib/problem-list.js"
- */
+/** @import { Problem } from "../types/wire.d.ts" */
+/** @import { FileProblems, Severity } from "../lib/problem-list.js" */
 
 import { html, useSignal } from "vendor/preact.js";
-import { mendAll } from "../app/actions.js";
-import { mayEdit } from "../app/state/connection.js";
-import { documentState, problems } from "../app/state/document.js";
-import { notify } from "../app/state/view.js";
 import { copyText } from "../lib/clipboard.js";
 import { t } from "../lib/i18n.js";
 import { LongList } from "../lib/long-list.js";
@@ -24,6 +18,10 @@ import {
   SEVERITIES,
 } from "../lib/problem-list.js";
 import { EmptyState, Icon, IconButton, SearchBox } from "../lib/ui.js";
+import { mayEdit } from "../model/connection.js";
+import { documentState, problems } from "../model/document.js";
+import { mendAll } from "../model/requests.js";
+import { notify } from "../model/view.js";
 import { ProblemRow, SEVERITY_ICONS } from "./problem-row.js";
 
 export function ProblemsPanel() {

@@ -3,8 +3,14 @@
 /** @import { SiteGroup } from "../lib/sites.js" */
 
 import { html, useEffect, useSignal } from "vendor/preact.js";
-import { commandById, commandLabel } from "../app/commands.js";
 import { followChoices } from "../app/state/arguments.js";
+import { commandById, commandLabel } from "../lib/commands.js";
+import { t } from "../lib/i18n.js";
+import { LongList } from "../lib/long-list.js";
+import { baseName, shortPath } from "../lib/paths.js";
+import { remembered } from "../lib/remembered.js";
+import { countKinds, groupSites, KINDS } from "../lib/sites.js";
+import { EmptyState, Icon, IconButton, SearchBox } from "../lib/ui.js";
 import {
   allSites,
   documentState,
@@ -12,15 +18,10 @@ import {
   site,
   siteOrder,
   sitesRevision,
-} from "../app/state/document.js";
-import { followShaping, shaping } from "../app/state/origin.js";
-import { onlySelected, propertyFilter, selected, soughtSite } from "../app/state/view.js";
-import { t } from "../lib/i18n.js";
-import { LongList } from "../lib/long-list.js";
-import { baseName, shortPath } from "../lib/paths.js";
-import { remembered } from "../lib/remembered.js";
-import { countKinds, groupSites, KINDS } from "../lib/sites.js";
-import { EmptyState, Icon, IconButton, SearchBox } from "../lib/ui.js";
+} from "../model/document.js";
+import { followShaping, shaping } from "../model/origin.js";
+import { onlySelected, selected } from "../model/selection.js";
+import { propertyFilter, soughtSite } from "../model/view.js";
 import { EffectLine } from "./effect-line.js";
 import { PropertyRow } from "./property-row.js";
 

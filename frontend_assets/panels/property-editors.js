@@ -5,9 +5,6 @@
 
 import { html, useEffect, useSignal } from "vendor/preact.js";
 import { argumentChoices } from "../app/state/arguments.js";
-import { mayEdit } from "../app/state/connection.js";
-import { namesBeside } from "../app/state/document.js";
-import { degrees } from "../app/state/view.js";
 import {
   completions,
   isExpression,
@@ -26,6 +23,9 @@ import {
 } from "../lib/numbers.js";
 import { Slider, TextBox } from "../lib/slider.js";
 import { Switch } from "../lib/ui.js";
+import { mayEdit } from "../model/connection.js";
+import { namesBeside } from "../model/document.js";
+import { degrees } from "../model/view.js";
 
 /**
  * @typedef {object} EditorProps

@@ -4,13 +4,6 @@
 /** @import { Signal } from "vendor/preact.js" */
 
 import { html, signal, useComputed, useEffect, useMemo } from "vendor/preact.js";
-import { editSite, resetSite, setArgument } from "../app/actions.js";
-import { mayEdit } from "../app/state/connection.js";
-import { cursorSites } from "../app/state/cursor-sites.js";
-import { documentState, problems, showingLastGood } from "../app/state/document.js";
-import { hoverSite } from "../app/state/origin.js";
-import { showSource } from "../app/state/source.js";
-import { degrees, hovered } from "../app/state/view.js";
 import { isExpression } from "../lib/expressions.js";
 import { createGesture } from "../lib/gesture.js";
 import { t } from "../lib/i18n.js";
@@ -19,6 +12,13 @@ import { formatNumber, shownNumber, shownNumbers, toDegrees } from "../lib/numbe
 import { placeText } from "../lib/paths.js";
 import { isChanged, names, shortName } from "../lib/sites.js";
 import { Icon, IconButton, MenuButton } from "../lib/ui.js";
+import { mayEdit } from "../model/connection.js";
+import { documentState, problems, showingLastGood } from "../model/document.js";
+import { hoverSite } from "../model/origin.js";
+import { editSite, resetSite, setArgument } from "../model/requests.js";
+import { hovered } from "../model/selection.js";
+import { cursorSites, showSource } from "../model/source.js";
+import { degrees } from "../model/view.js";
 import { Editor } from "./property-editors.js";
 
 /**

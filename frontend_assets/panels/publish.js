@@ -1,14 +1,9 @@
 /** Messages that a person publishes: by a form, once or so often a second, each seen and stopped by everybody. */
 
 /** @import { PublicationView } from "../types/wire.d.ts" */
-/** @import { PastedLine } from "../lib/pasted-line.js" */
+/** @import { PastedLine } from "../lib/ros2-lines.js" */
 
 import { html, useSignal } from "vendor/preact.js";
-import { publish, stopPublishing } from "../app/deeds.js";
-import { mayEdit } from "../app/state/connection.js";
-import { followDeeds } from "../app/state/deed-following.js";
-import { publications, repeatedPublications } from "../app/state/deeds.js";
-import { publishForm, publishing } from "../app/state/message-forms.js";
 import {
   askPublishable,
   followPublishable,
@@ -19,6 +14,15 @@ import { t } from "../lib/i18n.js";
 import { parseNumber } from "../lib/numbers.js";
 import { TextBox } from "../lib/slider.js";
 import { Icon } from "../lib/ui.js";
+import { mayEdit } from "../model/connection.js";
+import { publishForm, publishing } from "../model/message-forms.js";
+import {
+  followDeeds,
+  publications,
+  publish,
+  repeatedPublications,
+  stopPublishing,
+} from "../model/operations.js";
 import { DeedForm, DeedPanel, DeedState, Offers, openLine } from "./deed-panel.js";
 
 const FOLLOW = [followPublishable, () => followDeeds("publications")];

@@ -1,29 +1,27 @@
 /** The 3D view: viser's page in a frame that is never reloaded, with its tools and notices over it. */
 
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
-import { mend, openPath, setDisplay, undo, worstProblem } from "../app/actions.js";
-import { commandById } from "../app/commands.js";
-import { targetFrame } from "../app/following.js";
 import { GraphicsNotice } from "../app/graphics.js";
 import { PlaceLink } from "../app/place-link.js";
-import { heldBack } from "../app/state/alarm.js";
-import { mayEdit, role } from "../app/state/connection.js";
+import { commandById } from "../lib/commands.js";
+import { t } from "../lib/i18n.js";
+import { remember } from "../lib/remembered.js";
+import { Icon, IconButton, MenuButton, ProgressBar } from "../lib/ui.js";
+import { documentId, mayEdit, role } from "../model/connection.js";
 import {
   displays,
-  documentId,
   documentState,
   history,
   progress,
   robot,
   showingLastGood,
-} from "../app/state/document.js";
-import { fixedFrame, frameTrouble } from "../app/state/live.js";
-import { measuring } from "../app/state/measuring.js";
-import { dialog, mouseMode, theme } from "../app/state/view.js";
-import { attachViewport, VIEWS, viewport } from "../app/viewport.js";
-import { t } from "../lib/i18n.js";
-import { remember } from "../lib/remembered.js";
-import { Icon, IconButton, MenuButton, ProgressBar } from "../lib/ui.js";
+} from "../model/document.js";
+import { fixedFrame, frameTrouble } from "../model/live-displays.js";
+import { measuring } from "../model/measuring.js";
+import { mend, openPath, setDisplay, undo, worstProblem } from "../model/requests.js";
+import { heldBack } from "../model/source.js";
+import { dialog, mouseMode, theme } from "../model/view.js";
+import { attachViewport, targetFrame, VIEWS, viewport } from "../model/viewport.js";
 import { FixedFrame } from "./fixed-frame.js";
 import { MeasureCard } from "./measure-card.js";
 import { TargetFrame } from "./target-frame.js";

@@ -3,17 +3,24 @@
 /** @import { CallView } from "../types/wire.d.ts" */
 
 import { html, useSignal } from "vendor/preact.js";
-import { callService, cancelCall } from "../app/deeds.js";
-import { mayEdit } from "../app/state/connection.js";
-import { followDeeds } from "../app/state/deed-following.js";
-import { calls } from "../app/state/deeds.js";
-import { callTimeout, serviceForm } from "../app/state/message-forms.js";
-import { askServices, followServices, offersRefused, services } from "../app/state/offers.js";
-import { plainOf, tookText } from "../lib/deeds.js";
 import { t } from "../lib/i18n.js";
 import { parseNumber } from "../lib/numbers.js";
 import { TextBox } from "../lib/slider.js";
 import { Icon } from "../lib/ui.js";
+import { mayEdit } from "../model/connection.js";
+import { callTimeout, serviceForm } from "../model/message-forms.js";
+import {
+  askServices,
+  callService,
+  calls,
+  cancelCall,
+  followDeeds,
+  followServices,
+  offersRefused,
+  plainOf,
+  services,
+  tookText,
+} from "../model/operations.js";
 import { DeedForm, DeedPanel, DeedState, Offers, openLine } from "./deed-panel.js";
 import { ValueTree } from "./value-tree.js";
 

@@ -1,18 +1,16 @@
 /** What can be asked of the word at the cursor: its meaning, its definition, where it is used. */
 
-/**
- * @import { EditorView } from "vendor/codemirror.js"
- * @import { Reference, References, TextPlace } from "../types/wire.d.ts"
- * @import { TextLink } from "../app/texts.js"
- */
+/** @import { EditorView } from "vendor/codemirror.js" */
+/** @import { Reference, References, TextPlace } from "../types/wire.d.ts" */
+/** @import { TextLink } from "../app/texts.js" */
 
 import { signal } from "vendor/preact.js";
-import { addCommands } from "../app/commands.js";
 import { lookUp, referencesTo } from "../app/language.js";
-import { cursorPlace, showSource } from "../app/state/source.js";
-import { notify } from "../app/state/view.js";
+import { addCommands } from "../lib/commands.js";
 import { t } from "../lib/i18n.js";
 import { placeText } from "../lib/paths.js";
+import { cursorPlace, showSource } from "../model/source.js";
+import { notify } from "../model/view.js";
 import { goTo, made, meaningCard, placeButton } from "./source-meaning.js";
 import { closePeek, peek } from "./source-peek.js";
 import { renameAt } from "./source-rename.js";

@@ -12,7 +12,7 @@ import {
   ViewPlugin,
 } from "vendor/codemirror.js";
 import { t } from "../lib/i18n.js";
-import { changedLines, hunkAt, oneChange } from "../lib/line-diff.js";
+import { changedLines, hunkAt, oneChange } from "../lib/text-differences.js";
 import { iconElement } from "../lib/ui.js";
 import { made } from "./source-meaning.js";
 import { closePeek, peek } from "./source-peek.js";
@@ -115,7 +115,7 @@ function backButton(run) {
   return button;
 }
 
-/** @param {EditorView} view @param {import("../lib/line-diff.js").Hunk} hunk @param {readonly string[]} old as if it were typed */
+/** @param {EditorView} view @param {import("../lib/text-differences.js").Hunk} hunk @param {readonly string[]} old as if it were typed */
 function putBack(view, { from, to }, old) {
   const now = linesOf(view.state.doc);
   const lines = [...now.slice(0, from - 1), ...old, ...now.slice(to - 1)];

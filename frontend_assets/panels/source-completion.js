@@ -1,10 +1,8 @@
 /** Completion in the source: the studio says what may stand at the cursor. */
 
-/**
- * @import { Completion, CompletionContext, CompletionResult, Extension } from "vendor/codemirror.js"
- * @import { Completion as Offer, Completions } from "../types/wire.d.ts"
- * @import { TextLink } from "../app/texts.js"
- */
+/** @import { Completion, CompletionContext, CompletionResult, Extension } from "vendor/codemirror.js" */
+/** @import { Completion as Offer, Completions } from "../types/wire.d.ts" */
+/** @import { TextLink } from "../app/texts.js" */
 
 import {
   acceptCompletion,
@@ -14,11 +12,11 @@ import {
   startCompletion,
 } from "vendor/codemirror.js";
 import { complete } from "../app/language.js";
-import { mayEdit } from "../app/state/connection.js";
 import { t } from "../lib/i18n.js";
 import { kindIcon } from "../lib/kinds.js";
 import { snippetTemplate } from "../lib/snippets.js";
 import { iconElement } from "../lib/ui.js";
+import { mayEdit } from "../model/connection.js";
 
 /** Typing one of these asks; a blank only inside a tag. */
 const ASKING = /[\w:.\-/<${(["'=]$/;

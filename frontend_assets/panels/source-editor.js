@@ -1,9 +1,7 @@
 /** The editor of the source panel: one CodeMirror view, and a state for each open file. */
 
-/**
- * @import { Extension, ViewUpdate } from "vendor/codemirror.js"
- * @import { TextLink } from "../app/texts.js"
- */
+/** @import { Extension, ViewUpdate } from "vendor/codemirror.js" */
+/** @import { TextLink } from "../app/texts.js" */
 
 import {
   Annotation,
@@ -37,13 +35,13 @@ import {
   xml,
   yaml,
 } from "vendor/codemirror.js";
-import { noteTyping } from "../app/state/alarm.js";
-import { documentState } from "../app/state/document.js";
 import { createGesture } from "../lib/gesture.js";
 import { language, t } from "../lib/i18n.js";
 import { indentationOf } from "../lib/indentation.js";
 import { shortPath } from "../lib/paths.js";
 import { iconElement } from "../lib/ui.js";
+import { documentState } from "../model/document.js";
+import { noteTyping } from "../model/source.js";
 import { steadyCaret } from "./source-caret.js";
 import { changeMarks } from "./source-changes.js";
 import { LIGHTS } from "./source-lights.js";

@@ -3,8 +3,8 @@
 /** @import { Extension } from "vendor/codemirror.js" */
 
 import { EditorView } from "vendor/codemirror.js";
-import { allSites } from "../app/state/document.js";
-import { hoverSite } from "../app/state/origin.js";
+import { allSites } from "../model/document.js";
+import { hoverSite } from "../model/origin.js";
 
 /** @param {{file: string}} link @returns {Extension} for the editor of one text */
 export function pointing(link) {

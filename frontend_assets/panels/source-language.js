@@ -1,16 +1,14 @@
 /** What the studio knows of the words in the source: cards on hover, definitions, uses, completion. */
 
-/**
- * @import { Extension, Tooltip } from "vendor/codemirror.js"
- * @import { TextLink } from "../app/texts.js"
- */
+/** @import { Extension, Tooltip } from "vendor/codemirror.js" */
+/** @import { TextLink } from "../app/texts.js" */
 
 import { EditorState, EditorView, hoverTooltip, keymap, ViewPlugin } from "vendor/codemirror.js";
 import { effect, untracked } from "vendor/preact.js";
 import { lookUp } from "../app/language.js";
-import { mayEdit } from "../app/state/connection.js";
-import { wantedSnippet } from "../app/state/source.js";
 import { t } from "../lib/i18n.js";
+import { mayEdit } from "../model/connection.js";
+import { wantedSnippet } from "../model/source.js";
 import {
   cursorOf,
   goBack,

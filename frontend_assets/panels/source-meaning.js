@@ -2,12 +2,12 @@
 
 /** @import { Meaning, Parameter, TextPlace } from "../types/wire.d.ts" */
 
-import { showFile, showSource } from "../app/state/source.js";
 import { t } from "../lib/i18n.js";
 import { kindIcon } from "../lib/kinds.js";
 import { shownNumbers } from "../lib/numbers.js";
 import { placeText } from "../lib/paths.js";
 import { iconElement } from "../lib/ui.js";
+import { showFile, showSource } from "../model/source.js";
 
 const VALUES_SHOWN = 6;
 const PLACES_SHOWN = 8;

@@ -1,18 +1,16 @@
 /** Another name for what stands at the cursor, wherever it is named: the places first, then Enter. */
 
-/**
- * @import { EditorView } from "vendor/codemirror.js"
- * @import { Meaning, RenamingAnswer } from "../types/wire.d.ts"
- * @import { TextLink } from "../app/texts.js"
- */
+/** @import { EditorView } from "vendor/codemirror.js" */
+/** @import { Meaning, RenamingAnswer } from "../types/wire.d.ts" */
+/** @import { TextLink } from "../app/texts.js" */
 
-import { ask } from "../app/actions.js";
 import { lookUp } from "../app/language.js";
-import { mayEdit } from "../app/state/connection.js";
-import { notify } from "../app/state/view.js";
-import { RefusedError, send } from "../app/wire.js";
 import { t } from "../lib/i18n.js";
 import { placeText } from "../lib/paths.js";
+import { mayEdit } from "../model/connection.js";
+import { ask } from "../model/requests.js";
+import { notify } from "../model/view.js";
+import { RefusedError, send } from "../model/wire.js";
 import { made, placeButton } from "./source-meaning.js";
 import { closePeek, peek } from "./source-peek.js";
 

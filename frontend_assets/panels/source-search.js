@@ -4,17 +4,17 @@
 /** @import { Signal } from "vendor/preact.js" */
 
 import { html, useEffect, useLayoutEffect, useRef, useSignal } from "vendor/preact.js";
-import { ask } from "../app/actions.js";
-import { addCommands, commandById } from "../app/commands.js";
-import { mayEdit } from "../app/state/connection.js";
-import { documentState, history } from "../app/state/document.js";
-import { filesSearch, showSource } from "../app/state/source.js";
-import { notify } from "../app/state/view.js";
-import { send } from "../app/wire.js";
+import { addCommands, commandById } from "../lib/commands.js";
 import { t } from "../lib/i18n.js";
 import { allSettled } from "../lib/latest.js";
 import { shortPath } from "../lib/paths.js";
 import { Icon, IconButton } from "../lib/ui.js";
+import { mayEdit } from "../model/connection.js";
+import { documentState, history } from "../model/document.js";
+import { ask } from "../model/requests.js";
+import { filesSearch, showSource } from "../model/source.js";
+import { notify } from "../model/view.js";
+import { send } from "../model/wire.js";
 
 const REST_MS = 180;
 

@@ -3,11 +3,9 @@
  * the one that is selected elsewhere is marked and comes into view. Neither moves the cursor or the focus.
  */
 
-/**
- * @import { EditorState, Extension } from "vendor/codemirror.js"
- * @import { TextLink } from "../app/texts.js"
- * @import { SourceTexts } from "./source-texts.js"
- */
+/** @import { EditorState, Extension } from "vendor/codemirror.js" */
+/** @import { TextLink } from "../app/texts.js" */
+/** @import { SourceTexts } from "./source-texts.js" */
 
 import {
   Decoration,
@@ -18,11 +16,10 @@ import {
   syntaxTree,
 } from "vendor/codemirror.js";
 import { useEffect } from "vendor/preact.js";
-import { robot } from "../app/state/document.js";
-import { part, selection, selectPart, splitKey } from "../app/state/selection.js";
 import { lineOfPart } from "../lib/part-lines.js";
 import { whenPlaced } from "../lib/seen.js";
-import { partWrittenAt } from "../lib/selection.js";
+import { robot } from "../model/document.js";
+import { part, partWrittenAt, selection, selectPart, splitKey } from "../model/selection.js";
 import { fromElsewhere } from "./source-editor.js";
 
 /** @typedef {ReturnType<typeof syntaxTree>["topNode"]} SyntaxNode */

@@ -1,15 +1,14 @@
 /** The tabs of the source panel: a file each, what is unsaved in it, and all files of the robot. */
 
 import { html, useComputed } from "vendor/preact.js";
-import { commandById, onMac } from "../app/commands.js";
-import { heldBack } from "../app/state/alarm.js";
-import { documentState, history, problems } from "../app/state/document.js";
-import { closeFile, litPlaces, openFile, openFiles, shownFile } from "../app/state/source.js";
+import { commandById, onMac } from "../lib/commands.js";
 import { t } from "../lib/i18n.js";
 import { shortcutText } from "../lib/keys.js";
 import { shortPath } from "../lib/paths.js";
 import { tabNames } from "../lib/tab-names.js";
 import { Icon, IconButton, MenuButton } from "../lib/ui.js";
+import { documentState, history, problems } from "../model/document.js";
+import { closeFile, heldBack, litPlaces, openFile, openFiles, shownFile } from "../model/source.js";
 import { ACTIONS } from "./source-actions.js";
 import { findInFiles } from "./source-search.js";
 

@@ -1,20 +1,18 @@
 /** The open texts behind the source panel's one view: fetched when first shown, followed until closed. */
 
-/**
- * @import { ChangeSet, EditorState, EditorView, StateEffect } from "vendor/codemirror.js"
- * @import { Signal } from "vendor/preact.js"
- * @import { TextLink } from "../app/texts.js"
- */
+/** @import { ChangeSet, EditorState, EditorView, StateEffect } from "vendor/codemirror.js" */
+/** @import { Signal } from "vendor/preact.js" */
+/** @import { TextLink } from "../app/texts.js" */
 
 import { signal } from "vendor/preact.js";
-import { redo, undo } from "../app/actions.js";
-import { commandById } from "../app/commands.js";
-import { mayEdit } from "../app/state/connection.js";
-import { cursorPlace, shownFile } from "../app/state/source.js";
-import { theme } from "../app/state/view.js";
 import { linkText } from "../app/texts.js";
-import { RefusedError } from "../app/wire.js";
+import { commandById } from "../lib/commands.js";
 import { t } from "../lib/i18n.js";
+import { mayEdit } from "../model/connection.js";
+import { redo, undo } from "../model/requests.js";
+import { cursorPlace, shownFile } from "../model/source.js";
+import { theme } from "../model/view.js";
+import { RefusedError } from "../model/wire.js";
 import { commonExtensions, fromElsewhere, stateOf, tellCursor } from "./source-editor.js";
 import { pointing } from "./source-effects.js";
 import { languageOf } from "./source-language.js";

@@ -12,9 +12,14 @@ import {
   unfoldAll,
 } from "vendor/codemirror.js";
 import { html, useEffect, useMemo, useRef } from "vendor/preact.js";
-import { mend } from "../app/actions.js";
-import { connection, mayEdit } from "../app/state/connection.js";
-import { documentState, history, problems } from "../app/state/document.js";
+import { language, t } from "../lib/i18n.js";
+import { baseName } from "../lib/paths.js";
+import { recall, remember } from "../lib/remembered.js";
+import { marksOf } from "../lib/text-problems.js";
+import { EmptyState, Icon, ProgressBar } from "../lib/ui.js";
+import { connection, mayEdit } from "../model/connection.js";
+import { documentState, history, problems } from "../model/document.js";
+import { mend } from "../model/requests.js";
 import {
   cursorPlace,
   litPlaces,
@@ -22,13 +27,8 @@ import {
   openFiles,
   shownFile,
   wantedPlace,
-} from "../app/state/source.js";
-import { theme } from "../app/state/view.js";
-import { language, t } from "../lib/i18n.js";
-import { baseName } from "../lib/paths.js";
-import { recall, remember } from "../lib/remembered.js";
-import { marksOf } from "../lib/text-problems.js";
-import { EmptyState, Icon, ProgressBar } from "../lib/ui.js";
+} from "../model/source.js";
+import { theme } from "../model/view.js";
 import { setSaved } from "./source-changes.js";
 import { adjust, goToPlace } from "./source-editor.js";
 import { setLit } from "./source-lights.js";

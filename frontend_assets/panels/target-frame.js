@@ -1,12 +1,12 @@
 /** With which frame the camera goes, in this browser: a menu among the tools of the 3D view. */
 
 import { html, useEffect, useRef } from "vendor/preact.js";
-import { keepTargetFrame, targetFrame, targetTrouble } from "../app/following.js";
-import { framesNow } from "../app/live.js";
-import { robot } from "../app/state/document.js";
-import { inFrameOrder } from "../lib/frame-order.js";
+import { inFrameOrder } from "../lib/frame-tree.js";
 import { t } from "../lib/i18n.js";
 import { Icon, openMenu } from "../lib/ui.js";
+import { robot } from "../model/document.js";
+import { framesNow } from "../model/live-displays.js";
+import { keepTargetFrame, targetFrame, targetTrouble } from "../model/viewport.js";
 
 export function TargetFrame() {
   const menu = useRef(/** @type {import("../lib/ui.js").MenuHandle | null} */ (null));

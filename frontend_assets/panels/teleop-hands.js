@@ -1,13 +1,20 @@
 /** The stick and the buttons of the Teleop panel; keys drive while the focus is among them. */
 
 import { html } from "vendor/preact.js";
-import { halt, hold, release } from "../app/driving.js";
-import { useDrivingKeys } from "../app/driving-keys.js";
-import { mayEdit } from "../app/state/connection.js";
-import { driveLimits, held } from "../app/state/driving.js";
-import { CENTRE, ofStick, together } from "../lib/driving.js";
 import { t } from "../lib/i18n.js";
 import { Icon } from "../lib/ui.js";
+import { mayEdit } from "../model/connection.js";
+import {
+  CENTRE,
+  driveLimits,
+  halt,
+  held,
+  hold,
+  ofStick,
+  release,
+  together,
+  useDrivingKeys,
+} from "../model/driving.js";
 
 /** @typedef {{id: string, icon: string, x?: number, y?: number, turn?: number, aside?: boolean}} Arrow */
 

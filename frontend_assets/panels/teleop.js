@@ -2,9 +2,12 @@
 
 import { html, useEffect } from "vendor/preact.js";
 import { ConnectFirst, isUnconnected, RouterAway } from "../app/connect-first.js";
-import { halt } from "../app/driving.js";
-import { useLooking } from "../app/looking.js";
-import { mayEdit } from "../app/state/connection.js";
+import { t } from "../lib/i18n.js";
+import { allDigits, shownNumber } from "../lib/numbers.js";
+import { Slider } from "../lib/slider.js";
+import { Switch } from "../lib/ui.js";
+import { useLooking } from "../model/asking.js";
+import { mayEdit } from "../model/connection.js";
 import {
   chosenDrive,
   driveLimits,
@@ -12,13 +15,11 @@ import {
   driveTopics,
   drivingRefused,
   followDrivable,
+  halt,
   held,
-} from "../app/state/driving.js";
-import { speedOf, together } from "../lib/driving.js";
-import { t } from "../lib/i18n.js";
-import { allDigits, shownNumber } from "../lib/numbers.js";
-import { Slider } from "../lib/slider.js";
-import { Switch } from "../lib/ui.js";
+  speedOf,
+  together,
+} from "../model/driving.js";
 import { Hands } from "./teleop-hands.js";
 
 const STAMPED = "TwistStamped";

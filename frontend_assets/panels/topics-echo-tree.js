@@ -3,15 +3,14 @@
 /** @import { EchoRow } from "../lib/echo-rows.js" */
 
 import { html, useSignal } from "vendor/preact.js";
-import { plot } from "../app/state/plot.js";
-import { notify } from "../app/state/view.js";
 import { beginDrag, endDrag } from "../app/topic-drag.js";
 import { copyText } from "../lib/clipboard.js";
 import { echoRows } from "../lib/echo-rows.js";
 import { t } from "../lib/i18n.js";
-import { LongList } from "../lib/long-list.js";
-import { siblingPlaces } from "../lib/pieces.js";
+import { LongList, siblingPlaces } from "../lib/long-list.js";
 import { Icon, IconButton } from "../lib/ui.js";
+import { plot } from "../model/plotting.js";
+import { notify } from "../model/view.js";
 
 const MORE = 500;
 

@@ -4,17 +4,16 @@
 /** @import { Heard, Looked } from "../workers/subscriptions.js" */
 
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
-import { laneOpen, lookAt } from "../app/data.js";
 import { ListeningMenu } from "../app/listening-menu.js";
-import { addDisplay } from "../app/live.js";
-import { mayEdit } from "../app/state/connection.js";
-import { chosenTopic, listening } from "../app/state/topics.js";
-import { notify } from "../app/state/view.js";
 import { copyText } from "../lib/clipboard.js";
 import { t } from "../lib/i18n.js";
-import { shortTime } from "../lib/short-time.js";
-import { useSilence } from "../lib/silence.js";
+import { shortTime, useSilence } from "../lib/times.js";
 import { Icon, IconButton } from "../lib/ui.js";
+import { mayEdit } from "../model/connection.js";
+import { laneOpen, lookAt } from "../model/data-lane.js";
+import { addDisplay } from "../model/live-displays.js";
+import { chosenTopic, listening } from "../model/topics.js";
+import { notify } from "../model/view.js";
 import { EchoTree } from "./topics-echo-tree.js";
 import { TopicEnds } from "./topics-ends.js";
 

@@ -1,12 +1,12 @@
 /** Who publishes a topic and who subscribes to it, how, and what keeps them apart. */
 
-/** @import { TopicEnd, Misfit, TopicEnds as Ends } from "../types/wire.d.ts" */
+/** @import { Misfit, TopicEnd, TopicEnds as Ends } from "../types/wire.d.ts" */
 
 import { html } from "vendor/preact.js";
-import { useTold } from "../app/looking.js";
-import { topicEnds } from "../app/topics.js";
 import { t } from "../lib/i18n.js";
 import { Icon } from "../lib/ui.js";
+import { useTold } from "../model/asking.js";
+import { topicEnds } from "../model/topics.js";
 
 const LOOK_EVERY_MS = 2000;
 

@@ -1,18 +1,16 @@
 /** The table of topics: a click on a row looks at it, a drag takes it into the 3D view. */
 
 /** @import { TopicRate, TopicRow } from "../types/wire.d.ts" */
-/** @import { TopicOrder } from "../lib/topic-rows.js" */
+/** @import { TopicOrder } from "../model/topics.js" */
 /** @import { Signal } from "vendor/preact.js" */
 
 import { html, useEffect } from "vendor/preact.js";
-import { chosenTopic, listening } from "../app/state/topics.js";
 import { beginDrag, endDrag } from "../app/topic-drag.js";
 import { t } from "../lib/i18n.js";
 import { rateWords } from "../lib/live-displays.js";
 import { LongList } from "../lib/long-list.js";
-import { ageWords, bandWords } from "../lib/topic-rates.js";
-import { shortTypes } from "../lib/topic-rows.js";
 import { Icon, LongName } from "../lib/ui.js";
+import { ageWords, bandWords, chosenTopic, listening, shortTypes } from "../model/topics.js";
 
 /** @param {string} name */
 const rowId = (name) => `topic-${name}`;

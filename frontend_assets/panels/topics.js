@@ -1,20 +1,25 @@
 /** The topics of a ROS 2 system: how each comes, who is at its ends, and what it says now. */
 
+/** @import { TopicRow } from "../types/wire.d.ts" */
+/** @import { TopicOrder } from "../model/topics.js" */
+
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { ConnectFirst, isUnconnected, NothingThere, RouterAway } from "../app/connect-first.js";
-import { ros } from "../app/state/ros.js";
-import { chosenTopic, showsNoise, topics } from "../app/state/topics.js";
-import { useTopicRates } from "../app/topic-rates.js";
-import { followTopics } from "../app/topics.js";
 import { t } from "../lib/i18n.js";
 import { useSeen } from "../lib/seen.js";
-import { isNoise, shownTopics } from "../lib/topic-rows.js";
 import { IconButton, ProgressBar, SearchBox } from "../lib/ui.js";
+import { ros } from "../model/ros.js";
+import {
+  chosenTopic,
+  followTopics,
+  isNoise,
+  shownTopics,
+  showsNoise,
+  topics,
+  useTopicRates,
+} from "../model/topics.js";
 import { TopicEcho } from "./topics-echo.js";
 import { TopicTable } from "./topics-table.js";
-
-/** @import { TopicRow } from "../types/wire.d.ts" */
-/** @import { TopicOrder } from "../lib/topic-rows.js" */
 
 export function TopicsPanel() {
   const panel = useRef(/** @type {HTMLElement | null} */ (null));

@@ -1,9 +1,7 @@
 /** The URDF, or what changed in it, in a text that is only read: coloured, folded, searched, numbered. */
 
-/**
- * @import { Extension } from "vendor/codemirror.js"
- * @import { DiffLineView, UrdfChanges } from "../types/wire.d.ts"
- */
+/** @import { Extension } from "vendor/codemirror.js" */
+/** @import { DiffLineView, UrdfChanges } from "../types/wire.d.ts" */
 
 import {
   crosshairCursor,
@@ -26,7 +24,7 @@ import {
   xml,
 } from "vendor/codemirror.js";
 import { t } from "../lib/i18n.js";
-import { oneChange } from "../lib/line-diff.js";
+import { oneChange } from "../lib/text-differences.js";
 import { editorWords, foldMark } from "./source-editor.js";
 import { LIGHTS, setLit } from "./source-lights.js";
 import { SOURCE_LOOK } from "./source-look.js";

@@ -4,17 +4,17 @@
 /** @import { Signal } from "vendor/preact.js" */
 
 import { html, useEffect, useMemo, useRef, useSignal } from "vendor/preact.js";
-import { commandById } from "../app/commands.js";
 import { Refusal } from "../app/refusal.js";
-import { connection } from "../app/state/connection.js";
-import { built, history, robot, title } from "../app/state/document.js";
-import { askOrKeepWhy } from "../app/state/refusals.js";
-import { selection, selectPart } from "../app/state/selection.js";
-import { notify } from "../app/state/view.js";
 import { copyText } from "../lib/clipboard.js";
+import { commandById } from "../lib/commands.js";
 import { language, t } from "../lib/i18n.js";
 import { EmptyState, Icon, IconButton, ProgressBar } from "../lib/ui.js";
 import { elementsByLine } from "../lib/urdf-elements.js";
+import { askOrKeepWhy } from "../model/asking.js";
+import { connection } from "../model/connection.js";
+import { built, history, robot, title } from "../model/document.js";
+import { selection, selectPart } from "../model/selection.js";
+import { notify } from "../model/view.js";
 import { UrdfText } from "./urdf-text.js";
 
 const SETTLE_MS = 250;

@@ -3,23 +3,23 @@
 /** @import { Side } from "../types/wire.d.ts" */
 
 import { effect, html, useEffect, useRef } from "vendor/preact.js";
-import { ask, setDisplay } from "../app/actions.js";
-import { mayEdit } from "../app/state/connection.js";
-import { displays } from "../app/state/document.js";
+import { t } from "../lib/i18n.js";
+import { allSettled } from "../lib/latest.js";
+import { Slider } from "../lib/slider.js";
+import { Icon, IconButton, ProgressBar } from "../lib/ui.js";
+import { mayEdit } from "../model/connection.js";
+import { displays } from "../model/document.js";
+import { ask, setDisplay } from "../model/requests.js";
 import {
   canCompare,
+  compareSides,
   comparison,
   sideKey,
   sideName,
   sideOf,
   variants,
-} from "../app/state/variants.js";
-import { compareSides } from "../app/variants.js";
-import { viewport } from "../app/viewport.js";
-import { t } from "../lib/i18n.js";
-import { allSettled } from "../lib/latest.js";
-import { Slider } from "../lib/slider.js";
-import { Icon, IconButton, ProgressBar } from "../lib/ui.js";
+} from "../model/variants.js";
+import { viewport } from "../model/viewport.js";
 import { DifferenceTable, InputTable } from "./variants-table.js";
 
 export function VariantsComparison() {

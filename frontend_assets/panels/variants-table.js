@@ -5,10 +5,6 @@
 
 import { html, useSignal } from "vendor/preact.js";
 import { PlaceLink } from "../app/place-link.js";
-import { robot } from "../app/state/document.js";
-import { selectLink } from "../app/state/selection.js";
-import { comparison, sideName } from "../app/state/variants.js";
-import { degrees, hovered, selected } from "../app/state/view.js";
 import {
   changeText,
   endOf,
@@ -23,6 +19,10 @@ import {
 import { t } from "../lib/i18n.js";
 import { allDigits, shownNumbers } from "../lib/numbers.js";
 import { Icon, SearchBox } from "../lib/ui.js";
+import { robot } from "../model/document.js";
+import { hovered, selected, selectLink } from "../model/selection.js";
+import { comparison, sideName } from "../model/variants.js";
+import { degrees } from "../model/view.js";
 
 const SHOWN = 200;
 

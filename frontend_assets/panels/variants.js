@@ -4,21 +4,21 @@
 /** @import { MenuItem } from "../lib/ui.js" */
 
 import { html, useSignal } from "vendor/preact.js";
-import { ask } from "../app/actions.js";
-import { mayEdit } from "../app/state/connection.js";
-import { documentState, robot } from "../app/state/document.js";
-import { variants } from "../app/state/variants.js";
-import { dialog } from "../app/state/view.js";
+import { t } from "../lib/i18n.js";
+import { shortPath } from "../lib/paths.js";
+import { EmptyState, Icon, MenuButton } from "../lib/ui.js";
+import { mayEdit } from "../model/connection.js";
+import { documentState, robot } from "../model/document.js";
+import { ask } from "../model/requests.js";
 import {
   applyVariant,
   compareSides,
   renameVariant,
   saveVariant,
   updateVariant,
-} from "../app/variants.js";
-import { t } from "../lib/i18n.js";
-import { shortPath } from "../lib/paths.js";
-import { EmptyState, Icon, MenuButton } from "../lib/ui.js";
+  variants,
+} from "../model/variants.js";
+import { dialog } from "../model/view.js";
 import { VariantsComparison } from "./variants-comparison.js";
 import { VariantForm } from "./variants-form.js";
 

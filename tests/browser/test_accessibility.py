@@ -54,17 +54,17 @@ DIALOGS: Final[dict[str, dict[str, Any]]] = {
 _SHOW_PANEL: Final = """async (id) => {
   const script = document.querySelector('script[type="module"]').src;
   const { PANELS, panelTitle } = await import(new URL("panels.js", script));
-  (await import(new URL("commands.js", script))).commandById(`panel.${id}`).run();
+  (await import(new URL("../lib/commands.js", script))).commandById(`panel.${id}`).run();
   await PANELS[id].load();
   return panelTitle(id);
 }"""
 _SHOW_DIALOG: Final = """async (shown) => {
   const script = document.querySelector('script[type="module"]').src;
-  (await import(new URL("state/view.js", script))).dialog.value = shown;
+  (await import(new URL("../model/view.js", script))).dialog.value = shown;
 }"""
 _SET_THEME: Final = """async (name) => {
   const script = document.querySelector('script[type="module"]').src;
-  (await import(new URL("state/view.js", script))).themeChoice.value = name;
+  (await import(new URL("../model/view.js", script))).themeChoice.value = name;
 }"""
 _WHOLE: Final = "html"
 _STOP_DRAWING: Final = """() => {

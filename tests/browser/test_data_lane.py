@@ -26,8 +26,8 @@ MESSAGES = 30_000
 """Of half a minute."""
 _COUNTS = """async () => {
   const script = document.querySelector('script[type="module"]').src;
-  const { samplesOf } = await import(new URL("plotting.js", script));
-  const { series } = await import(new URL("state/plot.js", script));
+  const { samplesOf } = await import(new URL("../model/plotting.js", script));
+  const { series } = await import(new URL("../model/plotting.js", script));
   return series.value.map((one) => {
     const { values, begin, end, count } = samplesOf(one);
     const drawn = values.subarray(begin, end);
@@ -36,8 +36,8 @@ _COUNTS = """async () => {
 }"""
 _COME = """async () => {
   const script = document.querySelector('script[type="module"]').src;
-  const { samplesOf } = await import(new URL("plotting.js", script));
-  const { series } = await import(new URL("state/plot.js", script));
+  const { samplesOf } = await import(new URL("../model/plotting.js", script));
+  const { series } = await import(new URL("../model/plotting.js", script));
   return samplesOf(series.value[0]).count;
 }"""
 

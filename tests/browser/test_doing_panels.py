@@ -47,7 +47,7 @@ REAL_ROBOT = """<robot name="real"><link name="base_link"><visual>
 </visual></link></robot>"""
 _ADD_DISPLAY = """async ([kind, topic]) => {
   const script = document.querySelector('script[type="module"]').src;
-  await (await import(new URL("live.js", script))).addDisplay(kind, topic);
+  await (await import(new URL("../model/live-displays.js", script))).addDisplay(kind, topic);
 }"""
 STEPS = ("--ros-args", "-p", "step_seconds:=2.0")
 """So slow that a busy page sees a song between its beginning and its end."""

@@ -33,7 +33,7 @@ SCAN = "sensor_msgs/msg/LaserScan"
 SCANS = re.compile(r"LaserScan, .scan · .+ Hz")
 DISCONNECT = """async () => {
   const script = document.querySelector('script[type="module"]').src;
-  await (await import(new URL("ros.js", script))).disconnectRos();
+  await (await import(new URL("../model/ros.js", script))).disconnectRos();
 }"""
 
 

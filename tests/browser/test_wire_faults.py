@@ -61,7 +61,7 @@ SHUT = {
 """What is chosen in a panel, and what can then be done by those who may."""
 _SEND = """async (command) => {
   const script = document.querySelector('script[type="module"]').src;
-  const { send } = await import(new URL("wire.js", script));
+  const { send } = await import(new URL("../model/wire.js", script));
   return send(command).then(({ type }) => type, ({ message }) => message);
 }"""
 

@@ -50,7 +50,7 @@ _DROP = """([name, text]) => {
 
 _PLOT = """async ([topic, path]) => {
   const script = document.querySelector('script[type="module"]').src;
-  (await import(new URL("state/plot.js", script))).addSeries(topic, path);
+  (await import(new URL("../model/plotting.js", script))).addSeries(topic, path);
 }"""
 
 

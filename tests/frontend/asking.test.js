@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { keepAsking } from "../../frontend_assets/lib/asking.js";
+import { keepAsking } from "../../frontend_assets/model/asking.js";
 
 /** Longer than any test takes. */
 const LONG_MS = 600_000;

@@ -1,9 +1,8 @@
 import assert from "node:assert/strict";
-import { readdirSync, readFileSync } from "node:fs";
 import { test } from "node:test";
+import { sourcesIn } from "./support/sources.js";
 import { wordsOf } from "./support/words.js";
 
-const ASSETS = new URL("../../frontend_assets/", import.meta.url);
 /** What is the same in every language: names of keys, of formats, and what xacro itself is written in. */
 const SAME =
   /^(Enter|Esc|URDF|YAML|XML|PNG|HTML|JSON|SRDF|name:=value|kg|m|mm|rad|deg|xyz|rpy|x|y|z|w)$/;
@@ -74,22 +73,15 @@ test("the words of a template are found, however deep it lies", () => {
 });
 
 test("no panel and no window speaks but in the words of the catalogue", () => {
-  for (const folder of ["app/", "panels/", "lib/"]) {
-    for (const file of readdirSync(new URL(folder, ASSETS)).filter((one) => one.endsWith(".js"))) {
-      const source = readFileSync(new URL(folder + file, ASSETS), "utf8");
-      assert.deepEqual(templatesOf(source).flatMap(wordsIn), [], folder + file);
-    }
-  }
+  for (const [file, source] of sourcesIn(["app/", "model/", "panels/", "lib/"]))
+    assert.deepEqual(templatesOf(source).flatMap(wordsIn), [], file);
 });
 
 test("every command has its words", () => {
-  for (const folder of ["app/", "panels/"]) {
-    for (const file of readdirSync(new URL(folder, ASSETS)).filter((one) => one.endsWith(".js"))) {
-      const source = readFileSync(new URL(folder + file, ASSETS), "utf8");
-      if (!source.includes("addCommands(")) continue;
-      for (const [, id] of source.matchAll(/\bid: "([\w.]+)"/g))
-        assert.ok(`command.${id}` in WORDS, `${folder}${file}: command.${id} has no words`);
-    }
+  for (const [file, source] of sourcesIn(["app/", "model/", "panels/"])) {
+    if (!source.includes("addCommands(")) continue;
+    for (const [, id] of source.matchAll(/\bid: "([\w.]+)"/g))
+      assert.ok(`command.${id}` in WORDS, `${file}: command.${id} has no words`);
   }
   for (const panel of Object.keys(WORDS).filter((key) => /^command\.panel\.\w+$/.test(key)))
     assert.ok(panel.replace("command.", "") in WORDS, panel);

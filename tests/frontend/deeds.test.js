@@ -6,7 +6,7 @@ import {
   tookText,
   turnedRad,
   withDeeds,
-} from "../../frontend_assets/lib/deeds.js";
+} from "../../frontend_assets/model/operations.js";
 
 test("what changed takes the place of what was known, and new ones come last", () => {
   const known = [

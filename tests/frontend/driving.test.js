@@ -8,7 +8,7 @@ import {
   ofStick,
   speedOf,
   together,
-} from "../../frontend_assets/lib/driving.js";
+} from "../../frontend_assets/model/driving.js";
 
 const ROVER = { linear: 0.5, angular: 2, sideways: false };
 const MECANUM = { ...ROVER, sideways: true };

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { inFrameOrder } from "../../frontend_assets/lib/frame-order.js";
+import { inFrameOrder } from "../../frontend_assets/lib/frame-tree.js";
 
 test("frames of the world come first, in the order of REP 105, then the base", () => {
   const found = inFrameOrder([

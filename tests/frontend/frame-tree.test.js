@@ -1,3 +1,5 @@
+/** @import { FrameView } from "../../frontend_assets/types/wire.d.ts" */
+
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { poseOfQuaternion, quaternionOf } from "../../frontend_assets/lib/frame-pose.js";
@@ -8,9 +10,7 @@ import {
   troubleOf,
   withLooseLinks,
 } from "../../frontend_assets/lib/frame-tree.js";
-import { shortTime } from "../../frontend_assets/lib/short-time.js";
-
-/** @import { FrameView } from "../../frontend_assets/types/wire.d.ts" */
+import { shortTime } from "../../frontend_assets/lib/times.js";
 
 /** @param {string} name @param {string} parent @param {Partial<FrameView>} [more] @returns {FrameView} */
 const frame = (name, parent, more = {}) => ({

@@ -10,7 +10,7 @@ import {
   nameParts,
   typesAmong,
   valueText,
-} from "../../frontend_assets/lib/interface-texts.js";
+} from "../../frontend_assets/model/interfaces.js";
 
 /** @param {string[]} paths */
 const files = (...paths) => paths.map((path) => ({ path, file: path }));

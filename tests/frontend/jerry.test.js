@@ -9,8 +9,8 @@ import {
   moveOf,
   placeText,
   viewOf,
-} from "../../frontend_assets/lib/jerry.js";
-import { Walk } from "../../frontend_assets/lib/jerry-walk.js";
+  Walk,
+} from "../../frontend_assets/panels/jerry/world.js";
 
 /** @param {string} name @param {string} type @param {number} publishers */
 const topic = (name, type, publishers = 1) => ({

@@ -1,11 +1,11 @@
+/** @import { Part } from "../../frontend_assets/lib/help-text.js" */
+
 import assert from "node:assert/strict";
 import { existsSync, readdirSync, readFileSync } from "node:fs";
 import { test } from "node:test";
 import { partsOf } from "../../frontend_assets/lib/help-text.js";
-import { readLesson } from "../../frontend_assets/lib/lesson-text.js";
+import { readLesson } from "../../frontend_assets/model/lessons.js";
 import { ICONS } from "../../frontend_assets/vendor/icons.js";
-
-/** @import { Part } from "../../frontend_assets/lib/help-text.js" */
 
 const ROOT = new URL("../../", import.meta.url);
 /** @param {string} path */

@@ -1,9 +1,12 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { NOTHING_PRINTED, withPrinted } from "../../frontend_assets/lib/demo-output.js";
-import { partsOf } from "../../frontend_assets/lib/help-text.js";
-import { isSought, readLesson } from "../../frontend_assets/lib/lesson-text.js";
-import { textFiles } from "../../frontend_assets/lib/text-files.js";
+import { partsOf, textFiles } from "../../frontend_assets/lib/help-text.js";
+import {
+  isSought,
+  NOTHING_PRINTED,
+  readLesson,
+  withPrinted,
+} from "../../frontend_assets/model/lessons.js";
 
 test("a lesson has a head, and a text in the markup of the help", () => {
   const { title, needs, blocks } = readLesson("# Two nodes\nneeds: talker listener\n\nA `text`.\n");

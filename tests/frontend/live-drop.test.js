@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { dropOn } from "../../frontend_assets/lib/live-drop.js";
+import { dropOn } from "../../frontend_assets/lib/live-displays.js";
 
 /** "a b/G c/G d": four displays, two of them in a group. @param {string} text @returns {any[]} */
 const listed = (text) =>

@@ -8,7 +8,7 @@ import {
   matchingLines,
   nodesOf,
   withNews,
-} from "../../frontend_assets/lib/log-lines.js";
+} from "../../frontend_assets/model/log.js";
 
 /** @param {number} number @param {Partial<import("../../frontend_assets/types/wire.d.ts").LogLine>} [news] */
 const line = (number, news = {}) => ({
@@ -35,7 +35,7 @@ test("lines are chosen by level, node and every word", () => {
     line(2, { node: "arm.motor", text: "Hot motor" }),
     line(3, { node: "arm", level: 40, text: "motor stalls" }),
   ];
-  /** @param {Partial<import("../../frontend_assets/lib/log-lines.js").Filter>} news */
+  /** @param {Partial<import("../../frontend_assets/model/log.js").Filter>} news */
   const numbers = (news) =>
     matchingLines(lines, { level: "debug", node: "", words: "", ...news }).map(
       ({ number }) => number,

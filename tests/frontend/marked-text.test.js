@@ -1,8 +1,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { drawnLines, markedTexts } from "../../frontend_assets/lib/marked-text.js";
+import { drawnLines, markedTexts } from "../../frontend_assets/lib/text-differences.js";
 
-/** @param {import("../../frontend_assets/lib/marked-text.js").Piece[]} pieces */
+/** @param {import("../../frontend_assets/lib/text-differences.js").Piece[]} pieces */
 const spelled = (pieces) =>
   pieces.map(({ text, marked }) => (marked ? `[${text}]` : text)).join("");
 

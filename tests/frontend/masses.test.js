@@ -1,3 +1,5 @@
+/** @import { LinkMassView } from "../../frontend_assets/types/wire.d.ts" */
+
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
@@ -11,9 +13,7 @@ import {
   matchingMasses,
   sortedMasses,
   sumOf,
-} from "../../frontend_assets/lib/masses.js";
-
-/** @import { LinkMassView } from "../../frontend_assets/types/wire.d.ts" */
+} from "../../frontend_assets/model/masses.js";
 
 const ROVER = JSON.parse(
   readFileSync(new URL("../support/link-poses.json", import.meta.url), "utf8"),
@@ -87,7 +87,7 @@ test("no body has a moment above the sum of the others, nor one below zero", () 
 
 test("rows are sorted by what is asked, and stay in the robot's order else", () => {
   const rows = massRows([mass("b", 1), mass("a", 5), mass("c", 3, { visual: volume(0.001) })], []);
-  const names = (/** @type {import("../../frontend_assets/lib/masses.js").MassOrder} */ order) =>
+  const names = (/** @type {import("../../frontend_assets/model/masses.js").MassOrder} */ order) =>
     sortedMasses(rows, order).map((row) => row.mass.link);
   assert.deepEqual(names("link"), ["b", "a", "c"]);
   assert.deepEqual(names("mass"), ["a", "c", "b"]);

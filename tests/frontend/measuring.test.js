@@ -1,7 +1,11 @@
+/** @import { Anchor } from "../../frontend_assets/model/viewport.js" */
+/** @import { Pose } from "../../frontend_assets/lib/kinematics.js" */
+
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { poseOf } from "../../frontend_assets/lib/kinematics.js";
+import { allDigits } from "../../frontend_assets/lib/numbers.js";
 import {
   anchorOfPart,
   angleBetween,
@@ -9,11 +13,7 @@ import {
   lengthsText,
   lengthText,
   measured,
-} from "../../frontend_assets/lib/measuring.js";
-import { allDigits } from "../../frontend_assets/lib/numbers.js";
-
-/** @import { Anchor } from "../../frontend_assets/lib/measuring.js" */
-/** @import { Pose } from "../../frontend_assets/lib/kinematics.js" */
+} from "../../frontend_assets/model/measuring.js";
 
 const ROVER = JSON.parse(
   readFileSync(new URL("../support/link-poses.json", import.meta.url), "utf8"),

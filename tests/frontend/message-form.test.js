@@ -8,7 +8,7 @@ import {
   troubleOf,
   typeText,
   yamlOf,
-} from "../../frontend_assets/lib/message-form.js";
+} from "../../frontend_assets/model/message-forms.js";
 
 /** @param {string} name @param {string} base @param {object} [more] */
 const field = (name, base, more = {}) => ({

@@ -1,10 +1,10 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { crumbsOf } from "../../frontend_assets/lib/crumbs.js";
-import { timeAgo } from "../../frontend_assets/lib/dates.js";
 import { chosenFiles, droppedFiles } from "../../frontend_assets/lib/dropped.js";
 import { nameFault, robotOf } from "../../frontend_assets/lib/package-names.js";
 import { isFilePath, pastedPath } from "../../frontend_assets/lib/paths.js";
+import { timeAgo } from "../../frontend_assets/lib/times.js";
 
 test("the way to a folder begins at the served folder that holds it", () => {
   const roots = ["/ws", "/ws/src/inner", "/wsx"];

@@ -1,15 +1,15 @@
+/** @import { OriginAttribute } from "../../frontend_assets/types/wire.d.ts" */
+
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { elementsByLine } from "../../frontend_assets/lib/urdf-elements.js";
+import { offsetAt, replacement } from "../../frontend_assets/lib/written-text.js";
 import {
   byElement,
   countedAspects,
   referredPart,
   valueText,
-} from "../../frontend_assets/lib/origin.js";
-import { elementsByLine } from "../../frontend_assets/lib/urdf-elements.js";
-import { offsetAt, replacement } from "../../frontend_assets/lib/written-text.js";
-
-/** @import { OriginAttribute } from "../../frontend_assets/types/wire.d.ts" */
+} from "../../frontend_assets/model/origin.js";
 
 /** @param {string} element @param {string} attribute @returns {OriginAttribute} */
 const attribute = (element, attribute) => ({

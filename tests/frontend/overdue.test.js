@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { overdue_s } from "../../frontend_assets/lib/overdue.js";
+import { overdue_s } from "../../frontend_assets/lib/times.js";
 
 /** @param {number} count @param {number} period_s */
 const every = (count, period_s) => Array.from({ length: count }, (_, n) => n * period_s);

@@ -1,14 +1,15 @@
+/** @import { JointView } from "../../frontend_assets/types/wire.d.ts" */
+
 import assert from "node:assert/strict";
-import { readdirSync, readFileSync } from "node:fs";
+import { readdirSync } from "node:fs";
 import { test } from "node:test";
-import { readJointFrame } from "../../frontend_assets/lib/frames.js";
 import { createGesture } from "../../frontend_assets/lib/gesture.js";
 import { movableJoints, rangeOf, unitsOf } from "../../frontend_assets/lib/joints.js";
 import { matches, shortcutText } from "../../frontend_assets/lib/keys.js";
 import { documentOf, placeText, shortPath } from "../../frontend_assets/lib/paths.js";
+import { readJointFrame } from "../../frontend_assets/model/wire.js";
+import { sourcesIn } from "./support/sources.js";
 import { fileOfWords, wordsOf } from "./support/words.js";
-
-/** @import { JointView } from "../../frontend_assets/types/wire.d.ts" */
 
 const ASSETS = new URL("../../frontend_assets/", import.meta.url);
 
@@ -159,14 +160,6 @@ test("the document is named by the page's address", () => {
   assert.equal(documentOf("/"), "");
 });
 
-/** @param {URL} folder @returns {string} the text of all modules below it */
-function sourcesIn(folder) {
-  return readdirSync(folder, { recursive: true, withFileTypes: true })
-    .filter((entry) => entry.isFile() && entry.name.endsWith(".js"))
-    .map((entry) => readFileSync(`${entry.parentPath}/${entry.name}`, "utf8"))
-    .join("\n");
-}
-
 test("every language says the same things, with the same blanks to fill", () => {
   for (const file of readdirSync(new URL("i18n/", ASSETS))) {
     const english = fileOfWords(file.replace(/^\w+(.*)\.json$/, "en$1"));
@@ -180,8 +173,8 @@ test("every language says the same things, with the same blanks to fill", () => 
 });
 
 test("every word that the page asks for is there, and none lies about unused", () => {
-  const sources = ["app/", "panels/", "lib/"]
-    .map((folder) => sourcesIn(new URL(folder, ASSETS)))
+  const sources = sourcesIn(["app/", "model/", "panels/", "lib/"])
+    .map(([, text]) => text)
     .join("\n");
   const keys = Object.keys(wordsOf("en"));
   const asked = [...sources.matchAll(/\bt\(\s*"([\w.]+)"/g)].map(([, key]) => key ?? "");

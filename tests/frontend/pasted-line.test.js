@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { readLine, shellWords } from "../../frontend_assets/lib/pasted-line.js";
+import { readLine, shellWords } from "../../frontend_assets/lib/ros2-lines.js";
 
 test("a service's call is taken apart", () => {
   const line = readLine(

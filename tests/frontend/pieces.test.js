@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { inPieces, siblingPlaces } from "../../frontend_assets/lib/pieces.js";
+import { inPieces, siblingPlaces } from "../../frontend_assets/lib/long-list.js";
 
 test("a thousand rows are drawn in pieces, none twice and none missing", () => {
   const ids = Array.from({ length: 1000 }, (_, n) => String(n));

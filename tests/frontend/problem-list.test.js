@@ -1,7 +1,8 @@
+/** @import { Problem } from "../../frontend_assets/types/wire.d.ts" */
+
 import assert from "node:assert/strict";
 import { readdirSync, readFileSync } from "node:fs";
 import { test } from "node:test";
-import { changedLines, hunkAt, oneChange } from "../../frontend_assets/lib/line-diff.js";
 import {
   asText,
   byFile,
@@ -10,8 +11,7 @@ import {
   keyOf,
   mendable,
 } from "../../frontend_assets/lib/problem-list.js";
-
-/** @import { Problem } from "../../frontend_assets/types/wire.d.ts" */
+import { changedLines, hunkAt, oneChange } from "../../frontend_assets/lib/text-differences.js";
 
 /** @param {Problem["severity"]} severity @param {string} sentence @param {Partial<Problem>} [more] @returns {Problem} */
 const problem = (severity, sentence, more = {}) => ({

@@ -1,3 +1,5 @@
+/** @import { JointView, LinkView } from "../../frontend_assets/types/wire.d.ts" */
+
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import {
@@ -5,11 +7,9 @@ import {
   ofLink,
   ofPart,
   partWrittenAt,
-  splitKey,
+  splitPartKey,
   stillThere,
-} from "../../frontend_assets/lib/selection.js";
-
-/** @import { JointView, LinkView } from "../../frontend_assets/types/wire.d.ts" */
+} from "../../frontend_assets/model/selection.js";
 
 /** @param {string} name @param {number} line @returns {LinkView} */
 const link = (name, line) => ({
@@ -29,9 +29,9 @@ const ROBOT = {
 };
 
 test("a key is a kind and a name; the count of a repeated name is no part of it, but a sign in a name is", () => {
-  assert.deepEqual(splitKey(ROBOT, "joint:left_joint"), ["joint", "left_joint"]);
-  assert.deepEqual(splitKey(ROBOT, "link:base#2"), ["link", "base"]);
-  assert.deepEqual(splitKey(ROBOT, "link:odd#2"), ["link", "odd#2"]);
+  assert.deepEqual(splitPartKey(ROBOT, "joint:left_joint"), ["joint", "left_joint"]);
+  assert.deepEqual(splitPartKey(ROBOT, "link:base#2"), ["link", "base"]);
+  assert.deepEqual(splitPartKey(ROBOT, "link:odd#2"), ["link", "odd#2"]);
 });
 
 test("a joint lights the link that it moves, and what has no link lights none of its own", () => {

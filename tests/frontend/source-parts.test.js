@@ -1,12 +1,12 @@
+/** @import { Problem } from "../../frontend_assets/types/wire.d.ts" */
+
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { indentationOf } from "../../frontend_assets/lib/indentation.js";
-import { changedLines } from "../../frontend_assets/lib/line-diff.js";
 import { tabNames } from "../../frontend_assets/lib/tab-names.js";
+import { changedLines } from "../../frontend_assets/lib/text-differences.js";
 import { marksOf } from "../../frontend_assets/lib/text-problems.js";
 import { Text } from "../../frontend_assets/vendor/codemirror.js";
-
-/** @import { Problem } from "../../frontend_assets/types/wire.d.ts" */
 
 const LINES = [
   "<robot>",

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { MEASURES_MOST, readMeasures } from "../../frontend_assets/lib/stored-measures.js";
+import { MEASURES_MOST, readMeasures } from "../../frontend_assets/model/measuring.js";
 
 const FRAME = { kind: "frame", link: "base" };
 const AXIS = { kind: "axis", link: "arm", joint: "lift" };

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { ageWords, bandWords, flowWords } from "../../frontend_assets/lib/topic-rates.js";
+import { ageWords, bandWords, flowWords } from "../../frontend_assets/model/topics.js";
 
 /** @param {object} told */
 const rate = (told) =>

@@ -1,18 +1,25 @@
+/** @import { Paper } from "../../frontend_assets/panels/turtlesim/drawing.js" */
+
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { FIELD_M, pixelOf, placeAt, turtleAt } from "../../frontend_assets/lib/turtle-field.js";
-import { Trail } from "../../frontend_assets/lib/turtle-trail.js";
-import { BACKGROUND, FIRST_PEN, World } from "../../frontend_assets/lib/turtle-world.js";
 import {
+  FIELD_M,
+  pixelOf,
+  placeAt,
+  turtleAt,
+} from "../../frontend_assets/panels/turtlesim/drawing.js";
+import {
+  BACKGROUND,
   bytesOf,
   colorOf,
+  FIRST_PEN,
   groundsOf,
   hexOf,
   penOf,
   serviceNamed,
-} from "../../frontend_assets/lib/turtles.js";
-
-/** @import { Paper } from "../../frontend_assets/lib/turtle-field.js" */
+  Trail,
+  World,
+} from "../../frontend_assets/panels/turtlesim/world.js";
 
 const INK = FIRST_PEN.color;
 const STEP_S = 0.016;

@@ -1,14 +1,14 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { hostOf, isDomain, isPlace, withRecent } from "../../frontend_assets/lib/wire-places.js";
+import { hostOf, isDomain, isPlace, withRecent } from "../../frontend_assets/model/ros.js";
 
-/** @param {string} address @returns {import("../../frontend_assets/lib/wire-places.js").Place} */
+/** @param {string} address @returns {import("../../frontend_assets/model/ros.js").Place} */
 const place = (address) => ({ address, domain: 0, distro: "jazzy" });
 
 test("the place that was joined last comes first, and each is kept once", () => {
   let places = ["a", "b", "a"].reduce(
     (all, one) => withRecent(all, place(one)),
-    /** @type {import("../../frontend_assets/lib/wire-places.js").Place[]} */ ([]),
+    /** @type {import("../../frontend_assets/model/ros.js").Place[]} */ ([]),
   );
   assert.deepEqual(
     places.map(({ address }) => address),

@@ -29,7 +29,7 @@ test("what is said outside of panels about ROS 2 is among the words of the page 
   assert.ok(apart.size > 10);
   // The palette sets what these panels show; what they say is read in the panels.
   for (const name of ["message-forms", "parameters", "topics"])
-    apart.add(new URL(`app/state/${name}.js`, ASSETS).href);
+    apart.add(new URL(`model/${name}.js`, ASSETS).href);
   const page = [...allFrom("app/main.js", apart)].map((one) => textOf(new URL(one))).join("\n");
   const families = [...page.matchAll(/`([\w.]+\.)\$\{/g)].map(([, start]) => start ?? "");
   for (const part of PARTS.slice(1))

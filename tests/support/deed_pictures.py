@@ -27,11 +27,11 @@ _HIGHEST_PX = 430
 _DEMOS = ("radio_dj", "service_server_node", "turtlesim_node")
 _RUN = """async (id) => {
   const script = document.querySelector('script[type="module"]').src;
-  (await import(new URL("commands.js", script))).commandById(id).run();
+  (await import(new URL("../lib/commands.js", script))).commandById(id).run();
 }"""
 _CONNECT = """async () => {
   const script = document.querySelector('script[type="module"]').src;
-  await (await import(new URL("ros.js", script))).connectRos();
+  await (await import(new URL("../model/ros.js", script))).connectRos();
 }"""
 _TWIST = '"{linear: {x: 2.0}, angular: {z: 1.8}}"'
 

@@ -36,14 +36,15 @@ if TYPE_CHECKING:
 _EYE = {"position": [2.6, -2.3, 2.0], "target": [0.1, 0.1, 0.2]}
 _STATE = """async (id) => {
   const script = document.querySelector('script[type="module"]').src;
-  const { displayStates, liveDisplays } = await import(new URL("state/live.js", script));
+  const model = new URL("../model/live-displays.js", script);
+  const { displayStates, liveDisplays } = await import(model);
   const shown = liveDisplays.value.find((one) => one.name === id);
   const said = displayStates.value.get(shown?.id)?.remarks ?? [];
   return said.map(({ level, sentence }) => [level, sentence]);
 }"""
 _MAXIMIZE = """async () => {
   const script = document.querySelector('script[type="module"]').src;
-  (await import(new URL("commands.js", script))).commandById("maximize").run();
+  (await import(new URL("../lib/commands.js", script))).commandById("maximize").run();
 }"""
 _LOOK = "(pose) => document.querySelector('iframe').contentWindow.studio3d.setCamera(pose, false)"
 
@@ -86,7 +87,7 @@ class Desk:
     def _displays(self) -> list[str]:
         script = """async () => {
           const script = document.querySelector('script[type="module"]').src;
-          const { liveDisplays } = await import(new URL("state/live.js", script));
+          const { liveDisplays } = await import(new URL("../model/live-displays.js", script));
           return liveDisplays.value.map((one) => one.id);
         }"""
         return self._tab.page.evaluate(script)

@@ -47,11 +47,11 @@ DRAWN_WHOLE = ("graph", "plot")
 _STILL_MS = 1200
 _RUN = """async (id) => {
   const script = document.querySelector('script[type="module"]').src;
-  (await import(new URL("commands.js", script))).commandById(id).run();
+  (await import(new URL("../lib/commands.js", script))).commandById(id).run();
 }"""
 _SHOW_DIALOG = """async (kind) => {
   const script = document.querySelector('script[type="module"]').src;
-  (await import(new URL("state/view.js", script))).dialog.value = { kind };
+  (await import(new URL("../model/view.js", script))).dialog.value = { kind };
 }"""
 _DOCK_OF = """(id) => {
   const script = document.querySelector('script[type="module"]').src;

@@ -38,7 +38,7 @@ PANEL_IDS = """async () => {
 }"""
 SHOW_PANEL = """async (id) => {
   const script = document.querySelector('script[type="module"]').src;
-  (await import(new URL("commands.js", script))).commandById(`panel.${id}`).run();
+  (await import(new URL("../lib/commands.js", script))).commandById(`panel.${id}`).run();
 }"""
 
 

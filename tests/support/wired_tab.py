@@ -9,12 +9,12 @@ if TYPE_CHECKING:
 
 _CONNECT = """async () => {
   const script = document.querySelector('script[type="module"]').src;
-  await (await import(new URL("ros.js", script))).connectRos();
+  await (await import(new URL("../model/ros.js", script))).connectRos();
 }"""
 _ADD_LIVE = """async () => {
   const script = document.querySelector('script[type="module"]').src;
-  const { addDisplay, groupDisplay } = await import(new URL("live.js", script));
-  const { liveDisplays } = await import(new URL("state/live.js", script));
+  const { addDisplay, groupDisplay } = await import(new URL("../model/live-displays.js", script));
+  const { liveDisplays } = await import(new URL("../model/live-displays.js", script));
   const kinds = [["LaserScan", "/scan"], ["Map", "/map", "Navigation"],
     ["Path", "/plan", "Navigation"], ["Odometry", "/odom", "Navigation"], ["Range", "/sonar"]];
   for (const [kind, topic, group] of kinds) {
@@ -24,8 +24,8 @@ _ADD_LIVE = """async () => {
 }"""
 _LOOK_AT = """async () => {
   const script = document.querySelector('script[type="module"]').src;
-  const { chosenTopic } = await import(new URL("state/topics.js", script));
-  const { series } = await import(new URL("state/plot.js", script));
+  const { chosenTopic } = await import(new URL("../model/topics.js", script));
+  const { series } = await import(new URL("../model/plotting.js", script));
   chosenTopic.value = "/odom";
   series.value = [".twist.twist.linear.x", ".twist.twist.angular.z", ".pose.pose.position.x"]
     .map((path) => ({ topic: "/odom", path }));

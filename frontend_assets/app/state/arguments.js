@@ -1,9 +1,9 @@
 /** What the arguments of the open robot can be, as its form offers it: asked while somebody looks. */
 
 import { effect, signal } from "vendor/preact.js";
-import { send } from "../wire.js";
-import { connection, role } from "./connection.js";
-import { allSites, robot, siteOrder } from "./document.js";
+import { connection, role } from "../../model/connection.js";
+import { allSites, robot, siteOrder } from "../../model/document.js";
+import { send } from "../../model/wire.js";
 
 /** So long nothing came or went before it is asked for again. */
 const SETTLE_MS = 250;

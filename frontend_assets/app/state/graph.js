@@ -4,9 +4,8 @@
 /** @import { Signal } from "vendor/preact.js" */
 
 import { effect, signal } from "vendor/preact.js";
-import { session } from "./connection.js";
-import { polled } from "./polling.js";
-import { askOrKeepWhy } from "./refusals.js";
+import { askOrKeepWhy, polled } from "../../model/asking.js";
+import { session } from "../../model/connection.js";
 
 const EVERY_MS = 700;
 

@@ -1,5 +1,6 @@
 /** How much this browser draws in 3D: as the person chose, or as fast as it proved to be. */
 
+/** @import { Graphics } from "../../model/viewport.js" */
 /** @import { Signal } from "vendor/preact.js" */
 
 import { signal } from "vendor/preact.js";
@@ -8,7 +9,6 @@ import { remembered } from "../../lib/remembered.js";
 export const GRAPHICS = /** @type {const} */ (["automatic", "full", "light"]);
 
 /** @typedef {typeof GRAPHICS[number]} GraphicsChoice */
-/** @typedef {{light: boolean, software: boolean, renderer: string}} Graphics */
 
 /** The script in the frame reads this and the next one, too, before the canvas is made. @type {Signal<GraphicsChoice>} */
 export const graphicsChoice = remembered(

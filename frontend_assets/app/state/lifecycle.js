@@ -4,8 +4,7 @@
 /** @import { Signal } from "vendor/preact.js" */
 
 import { signal } from "vendor/preact.js";
-import { polled } from "./polling.js";
-import { askOrKeepWhy } from "./refusals.js";
+import { askOrKeepWhy, polled } from "../../model/asking.js";
 
 const EVERY_MS = 1000;
 

@@ -4,7 +4,7 @@
 /** @import { Outline } from "../../types/wire.d.ts" */
 
 import { signal } from "vendor/preact.js";
-import { askOrKeepWhy } from "./refusals.js";
+import { askOrKeepWhy } from "../../model/asking.js";
 
 /** @type {Signal<Outline | null>} */
 export const outline = signal(null);

@@ -1,0 +1,60 @@
+/**
+ * Everything that has a name and perhaps a key: menus, shortcuts, the list of keys and the
+ * palette.
+ */
+
+import { signal } from "vendor/preact.js";
+import { t } from "./i18n.js";
+import { matches } from "./keys.js";
+
+/**
+ * @typedef {object} Command
+ * @property {string} id its words are `command.<id>`
+ * @property {() => string} [label] other words than these
+ * @property {string} icon
+ * @property {string[]} [keys] the first is the one that is shown
+ * @property {() => void} run
+ * @property {() => boolean} [enabled]
+ * @property {boolean} [inText] its key works while text is typed, too
+ */
+/** @typedef {import("./keys.js").Stroke} Stroke */
+
+/** @type {import("vendor/preact.js").Signal<readonly Command[]>} */
+export const commands = signal([]);
+
+/** @param {readonly Command[]} added */
+export function addCommands(added) {
+  commands.value = [...commands.value, ...added];
+}
+
+/** @param {string} start of the ids of those that go @param {readonly Command[]} added in their place */
+export function replaceCommands(start, added) {
+  commands.value = [...commands.peek().filter(({ id }) => !id.startsWith(start)), ...added];
+}
+
+/** @param {Command} command @returns {string} */
+export const commandLabel = (command) => command.label?.() ?? t(`command.${command.id}`);
+
+/** @param {string} id */
+export const commandById = (id) => commands.value.find((command) => command.id === id);
+
+export const onMac = /Mac|iPhone|iPad/.test(navigator.platform);
+
+/**
+ * @param {Stroke} stroke
+ * @param {{inText?: boolean}} [where]
+ * @returns {boolean} a command took it
+ */
+export function onKey(stroke, { inText = false } = {}) {
+  const meant = commands.value.filter(
+    (one) => (one.inText || !inText) && one.keys?.some((key) => matches(key, stroke)),
+  );
+  // A key may have another meaning where its first one is off.
+  meant.find(({ enabled }) => enabled?.() ?? true)?.run();
+  return meant.length > 0;
+}
+
+/** @param {unknown} detail @returns {detail is Stroke} */
+export function isStroke(detail) {
+  return typeof detail === "object" && detail !== null && "key" in detail && "ctrlKey" in detail;
+}

@@ -1,0 +1,68 @@
+/** Times as people write them, and whether something that comes again and again is overdue. */
+
+import { useEffect, useRef, useSignal } from "vendor/preact.js";
+
+/** @type {readonly [Intl.RelativeTimeFormatUnit, number][]} each with its length in seconds */
+const UNITS = [
+  ["year", 31_557_600],
+  ["month", 2_629_800],
+  ["week", 604_800],
+  ["day", 86_400],
+  ["hour", 3600],
+  ["minute", 60],
+];
+
+/** @param {number} then ms @param {number} now ms @param {string} language @returns {string} "2 hours ago" */
+export function timeAgo(then, now, language) {
+  const format = new Intl.RelativeTimeFormat(language, { numeric: "auto" });
+  const ago = Math.max(0, (now - then) / 1000);
+  for (const [unit, length] of UNITS) {
+    if (ago >= length) return format.format(-Math.floor(ago / length), unit);
+  }
+  return format.format(0, "second");
+}
+
+/** @param {number} seconds @returns {string} a tenth of a second below ten of them, then whole ones, minutes, hours */
+export function shortTime(seconds) {
+  if (seconds < 9.95) return `${seconds.toFixed(1)} s`;
+  if (seconds < 59.5) return `${Math.round(seconds)} s`;
+  const minutes = Math.round(seconds / 60);
+  return minutes < 60 ? `${minutes} min` : `${Math.round(seconds / 3600)} h`;
+}
+
+const SILENT_S = 3;
+/** So many of its periods without a message make it silent. */
+const PERIODS = 3;
+
+/**
+ * @param {ArrayLike<number>} times_s of the last that came, the oldest first
+ * @param {number} now_s by the same clock
+ * @returns {number} since the last one; 0: none is due yet, or none came at all
+ */
+export function overdue_s(times_s, now_s) {
+  const last_s = times_s[times_s.length - 1];
+  if (last_s === undefined) return 0;
+  const period_s = (last_s - (times_s[0] ?? last_s)) / Math.max(times_s.length - 1, 1);
+  const age_s = now_s - last_s;
+  return age_s > Math.max(SILENT_S, PERIODS * period_s) ? age_s : 0;
+}
+
+const KEPT = 10;
+const LOOK_MS = 500;
+
+/** @returns {{came: () => void, silent_s: number}} `came` is to be called for each message; whole seconds */
+export function useSilence() {
+  const times_s = useRef(/** @type {number[]} */ ([]));
+  const silent_s = useSignal(0);
+  useEffect(() => {
+    const timer = setInterval(() => {
+      silent_s.value = Math.floor(overdue_s(times_s.current, performance.now() / 1000));
+    }, LOOK_MS);
+    return () => clearInterval(timer);
+  }, []);
+  const came = () => {
+    times_s.current = [...times_s.current.slice(1 - KEPT), performance.now() / 1000];
+    silent_s.value = 0;
+  };
+  return { came, silent_s: silent_s.value };
+}

@@ -1,0 +1,215 @@
+/**
+ * Calls, goals and publications: which services and actions there are, what was begun from any
+ * page, its state, and how it is begun and ended.
+ */
+
+/** @import { CallView, Command, FollowDeeds, GoalView, OfferView, PublicationView } from "../types/wire.d.ts" */
+/** @import { Signal } from "vendor/preact.js" */
+/** @import { Asked } from "./wire.js" */
+/** @import { MessageForm } from "./message-forms.js" */
+
+import { computed, effect, signal } from "vendor/preact.js";
+import { askOrKeepWhy, polled, sharedLook } from "./asking.js";
+import { connection } from "./connection.js";
+import { callTimeout, goalForm, publishForm, publishing, serviceForm } from "./message-forms.js";
+import { ask } from "./requests.js";
+import { send, subscribe } from "./wire.js";
+
+/** @typedef {{deed: number, feedback?: readonly {number: number}[]}} Deed */
+
+const KEPT = 80;
+const FEEDBACK_KEPT = 50;
+/** Services that every node has, and the parts of actions. */
+const NOISE =
+  /\/_|\/(get_parameters|get_parameter_types|set_parameters|set_parameters_atomically|describe_parameters|list_parameters|get_type_description|get_logger_levels|set_logger_levels)$/;
+
+/**
+ * @template {Deed} T
+ * @param {readonly T[]} known
+ * @param {{whole: boolean, deeds: readonly T[]}} news
+ * @returns {readonly T[]} by their numbers, the newest last
+ */
+export function withDeeds(known, { whole, deeds }) {
+  if (whole) return deeds;
+  const byNumber = new Map(known.map((one) => [one.deed, one]));
+  for (const one of deeds) byNumber.set(one.deed, merged(byNumber.get(one.deed), one));
+  return [...byNumber.values()].sort((a, b) => a.deed - b.deed).slice(-KEPT);
+}
+
+/**
+ * @template {Deed} T
+ * @param {T | undefined} before @param {T} now whose feedback is only what is new
+ * @returns {T}
+ */
+function merged(before, now) {
+  if (!now.feedback) return now;
+  const first = now.feedback[0]?.number ?? Number.POSITIVE_INFINITY;
+  const kept = (before?.feedback ?? []).filter(({ number }) => number < first);
+  return { ...now, feedback: [...kept, ...now.feedback].slice(-FEEDBACK_KEPT) };
+}
+
+/**
+ * @param {readonly OfferView[]} offers
+ * @param {string} filter words that are part of a name, a type or a node
+ * @param {boolean} all also what every node serves
+ */
+export function matchingOffers(offers, filter, all) {
+  const words = filter.toLowerCase().split(/\s+/).filter(Boolean);
+  return offers.filter(({ name, types, nodes }) => {
+    if (!all && NOISE.test(name)) return false;
+    const text = [name, ...types, ...nodes].join(" ").toLowerCase();
+    return words.every((word) => text.includes(word));
+  });
+}
+
+/** @param {number} seconds @returns {string} how long something took */
+export function tookText(seconds) {
+  if (seconds < 1) return `${Math.round(seconds * 1000)} ms`;
+  return seconds < 100 ? `${seconds.toFixed(1)} s` : `${Math.round(seconds)} s`;
+}
+
+/** @param {string} json @returns {unknown} undefined: there is none */
+export const plainOf = (json) => (json ? JSON.parse(json) : undefined);
+
+const GOAL_OVER = new Set(["succeeded", "canceled", "aborted", "rejected", "failed"]);
+
+/** @param {{state: string}} goal */
+export const isGoalOver = ({ state }) => GOAL_OVER.has(state);
+
+/**
+ * @param {string} actionType @param {unknown} result
+ * @returns {number | null} rad that turtlesim's turtle turned, to the left: its server tells them from the end back to the start
+ */
+export function turnedRad(actionType, result) {
+  if (actionType !== "turtlesim/action/RotateAbsolute") return null;
+  const delta = /** @type {{delta?: unknown} | undefined} */ (result)?.delta;
+  return typeof delta === "number" ? -delta : null;
+}
+
+/** @param {unknown} value @returns {string} plain values on one line */
+export function shortOf(value) {
+  if (typeof value !== "object" || value === null) return String(value);
+  if (Array.isArray(value)) return `[${value.map(shortOf).join(", ")}]`;
+  const inner = Object.entries(value).map(([key, one]) => {
+    const text = shortOf(one);
+    return typeof one === "object" && one !== null && !Array.isArray(one)
+      ? `${key}: {${text}}`
+      : `${key}: ${text}`;
+  });
+  return inner.join(", ");
+}
+
+/** The newest last. @type {Signal<readonly CallView[]>} */
+export const calls = signal([]);
+
+/** @type {Signal<readonly GoalView[]>} */
+export const goals = signal([]);
+/** @type {Signal<readonly PublicationView[]>} */
+export const publications = signal([]);
+/** Those that go on, so many times a second, until they are stopped. */
+export const repeatedPublications = computed(() =>
+  publications.value.filter(({ state, rate_hz: rate }) => state === "running" && rate > 0),
+);
+
+subscribe("calls", (event) => {
+  calls.value = withDeeds(calls.value, event);
+});
+
+subscribe("goals", (event) => {
+  goals.value = withDeeds(goals.value, event);
+});
+
+subscribe("publications", (event) => {
+  publications.value = withDeeds(publications.value, event);
+});
+
+/** @type {Record<FollowDeeds["deeds"], () => () => void>} */
+const FOLLOW = {
+  calls: follower("calls"),
+  goals: follower("goals"),
+  publications: follower("publications"),
+};
+
+/** Be told of a kind of deeds; gives the end of it. @param {FollowDeeds["deeds"]} deeds */
+export const followDeeds = (deeds) => FOLLOW[deeds]();
+
+/** @param {FollowDeeds["deeds"]} deeds */
+function follower(deeds) {
+  return sharedLook(() => {
+    const tell = (/** @type {boolean} */ following) =>
+      // What is in the way is seen by the page itself: a new lane begins anew.
+      void send({ type: "follow_deeds", deeds, following }).catch(() => {});
+    const end = effect(() => {
+      if (connection.value === "connected") tell(true);
+    });
+    return () => {
+      end();
+      tell(false);
+    };
+  });
+}
+
+/** @param {MessageForm} form @param {Asked<Command>} command @returns {Promise<number>} the deed's number; 0: it was refused */
+async function begin(form, command) {
+  const told = await askOrKeepWhy(command, form.trouble);
+  return told?.type === "begun" ? told.deed : 0;
+}
+
+/** Call the service that is chosen, with what its form says. */
+export function callService() {
+  const { name = "", type = "" } = serviceForm.chosen.value ?? {};
+  return begin(serviceForm, {
+    type: "call_service",
+    name,
+    service_type: type,
+    text: serviceForm.yaml(),
+    timeout_s: callTimeout.value,
+  });
+}
+
+/** @param {number} deed */
+export const cancelCall = (deed) => ask({ type: "cancel_call", deed });
+
+/** Send a goal to the action that is chosen. */
+export function sendGoal() {
+  const { name = "", type = "" } = goalForm.chosen.value ?? {};
+  return begin(goalForm, { type: "send_goal", name, action_type: type, text: goalForm.yaml() });
+}
+
+/** @param {number} deed */
+export const cancelGoal = (deed) => ask({ type: "cancel_goal", deed });
+
+/** @param {{once: boolean}} how publish on the topic that is chosen */
+export function publish({ once }) {
+  const { name = "", type = "" } = publishForm.chosen.value ?? {};
+  const { rate_hz: rate, ...quality } = publishing.value;
+  return begin(publishForm, {
+    ...{ type: "publish", name, message_type: type, text: publishForm.yaml() },
+    ...{ ...quality, rate_hz: once ? 0 : rate },
+  });
+}
+
+/** @param {number} [deed] without one: all */
+export const stopPublishing = (deed = 0) => ask({ type: "stop_publishing", deed });
+
+const EVERY_MS = 1500;
+
+/** Null: not told yet. @type {Signal<readonly OfferView[] | null>} */
+export const services = signal(null);
+/** @type {Signal<readonly OfferView[] | null>} */
+export const actions = signal(null);
+export const offersRefused = signal("");
+
+/** Ask now. */
+export async function askServices() {
+  const told = await askOrKeepWhy({ type: "get_services" }, offersRefused);
+  if (told?.type === "services") services.value = told.services;
+}
+export const followServices = polled(askServices, EVERY_MS);
+
+/** Ask now. */
+export async function askActions() {
+  const told = await askOrKeepWhy({ type: "get_actions" }, offersRefused);
+  if (told?.type === "actions") actions.value = told.actions;
+}
+export const followActions = polled(askActions, EVERY_MS);

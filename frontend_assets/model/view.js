@@ -1,0 +1,90 @@
+/**
+ * What is this person's own: theme, units, the window that is open, notices. Nothing of it is
+ * shared.
+ */
+
+/** @import { Signal } from "vendor/preact.js" */
+
+import { computed, signal } from "vendor/preact.js";
+import { remembered } from "../lib/remembered.js";
+
+/** @param {string[]} choices @returns {(value: unknown) => boolean} */
+const oneOf = (choices) => (value) => choices.includes(/** @type {string} */ (value));
+
+const systemDark = matchMedia("(prefers-color-scheme: dark)");
+const systemTheme = signal(systemDark.matches ? "dark" : "light");
+systemDark.addEventListener("change", (event) => {
+  systemTheme.value = event.matches ? "dark" : "light";
+});
+
+/** @type {Signal<"system" | "dark" | "light">} */
+export const themeChoice = remembered(
+  "theme",
+  /** @type {"system" | "dark" | "light"} */ ("system"),
+  oneOf(["system", "dark", "light"]),
+);
+export const theme = computed(
+  () =>
+    /** @type {"dark" | "light"} */ (
+      themeChoice.value === "system" ? systemTheme.value : themeChoice.value
+    ),
+);
+export const degrees = remembered("degrees", false);
+/** @type {Signal<"rviz" | "trackpad">} */
+export const mouseMode = remembered(
+  "mouse",
+  /** @type {"rviz" | "trackpad"} */ ("rviz"),
+  oneOf(["rviz", "trackpad"]),
+);
+/** Empty: the browser's language. @type {Signal<string>} */
+export const languageChoice = remembered("language", "");
+
+/** What the properties are filtered by; the palette and other panels set it too. */
+export const propertyFilter = signal("");
+/** Site whose row comes into view and takes the focus next. @type {Signal<string | null>} */
+export const soughtSite = signal(null);
+
+/** @type {Signal<"wide" | "medium" | "phone">} */
+export const size = signal("wide");
+
+/** @typedef {"recent" | "browse" | "examples" | "new" | "paste" | "ros"} OpenTab */
+/** @typedef {{kind: "open", tab?: OpenTab} | {kind: "save_as"} | {kind: "choose_package", name: string} | {kind: "launch", path: string} | {kind: "merge", file: string} | {kind: "share", link: import("../types/wire.d.ts").Link} | {kind: "save"} | {kind: "keys"} | {kind: "layouts"} | {kind: "graphics"} | {kind: "ros"} | {kind: "add_display"} | {kind: "palette"} | {kind: "confirm", title: string, text: string, details?: readonly string[], action: string, danger?: boolean, run: () => void}} Shown */
+/** The one window over the page. @type {Signal<Shown | null>} */
+export const dialog = signal(null);
+/** No window waits for an answer; the palette is gone before what it found begins. */
+export const isFree = () => dialog.value === null || dialog.value.kind === "palette";
+
+/** @typedef {{id: number, text: string, bad: boolean}} Notice */
+/** @type {Signal<readonly Notice[]>} */
+export const notices = signal([]);
+let noticeCount = 0;
+
+/** @param {string} text @param {{bad?: boolean}} [options] shown for some seconds; a bad one longer */
+export function notify(text, { bad = false } = {}) {
+  noticeCount += 1;
+  const id = noticeCount;
+  notices.value = [
+    ...notices.value.filter((one) => one.text !== text).slice(-2),
+    { id, text, bad },
+  ];
+  setTimeout(() => dismiss(id), bad ? 9000 : 3500);
+}
+
+/** @param {number} id of a notice */
+export function dismiss(id) {
+  notices.value = notices.value.filter((one) => one.id !== id);
+}
+
+/** Id of the panel that was shown or clicked last. @type {Signal<string | null>} */
+export const activePanel = signal(null);
+
+/**
+ * @typedef {object} LayoutDesk
+ * @property {() => import("../lib/arrangement.js").Arrangement} present how the panels stand now
+ * @property {(name: string) => void} use a layout; the empty name is the studio's own
+ * @property {(id: string, other: string) => void} showBeside a panel, with another one kept in sight
+ * @property {() => void} reset to the layout in use as it was saved
+ */
+
+/** What arranges the dock; null until it stands. @type {Signal<LayoutDesk | null>} */
+export const layoutDesk = signal(null);

@@ -1,0 +1,286 @@
+/**
+ * The 3D view inside its frame: what the page tells it (robot, positions, theme, hover, ...),
+ * what it tells the page (picked links, dragged joints, keys), and the frames that the studio
+ * keeps for it in the scene. It is on the page's origin, so both call each other directly.
+ */
+
+/** @import { JointView, RobotState } from "../types/wire.d.ts" */
+
+import { effect, signal, untracked } from "vendor/preact.js";
+import { isStroke, onKey } from "../lib/commands.js";
+import { connection, documentId } from "./connection.js";
+import { movable, position, robot } from "./document.js";
+import { lights } from "./origin.js";
+import { moveJoint } from "./requests.js";
+import { mayMove } from "./ros.js";
+import {
+  hiddenLinks,
+  hovered,
+  linkOpacity,
+  selected,
+  selectedJoint,
+  selectLink,
+} from "./selection.js";
+import { comparedFrames, drawnChain, followedFrames, litChain } from "./tf.js";
+import { degrees, mouseMode, theme } from "./view.js";
+import { send } from "./wire.js";
+
+/** The studio forgets who does not ask again. */
+const EVERY_MS = 2000;
+
+/**
+ * Keep frames in the scene.
+ *
+ * @param {() => readonly string[]} wanted is called anew when what it reads changes
+ * @param {(frame: string, trouble: string) => void} [said] is told why one is not there; empty: it is
+ * @returns {() => void} the end of it
+ */
+function keepInScene(wanted, said = () => {}) {
+  /** @type {ReturnType<typeof setInterval> | undefined} */
+  let timer;
+  const end = effect(() => {
+    clearInterval(timer);
+    const frames = wanted().filter((frame) => !isLink(frame));
+    if (frames.length === 0 || connection.value !== "connected") return;
+    const ask = () => {
+      for (const frame of frames) askFor(frame).then((trouble) => said(frame, trouble));
+    };
+    untracked(ask);
+    timer = setInterval(() => document.hidden || ask(), EVERY_MS);
+  });
+  return () => {
+    clearInterval(timer);
+    end();
+  };
+}
+
+/** @param {string} frame */
+const isLink = (frame) => robot.value?.links.some(({ name }) => name === frame) ?? false;
+
+/** @param {string} frame */
+function askFor(frame) {
+  return send({ type: "follow_frame", frame }).then(
+    (answer) => (answer.type === "frame_followed" ? answer.trouble : ""),
+    (/** @type {Error} */ error) => error.message,
+  );
+}
+
+/**
+ * Something that is measured, kept in the frame of its link so that it moves along: a point of a
+ * surface with its normal, the frame of a link, or the axis of a joint, which is at rest in its child.
+ *
+ * @typedef {{kind: "point", link: string, at: readonly [number, number, number], normal: readonly [number, number, number] | null} | {kind: "frame", link: string} | {kind: "axis", link: string, joint: string}} Anchor
+ */
+/** @typedef {{light: boolean, software: boolean, renderer: string}} Graphics */
+
+/**
+ * @typedef {object} Studio3d what the script in the frame offers
+ * @property {Promise<unknown>} ready
+ * @property {EventTarget} events `hover`, `select`, `drag`, `connection`, `key`
+ * @property {(robot: RobotState) => void} setRobot
+ * @property {(positions: Record<string, number>) => void} setPositions
+ * @property {() => void} fit
+ * @property {(name: string) => void} view
+ * @property {(link: string) => void} focus
+ * @property {(frame: string) => void} setTarget the camera goes with a frame; empty: with none
+ * @property {(scale: number, transparent: boolean) => Promise<Blob | null>} picture a PNG; null: too large
+ * @property {(theme: "dark" | "light") => void} setTheme
+ * @property {(mode: "rviz" | "trackpad") => void} setMouse
+ * @property {(link: string, visible: boolean) => void} setLinkVisible
+ * @property {(link: string, opacity: number) => void} setLinkOpacity
+ * @property {(link: string | null) => void} setHover
+ * @property {(link: string | null) => void} setSelection
+ * @property {(joint: JointView | null) => void} setAxis of the selected joint
+ * @property {(links: readonly string[], others: readonly string[]) => void} setFrames that are compared
+ * @property {(frames: readonly string[]) => void} setChain a line leads from one to the next
+ * @property {(changed: readonly string[], moved: readonly string[]) => void} setLit what a property shapes
+ * @property {(can: boolean) => void} setCanDrag
+ * @property {(unit: "deg" | "rad") => void} setAngleUnit of the value at the cursor
+ * @property {(mode: "all" | "points" | "frames" | "axes" | null) => void} setMeasuring what a click aims at
+ * @property {(measures: readonly {ends: readonly Anchor[], label: string}[]) => void} setMeasures
+ * @property {(centre: {at: readonly [number, number, number], label: string} | null) => void} setCentre of mass, root frame
+ * @property {() => Graphics} graphics
+ * @property {() => void} lighten draw lightly from now on
+ * @property {() => void} reload make the view anew
+ * @property {boolean} connected
+ */
+
+export const VIEWS = /** @type {const} */ ([
+  "iso",
+  "front",
+  "back",
+  "left",
+  "right",
+  "top",
+  "bottom",
+]);
+
+/** @type {import("vendor/preact.js").Signal<Studio3d | null>} */
+export const viewport = signal(null);
+/** The 3D view has its own connection; false until it stands. */
+export const viewportConnected = signal(false);
+
+const LOOK_AGAIN_MS = 50;
+
+/** @param {HTMLIFrameElement} frame @returns {() => void} the end of it */
+export function attachViewport(frame) {
+  /** @type {(() => void)[]} */
+  let ends = [];
+  let turn = 0;
+  const end = () => {
+    turn += 1;
+    for (const one of ends) one();
+    ends = [];
+    viewport.value = null;
+    viewportConnected.value = false;
+  };
+  const begin = async () => {
+    end();
+    const mine = turn;
+    const found = await studio3dOf(frame);
+    if (!found || mine !== turn) return;
+    viewport.value = found;
+    viewportConnected.value = found.connected;
+    ends = [...tell(found), listen(found)];
+  };
+  frame.addEventListener("load", begin);
+  // The frame may have been loaded before anybody listened.
+  begin();
+  return () => {
+    frame.removeEventListener("load", begin);
+    end();
+  };
+}
+
+/** @param {HTMLIFrameElement} frame @returns {Promise<Studio3d | null>} null when the frame moved on */
+async function studio3dOf(frame) {
+  const inside = /** @type {(Window & {studio3d?: Studio3d}) | null} */ (frame.contentWindow);
+  const page = frame.contentDocument;
+  while (frame.isConnected && frame.contentDocument === page) {
+    if (inside?.studio3d) {
+      await inside.studio3d.ready;
+      return frame.contentDocument === page ? inside.studio3d : null;
+    }
+    await new Promise((resolve) => setTimeout(resolve, LOOK_AGAIN_MS));
+  }
+  return null;
+}
+
+/** @param {Studio3d} view @returns {(() => void)[]} the ends of all that keeps it informed */
+function tell(view) {
+  return [
+    effect(() => {
+      if (robot.value) view.setRobot(robot.value);
+    }),
+    effect(() => {
+      const now = movable.value.map(({ name }) => [name, position(name).value]);
+      view.setPositions(Object.fromEntries(now));
+    }),
+    effect(() => view.setTheme(theme.value)),
+    effect(() => view.setMouse(mouseMode.value)),
+    effect(() => view.setHover(hovered.value)),
+    effect(() => view.setSelection(selected.value)),
+    effect(() => {
+      const name = selectedJoint.value;
+      view.setAxis(robot.value?.joints.find((joint) => joint.name === name) ?? null);
+    }),
+    effect(() => view.setFrames(comparedFrames.value.links, comparedFrames.value.others)),
+    effect(() => view.setChain(drawnChain.value)),
+    keepInScene(() => followedFrames.value),
+    effect(() => {
+      const lit = lights.value ?? { changed_links: [], moved_links: litChain.value };
+      view.setLit(lit.changed_links, lit.moved_links);
+    }),
+    effect(() => view.setCanDrag(mayMove.value)),
+    effect(() => view.setAngleUnit(degrees.value ? "deg" : "rad")),
+    tellLinks(view),
+  ];
+}
+
+/** @param {Studio3d} view @returns {() => void} tells only of links whose look changed here */
+function tellLinks(view) {
+  /** @type {Map<string, string>} */
+  let told = new Map();
+  return effect(() => {
+    const now = new Map();
+    for (const link of robot.value?.links.map(({ name }) => name) ?? []) {
+      const visible = !hiddenLinks.value.has(link);
+      const opacity = linkOpacity.value.get(link) ?? 1;
+      const look = `${visible} ${opacity}`;
+      now.set(link, look);
+      if (look === (told.get(link) ?? "true 1")) continue;
+      view.setLinkVisible(link, visible);
+      view.setLinkOpacity(link, opacity);
+    }
+    told = now;
+  });
+}
+
+/** @param {Studio3d} view @returns {() => void} */
+function listen(view) {
+  const stop = new AbortController();
+  /** @param {string} type @param {(detail: any, event: Event) => void} take */
+  const on = (type, take) =>
+    view.events.addEventListener(
+      type,
+      (event) => take(/** @type {CustomEvent} */ (event).detail, event),
+      {
+        signal: stop.signal,
+      },
+    );
+  on("hover", ({ link }) => {
+    hovered.value = link;
+  });
+  on("select", ({ link }) => selectLink(link, "scene"));
+  on("connection", ({ connected }) => {
+    viewportConnected.value = connected;
+  });
+  on("drag", takeDrag);
+  on("key", (stroke, event) => {
+    // Prevented, the view leaves the key to the page.
+    if (isStroke(stroke) && onKey(stroke)) event.preventDefault();
+  });
+  return () => stop.abort();
+}
+
+/** @param {{joint: string, value: number, phase: "start" | "move" | "end" | "cancel"}} drag */
+function takeDrag({ joint, value, phase }) {
+  if (!mayMove.value || phase === "start") return;
+  moveJoint(joint, value);
+}
+
+/** @param {string} link bring it into view, and into the tree */
+export function focusLink(link) {
+  selectLink(link, "");
+  viewport.value?.focus(link);
+}
+
+/** Empty: the camera goes with none. */
+export const targetFrame = signal("");
+/** Why it does not go, in a sentence; empty: it does, or it is not known yet. */
+export const targetTrouble = signal("");
+
+/** Keep the camera going with its frame. @returns {() => void} the end of that */
+export function keepTargetFrame() {
+  const ends = [
+    effect(() => {
+      documentId.value;
+      targetFrame.value = "";
+    }),
+    effect(() => viewport.value?.setTarget(targetFrame.value)),
+    effect(() => {
+      // Of another frame, robot or connection it is not known yet.
+      [targetFrame.value, robot.value, connection.value];
+      targetTrouble.value = "";
+    }),
+    keepInScene(() => (targetFrame.value === "" ? [] : [targetFrame.value]), takeTrouble),
+  ];
+  return () => {
+    for (const end of ends) end();
+  };
+}
+
+/** @param {string} frame @param {string} trouble */
+function takeTrouble(frame, trouble) {
+  if (frame === targetFrame.peek()) targetTrouble.value = trouble;
+}
