@@ -4,7 +4,7 @@
  */
 
 /** @import { FromPage } from "../workers/data.js" */
-/** @import { PictureAsked, Pictured, SavedPicture } from "../workers/pictures.js" */
+/** @import { PictureAsked, Pictured, PictureToPage, SavedPicture } from "../workers/pictures.js" */
 /** @import { Heard, Looked, Points, ToPage } from "../workers/subscriptions.js" */
 
 import { effect, signal } from "vendor/preact.js";
@@ -54,7 +54,7 @@ function begun() {
   return made;
 }
 
-/** @param {ToPage} message */
+/** @param {ToPage | PictureToPage} message */
 function take(message) {
   if (message.kind === "need") tell(message.typeName);
   else if (message.kind === "lane") takeLane(message);

@@ -4,7 +4,7 @@
  */
 
 /** @import { Heard, Points } from "../workers/subscriptions.js" */
-/** @import { Listening } from "../app/listening-menu.js" */
+/** @import { Listening } from "../panels/listening-menu.js" */
 
 import { signal } from "vendor/preact.js";
 import { commandById } from "../lib/commands.js";
@@ -26,7 +26,7 @@ export const series = remembered(
   /** @type {readonly Series[]} */ ([]),
   (value) => Array.isArray(value) && value.length <= SERIES_MAX && value.every(isSeries),
 );
-/** How its topics are listened to. @type {import("vendor/preact.js").Signal<import("../app/listening-menu.js").Listening>} */
+/** How its topics are listened to. @type {import("vendor/preact.js").Signal<import("../panels/listening-menu.js").Listening>} */
 export const plotListening = signal({ reliable: null, latched: null });
 /** Seconds that are seen. */
 export const span_s = remembered("plot.span", 30);

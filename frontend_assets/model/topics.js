@@ -21,7 +21,7 @@ export const chosenTopic = signal(null);
 /** Names that every node has, and hidden ones, are shown. */
 export const showsNoise = remembered("topics.noise", false);
 
-/** How a topic is listened to; null: as fits its publishers. @type {Signal<import("../app/listening-menu.js").Listening>} */
+/** How a topic is listened to; null: as fits its publishers. @type {Signal<import("../panels/listening-menu.js").Listening>} */
 export const listening = signal({ reliable: null, latched: null });
 
 const LOOK_EVERY_MS = 1000;

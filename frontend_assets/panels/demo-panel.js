@@ -6,13 +6,13 @@
 /** @import { CallView, OfferView, TopicRow } from "../types/wire.d.ts" */
 
 import { computed, effect, html, signal, useSignal } from "vendor/preact.js";
-import { ConnectFirst, isRouterAway, isUnconnected, RouterAway } from "../app/connect-first.js";
 import { t } from "../lib/i18n.js";
 import { EmptyState, Icon, MenuButton, ProgressBar } from "../lib/ui.js";
 import { askOrKeepWhy, useLooking } from "../model/asking.js";
 import { mayEdit } from "../model/connection.js";
 import { calls, followDeeds, followServices, plainOf, services } from "../model/operations.js";
 import { followTopics, topics } from "../model/topics.js";
+import { ConnectFirst, isRouterAway, isUnconnected, RouterAway } from "./parts.js";
 
 /**
  * @typedef {object} FieldPanelProps

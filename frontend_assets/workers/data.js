@@ -4,7 +4,7 @@
  */
 
 /** @import { MessageView } from "../types/wire.d.ts" */
-/** @import { PictureAsked } from "./pictures.js" */
+/** @import { PictureAsked, PictureToPage } from "./pictures.js" */
 /** @import { Came } from "./frames.js" */
 /** @import { Heard, ToPage, Wish } from "./subscriptions.js" */
 
@@ -50,12 +50,12 @@ const bulk = new Bulk({
   now_ms: () => performance.now(),
 });
 
-/** @param {ToPage} message */
+/** @param {ToPage | PictureToPage} message */
 function post(message) {
   /** @type {any} */ (self).postMessage(message, movedWith(message));
 }
 
-/** @param {ToPage} message @returns {Transferable[]} what the page gets and the worker gives away */
+/** @param {ToPage | PictureToPage} message @returns {Transferable[]} what the page gets and the worker gives away */
 function movedWith(message) {
   if (message.kind !== "points") return [];
   return [message.times.buffer, ...message.values.map(({ buffer }) => buffer)];

@@ -31,6 +31,7 @@ import { readWith } from "./subscriptions.js";
  */
 
 /** @typedef {{kind: "saved", wish: number, file: Blob}} SavedPicture as PNG */
+/** @typedef {Pictured | SavedPicture} PictureToPage */
 
 /**
  * @typedef {{kind: "sight", sight: Sight}} AskSight
@@ -52,7 +53,7 @@ const FROM_BYTES = { low: 0, high: 255 };
 
 export class Pictures {
   /**
-   * @param {Wish} wish @param {Types} types @param {(message: ToPage) => void} post @param {Easel} easel
+   * @param {Wish} wish @param {Types} types @param {(message: PictureToPage | ToPage) => void} post @param {Easel} easel
    * @param {(paint: () => void) => void} nextFrame calls when the screen is ready for another one
    */
   constructor(wish, types, post, easel, nextFrame) {

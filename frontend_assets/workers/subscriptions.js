@@ -3,7 +3,6 @@
 /** @import { MessageView } from "../types/wire.d.ts" */
 /** @import { Came } from "./frames.js" */
 /** @import { Step } from "./message-paths.js" */
-/** @import { Pictured, SavedPicture } from "./pictures.js" */
 
 import { CdrError, readerOf } from "./cdr.js";
 import { isList, numberAt, stepsOf, valueAt } from "./message-paths.js";
@@ -43,7 +42,7 @@ import { isList, numberAt, stepsOf, valueAt } from "./message-paths.js";
  * @typedef {{kind: "need", typeName: string}} Need
  * @typedef {{kind: "text", request: number, text: string}} TextAnswer
  * @typedef {{kind: "lane", open: boolean, dropped: number}} LaneState
- * @typedef {Looked | Points | Pictured | SavedPicture | State | Need | TextAnswer | LaneState} ToPage
+ * @typedef {Looked | Points | State | Need | TextAnswer | LaneState} ToPage
  */
 
 /** Of a type that is not known it is asked so often whether somebody told it since. */

@@ -5,7 +5,7 @@ import {
   levelCounts,
   levelOf,
   shownParts,
-} from "../../frontend_assets/lib/diagnostics.js";
+} from "../../frontend_assets/panels/diagnostics/diagnostics.js";
 
 /** @param {string} name @param {number} level @param {Partial<import("../../frontend_assets/types/wire.d.ts").DiagnosticView>} [news] */
 const part = (name, level, news = {}) => ({

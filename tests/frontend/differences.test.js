@@ -1,3 +1,5 @@
+/** @import { DifferenceView } from "../../frontend_assets/types/wire.d.ts" */
+
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import {
@@ -10,9 +12,7 @@ import {
   shownUnit,
   sorted,
   valueText,
-} from "../../frontend_assets/lib/differences.js";
-
-/** @import { DifferenceView } from "../../frontend_assets/types/wire.d.ts" */
+} from "../../frontend_assets/panels/variants/comparison.js";
 
 /** @param {Partial<DifferenceView>} given @returns {DifferenceView} */
 const row = (given) => ({

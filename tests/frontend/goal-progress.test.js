@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { progressOf } from "../../frontend_assets/lib/goal-progress.js";
+import { progressOf } from "../../frontend_assets/panels/actions/actions.js";
 
 test("a percentage is a share of a hundred, also at its beginning", () => {
   assert.deepEqual(progressOf([{ progress_pct: 0.5, status_line: "x" }]), {

@@ -1,6 +1,5 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { rowsNear } from "../../frontend_assets/lib/line-window.js";
 import {
   goneBefore,
   levelOf,
@@ -9,6 +8,7 @@ import {
   nodesOf,
   withNews,
 } from "../../frontend_assets/model/log.js";
+import { rowsNear } from "../../frontend_assets/panels/log/log.js";
 
 /** @param {number} number @param {Partial<import("../../frontend_assets/types/wire.d.ts").LogLine>} [news] */
 const line = (number, news = {}) => ({

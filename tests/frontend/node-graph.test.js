@@ -1,9 +1,13 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { byNamespace, namespacesOf } from "../../frontend_assets/lib/graph-groups.js";
-import { layOut } from "../../frontend_assets/lib/graph-layout.js";
-import { drawnGraph, USUAL } from "../../frontend_assets/lib/node-graph.js";
 import { fitted, resized, zoomed } from "../../frontend_assets/lib/pan-zoom.js";
+import { layOut } from "../../frontend_assets/panels/graph/layout.js";
+import {
+  byNamespace,
+  drawnGraph,
+  namespacesOf,
+  USUAL,
+} from "../../frontend_assets/panels/graph/nodes.js";
 
 /** @param {string} name @param {boolean} [own] */
 const node = (name, own = false) => ({ name, count: 1, own });
@@ -31,7 +35,7 @@ const GRAPH = {
     link("/talker/get_parameters", [0], [1], { kind: "service" }),
   ],
 };
-/** @param {Partial<import("../../frontend_assets/lib/node-graph.js").GraphOptions>} news */
+/** @param {Partial<import("../../frontend_assets/panels/graph/nodes.js").GraphOptions>} news */
 const drawn = (news) => drawnGraph(GRAPH, { ...USUAL, ...news });
 /** @param {{boxes: {id: string}[]}} graph */
 const ids = ({ boxes }) => boxes.map(({ id }) => id);

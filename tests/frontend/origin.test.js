@@ -2,14 +2,14 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { elementsByLine } from "../../frontend_assets/lib/urdf-elements.js";
-import { offsetAt, replacement } from "../../frontend_assets/lib/written-text.js";
 import {
   byElement,
   countedAspects,
   referredPart,
   valueText,
 } from "../../frontend_assets/model/origin.js";
+import { offsetAt, replacement } from "../../frontend_assets/panels/origin/origin.js";
+import { elementsByLine } from "../../frontend_assets/panels/urdf/urdf.js";
 
 /** @param {string} element @param {string} attribute @returns {OriginAttribute} */
 const attribute = (element, attribute) => ({

@@ -1,6 +1,11 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { callOf, fileRows, macrosOf, valuesOf } from "../../frontend_assets/lib/outline.js";
+import {
+  callOf,
+  fileRows,
+  macrosOf,
+  valuesOf,
+} from "../../frontend_assets/panels/outline/outline.js";
 
 const place = { file: "/r/a.xacro", line: 1, column: 1, length: 0 };
 
@@ -37,7 +42,7 @@ const macro = (name, doc, parameters) => ({
   called_at: [],
 });
 
-/** @param {import("../../frontend_assets/lib/outline.js").FileRow[]} rows */
+/** @param {import("../../frontend_assets/panels/outline/outline.js").FileRow[]} rows */
 const shown = (rows) => rows.map(({ file: one, level }) => `${level} ${one.file.slice(3)}`);
 
 test("files stand below the one that includes them", () => {

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { lineOfPart } from "../../frontend_assets/lib/part-lines.js";
+import { lineOfPart } from "../../frontend_assets/panels/source/selection.js";
 
 /** @param {string[]} texts */
 const doc = (...texts) => ({

@@ -3,6 +3,7 @@
 import assert from "node:assert/strict";
 import { readdirSync, readFileSync } from "node:fs";
 import { test } from "node:test";
+import { changedLines, hunkAt, oneChange } from "../../frontend_assets/lib/text-differences.js";
 import {
   asText,
   byFile,
@@ -10,8 +11,7 @@ import {
   filtered,
   keyOf,
   mendable,
-} from "../../frontend_assets/lib/problem-list.js";
-import { changedLines, hunkAt, oneChange } from "../../frontend_assets/lib/text-differences.js";
+} from "../../frontend_assets/panels/problems/problems.js";
 
 /** @param {Problem["severity"]} severity @param {string} sentence @param {Partial<Problem>} [more] @returns {Problem} */
 const problem = (severity, sentence, more = {}) => ({

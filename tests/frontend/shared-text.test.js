@@ -1,9 +1,9 @@
+/** @import { Fate, Packet } from "../../frontend_assets/panels/source/shared-text.js" */
+
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { difference, onWire, SharedText } from "../../frontend_assets/lib/shared-text.js";
+import { difference, onWire, SharedText } from "../../frontend_assets/panels/source/shared-text.js";
 import { ChangeSet, Text } from "../../frontend_assets/vendor/codemirror.js";
-
-/** @import { Fate, Packet } from "../../frontend_assets/lib/shared-text.js" */
 
 /** @param {string} text */
 const textOf = (text) => Text.of(text.split("\n"));

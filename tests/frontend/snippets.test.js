@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { snippetTemplate } from "../../frontend_assets/lib/snippets.js";
+import { snippetTemplate } from "../../frontend_assets/panels/source/completion.js";
 import { EditorState, snippet } from "../../frontend_assets/vendor/codemirror.js";
 
 /** @param {string} template @returns {{text: string, selection: string}} what CodeMirror writes */

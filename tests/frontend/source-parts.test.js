@@ -2,10 +2,10 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { indentationOf } from "../../frontend_assets/lib/indentation.js";
-import { tabNames } from "../../frontend_assets/lib/tab-names.js";
 import { changedLines } from "../../frontend_assets/lib/text-differences.js";
-import { marksOf } from "../../frontend_assets/lib/text-problems.js";
+import { indentationOf } from "../../frontend_assets/panels/source/editor.js";
+import { marksOf } from "../../frontend_assets/panels/source/source.js";
+import { tabNames } from "../../frontend_assets/panels/source/tabs.js";
 import { Text } from "../../frontend_assets/vendor/codemirror.js";
 
 const LINES = [

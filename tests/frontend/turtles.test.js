@@ -4,6 +4,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import {
   FIELD_M,
+  hexOf,
   pixelOf,
   placeAt,
   turtleAt,
@@ -14,7 +15,6 @@ import {
   colorOf,
   FIRST_PEN,
   groundsOf,
-  hexOf,
   penOf,
   serviceNamed,
   Trail,

@@ -4,7 +4,6 @@
  */
 
 /** @import { OfferView, TopicRow } from "../../types/wire.d.ts" */
-/** @import { Service } from "../turtlesim/world.js" */
 
 import { signal } from "vendor/preact.js";
 import { t } from "../../lib/i18n.js";
@@ -15,7 +14,7 @@ import { called, inNamespaces, keptFor } from "../demo-panel.js";
 /**
  * @typedef {{x: number, y: number}} Place metres; x points ahead and y to the left
  * @typedef {{name: string, type: string}} Topic
- * @typedef {{prefix: string, command: Topic | null, pose: Topic | null, distance: Service | null}} Jerry
+ * @typedef {{prefix: string, command: Topic | null, pose: Topic | null, distance: {name: string, type: string} | null}} Jerry
  *   `prefix`: the namespace, as "" or "/left"; null: nobody has it
  * @typedef {{direction: string, steps: number}} Command
  */

@@ -1,9 +1,6 @@
 /** The field of turtlesim: its size, its pixels, and the turtles as they are drawn on it. */
 
-/** @import { Stroke } from "./world.js" */
-
 import { clamp } from "../../lib/numbers.js";
-import { hexOf } from "./world.js";
 
 /** Width and height, metres: 500 pixels of 45 to the metre, of which the last is left out. */
 export const FIELD_M = 11.088889;
@@ -16,7 +13,11 @@ const SHELLS = ["#3f9b4f", "#c8772d", "#8f5fc0", "#2f8fa8", "#b84a62", "#7d8a2e"
 const SKIN = "#d9c48a";
 
 /** @typedef {{x: number, y: number}} Point */
+/** @typedef {{from: Point, to: Point, color: number}} Stroke */
 /** @typedef {{name: string, x: number, y: number, theta: number, shell: number}} Drawn metres and radians */
+
+/** @param {number} color 0xrrggbb @returns {string} as a page writes it */
+export const hexOf = (color) => `#${color.toString(16).padStart(6, "0")}`;
 
 /** @param {Point} place m, y upwards @param {number} size_px of the field @returns {Point} px, y downwards */
 export function pixelOf({ x, y }, size_px) {

@@ -10,6 +10,7 @@ import { Icon, Switch } from "../../lib/ui.js";
 import { mayEdit } from "../../model/connection.js";
 import { drivingRefused } from "../../model/driving.js";
 import { FieldPanel, Troubles } from "../demo-panel.js";
+import { hexOf } from "./drawing.js";
 import { TurtleField } from "./field.js";
 import {
   backgroundRefused,
@@ -27,7 +28,6 @@ import {
   turtleTrouble,
   worldOf,
 } from "./turtles.js";
-import { hexOf } from "./world.js";
 
 /** @param {Ground} one */
 const nameOf = ({ node, prefix }) => node || prefix || "/";

@@ -4,7 +4,7 @@
  */
 
 /** @import { OfferView, TopicRow } from "../../types/wire.d.ts" */
-/** @import { Drawn, Paper } from "./drawing.js" */
+/** @import { Drawn, Paper, Stroke } from "./drawing.js" */
 
 import { drivable } from "../../model/driving.js";
 
@@ -97,9 +97,6 @@ export function penOf(text) {
 
 /** @param {number} red 0 to 255 @param {number} green @param {number} blue @returns {number} 0xrrggbb */
 export const colorOf = (red, green, blue) => (red << 16) | (green << 8) | blue;
-
-/** @param {number} color 0xrrggbb @returns {string} as a page writes it */
-export const hexOf = (color) => `#${color.toString(16).padStart(6, "0")}`;
 
 /** @param {string} hex `#rrggbb` @returns {[number, number, number]} red, green and blue, 0 to 255 */
 export function bytesOf(hex) {
@@ -229,7 +226,6 @@ export class World {
 
 /**
  * @typedef {{x: number, y: number}} Point metres, from the lower left corner
- * @typedef {{from: Point, to: Point, color: number}} Stroke
  * @typedef {{time: number, x: number, y: number}} Placed
  * @typedef {{time: number, color: number}} Seen
  */
