@@ -2,10 +2,12 @@
 
 /** @import { Shown } from "../model/view.js" */
 
-import { html } from "vendor/preact.js";
+import { effect, html } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
-import { later } from "../lib/later.js";
+import { later } from "../lib/loading.js";
 import { Dialog, DialogParts } from "../lib/ui.js";
+import { role } from "../model/connection.js";
+import { documentState, problems } from "../model/document.js";
 import { dialog } from "../model/view.js";
 import { GraphicsDialog } from "./graphics.js";
 import { DialogHelp } from "./help.js";
@@ -84,4 +86,17 @@ function ConfirmDialog({ title, text, details = [], action, danger = false, run 
       <button type="button" class="button" data-first onClick=${close}>${t("cancel")}</button>
       <button type="button" class=${`button ${danger ? "danger" : "primary"}`} onClick=${confirm}>${action}</button></footer>
   <//>`;
+}
+
+/** Show the form by itself when the robot that was opened cannot be without a value. */
+export function followMissing() {
+  let asked = "";
+  effect(() => {
+    const state = documentState.value;
+    const lacking = problems.value.find(({ fix }) => fix?.action === "give_arguments");
+    const what = lacking && state ? `${state.id} ${lacking.sentence}` : "";
+    if (what === "" || what === asked || role.value !== "presenter") return;
+    asked = what;
+    if (dialog.peek() === null) dialog.value = { kind: "launch", path: "" };
+  });
 }

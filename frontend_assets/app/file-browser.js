@@ -4,11 +4,10 @@
 /** @import { Signal } from "vendor/preact.js" */
 
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
-import { crumbsOf } from "../lib/crumbs.js";
 import { t } from "../lib/i18n.js";
 import { baseName, isFilePath, pastedPath } from "../lib/paths.js";
 import { recall, remember } from "../lib/remembered.js";
-import { EmptyState, Icon, IconButton, ProgressBar, SearchBox } from "../lib/ui.js";
+import { EmptyState, Icon, IconButton, moveFocus, ProgressBar, SearchBox } from "../lib/ui.js";
 import { dialog } from "../model/view.js";
 import { RefusedError, send } from "../model/wire.js";
 
@@ -66,7 +65,7 @@ export function useBrowser({ everything = false } = {}) {
 }
 
 /** @param {{browser: Browser}} props the way to the folder, and what is shown of it */
-export function FolderBar({ browser }) {
+function FolderBar({ browser }) {
   const folder = browser.folder.value;
   const crumbs = crumbsOf(folder?.path ?? "", browser.roots.value);
   return html`<div class="open-bar">
@@ -211,18 +210,6 @@ function isLetter({ key, ctrlKey, metaKey, altKey }) {
   return key.length === 1 && key !== " " && !ctrlKey && !metaKey && !altKey;
 }
 
-/** @param {HTMLElement | null} list @param {number} step @returns {boolean} */
-export function moveFocus(list, step) {
-  /** @type {HTMLElement[]} */
-  const all = [...(list?.querySelectorAll("button.entry-main:not(:disabled)") ?? [])].filter(
-    (one) => one instanceof HTMLElement,
-  );
-  const at = all.indexOf(/** @type {HTMLElement} */ (document.activeElement));
-  const next = all[Math.max(0, Math.min(at + step, all.length - 1))];
-  next?.focus();
-  return next !== undefined;
-}
-
 /** @param {{entry: FolderEntry, busy: boolean, onEnter: () => void, onOpen: OnOpen}} props */
 function Entry({ entry, busy, onEnter, onOpen }) {
   const enters = isEntered(entry);
@@ -258,3 +245,32 @@ function EntryButtons({ entry, busy, onOpen }) {
       dialog.value = { kind: "launch", path: entry.path };
     }} />`;
 }
+
+/**
+ * The way from a served folder down to the one that is shown.
+ *
+ * @param {string} path
+ * @param {readonly string[]} roots the served folders
+ * @returns {{name: string, path: string}[]} the served folder first; nothing for the list of these
+ */
+export function crumbsOf(path, roots) {
+  if (path === "") return [];
+  const root = roots.filter((one) => isAtOrBelow(path, one)).sort((a, b) => a.length - b.length)[0];
+  const begin = root ?? path;
+  const separator = path.includes("\\") && !path.includes("/") ? "\\" : "/";
+  const steps = path.slice(begin.length).split(separator).filter(Boolean);
+  const crumbs = [{ name: lastStep(begin), path: begin }];
+  for (const step of steps) {
+    const above = crumbs.at(-1)?.path ?? begin;
+    crumbs.push({ name: step, path: `${above.replace(/[/\\]$/, "")}${separator}${step}` });
+  }
+  return crumbs;
+}
+
+/** @param {string} path @param {string} root @returns {boolean} */
+function isAtOrBelow(path, root) {
+  return path === root || (path.startsWith(root) && /[/\\]/.test(path[root.length] ?? ""));
+}
+
+/** @param {string} path @returns {string} */
+const lastStep = (path) => path.split(/[/\\]/).filter(Boolean).at(-1) ?? path;

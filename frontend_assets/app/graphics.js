@@ -1,24 +1,19 @@
-/** Says when this browser draws the 3D view lightly, and lets the person choose. */
+/**
+ * How much this browser draws in 3D: as the person chose, or as fast as it proved to be; and the
+ * notice that says so.
+ */
 
 /** @import { MenuItem } from "../lib/ui.js" */
 /** @import { Command } from "../lib/commands.js" */
-/** @import { GraphicsChoice } from "./state/graphics.js" */
+/** @import { Graphics } from "../model/viewport.js" */
+/** @import { Signal } from "vendor/preact.js" */
 
-import { effect, html } from "vendor/preact.js";
+import { effect, html, signal } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
+import { remembered } from "../lib/remembered.js";
 import { Dialog, Icon, IconButton } from "../lib/ui.js";
 import { dialog } from "../model/view.js";
 import { viewport } from "../model/viewport.js";
-import {
-  GRAPHICS,
-  graphics,
-  graphicsChoice,
-  graphicsSaid,
-  meansLight,
-  pointsOneIn,
-  provedSlow,
-  slowHz,
-} from "./state/graphics.js";
 
 /** Ask the 3D view what it draws with, and hear when it proves slow, and what it leaves out. */
 export function followGraphics() {
@@ -52,7 +47,7 @@ function takeSlow(hz) {
 }
 
 /** @param {GraphicsChoice} choice the view is made anew where its canvas has to be another */
-export function chooseGraphics(choice) {
+function chooseGraphics(choice) {
   graphicsChoice.value = choice;
   graphicsSaid.value = true;
   // Chosen anew, it is measured anew.
@@ -139,3 +134,29 @@ function reason() {
   if (slowHz.value !== null) return t("graphics.slow", { hz: Math.round(slowHz.value) });
   return provedSlow.value ? t("graphics.was_slow") : t("graphics.fine");
 }
+
+const GRAPHICS = /** @type {const} */ (["automatic", "full", "light"]);
+
+/** @typedef {typeof GRAPHICS[number]} GraphicsChoice */
+
+/** The script in the frame reads this and the next one, too, before the canvas is made. @type {Signal<GraphicsChoice>} */
+export const graphicsChoice = remembered(
+  "graphics",
+  /** @type {GraphicsChoice} */ ("automatic"),
+  (value) => GRAPHICS.includes(/** @type {GraphicsChoice} */ (value)),
+);
+/** Whether pictures came too slowly here once. */
+const provedSlow = remembered("graphics.slow", false);
+/** Whether the person knows that this browser draws lightly. */
+export const graphicsSaid = remembered("graphics.said", false);
+
+/** What the frame draws with now; null until it stands. @type {Signal<Graphics | null>} */
+export const graphics = signal(null);
+/** Pictures a second when that was found too slow. @type {Signal<number | null>} */
+const slowHz = signal(null);
+
+/** One in so many points of clouds is drawn here; 1: all are. @type {Signal<number>} */
+const pointsOneIn = signal(1);
+
+/** @param {GraphicsChoice} choice @param {Graphics} now @returns {boolean} whether it means to draw lightly */
+const meansLight = (choice, now) => choice === "light" || (choice === "automatic" && now.software);

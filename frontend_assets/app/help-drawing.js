@@ -1,13 +1,12 @@
-/** Drawing texts in the markup of the help. */
+/** The texts of the help, each fetched when it is first asked for, and how they are drawn. */
 
 /** @import { Block, Part } from "../lib/help-text.js" */
 
 import { html } from "vendor/preact.js";
-import { onMac } from "../lib/commands.js";
-import { shortcutText } from "../lib/keys.js";
+import { onMac, shortcutText } from "../lib/commands.js";
+import { readHelp, textFiles } from "../lib/help-text.js";
 import { Icon } from "../lib/ui.js";
 import { theme } from "../model/view.js";
-import { helpPicture } from "./help-texts.js";
 
 /** @typedef {(page: string, about: readonly string[]) => void} Choose */
 
@@ -46,3 +45,16 @@ function drawnPart(part, onChoose) {
       return part.text;
   }
 }
+
+const FOLDER = new URL("../help/", import.meta.url).href;
+const known = textFiles(FOLDER, readHelp);
+
+/**
+ * @param {string} language
+ * @param {string} page
+ * @returns {Promise<readonly Block[]>} empty, when it cannot be had now
+ */
+export const helpBlocks = (language, page) => known(`${language}/${page}.md`);
+
+/** @param {string} name @param {string} theme @returns {string} address of a picture */
+const helpPicture = (name, theme) => `${FOLDER}pictures/${name}-${theme}.webp`;

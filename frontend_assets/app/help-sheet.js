@@ -1,20 +1,25 @@
 /** The help at one side of the window: a page, the list of all, or what a search finds. */
 
 /** @import { Block } from "../lib/help-text.js" */
-/** @import { Found, HelpText } from "../lib/help-search.js" */
 
 import { html, useEffect, useId, useLayoutEffect, useRef, useSignal } from "vendor/preact.js";
-import { searchHelp } from "../lib/help-search.js";
 import { plainHelp } from "../lib/help-text.js";
 import { language, t } from "../lib/i18n.js";
 import { Icon, IconButton, SearchBox } from "../lib/ui.js";
-import { closeHelp, goBackInHelp, goToHelp, helpGroups, helpIcon, helpTitle } from "./help.js";
-import { drawnBlock } from "./help-drawing.js";
-import { helpBlocks } from "./help-texts.js";
-import { help, helpTrail } from "./state/help.js";
+import {
+  closeHelp,
+  goBackInHelp,
+  goToHelp,
+  help,
+  helpGroups,
+  helpIcon,
+  helpTitle,
+  helpTrail,
+} from "./help.js";
+import { drawnBlock, helpBlocks } from "./help-drawing.js";
 
 /** @param {{page: string, side: string, modal: boolean}} props */
-export function HelpSheet({ page, side, modal }) {
+function HelpSheet({ page, side, modal }) {
   const element = useRef(/** @type {HTMLDialogElement | null} */ (null));
   const words = useSignal("");
   const heading = useId();
@@ -157,4 +162,48 @@ function Page({ page, onChoose }) {
 export function HelpPlace() {
   const shown = help.value;
   return shown && html`<${HelpSheet} key=${String(shown.modal)} ...${shown} />`;
+}
+
+/** @typedef {{page: string, title: string, text: string}} HelpText */
+/** @typedef {{page: string, title: string, excerpt: string}} Found */
+
+const AROUND = 60;
+const FOUND_MOST = 12;
+
+/**
+ * Finding a page of the help by words in it.
+ *
+ * @param {readonly HelpText[]} texts
+ * @param {string} sought
+ * @returns {Found[]} pages with every one of the words; those with a word in the title first
+ */
+export function searchHelp(texts, sought) {
+  const words = sought.toLowerCase().split(/\s+/).filter(Boolean);
+  if (words.length === 0) return [];
+  return texts
+    .map((one) => ({ one, weight: weightOf(one, words) }))
+    .filter(({ weight }) => weight > 0)
+    .sort((a, b) => b.weight - a.weight)
+    .slice(0, FOUND_MOST)
+    .map(({ one }) => ({ page: one.page, title: one.title, excerpt: excerpt(one.text, words) }));
+}
+
+/** @param {HelpText} one @param {readonly string[]} words @returns {number} 0: a word is missing */
+function weightOf({ title, text }, words) {
+  const [named, said] = [title.toLowerCase(), text.toLowerCase()];
+  if (!words.every((word) => named.includes(word) || said.includes(word))) return 0;
+  const inTitle = words.filter((word) => named.includes(word)).length;
+  const times = words.reduce((sum, word) => sum + said.split(word).length - 1, 0);
+  return 1 + 100 * inTitle + Math.min(times, 50);
+}
+
+/** @param {string} text @param {readonly string[]} words @returns {string} whole words around the first that is found */
+function excerpt(text, words) {
+  const low = text.toLowerCase();
+  const places = words.map((word) => low.indexOf(word)).filter((at) => at >= 0);
+  const at = places.length > 0 ? Math.min(...places) : 0;
+  const begin = at <= AROUND ? 0 : text.indexOf(" ", at - AROUND) + 1;
+  const end = text.lastIndexOf(" ", at + 2 * AROUND);
+  const cut = at + 2 * AROUND >= text.length || end <= at ? text.length : end;
+  return `${begin > 0 ? "… " : ""}${text.slice(begin, cut)}${cut < text.length ? " …" : ""}`;
 }

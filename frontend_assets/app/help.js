@@ -1,14 +1,16 @@
-/** The way to the help: its pages by name, and the commands and buttons that open them. */
+/**
+ * The help: which pages there are, which one is shown, and the commands and buttons that open
+ * them.
+ */
 
 /** @import { Command } from "../lib/commands.js" */
+/** @import { Signal } from "vendor/preact.js" */
 
-import { html } from "vendor/preact.js";
-import { ICON_OF, OF_DIALOG, OTHER_PAGES } from "../lib/help-pages.js";
+import { html, signal } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
 import { IconButton } from "../lib/ui.js";
 import { dialog } from "../model/view.js";
 import { PANELS, panelTitle } from "./panels.js";
-import { help, helpTrail } from "./state/help.js";
 
 const TRAIL_MOST = 20;
 /** What had the focus before. @type {Element | null} */
@@ -91,3 +93,54 @@ export function DialogHelp() {
   if (!page) return null;
   return html`<${IconButton} icon="help" label=${t("help.of", { page: helpTitle(page) })} onClick=${() => openHelp(page)} />`;
 }
+
+/**
+ * @typedef {object} ShownHelp
+ * @property {string} page empty: the list of all pages
+ * @property {"left" | "right"} side of the window, away from what is asked about
+ * @property {boolean} modal over a window that would have all keys and clicks otherwise
+ */
+
+/** @type {Signal<ShownHelp | null>} */
+export const help = signal(null);
+/** The pages read before this one, the newest last. @type {Signal<readonly string[]>} */
+export const helpTrail = signal([]);
+
+/** Pages that are not about one panel, with their icons, by the heading above them. */
+const OTHERS = {
+  tasks: {
+    open: "open",
+    arguments: "sliders",
+    saving: "disk",
+    export: "download",
+    measuring: "measure",
+    search: "search",
+    ros: "link",
+    live: "radar",
+    keys: "keyboard",
+    layouts: "layout",
+    graphics: "system",
+  },
+  words: { xacro: "macro", links: "joints", frame: "axes", units: "info" },
+};
+export const OTHER_PAGES = {
+  tasks: Object.keys(OTHERS.tasks),
+  words: Object.keys(OTHERS.words),
+};
+/** Icons of these pages. @type {Record<string, string>} */
+const ICON_OF = { ...OTHERS.tasks, ...OTHERS.words };
+/** The page about each window that has a head; the search finds its own help. @type {Record<string, string>} */
+export const OF_DIALOG = {
+  open: "open",
+  choose_package: "open",
+  launch: "arguments",
+  save: "saving",
+  save_as: "saving",
+  merge: "saving",
+  share: "export",
+  keys: "keys",
+  layouts: "layouts",
+  graphics: "graphics",
+  ros: "ros",
+  add_display: "live",
+};

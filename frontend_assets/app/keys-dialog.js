@@ -1,9 +1,8 @@
 /** The list of keys, by where they count. */
 
 import { html, useSignal } from "vendor/preact.js";
-import { commandLabel, commands, onMac } from "../lib/commands.js";
+import { commandLabel, commands, onMac, shortcutText } from "../lib/commands.js";
 import { t } from "../lib/i18n.js";
-import { shortcutText } from "../lib/keys.js";
 import { Dialog, SearchBox } from "../lib/ui.js";
 
 /** @typedef {readonly [string, readonly string[]]} Row words, and keys that are pressed one after the other */

@@ -1,7 +1,6 @@
 /** What is done with panels and their layouts by a name or a key: next, move, close, switch. */
 
-/** @import { Dock } from "../lib/dock.js" */
-/** @import { Place } from "../lib/dock-places.js" */
+/** @import { Dock, Place } from "../lib/dock.js" */
 /** @import { MenuItem } from "../lib/ui.js" */
 /** @import { Command } from "../lib/commands.js" */
 
@@ -11,9 +10,8 @@ import { t } from "../lib/i18n.js";
 import { openMenu } from "../lib/ui.js";
 import { dialog, isFree, layoutDesk, size } from "../model/view.js";
 import { helpTitle, openHelp } from "./help.js";
-import { LIVE } from "./live-layout.js";
+import { LIVE, layoutInUse, ownLayouts } from "./layouts.js";
 import { PANELS, panelTitle } from "./panels.js";
-import { layoutInUse, ownLayouts } from "./state/own-layouts.js";
 
 /** So many layouts have a key of their own. */
 const KEYS_MOST = 9;

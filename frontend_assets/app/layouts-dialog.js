@@ -1,24 +1,27 @@
 /** The window of the layouts: save the present one, use, rename and delete them, take them along as a file. */
 
-/** @import { OwnLayout } from "../lib/layout-file.js" */
+/** @import { OwnLayout } from "./layouts.js" */
 
 import { html, useRef, useSignal } from "vendor/preact.js";
 import { saveAsFile } from "../lib/files.js";
 import { t } from "../lib/i18n.js";
-import { FILE_LARGEST, LayoutFileError, layoutFile, readLayoutFile } from "../lib/layout-file.js";
 import { Dialog, Icon, IconButton } from "../lib/ui.js";
 import { layoutDesk, notify } from "../model/view.js";
 import { layoutName } from "./layout-commands.js";
-import { LIVE } from "./live-layout.js";
-import { PANELS } from "./panels.js";
 import {
   addLayouts,
   deleteLayout,
+  FILE_LARGEST,
+  LayoutFileError,
+  LIVE,
+  layoutFile,
   layoutInUse,
   ownLayouts,
+  readLayoutFile,
   renameLayout,
   saveLayout,
-} from "./state/own-layouts.js";
+} from "./layouts.js";
+import { PANELS } from "./panels.js";
 
 const FILE = "layouts.studio.json";
 

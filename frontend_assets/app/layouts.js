@@ -1,14 +1,17 @@
-/** Arrangements of the panels by the size of the window; each is remembered on its own. */
+/**
+ * Arrangements of the panels by the size of the window, each remembered on its own: the studio's,
+ * the one for a robot that runs, and those that this person saved in this browser, by name, or
+ * has as a file.
+ */
 
 /** @import { Arrangement, Split } from "../lib/arrangement.js" */
 /** @import { Dock } from "../lib/dock.js" */
+/** @import { Signal } from "vendor/preact.js" */
 
-import { effect, untracked } from "vendor/preact.js";
+import { effect, signal, untracked } from "vendor/preact.js";
 import { readArrangement } from "../lib/arrangement.js";
-import { recall, remember } from "../lib/remembered.js";
+import { recall, remember, remembered } from "../lib/remembered.js";
 import { layoutDesk, size } from "../model/view.js";
-import { LIVE, liveLayout } from "./live-layout.js";
-import { layoutInUse, ownArrangement } from "./state/own-layouts.js";
 
 const PHONE_BELOW_PX = 700;
 const LOW_BELOW_PX = 480;
@@ -18,7 +21,7 @@ const LOW_SHARE = 0.42;
 const VERSION = 4;
 
 /** @param {number} width px @param {number} height px @returns {"wide" | "medium" | "phone"} */
-export function sizeOf(width, height) {
+function sizeOf(width, height) {
   // A phone may lie on its side, too: panels above one another would be slits.
   if (width < PHONE_BELOW_PX || height < LOW_BELOW_PX) return "phone";
   return width < WIDE_FROM_PX ? "medium" : "wide";
@@ -31,7 +34,7 @@ export function sizeOf(width, height) {
  * @param {readonly string[]} panels all that there are
  * @returns {Split[]} a row, left to right; a split in it stacks from top to bottom
  */
-export function modelLayout(kind, width, height, panels) {
+function modelLayout(kind, width, height, panels) {
   if (kind === "phone") return [{ tabs: [...panels], size: width }];
   if (kind === "medium") {
     const right = Math.round(Math.min(340, width * 0.42));
@@ -126,4 +129,194 @@ function deskFor(dock, arrange) {
     showBeside: dock.showBeside,
     reset: forget,
   };
+}
+
+/** Its name among the layouts; one that a person gives never begins with a space. */
+export const LIVE = " live";
+
+const MIDDLE = ["scene", "turtlesim", "jerry"];
+const LEFT = ["displays", "frames", "joints", "lessons"];
+const BELOW = ["plot", "log", "image", "diagnostics"];
+const UPPER = ["graph", "interfaces", "lifecycle"];
+const LOWER = ["topics", "services", "actions", "parameters", "publish", "teleop"];
+const LIVE_LOW_SHARE = 0.36;
+const UPPER_SHARE = 0.4;
+
+/**
+ * @param {"wide" | "medium"} kind
+ * @param {number} width px
+ * @param {number} height px
+ * @param {(id: string) => boolean} isPanel those that there are
+ * @returns {Split[]} a row, left to right; a split in it stacks from top to bottom
+ */
+function liveLayout(kind, width, height, isPanel) {
+  const [left, below, upper, lower] = /** @type {[string[], string[], string[], string[]]} */ (
+    [LEFT, BELOW, UPPER, LOWER].map((ids) => ids.filter(isPanel))
+  );
+  const low = Math.round(height * LIVE_LOW_SHARE);
+  const middle = [{ tabs: MIDDLE.filter(isPanel), size: height - low }, ...tabs(below, low)];
+  if (kind === "medium") {
+    const right = Math.round(Math.min(380, width * 0.44));
+    return [{ split: middle, size: width - right }, ...tabs([...lower, ...left, ...upper], right)];
+  }
+  const side = Math.round(Math.min(270, width * 0.2));
+  const right = Math.round(Math.min(470, width * 0.32));
+  const upperHeight = Math.round(height * UPPER_SHARE);
+  return [
+    ...tabs(left, side),
+    { split: middle, size: width - side - right },
+    { split: [...tabs(upper, upperHeight), ...tabs(lower, height - upperHeight)], size: right },
+  ];
+}
+
+/** @param {string[]} ids @param {number} size @returns {Split[]} none where no panel is */
+const tabs = (ids, size) => (ids.length > 0 ? [{ tabs: ids, size }] : []);
+
+/** @typedef {{name: string, arrangement: Arrangement}} OwnLayout */
+
+const FILE_VERSION = 1;
+const NAME_LONGEST = 60;
+export const LAYOUTS_MOST = 50;
+/** Bytes; fifty layouts of thirty panels take a tenth of it. */
+export const FILE_LARGEST = 1_000_000;
+
+/** The file is none; `reason` is the key of the words for it. */
+export class LayoutFileError extends Error {
+  /** @param {"layouts.import.no_json" | "layouts.import.no_layouts" | "layouts.import.newer" | "layouts.import.too_large"} reason */
+  constructor(reason) {
+    super(reason);
+    this.reason = reason;
+  }
+}
+
+/** @param {readonly OwnLayout[]} layouts @returns {string} */
+export function layoutFile(layouts) {
+  return `${JSON.stringify({ studio_layouts: FILE_VERSION, layouts }, null, 2)}\n`;
+}
+
+/**
+ * @param {string} text
+ * @param {(id: string) => boolean} isKnown whether there is such a panel
+ * @returns {{layouts: OwnLayout[], dropped: string[]}} `dropped`: panels that this studio does not have
+ * @throws {LayoutFileError}
+ */
+export function readLayoutFile(text, isKnown) {
+  if (text.length > FILE_LARGEST) throw new LayoutFileError("layouts.import.too_large");
+  const { studio_layouts: version, layouts } =
+    /** @type {{studio_layouts?: unknown, layouts?: unknown}} */ (parsed(text) ?? {});
+  if (typeof version !== "number" || !Array.isArray(layouts))
+    throw new LayoutFileError("layouts.import.no_layouts");
+  if (version > FILE_VERSION) throw new LayoutFileError("layouts.import.newer");
+  const read = readLayouts(layouts, isKnown);
+  if (read.layouts.length === 0) throw new LayoutFileError("layouts.import.no_layouts");
+  return read;
+}
+
+/** @param {string} text @returns {unknown} */
+function parsed(text) {
+  try {
+    return JSON.parse(text);
+  } catch {
+    throw new LayoutFileError("layouts.import.no_json");
+  }
+}
+
+/**
+ * @param {readonly unknown[]} stored
+ * @param {(id: string) => boolean} isKnown
+ * @returns {{layouts: OwnLayout[], dropped: string[]}} those that can be read, each name once
+ */
+function readLayouts(stored, isKnown) {
+  /** @type {OwnLayout[]} */
+  const layouts = [];
+  const dropped = new Set();
+  for (const one of stored.slice(0, LAYOUTS_MOST)) {
+    const { name, arrangement } = /** @type {{name?: unknown, arrangement?: unknown}} */ (
+      one ?? {}
+    );
+    const read = readArrangement(arrangement, isKnown);
+    const called = typeof name === "string" ? tidyName(name) : "";
+    if (!read || called === "") continue;
+    layouts.push({ name: freeName(called, layouts), arrangement: read.arrangement });
+    for (const id of read.dropped) dropped.add(id);
+  }
+  return { layouts, dropped: [...dropped] };
+}
+
+/** @param {string} name @returns {string} on one line and not too long */
+export function tidyName(name) {
+  return name.replace(/\s+/g, " ").trim().slice(0, NAME_LONGEST);
+}
+
+/** @param {string} name @param {readonly OwnLayout[]} taken @returns {string} it, or with a number behind it */
+export function freeName(name, taken) {
+  const isTaken = (/** @type {string} */ wanted) => taken.some((one) => one.name === wanted);
+  if (!isTaken(name)) return name;
+  let count = 2;
+  while (isTaken(`${name} ${count}`)) count += 1;
+  return `${name} ${count}`;
+}
+
+const STORE = "layouts";
+
+/** Any panel is let through: one that this studio lacks is left out when the layout is shown. */
+const anyPanel = () => true;
+
+/** @returns {readonly OwnLayout[]} */
+function stored() {
+  const found = recall(STORE);
+  return Array.isArray(found) ? readLayouts(found, anyPanel).layouts : [];
+}
+
+/** @type {Signal<readonly OwnLayout[]>} */
+export const ownLayouts = signal(stored());
+effect(() => remember(STORE, ownLayouts.value.length > 0 ? ownLayouts.value : undefined));
+
+/** Name of the layout in use; empty: the studio's own. @type {Signal<string>} */
+export const layoutInUse = remembered("layout.in_use", "");
+
+/** @param {string} name @returns {Arrangement | null} */
+const ownArrangement = (name) =>
+  ownLayouts.value.find((one) => one.name === name)?.arrangement ?? null;
+
+/** @param {string} name @param {Arrangement} arrangement under a name that exists it takes its place @returns {boolean} kept */
+export function saveLayout(name, arrangement) {
+  const called = tidyName(name);
+  if (called === "") return false;
+  const layout = { name: called, arrangement };
+  const known = ownLayouts.value.some((one) => one.name === called);
+  if (!known && ownLayouts.value.length >= LAYOUTS_MOST) return false;
+  ownLayouts.value = known
+    ? ownLayouts.value.map((one) => (one.name === called ? layout : one))
+    : [...ownLayouts.value, layout];
+  layoutInUse.value = called;
+  return true;
+}
+
+/** @param {string} name @param {string} wanted @returns {boolean} false: that name is taken, or none */
+export function renameLayout(name, wanted) {
+  const called = tidyName(wanted);
+  if (called === name) return true;
+  if (called === "" || ownArrangement(called)) return false;
+  ownLayouts.value = ownLayouts.value.map((one) =>
+    one.name === name ? { ...one, name: called } : one,
+  );
+  if (layoutInUse.value === name) layoutInUse.value = called;
+  return true;
+}
+
+/** @param {string} name */
+export function deleteLayout(name) {
+  ownLayouts.value = ownLayouts.value.filter((one) => one.name !== name);
+  if (layoutInUse.value === name) layoutInUse.value = "";
+}
+
+/** @param {readonly OwnLayout[]} layouts from a file; none takes the place of another @returns {number} how many had room */
+export function addLayouts(layouts) {
+  const all = [...ownLayouts.value];
+  for (const { name, arrangement } of layouts.slice(0, LAYOUTS_MOST - all.length))
+    all.push({ name: freeName(name, all), arrangement });
+  const added = all.length - ownLayouts.value.length;
+  ownLayouts.value = all;
+  return added;
 }

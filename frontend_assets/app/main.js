@@ -1,10 +1,9 @@
 /** Begins the page: words, theme, frame, dock, keys, and the lane to the studio. */
 
 import { effect, html, render } from "vendor/preact.js";
-import { addCommands, onKey } from "../lib/commands.js";
+import { addCommands, matches, onKey, takesText } from "../lib/commands.js";
 import { createDock } from "../lib/dock.js";
 import { nearestLanguage, t, useLanguage } from "../lib/i18n.js";
-import { matches, takesText } from "../lib/keys.js";
 import { anyUnderWay } from "../lib/latest.js";
 import { documentOf } from "../lib/paths.js";
 import { iconElement } from "../lib/ui.js";
@@ -25,17 +24,17 @@ import { selected } from "../model/selection.js";
 import { activePanel, dialog, isFree, languageChoice, theme } from "../model/view.js";
 import { viewport } from "../model/viewport.js";
 import { connect } from "../model/wire.js";
-import { listenToDrops } from "./drop.js";
+import { followMissing } from "./dialogs.js";
 import { followGraphics } from "./graphics.js";
 import { helpCommands, helpTitle, openHelp } from "./help.js";
 import { addLayoutCommands } from "./layout-commands.js";
 import { followSize } from "./layouts.js";
 import { menuCommands } from "./menu-commands.js";
 import { followDisk } from "./merge-dialog.js";
-import { followMissing } from "./missing-arguments.js";
 import { dockPanels, PANELS, panelTitle } from "./panels.js";
 import { followLink } from "./share.js";
 import { Shell } from "./shell.js";
+import { listenToDrops } from "./uploads.js";
 
 const EDITING = { enabled: () => mayEdit.value && isFree() };
 

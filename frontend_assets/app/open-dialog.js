@@ -1,22 +1,137 @@
-/** The window to open a robot: recent ones, served folders, examples, a new one, a pasted text. */
+/**
+ * The window to open a robot: recent ones, served folders, examples, a new one, a pasted text,
+ * one that is described in the ROS 2 system.
+ */
 
-/** @import { FolderEntry } from "../types/wire.d.ts" */
-
+/** @import { FolderEntry, WireRobots } from "../types/wire.d.ts" */
 /** @import { OpenTab } from "../model/view.js" */
 
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
-import { chosenFiles } from "../lib/dropped.js";
 import { parseArguments } from "../lib/expressions.js";
 import { t } from "../lib/i18n.js";
 import { remembered } from "../lib/remembered.js";
-import { Dialog, Icon } from "../lib/ui.js";
-import { choosePackage, openPath } from "../model/requests.js";
+import { Dialog, Icon, ProgressBar } from "../lib/ui.js";
+import { choosePackage, openNamed, openPath } from "../model/requests.js";
+import { findRobots, openFromRos, ros } from "../model/ros.js";
 import { EverythingSwitch, FolderList, useBrowser } from "./file-browser.js";
-import { NewForm } from "./new-robot.js";
-import { PasteForm } from "./paste-form.js";
-import { RosForm } from "./ros-form.js";
-import { ExampleCards, RecentList } from "./start-lists.js";
-import { uploadFiles } from "./upload.js";
+import { nameFault, PlaceFields, robotOf, usePlace } from "./place-form.js";
+import { ExampleCards, Picture, RecentList } from "./start-card.js";
+import { FileButtons, openText } from "./uploads.js";
+
+/** A box for a text that is to be opened as an untitled robot. */
+function PasteForm() {
+  const box = useRef(/** @type {HTMLTextAreaElement | null} */ (null));
+  const text = useSignal("");
+  const busy = useSignal(false);
+  useEffect(() => box.current?.focus(), []);
+  /** @param {Event} event */
+  const open = async (event) => {
+    event.preventDefault();
+    busy.value = true;
+    await openText(text.value);
+    busy.value = false;
+  };
+  return html`<form class="open-form" onSubmit=${open}>
+    <p class="open-text">${t("paste.text")}</p>
+    <textarea ref=${box} class="box paste-box" aria-label=${t("paste.label")} placeholder=${t("paste.placeholder")} spellcheck=${false}
+      value=${text.value} onInput=${(/** @type {any} */ event) => {
+        text.value = event.currentTarget.value;
+      }}></textarea>
+    <footer><${Icon} name="info" size=${14} /><span class="form-note">${t("paste.kept")}</span><span class="push"></span>
+      <button type="submit" class="button primary" disabled=${busy.value || text.value.trim() === ""}>${t("paste.open")}</button></footer>
+  </form>`;
+}
+
+const TEMPLATES = /** @type {const} */ (["rover", "arm", "blank"]);
+
+/** A new robot out of a template, in a package of its own. */
+function NewForm() {
+  const template = useSignal(/** @type {typeof TEMPLATES[number]} */ ("rover"));
+  const place = usePlace("my_robot_description");
+  const busy = useSignal(false);
+  const name = place.name.value;
+  /** @param {Event} event */
+  const make = async (event) => {
+    event.preventDefault();
+    if (busy.value || nameFault(name)) return;
+    busy.value = true;
+    const folder = place.folder.value.trim();
+    await openNamed({ type: "new_robot", template: template.value, name, folder });
+    busy.value = false;
+  };
+  return html`<form class="open-form" onSubmit=${make}>
+    <div class="form-scroll">
+    <fieldset class="cards templates"><legend>${t("new.template")}</legend>
+      ${TEMPLATES.map(
+        (one) =>
+          html`<label key=${one} class="card"><input type="radio" name="template" value=${one} checked=${template.value === one} onChange=${() => {
+            template.value = one;
+          }} /><${Picture} name=${`new-${one}`} /><strong>${t(`new.${one}`)}</strong><span>${t(`new.${one}.text`)}</span></label>`,
+      )}
+    </fieldset>
+    <${PlaceFields} place=${place} path=${`${name}/urdf/${robotOf(name)}.urdf.xacro`} /></div>
+    <footer><span class="push"></span>
+      <button type="submit" class="button primary" disabled=${busy.value || nameFault(name) !== ""}>${t("new.make")}</button></footer>
+  </form>`;
+}
+
+const TOPIC = "/robot_description";
+const PARAMETER = "robot_description";
+
+/** @typedef {{value: string}} Text */
+
+/** A robot whose description is told on the wire, to be opened. */
+function RosForm() {
+  const found = useSignal(/** @type {WireRobots | null} */ (null));
+  const topic = useSignal(TOPIC);
+  const node = useSignal("");
+  const busy = useSignal(false);
+  const error = useSignal("");
+  const look = async () => {
+    busy.value = true;
+    const answer = await findRobots();
+    busy.value = false;
+    error.value = typeof answer === "string" ? answer : "";
+    found.value = typeof answer === "string" ? null : answer;
+    const [first] = found.value?.topics ?? [];
+    if (first) topic.value = first;
+  };
+  useEffect(() => {
+    look();
+  }, []);
+  /** @param {Event} event */
+  const open = async (event) => {
+    event.preventDefault();
+    busy.value = true;
+    const name = node.value.trim();
+    error.value = await openFromRos(
+      name ? { node: name, parameter: PARAMETER } : { topic: topic.value.trim() },
+    );
+    busy.value = false;
+  };
+  const ready = !busy.value && (topic.value.trim() !== "" || node.value.trim() !== "");
+  return html`<form class="open-form ros-form" onSubmit=${open}>
+    <p class="open-text">${t("ros.open.text")}</p>
+    ${busy.value && html`<${ProgressBar} label=${t("loading")} done=${0} total=${0} />`}
+    <${Field} label=${t("ros.open.topic")} text=${topic} list="ros-topics" choices=${found.value?.topics ?? []} />
+    <${Field} label=${t("ros.open.node")} text=${node} list="ros-nodes" choices=${found.value?.nodes ?? []} />
+    ${found.value?.topics.length === 0 && html`<p class="ros-note"><${Icon} name="info" size=${13} /><span>${t("ros.open.none", { address: ros.value.endpoint, domain: ros.value.domain })}</span></p>`}
+    ${error.value && html`<p class="ros-note bad" role="alert"><${Icon} name="error" size=${13} /><span>${error.value}</span></p>`}
+    <footer><span class="form-note">${t("ros.open.note")}</span><span class="push"></span>
+      <button type="button" class="button" disabled=${busy.value} onClick=${look}><${Icon} name="reload" />${t("ros.open.again")}</button>
+      <button type="submit" class="button primary" disabled=${!ready}>${t("ros.open.do")}</button></footer>
+  </form>`;
+}
+
+/** @param {{label: string, text: Text, list: string, choices: readonly string[]}} props */
+function Field({ label, text, list, choices }) {
+  return html`<label class="field"><span>${label}</span>
+    <input type="text" class="box wide" list=${list} maxlength="300" spellcheck=${false} value=${text.value}
+      onInput=${(/** @type {any} */ event) => {
+        text.value = event.currentTarget.value;
+      }} />
+    <datalist id=${list}>${choices.map((one) => html`<option key=${one} value=${one}></option>`)}</datalist></label>`;
+}
 
 const ICONS = /** @type {const} */ ({
   recent: "history",
@@ -91,24 +206,6 @@ function Tabs({ chosen, onChoose }) {
       )}
     </div>
     <${FileButtons} />
-  </div>`;
-}
-
-/** The browser's own windows for files and for a folder; what is chosen is sent to the studio. */
-export function FileButtons() {
-  const files = useRef(/** @type {HTMLInputElement | null} */ (null));
-  const folder = useRef(/** @type {HTMLInputElement | null} */ (null));
-  /** @param {any} event */
-  const onChange = (event) => {
-    uploadFiles(chosenFiles(event.currentTarget.files));
-    event.currentTarget.value = "";
-  };
-  return html`<div class="file-buttons">
-    <button type="button" class="button" onClick=${() => files.current?.click()}><${Icon} name="upload" />${t("upload.choose")}</button>
-    <button type="button" class="button" onClick=${() => folder.current?.click()}><${Icon} name="folderOpen" />${t("upload.choose_folder")}</button>
-    <p class="file-hint">${t("upload.hint")}</p>
-    <input ref=${files} type="file" hidden multiple aria-label=${t("upload.choose")} onChange=${onChange} />
-    <input ref=${folder} type="file" hidden webkitdirectory aria-label=${t("upload.choose_folder")} onChange=${onChange} />
   </div>`;
 }
 

@@ -5,10 +5,9 @@
 /** @import { ExampleEntry, JointView, Problem, SiteView } from "../types/wire.d.ts" */
 
 import { signal } from "vendor/preact.js";
-import { commandById, commandLabel, commands, onMac } from "../lib/commands.js";
+import { commandById, commandLabel, commands, onMac, shortcutText } from "../lib/commands.js";
 import { shownText } from "../lib/expressions.js";
 import { t } from "../lib/i18n.js";
-import { shortcutText } from "../lib/keys.js";
 import { baseName, placeText, shortPath } from "../lib/paths.js";
 import { mayEdit } from "../model/connection.js";
 import { allSites, documentState, movable, problems, robot, siteOrder } from "../model/document.js";

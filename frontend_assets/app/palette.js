@@ -1,13 +1,11 @@
 /** The palette: every command, panel, link, joint, property, file and problem by its name. */
 
-/** @import { Section } from "../lib/palette-search.js" */
-/** @import { Span } from "../lib/ranking.js" */
+/** @import { Rank, Ranked, Span } from "../lib/ranking.js" */
 /** @import { Choice } from "./palette-choices.js" */
 
 import { html, useEffect, useMemo, useRef, useSignal } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
-import { fitting, readSearch, SIGNS, sectionsOf } from "../lib/palette-search.js";
-import { marksOf } from "../lib/ranking.js";
+import { marksOf, ranked } from "../lib/ranking.js";
 import { recall, remember } from "../lib/remembered.js";
 import { Dialog, Icon } from "../lib/ui.js";
 import { mayEdit } from "../model/connection.js";
@@ -171,7 +169,7 @@ function found(all, text) {
   return sectionsOf(fit, kinds.size > 1 ? EACH_MOST : ONE_MOST);
 }
 
-/** @param {import("../lib/palette-search.js").Search} search with a line @returns {Choice[]} */
+/** @param {Search} search with a line @returns {Choice[]} */
 function atLine({ words, line, column }) {
   if (words === "") return lineChoices(line, column);
   return fitting(fileChoices(line), { kinds: null, words, line, column });
@@ -201,4 +199,61 @@ function recentKeys() {
 /** @param {string} key */
 function keepRecent(key) {
   remember(RECENT, [key, ...recentKeys().filter((one) => one !== key)].slice(0, RECENT_MOST));
+}
+
+/** Typed first, these signs ask for some kinds only. @type {Record<string, readonly Rank[]>} */
+const SIGNS = {
+  ">": ["command", "panel"],
+  "@": ["link", "joint"],
+  "#": ["property", "literal"],
+  "/": ["file"],
+  "!": ["problem"],
+};
+
+/** @typedef {{kinds: readonly Rank[] | null, words: string, line: number, column: number}} Search `line`: 0 if none was asked for */
+
+/** @param {string} text @returns {Search} */
+export function readSearch(text) {
+  const trimmed = text.trimStart();
+  const kinds = SIGNS[trimmed[0] ?? ""] ?? null;
+  const rest = kinds ? trimmed.slice(1) : trimmed;
+  const place = /^(.*?):(\d{1,9})(?::(\d{1,9}))?\s*$/.exec(rest);
+  const [, words = rest, line = "0", column = "1"] = place ?? [];
+  return { kinds, words: words.trim(), line: Number(line), column: Number(column) };
+}
+
+/**
+ * @template {Ranked} T
+ * @typedef {{heading: string, choices: T[], more: number}} Section `more`: so many fit, too
+ */
+
+/**
+ * @template {Ranked} T
+ * @param {readonly T[]} found in order
+ * @param {number} most of each kind
+ * @returns {Section<T>[]} one for each kind, that of the best first
+ */
+export function sectionsOf(found, most) {
+  /** @type {Map<string, T[]>} */
+  const kinds = new Map();
+  for (const one of found) {
+    const those = kinds.get(one.rank);
+    if (those) those.push(one);
+    else kinds.set(one.rank, [one]);
+  }
+  return [...kinds].map(([heading, all]) => ({
+    heading,
+    choices: all.slice(0, most),
+    more: Math.max(all.length - most, 0),
+  }));
+}
+
+/**
+ * @template {Ranked} T
+ * @param {readonly T[]} all
+ * @param {Search} search
+ * @returns {T[]}
+ */
+export function fitting(all, { kinds, words }) {
+  return ranked(kinds ? all.filter(({ rank }) => kinds.includes(rank)) : all, words);
 }

@@ -4,7 +4,7 @@
 
 import { html, render, useEffect, useRef, useState } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
-import { until, untilIdle } from "../lib/idle.js";
+import { until, untilIdle } from "../lib/loading.js";
 import { Icon, ProgressBar } from "../lib/ui.js";
 import { changedCount, problems, robot } from "../model/document.js";
 import { heldBack } from "../model/source.js";

@@ -1,16 +1,30 @@
-/** The window on ROS 2: how the studio is connected, where it looks, and why nobody may be seen. */
+/**
+ * The window on ROS 2: how the studio is connected, where it looks, why nobody may be seen, and
+ * what to type on a robot.
+ */
 
 /** @import { WireReport } from "../types/wire.d.ts" */
 /** @import { Place } from "../model/ros.js" */
+/** @import { ComponentChildren, Signal } from "vendor/preact.js" */
 
 import { html, useEffect, useSignal } from "vendor/preact.js";
+import { copyText } from "../lib/clipboard.js";
 import { t } from "../lib/i18n.js";
-import { Dialog, Icon } from "../lib/ui.js";
+import { Dialog, Icon, IconButton } from "../lib/ui.js";
 import { mayEdit } from "../model/connection.js";
-import { connectAt, disconnectRos, examineAt, isDomain, isSamePlace, ros } from "../model/ros.js";
-import { PlaceFields, RecentPlaces } from "./ros-place.js";
-import { Recipes } from "./ros-recipes.js";
-import { Report } from "./ros-report.js";
+import {
+  connectAt,
+  DISTROS,
+  DOMAIN_MAX,
+  disconnectRos,
+  examineAt,
+  hostOf,
+  isDomain,
+  isSamePlace,
+  recentPlaces,
+  ros,
+} from "../model/ros.js";
+import { notify } from "../model/view.js";
 
 /** @returns {Place} where the studio is, or looks */
 const placeNow = () => ({
@@ -123,3 +137,172 @@ function Nodes() {
   return html`<ul class="ros-nodes">${nodes.map((name) => html`<li key=${name}>${name}</li>`)}
     ${count > nodes.length && html`<li class="muted">${t("ros.more", { count: count - nodes.length })}</li>`}</ul>`;
 }
+
+const EXAMPLE = "robot.local:7447";
+
+/** @param {{place: Signal<Place>}} props */
+function PlaceFields({ place }) {
+  const off = !mayEdit.value;
+  const { address, domain, distro } = place.value;
+  const change = (/** @type {Partial<Place>} */ news) => {
+    place.value = { ...place.value, ...news };
+  };
+  return html`<div class="ros-fields">
+    <label class="field ros-address"><span>${t("ros.place.address")}</span>
+      <input type="text" class="box wide" data-first maxlength="300" spellcheck=${false} autocapitalize="off" list="ros-places" disabled=${off}
+        placeholder=${EXAMPLE} value=${address} onInput=${(/** @type {any} */ event) => change({ address: event.currentTarget.value })} />
+      <datalist id="ros-places">${[...new Set(recentPlaces.value.map((one) => one.address))].map((one) => html`<option key=${one} value=${one}></option>`)}</datalist></label>
+    <label class="field"><span>${t("ros.domain")}</span>
+      <input type="number" class="box" min="0" max=${DOMAIN_MAX} step="1" disabled=${off} value=${Number.isNaN(domain) ? "" : domain}
+        onInput=${(/** @type {any} */ event) => change({ domain: event.currentTarget.valueAsNumber })} /></label>
+    <label class="field"><span>${t("ros.distro")}</span>
+      <select class="box" disabled=${off} value=${distro} onChange=${(/** @type {any} */ event) => change({ distro: event.currentTarget.value })}>
+        ${DISTROS.map((one) => html`<option key=${one} value=${one}>${one}</option>`)}</select></label>
+  </div>`;
+}
+
+/** @param {{onChoose: (place: Place) => void}} props */
+function RecentPlaces({ onChoose }) {
+  const places = recentPlaces.value;
+  if (places.length === 0 || !mayEdit.value) return null;
+  return html`<div class="ros-recent" role="group" aria-label=${t("ros.recent")}>
+    <span class="muted">${t("ros.recent")}</span>
+    ${places.map(
+      (
+        place,
+      ) => html`<button key=${`${place.address} ${place.domain} ${place.distro}`} type="button" class="button small" title=${t("ros.recent.hint", { ...place })}
+        onClick=${() => onChoose(place)}>${place.address}<span class="muted">${t("ros.recent.domain", { domain: place.domain })}</span></button>`,
+    )}
+  </div>`;
+}
+
+const ZENOH = [
+  "sudo apt install ros-$ROS_DISTRO-rmw-zenoh-cpp",
+  "export RMW_IMPLEMENTATION=rmw_zenoh_cpp",
+  "ros2 run rmw_zenoh_cpp rmw_zenohd",
+];
+const DDS = ["zenoh-bridge-ros2dds -l tcp/0.0.0.0:7447"];
+
+/** How a robot is made to be met: what to type there, by what its nodes speak. */
+function Recipes() {
+  return html`<details class="ros-recipes"><summary>${t("ros.recipes")}</summary>
+    <${Recipe} name="zenoh" lines=${ZENOH} />
+    <${Recipe} name="dds" lines=${DDS} />
+  </details>`;
+}
+
+/** @param {{name: "zenoh" | "dds", lines: readonly string[]}} props */
+function Recipe({ name, lines }) {
+  return html`<section aria-label=${t(`ros.recipe.${name}`)}>
+    <h3>${t(`ros.recipe.${name}`)}</h3>
+    <p class="ros-hint">${t(`ros.recipe.${name}.text`)}</p>
+    ${lines.map((code) => html`<${CodeLine} key=${code} code=${code} />`)}
+    <p class="ros-hint">${t(`ros.recipe.${name}.then`)}</p>
+  </section>`;
+}
+
+/**
+ * A command, or several, to be copied into a terminal.
+ *
+ * @param {{code: string}} props
+ */
+function CodeLine({ code }) {
+  const copy = async () => {
+    const done = await copyText(code);
+    notify(done ? t("copied") : t("copy.failed"), { bad: !done });
+  };
+  return html`<div class="code-line"><code>${code}</code><${IconButton} icon="copy" label=${t("copy.command")} size=${14} onClick=${copy} /></div>`;
+}
+
+const NAMED = 3;
+
+/**
+ * What was found at a place, and what to do when nobody can be met there.
+ *
+ * @param {{report: WireReport, onConnect: (place: Place) => void}} props
+ */
+function Report({ report, onConnect }) {
+  const isFine = report.verdict === "fine";
+  return html`<section class=${`ros-report ${isFine ? "good" : "amber"}`} role="status" aria-label=${t("ros.report")}>
+    <p><${Icon} name=${isFine ? "check" : "alert"} size=${15} /><span>${sentence(report)}</span></p>
+    <${Remedy} report=${report} onConnect=${onConnect} />
+  </section>`;
+}
+
+/** @param {WireReport} report @returns {string} */
+function sentence(report) {
+  const { verdict, endpoint, domain, distro, nodes, unseen } = report;
+  const named = report.types.slice(0, NAMED).join(", ");
+  const more = report.types.length - NAMED;
+  return t(`ros.report.${verdict}`, {
+    endpoint,
+    domain,
+    distro,
+    count: verdict === "unseen" ? unseen : nodes,
+    distros: report.distros.join(t("ros.report.or")),
+    types: more > 0 ? t("ros.report.types", { named, count: more }) : named,
+  });
+}
+
+/** @param {{report: WireReport, onConnect: (place: Place) => void}} props */
+function Remedy({ report, onConnect }) {
+  switch (report.verdict) {
+    case "no_router":
+      return html`<${StartRouter} report=${report} />`;
+    case "other_domain":
+      return html`<${Domains} report=${report} onConnect=${onConnect} />`;
+    case "other_distro":
+      return html`<${Distros} report=${report} onConnect=${onConnect} />`;
+    case "unseen":
+      return html`<p class="ros-hint">${t("ros.report.unseen.do")}</p>
+        <${CodeLine} code="ros2 run rmw_zenoh_cpp rmw_zenohd" />`;
+    case "alone":
+      return html`<${CodeLine} code="export RMW_IMPLEMENTATION=rmw_zenoh_cpp" />`;
+    default:
+      return null;
+  }
+}
+
+/** @param {{report: WireReport}} props the commands that start one, there */
+function StartRouter({ report }) {
+  const host = hostOf(report.endpoint);
+  const where = host === "" ? t("ros.report.start_here") : t("ros.report.start_at", { host });
+  const reach = host === "" ? "" : " --listen tcp/0.0.0.0:7447";
+  return html`${report.starts_router && html`<p class="ros-hint">${t("ros.report.starts")}</p>`}
+    <p class="ros-hint">${where}</p>
+    <${CodeLine} code="ros2 run rmw_zenoh_cpp rmw_zenohd" />
+    <${CodeLine} code=${`studio router${reach}`} />`;
+}
+
+/** @param {{report: WireReport, onConnect: (place: Place) => void}} props */
+function Domains({ report, onConnect }) {
+  return html`<${Choices}>${report.domains.map(
+    ({ domain, nodes }) =>
+      html`<button key=${domain} type="button" class="button" onClick=${() => onConnect(placeOf(report, { domain }))}>
+        ${t("ros.report.switch_domain", { domain, count: nodes })}</button>`,
+  )}<//>`;
+}
+
+/** @param {{report: WireReport, onConnect: (place: Place) => void}} props */
+function Distros({ report, onConnect }) {
+  const known = DISTROS.filter(
+    (one) => report.distros.includes(one) && !report.distros.includes(report.distro),
+  );
+  if (known.length === 0) return html`<p class="ros-hint">${t("ros.report.give_types")}</p>`;
+  return html`<${Choices}>${known.map(
+    (distro) =>
+      html`<button key=${distro} type="button" class="button" onClick=${() => onConnect(placeOf(report, { distro }))}>
+        ${t("ros.report.switch_distro", { distro })}</button>`,
+  )}<//>`;
+}
+
+/** @param {{children: ComponentChildren}} props */
+const Choices = ({ children }) => html`<div class="ros-choices">${children}</div>`;
+
+/** @param {WireReport} report @param {Partial<Place>} news @returns {Place} the place that was looked at, with something else */
+const placeOf = (report, news) => ({
+  address: report.endpoint,
+  domain: report.domain,
+  distro: /** @type {Place["distro"]} */ (report.distro),
+  ...news,
+});

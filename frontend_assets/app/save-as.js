@@ -2,11 +2,10 @@
 
 import { html, useSignal } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
-import { nameFault, robotOf } from "../lib/package-names.js";
 import { Dialog } from "../lib/ui.js";
 import { robot, title } from "../model/document.js";
 import { openNamed } from "../model/requests.js";
-import { PlaceFields, usePlace } from "./place-form.js";
+import { nameFault, PlaceFields, robotOf, usePlace } from "./place-form.js";
 
 /** @returns {string} a name out of the robot's own, as far as that can be one */
 function proposedName() {

@@ -6,7 +6,6 @@ import { html } from "vendor/preact.js";
 import { copyText } from "../lib/clipboard.js";
 import { t } from "../lib/i18n.js";
 import { allSettled } from "../lib/latest.js";
-import { linkContents } from "../lib/link-contents.js";
 import { baseName } from "../lib/paths.js";
 import { recall, remember } from "../lib/remembered.js";
 import { Dialog } from "../lib/ui.js";
@@ -73,7 +72,7 @@ export async function followLink() {
   };
 }
 
-/** @param {import("../lib/link-contents.js").LinkContents} holds @returns {string[]} the file, what it is given, how much is edited */
+/** @param {LinkContents} holds @returns {string[]} the file, what it is given, how much is edited */
 function detailsOf({ file, arguments: given, edits }) {
   const passed = Object.entries(given).map(([name, value]) => `${name}:=${value}`);
   const some = passed.slice(0, ARGUMENTS_SHOWN);
@@ -97,4 +96,47 @@ function sayLeftOut() {
   if (!Array.isArray(sentences) || sentences.length === 0) return;
   remember(LEFT_OUT, []);
   for (const one of sentences.slice(0, 3)) notify(String(one), { bad: true });
+}
+
+const VERSION = "1";
+/** The studio packs no more into one. */
+const UNPACKED_CHARACTERS = 2 << 20;
+
+/** @typedef {{file: string, arguments: Record<string, string>, edits: number}} LinkContents `file` with its package, where it has one */
+
+/**
+ * What a link to a robot holds, read here so that it can be told before anything is opened.
+ *
+ * @param {string} text as it stands in the address
+ * @returns {Promise<LinkContents | null>} null: it cannot be read
+ */
+export async function linkContents(text) {
+  if (!text.startsWith(VERSION)) return null;
+  try {
+    const { entry, arguments: given = {}, files = [] } = JSON.parse(await unpacked(text.slice(1)));
+    return {
+      file: entry.package ? `${entry.package}/${entry.inside}` : entry.path,
+      arguments: Object.fromEntries(
+        Object.entries(given).map(([name, one]) => [name, String(one)]),
+      ),
+      edits: files.flatMap((/** @type {{edits: unknown[]}} */ one) => one.edits).length,
+    };
+  } catch {
+    return null;
+  }
+}
+
+/** @param {string} packed base64url of compressed text @returns {Promise<string>} */
+async function unpacked(packed) {
+  const bytes = Uint8Array.from(atob(packed.replaceAll("-", "+").replaceAll("_", "/")), (one) =>
+    one.charCodeAt(0),
+  );
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
+  const reader = stream.pipeThrough(new TextDecoderStream()).getReader();
+  let text = "";
+  for (let part = await reader.read(); !part.done; part = await reader.read()) {
+    text += part.value;
+    if (text.length > UNPACKED_CHARACTERS) throw new RangeError("too large");
+  }
+  return text;
 }

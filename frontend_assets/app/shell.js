@@ -3,22 +3,21 @@
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { commandById } from "../lib/commands.js";
 import { t } from "../lib/i18n.js";
-import { later } from "../lib/later.js";
+import { later } from "../lib/loading.js";
 import { Icon, MenuButton } from "../lib/ui.js";
 import { connection, documentId, role, turnedAway } from "../model/connection.js";
 import { documentState, gone } from "../model/document.js";
 import { goTo, openPath } from "../model/requests.js";
 import { activePanel, dialog, size } from "../model/view.js";
 import { Dialogs } from "./dialogs.js";
-import { DropLayer } from "./drop.js";
-import { LeftWorkBar } from "./left-work-bar.js";
+import { help } from "./help.js";
 import { DiskBars } from "./merge-dialog.js";
 import { Notices } from "./notices.js";
 import { PANELS, panelTitle } from "./panels.js";
-import { RestoredBar } from "./restored-bar.js";
-import { help } from "./state/help.js";
+import { LeftWorkBar, RestoredBar } from "./restored-work.js";
 import { StatusBar } from "./status-bar.js";
 import { TopBar } from "./top-bar.js";
+import { DropLayer } from "./uploads.js";
 
 const SAY_AFTER_MS = 600;
 const HelpPlace = later(async () => (await import("./help-sheet.js")).HelpPlace);

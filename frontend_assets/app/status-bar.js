@@ -4,7 +4,7 @@ import { html, useEffect } from "vendor/preact.js";
 import { commandById } from "../lib/commands.js";
 import { t } from "../lib/i18n.js";
 import { Icon } from "../lib/ui.js";
-import { connection, role, version } from "../model/connection.js";
+import { connection, mayEdit, role, version } from "../model/connection.js";
 import {
   built,
   documentState,
@@ -15,10 +15,10 @@ import {
   showingLastGood,
 } from "../model/document.js";
 import { followDeeds, repeatedPublications } from "../model/operations.js";
-import { ros } from "../model/ros.js";
+import { connectRos, ros } from "../model/ros.js";
 import { heldBack } from "../model/source.js";
+import { dialog } from "../model/view.js";
 import { viewport, viewportConnected } from "../model/viewport.js";
-import { RosStatus } from "./ros-status.js";
 
 export function StatusBar() {
   return html`<footer class="status-bar" aria-label=${t("status")}>
@@ -106,4 +106,28 @@ function PublishingStatus() {
   const hint = all.map(({ name, rate_hz: rate }) => t("publishing.topic", { topic: name, rate }));
   return html`<button type="button" class="status-button amber" title=${[...hint, t("publishing.hint")].join("\n")}
     onClick=${() => commandById("panel.publish")?.run()}><${Icon} name="send" size=${13} />${shown}</button>`;
+}
+
+const TONES = { off: "", connecting: "", connected: "good", lost: "bad", failed: "bad" };
+
+/** @returns {string} the state in a few words */
+function inShort() {
+  const { state, node_count: count, nearby_count: nearby } = ros.value;
+  if (connection.value !== "connected") return t("ros.unknown");
+  if (state === "connected") return t("ros.nodes", { count });
+  return nearby > 0 ? t("ros.nearby", { count: nearby }) : t(`ros.${state}`);
+}
+
+/** What is known is the studio's: without it nothing is. @returns {string} */
+const tone = () => (connection.value === "connected" ? TONES[ros.value.state] : "");
+
+/** Part of the bar below. */
+function RosStatus() {
+  const isFound = ros.value.nearby_count > 0 && mayEdit.value;
+  const show = () => {
+    dialog.value = { kind: "ros" };
+  };
+  return html`<button type="button" class=${`status-button ros-status ${tone()}`} title=${t("ros.details")} onClick=${show}>
+    <${Icon} name="link" size=${13} />${t("ros.bar", { state: inShort() })}</button>
+    ${isFound && html`<button type="button" class="status-button connect" aria-label=${t("ros.connect.bar")} onClick=${connectRos}>${t("ros.connect")}</button>`}`;
 }

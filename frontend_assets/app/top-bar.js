@@ -1,22 +1,24 @@
-/** The bar above: what is open, undo and redo, saving, and the page's own settings. */
+/**
+ * The bar above: what is open, undo and redo with the list of steps, saving, the panels and their
+ * layouts, and the page's own settings.
+ */
 
 /** @import { MenuItem } from "../lib/ui.js" */
 
 import { html } from "vendor/preact.js";
-import { commandById, onMac } from "../lib/commands.js";
-import { t } from "../lib/i18n.js";
-import { shortcutText } from "../lib/keys.js";
+import { commandById, onMac, shortcutText } from "../lib/commands.js";
+import { LANGUAGES, language, t } from "../lib/i18n.js";
+import { allSettled } from "../lib/latest.js";
 import { Icon, IconButton, MenuButton } from "../lib/ui.js";
 import { documentId, mayEdit, role } from "../model/connection.js";
 import { documents, history, title, unsaved } from "../model/document.js";
-import { closeDocument, goTo, redo, reload, save, undo } from "../model/requests.js";
-import { dialog, layoutDesk, size, theme, themeChoice } from "../model/view.js";
+import { ask, closeDocument, goTo, redo, reload, save, undo } from "../model/requests.js";
+import { dialog, languageChoice, layoutDesk, size, theme, themeChoice } from "../model/view.js";
 import { ExportMenu, exportItems } from "./export.js";
-import { HistoryMenu } from "./history-menu.js";
-import { layoutName } from "./layout-commands.js";
-import { LIVE } from "./live-layout.js";
-import { PanelsMenu, SettingsMenu } from "./settings-menu.js";
-import { layoutInUse } from "./state/own-layouts.js";
+import { graphicsItems } from "./graphics.js";
+import { layoutItems, layoutName } from "./layout-commands.js";
+import { LIVE, layoutInUse } from "./layouts.js";
+import { PANEL_GROUPS, PANELS, panelTitle } from "./panels.js";
 
 export function TopBar() {
   const { unsaved_count: count } = history.value;
@@ -179,4 +181,119 @@ function ThemeButton() {
     themeChoice.value = next;
   };
   return html`<${IconButton} icon=${next === "light" ? "sun" : "moon"} label=${t(`theme.to_${next}`)} class="theme-button" onClick=${toggle} />`;
+}
+
+const SHOWN = 200;
+
+/** @param {number} position how many steps are done then @param {number} of how many there are in all */
+async function goToStep(position, of) {
+  await allSettled();
+  await ask({ type: "undo_to", position, of });
+}
+
+/** @returns {MenuItem[]} a click goes to how it was after that step */
+function stepItems() {
+  const { undo: done, redo: undone } = history.value;
+  const of = done.length + undone.length;
+  const steps = [t("undo.start"), ...done, ...[...undone].reverse()];
+  const items = steps.map((label, position) => ({
+    label,
+    checked: position === done.length,
+    run: () => void goToStep(position, of),
+  }));
+  return [
+    { label: t("undo.list"), heading: true },
+    ...items.slice(Math.max(0, Math.min(done.length - SHOWN / 2, items.length - SHOWN))).reverse(),
+  ];
+}
+
+/** The undo list: every step by its name, the newest first, with a mark at where one is. */
+function HistoryMenu() {
+  const { undo: done, redo: undone } = history.value;
+  const none = done.length + undone.length === 0;
+  return html`<${MenuButton} class="icon-button narrow" label=${t("undo.list")} disabled=${!mayEdit.value || none} items=${stepItems}>
+    <${Icon} name="chevronDown" size=${12} /><//>`;
+}
+
+function PanelsMenu() {
+  if (size.value === "phone") return null;
+  return html`<${MenuButton} label=${t("panels.menu")} items=${panelItems}><${Icon} name="layout" /><//>`;
+}
+
+function SettingsMenu() {
+  return html`<${MenuButton} label=${t("settings")} items=${settingsItems}><${Icon} name="settings" /><//>`;
+}
+
+/** @param {string} id of a command @param {string} icon @param {string} [label] @returns {MenuItem} */
+const commandItem = (id, icon, label = t(`command.${id}`)) => ({
+  label,
+  icon,
+  run: () => commandById(id)?.run(),
+});
+
+/** @returns {MenuItem[]} */
+function panelItems() {
+  const groups = PANEL_GROUPS.map((group) => ({
+    label: t(`panels.group.${group}`),
+    heading: true,
+    items: Object.entries(PANELS).filter(([, one]) => one.group === group),
+  }));
+  return [
+    { label: t("command.layouts"), heading: true },
+    ...layoutItems(),
+    commandItem("reset_layout", "reset"),
+    commandItem("layouts", "disk", `${t("layouts.manage")}…`),
+    ...groups.flatMap(({ items, ...heading }) => [
+      heading,
+      ...items.map(([id, { icon }]) => commandItem(`panel.${id}`, icon, panelTitle(id))),
+    ]),
+  ];
+}
+
+/** @returns {MenuItem[]} */
+function settingsItems() {
+  return [
+    // The bar of a phone has no room for the palette's button.
+    ...(size.value === "phone" ? [commandItem("palette", "search", t("palette.hint"))] : []),
+    ...(size.value === "phone" ? [commandItem("help_panel", "help")] : []),
+    commandItem("help", "help"),
+    { ...commandItem("keys", "keyboard"), hint: "?" },
+    { label: t("theme"), heading: true },
+    ...themeItems(),
+    { label: t("graphics"), heading: true },
+    ...graphicsItems(),
+    { label: t("language"), heading: true },
+    ...languageItems(),
+    ...(role.value === "presenter" ? logOutItems() : []),
+  ];
+}
+
+/** @returns {MenuItem[]} */
+function logOutItems() {
+  return [
+    { label: t("access"), heading: true },
+    { ...commandItem("log_out", "lock", `${t("command.log_out")}…`), disabled: !mayEdit.value },
+  ];
+}
+
+/** @returns {MenuItem[]} */
+function languageItems() {
+  return Object.entries(LANGUAGES).map(([id, label]) => ({
+    label,
+    checked: language.value === id,
+    run: () => {
+      languageChoice.value = id;
+    },
+  }));
+}
+
+/** @returns {MenuItem[]} */
+function themeItems() {
+  return /** @type {const} */ (["system", "dark", "light"]).map((choice) => ({
+    label: t(`theme.${choice}`),
+    checked: themeChoice.value === choice,
+    run: () => {
+      themeChoice.value = choice;
+    },
+  }));
 }

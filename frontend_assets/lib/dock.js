@@ -2,17 +2,11 @@
 
 /** @import { DockviewApi, IDockviewPanel } from "vendor/dockview.js" */
 /** @import { Arrangement } from "./arrangement.js" */
-/** @import { ActionOptions } from "./dock-actions.js" */
-/** @import { Place } from "./dock-places.js" */
+/** @import { ActionOptions } from "./dock-tabs.js" */
 
 import { createDockview } from "vendor/dockview.js";
 import { fromDockview, toDockview } from "./arrangement.js";
-import { headerActions } from "./dock-actions.js";
-import { movePanel, placesFor } from "./dock-places.js";
-import { keepInPlace } from "./frame-place.js";
-import { keepTabOrder } from "./frame-tabs.js";
-import { keepScrolled } from "./scrolled.js";
-import { keepTabsWhole } from "./tight-tabs.js";
+import { headerActions, keepTabsWhole } from "./dock-tabs.js";
 
 /**
  * @typedef {object} Panel
@@ -266,7 +260,7 @@ function onTabKey(api, event) {
   /** @type {HTMLElement | undefined} */ (tabs[next])?.focus();
 }
 
-/** @param {DockviewApi} api @param {Record<string, Panel>} panels @returns {import("./frame-tabs.js").Layered[]} those that are shown */
+/** @param {DockviewApi} api @param {Record<string, Panel>} panels @returns {Layered[]} those that are shown */
 function layered(api, panels) {
   return api.panels.flatMap((panel) => {
     const header = panel.group.element.querySelector(".dv-tabs-and-actions-container");
@@ -302,4 +296,168 @@ function tabOfPanel(api, id) {
 function panelOfTab(api, target) {
   const tab = target instanceof Element ? target.closest(TAB) : null;
   return (tab && api.panels.find(({ id }) => tabOfPanel(api, id) === tab)?.id) ?? null;
+}
+
+/**
+ * @typedef {{kind: "beside", group: string, names: string[]}
+ *   | {kind: "edge", edge: "left" | "right" | "top" | "bottom"}
+ *   | {kind: "split", edge: "right" | "bottom"}} Place `beside`: as a tab with those of that name;
+ *   `edge`: along a side of the whole dock; `split`: in a half of the room that its group has
+ */
+
+const EDGES = /** @type {const} */ (["left", "right", "top", "bottom"]);
+/** Where dockview looks for each of them. */
+const DIRECTIONS = /** @type {const} */ ({
+  left: "left",
+  right: "right",
+  top: "above",
+  bottom: "below",
+});
+
+/** @param {DockviewApi} api @param {string} id of a panel @returns {Place[]} all but where it is */
+function placesFor(api, id) {
+  const own = api.getPanel(id)?.group;
+  if (!own) return [];
+  const others = api.groups.filter((group) => group !== own && group.panels.length > 0);
+  const alone = own.panels.length === 1;
+  return [
+    ...others.map((group) => ({
+      kind: /** @type {const} */ ("beside"),
+      group: group.id,
+      names: group.panels.map((panel) => panel.id),
+    })),
+    ...(alone ? [] : [split("right"), split("bottom")]),
+    ...(alone && others.length === 0
+      ? []
+      : EDGES.map((edge) => ({ kind: /** @type {const} */ ("edge"), edge }))),
+  ];
+}
+
+/** @param {"right" | "bottom"} edge @returns {Place} */
+const split = (edge) => ({ kind: "split", edge });
+
+/** @param {DockviewApi} api @param {string} id @param {Place} place one of `placesFor` */
+function movePanel(api, id, place) {
+  const panel = api.getPanel(id);
+  if (!panel) return;
+  if (api.hasMaximizedGroup()) api.exitMaximizedGroup();
+  if (place.kind === "edge") {
+    const group = api.addGroup({ direction: DIRECTIONS[place.edge] });
+    panel.api.moveTo({ group, position: "center" });
+  } else if (place.kind === "split") panel.api.moveTo({ group: panel.group, position: place.edge });
+  else {
+    const group = api.groups.find((one) => one.id === place.group);
+    if (group) panel.api.moveTo({ group, position: "center" });
+  }
+  api.getPanel(id)?.api.setActive();
+}
+
+/**
+ * Such a panel lies in a layer above the dock, for an iframe that leaves the document loads anew.
+ * The dock measures its place when it arranges panels; what changes later, a style sheet that comes
+ * late, say, it does not see.
+ *
+ * @param {HTMLElement} element the panel's content
+ * @param {IDockviewPanel["api"]} api
+ * @returns {() => void} the end of it
+ */
+function keepInPlace(element, api) {
+  const watcher = new ResizeObserver(() => place(element, referenceOf(api)));
+  const follow = () => {
+    watcher.disconnect();
+    const reference = referenceOf(api);
+    if (reference) watcher.observe(reference);
+  };
+  follow();
+  const moved = api.onDidGroupChange(follow);
+  return () => {
+    moved.dispose();
+    watcher.disconnect();
+  };
+}
+
+/** @param {IDockviewPanel["api"]} api @returns {HTMLElement | null} what the panel is to cover */
+function referenceOf(api) {
+  return api.group.element.querySelector(".dv-content-container");
+}
+
+/** @param {HTMLElement} element @param {HTMLElement | null} reference */
+function place(element, reference) {
+  const layer = element.parentElement;
+  const around = layer?.parentElement?.getBoundingClientRect();
+  const wanted = reference?.getBoundingClientRect();
+  if (!layer || !around || !wanted || wanted.width === 0 || wanted.height === 0) return;
+  layer.style.left = `${wanted.left - around.left}px`;
+  layer.style.top = `${wanted.top - around.top}px`;
+  layer.style.width = `${wanted.width}px`;
+  layer.style.height = `${wanted.height}px`;
+}
+
+const STOPS =
+  'a[href], button:not(:disabled), input:not(:disabled), select:not(:disabled), textarea:not(:disabled), [contenteditable="true"], [tabindex]';
+
+/** @typedef {{header: Element, content: Element}} Layered a panel's row of tabs, and what lies in the layer */
+
+/**
+ * The Tab key along the page: a panel that lies in a layer above the dock comes last in the
+ * document, and yet is reached right behind its own tab, and left for what stands there next.
+ *
+ * @param {HTMLElement} dock
+ * @param {() => Layered[]} layered
+ */
+function keepTabOrder(dock, layered) {
+  dock.addEventListener("keydown", (event) => {
+    const { key, ctrlKey, altKey, metaKey, defaultPrevented } = event;
+    if (key !== "Tab" || ctrlKey || altKey || metaKey || defaultPrevented) return;
+    for (const part of layered()) {
+      const next = nextStop(dock, part, event.shiftKey);
+      if (!next) continue;
+      event.preventDefault();
+      next.focus();
+      return;
+    }
+  });
+}
+
+/** @param {HTMLElement} dock @param {Layered} part @param {boolean} back @returns {HTMLElement | undefined} where the browser would go elsewhere */
+function nextStop(dock, { header, content }, back) {
+  const inside = stopsIn(content);
+  const outside = stopsIn(dock).filter((one) => !content.contains(one));
+  const at = outside.findLastIndex((one) => header.contains(one));
+  const [before, after] = [outside[at], outside[at + 1]];
+  const [first, last] = [inside[0], inside.at(-1)];
+  const now = document.activeElement;
+  if (!first || !before) return undefined;
+  if (back) return now === first ? before : now === after ? last : undefined;
+  return now === before ? first : now === last ? after : undefined;
+}
+
+/** @param {Element} element @returns {HTMLElement[]} where Tab stops in it; a frame has stops of its own */
+function stopsIn(element) {
+  const all = /** @type {NodeListOf<HTMLElement>} */ (element.querySelectorAll(STOPS));
+  return [...all].filter((one) => one.tabIndex >= 0 && one.checkVisibility());
+}
+
+/**
+ * Where things are scrolled to, kept while their panel is out of the page, for the browser
+ * forgets it.
+ *
+ * @param {HTMLElement} element that leaves the document and comes back
+ * @returns {() => void} to be called when it is back: all in it is scrolled as it was left
+ */
+function keepScrolled(element) {
+  /** @type {Map<Element, {top: number, left: number}>} */
+  const places = new Map();
+  const note = (/** @type {Event} */ { target }) => {
+    if (!(target instanceof Element) || !element.isConnected) return;
+    places.set(target, { top: target.scrollTop, left: target.scrollLeft });
+  };
+  // Scrolling does not bubble, but it can be seen on its way down.
+  element.addEventListener("scroll", note, { capture: true, passive: true });
+  return () => {
+    for (const [one, place] of places) {
+      if (element.contains(one)) one.scrollTo({ ...place, behavior: "instant" });
+      else places.delete(one);
+    }
+  };
 }

@@ -315,3 +315,15 @@ function giveFocusBack(before) {
     if (nobody && before instanceof HTMLElement && before.isConnected) before.focus();
   });
 }
+
+/** @param {HTMLElement | null} list @param {number} step @returns {boolean} */
+export function moveFocus(list, step) {
+  /** @type {HTMLElement[]} */
+  const all = [...(list?.querySelectorAll("button.entry-main:not(:disabled)") ?? [])].filter(
+    (one) => one instanceof HTMLElement,
+  );
+  const at = all.indexOf(/** @type {HTMLElement} */ (document.activeElement));
+  const next = all[Math.max(0, Math.min(at + step, all.length - 1))];
+  next?.focus();
+  return next !== undefined;
+}

@@ -5,7 +5,7 @@
 
 /** @import { ConstantView, FieldView, InterfaceAnswer, InterfaceFaultView, InterfacesAnswer, MessageView } from "../types/wire.d.ts" */
 /** @import { Signal } from "vendor/preact.js" */
-/** @import { DroppedFile } from "../lib/dropped.js" */
+/** @import { DroppedFile } from "../lib/files.js" */
 
 import { effect, signal, untracked } from "vendor/preact.js";
 import { commandById } from "../lib/commands.js";

@@ -34,7 +34,7 @@ _CUT_TABS = """() => [...document.querySelectorAll(".dv-tabs-container")].flatMa
 """Tabs that are seen, and of which a part or the name is not."""
 _SAY_SLOW = """async () => {
   const app = new URL("./", document.querySelector('script[src*="app/main.js"]').src);
-  const state = await import(new URL("state/graphics.js", app));
+  const state = await import(new URL("graphics.js", app));
   state.graphicsSaid.value = false;
   state.graphicsChoice.value = "automatic";
   state.graphics.value = { ...state.graphics.value, light: true };

@@ -1,8 +1,8 @@
 import assert from "node:assert/strict";
 import { existsSync, readdirSync, readFileSync, statSync } from "node:fs";
 import { test } from "node:test";
-import { OF_DIALOG, OTHER_PAGES } from "../../frontend_assets/lib/help-pages.js";
-import { searchHelp } from "../../frontend_assets/lib/help-search.js";
+import { OF_DIALOG, OTHER_PAGES } from "../../frontend_assets/app/help.js";
+import { searchHelp } from "../../frontend_assets/app/help-sheet.js";
 import { partsOf, plainHelp, readHelp } from "../../frontend_assets/lib/help-text.js";
 import { ICONS } from "../../frontend_assets/vendor/icons.js";
 import { wordsOf } from "./support/words.js";

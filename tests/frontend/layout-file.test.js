@@ -1,3 +1,5 @@
+/** @import { OwnLayout } from "../../frontend_assets/app/layouts.js" */
+
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import {
@@ -8,9 +10,7 @@ import {
   layoutFile,
   readLayoutFile,
   tidyName,
-} from "../../frontend_assets/lib/layout-file.js";
-
-/** @import { OwnLayout } from "../../frontend_assets/lib/layout-file.js" */
+} from "../../frontend_assets/app/layouts.js";
 
 /** @param {string} name @returns {OwnLayout} */
 const layout = (name) => ({

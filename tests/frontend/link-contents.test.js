@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { deflateSync } from "node:zlib";
-import { linkContents } from "../../frontend_assets/lib/link-contents.js";
+import { linkContents } from "../../frontend_assets/app/share.js";
 
 /** @param {unknown} shared @returns {string} as the studio packs it */
 function packed(shared) {

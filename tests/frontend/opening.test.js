@@ -1,8 +1,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { crumbsOf } from "../../frontend_assets/lib/crumbs.js";
-import { chosenFiles, droppedFiles } from "../../frontend_assets/lib/dropped.js";
-import { nameFault, robotOf } from "../../frontend_assets/lib/package-names.js";
+import { crumbsOf } from "../../frontend_assets/app/file-browser.js";
+import { nameFault, robotOf } from "../../frontend_assets/app/place-form.js";
+import { chosenFiles, droppedFiles } from "../../frontend_assets/lib/files.js";
 import { isFilePath, pastedPath } from "../../frontend_assets/lib/paths.js";
 import { timeAgo } from "../../frontend_assets/lib/times.js";
 

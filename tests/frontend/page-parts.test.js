@@ -3,9 +3,9 @@
 import assert from "node:assert/strict";
 import { readdirSync } from "node:fs";
 import { test } from "node:test";
+import { matches, shortcutText } from "../../frontend_assets/lib/commands.js";
 import { createGesture } from "../../frontend_assets/lib/gesture.js";
 import { movableJoints, rangeOf, unitsOf } from "../../frontend_assets/lib/joints.js";
-import { matches, shortcutText } from "../../frontend_assets/lib/keys.js";
 import { documentOf, placeText, shortPath } from "../../frontend_assets/lib/paths.js";
 import { readJointFrame } from "../../frontend_assets/model/wire.js";
 import { sourcesIn } from "./support/sources.js";
@@ -29,7 +29,7 @@ const joint = (more = {}) => ({
   ...more,
 });
 
-/** @param {string} key @param {Partial<import("../../frontend_assets/lib/keys.js").Stroke>} [more] */
+/** @param {string} key @param {Partial<import("../../frontend_assets/lib/commands.js").Stroke>} [more] */
 const stroke = (key, more = {}) => ({
   key,
   ctrlKey: false,

@@ -1,8 +1,8 @@
+/** @import { Ranked } from "../../frontend_assets/lib/ranking.js" */
+
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { fitting, readSearch, sectionsOf } from "../../frontend_assets/lib/palette-search.js";
-
-/** @import { Ranked } from "../../frontend_assets/lib/ranking.js" */
+import { fitting, readSearch, sectionsOf } from "../../frontend_assets/app/palette.js";
 
 /** @param {Ranked["rank"]} rank @param {string} label @returns {Ranked} */
 const one = (rank, label) => ({ rank, label });

@@ -1,9 +1,8 @@
 /** The tabs of the source panel: a file each, what is unsaved in it, and all files of the robot. */
 
 import { html, useComputed } from "vendor/preact.js";
-import { commandById, onMac } from "../../lib/commands.js";
+import { commandById, onMac, shortcutText } from "../../lib/commands.js";
 import { t } from "../../lib/i18n.js";
-import { shortcutText } from "../../lib/keys.js";
 import { baseName, shortPath } from "../../lib/paths.js";
 import { Icon, IconButton, MenuButton } from "../../lib/ui.js";
 import { documentState, history, problems } from "../../model/document.js";

@@ -1,15 +1,17 @@
-/** Offers the unsaved work on files that are not open. */
+/**
+ * Says that unsaved edits of an earlier run were brought back, and offers the unsaved work on
+ * files that are not open.
+ */
 
 /** @import { LeftWorkEntry } from "../types/wire.d.ts" */
 
 import { html } from "vendor/preact.js";
-import { t } from "../lib/i18n.js";
+import { language, t } from "../lib/i18n.js";
 import { Icon, IconButton } from "../lib/ui.js";
 import { mayEdit } from "../model/connection.js";
-import { leftWork } from "../model/document.js";
+import { leftWork, restored } from "../model/document.js";
 import { ask, openPath } from "../model/requests.js";
 import { dialog } from "../model/view.js";
-import { timeText } from "./restored-bar.js";
 
 /** @param {LeftWorkEntry} one */
 function giveUp({ path, title }) {
@@ -36,4 +38,28 @@ export function LeftWorkBar() {
     <button type="button" class="button small" onClick=${() => openPath(one.path, {})}>${t("left.open")}</button>
     <button type="button" class="button small" onClick=${() => giveUp(one)}>${t("restored.discard")}</button>
     <${IconButton} icon="close" size=${14} label=${t("dismiss")} onClick=${hide} /></div>`;
+}
+
+const discard = () => ask({ type: "discard_restored" });
+
+export function RestoredBar() {
+  const told = restored.value;
+  if (!told) return null;
+  const hide = () => {
+    restored.value = null;
+  };
+  return html`<div class="bar restored" role="status"><${Icon} name="reset" />
+    <span>${t("restored", { time: timeText(told.at) })}</span><span class="push"></span>
+    ${mayEdit.value && html`<button type="button" class="button small" onClick=${discard}>${t("restored.discard")}</button>`}
+    <${IconButton} icon="close" size=${14} label=${t("dismiss")} onClick=${hide} /></div>`;
+}
+
+/** @param {string} at ISO 8601 @returns {string} the time of today, or date and time */
+function timeText(at) {
+  const then = new Date(at);
+  const today = then.toDateString() === new Date().toDateString();
+  return then.toLocaleString(language.value, {
+    timeStyle: "short",
+    ...(today ? {} : { dateStyle: "medium" }),
+  });
 }

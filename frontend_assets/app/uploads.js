@@ -1,17 +1,22 @@
-/** Files dropped anywhere on the page, and texts pasted outside of a text box, open as robots, or as types of ROS. */
+/**
+ * Files that come to the studio: dropped anywhere on the page, chosen in a file window, or pasted
+ * as text; they open as robots, or as types of ROS.
+ */
 
-import { effect, html } from "vendor/preact.js";
-import { chosenFiles, droppedFiles, holdsFiles } from "../lib/dropped.js";
+/** @import { DroppedFile } from "../lib/files.js" */
+/** @import { Signal } from "vendor/preact.js" */
+
+import { effect, html, signal, useRef } from "vendor/preact.js";
+import { takesText } from "../lib/commands.js";
+import { chosenFiles, droppedFiles, holdsFiles } from "../lib/files.js";
 import { t } from "../lib/i18n.js";
-import { takesText } from "../lib/keys.js";
+import { baseName } from "../lib/paths.js";
 import { Icon, ProgressBar } from "../lib/ui.js";
 import { mayEdit } from "../model/connection.js";
 import { takeDroppedTypes, takePastedType } from "../model/interfaces.js";
 import { ask, goTo } from "../model/requests.js";
 import { dialog, notify } from "../model/view.js";
 import { viewport } from "../model/viewport.js";
-import { dropping, sending } from "./state/sending.js";
-import { uploadFiles } from "./upload.js";
 
 const MEGABYTE = 1 << 20;
 /** The studio reads no longer command; longer texts come as a file. */
@@ -59,7 +64,7 @@ async function onDrop(event) {
   await takeFiles(await droppedFiles(event.dataTransfer));
 }
 
-/** @param {readonly import("../lib/dropped.js").DroppedFile[]} files a robot, or types of ROS */
+/** @param {readonly import("../lib/files.js").DroppedFile[]} files a robot, or types of ROS */
 async function takeFiles(files) {
   if (!(await takeDroppedTypes(files))) await uploadFiles(files);
 }
@@ -115,3 +120,93 @@ function Sending() {
       ${!sent && html`<button type="button" class="button small" onClick=${cancel}>${t("cancel")}</button>`}</footer>
   </div>`;
 }
+
+/** @param {readonly DroppedFile[]} files */
+async function uploadFiles(files) {
+  if (!mayEdit.value || sending.value) return;
+  if (files.length === 0) {
+    notify(t("upload.nothing"), { bad: true });
+    return;
+  }
+  dialog.value = null;
+  try {
+    const document = await send(bodyOf(files), nameOf(files));
+    if (document) goTo(document);
+  } catch (error) {
+    notify(error instanceof Error ? error.message : String(error), { bad: true });
+  } finally {
+    sending.value = null;
+  }
+}
+
+/** @param {readonly DroppedFile[]} files @returns {string} what the person dropped */
+function nameOf(files) {
+  const tops = new Set(files.map(({ path }) => path.split("/")[0] ?? path));
+  const [first] = tops;
+  return tops.size === 1 && first ? first : t("upload.files", { count: files.length });
+}
+
+/** @param {readonly DroppedFile[]} files @returns {Blob} a line that announces them, then their bytes */
+function bodyOf(files) {
+  const announced = files.map(({ path, file }) => ({ path, size: file.size }));
+  return new Blob([`${JSON.stringify(announced)}\n`, ...files.map(({ file }) => file)]);
+}
+
+/**
+ * @param {Blob} body @param {string} name
+ * @returns {Promise<string>} id of the document; empty when it was cancelled
+ */
+function send(body, name) {
+  // `fetch` does not tell how much of a body has gone out.
+  const request = new XMLHttpRequest();
+  const cancel = () => request.abort();
+  sending.value = { name: baseName(name), done: 0, total: body.size, cancel };
+  return new Promise((resolve, reject) => {
+    request.upload.onprogress = ({ loaded }) => {
+      if (sending.value) sending.value = { ...sending.value, done: loaded };
+    };
+    request.onabort = () => resolve("");
+    request.onerror = () => reject(new Error(t("upload.broken")));
+    request.onload = () => {
+      const answer = answerOf(request);
+      if (answer.document) resolve(answer.document);
+      else reject(new Error(answer.reason || t("upload.broken")));
+    };
+    request.open("POST", "/api/uploads");
+    request.send(body);
+  });
+}
+
+/** @param {XMLHttpRequest} request @returns {{document?: string, reason?: string}} */
+function answerOf(request) {
+  try {
+    return JSON.parse(request.responseText);
+  } catch {
+    return {};
+  }
+}
+
+/** The browser's own windows for files and for a folder; what is chosen is sent to the studio. */
+export function FileButtons() {
+  const files = useRef(/** @type {HTMLInputElement | null} */ (null));
+  const folder = useRef(/** @type {HTMLInputElement | null} */ (null));
+  /** @param {any} event */
+  const onChange = (event) => {
+    uploadFiles(chosenFiles(event.currentTarget.files));
+    event.currentTarget.value = "";
+  };
+  return html`<div class="file-buttons">
+    <button type="button" class="button" onClick=${() => files.current?.click()}><${Icon} name="upload" />${t("upload.choose")}</button>
+    <button type="button" class="button" onClick=${() => folder.current?.click()}><${Icon} name="folderOpen" />${t("upload.choose_folder")}</button>
+    <p class="file-hint">${t("upload.hint")}</p>
+    <input ref=${files} type="file" hidden multiple aria-label=${t("upload.choose")} onChange=${onChange} />
+    <input ref=${folder} type="file" hidden webkitdirectory aria-label=${t("upload.choose_folder")} onChange=${onChange} />
+  </div>`;
+}
+
+/** @typedef {{name: string, done: number, total: number, cancel: () => void}} FilesOnTheWay bytes */
+
+/** @type {Signal<FilesOnTheWay | null>} */
+export const sending = signal(null);
+/** Files are held over the page. */
+const dropping = signal(false);
