@@ -1,22 +1,24 @@
-/** The texts of the help, each fetched when it is first asked for, and how they are drawn. */
+/** Drawing texts in the markup of the help. */
 
 /** @import { Block, Part } from "../lib/help-text.js" */
 
 import { html } from "vendor/preact.js";
 import { onMac, shortcutText } from "../lib/commands.js";
-import { readHelp, textFiles } from "../lib/help-text.js";
 import { Icon } from "../lib/ui.js";
-import { theme } from "../model/view.js";
 
 /** @typedef {(page: string, about: readonly string[]) => void} Choose */
 
-/** @param {Block} block @param {Choose} onChoose what a click on a link does */
-export function drawnBlock(block, onChoose) {
+/**
+ * @param {Block} block
+ * @param {Choose} onChoose what a click on a link does
+ * @param {(name: string) => string} [pictureOf] address of a picture
+ */
+export function drawnBlock(block, onChoose, pictureOf = (name) => name) {
   const drawn = (/** @type {readonly Part[]} */ parts) =>
     parts.map((part) => drawnPart(part, onChoose));
   switch (block.kind) {
     case "picture":
-      return html`<img src=${helpPicture(block.name, theme.value)} alt=${block.alt} />`;
+      return html`<img src=${pictureOf(block.name)} alt=${block.alt} />`;
     case "heading":
       return html`<h3>${drawn(block.parts)}</h3>`;
     case "list":
@@ -45,16 +47,3 @@ function drawnPart(part, onChoose) {
       return part.text;
   }
 }
-
-const FOLDER = new URL("../help/", import.meta.url).href;
-const known = textFiles(FOLDER, readHelp);
-
-/**
- * @param {string} language
- * @param {string} page
- * @returns {Promise<readonly Block[]>} empty, when it cannot be had now
- */
-export const helpBlocks = (language, page) => known(`${language}/${page}.md`);
-
-/** @param {string} name @param {string} theme @returns {string} address of a picture */
-const helpPicture = (name, theme) => `${FOLDER}pictures/${name}-${theme}.webp`;

@@ -3,9 +3,10 @@
 /** @import { Block } from "../lib/help-text.js" */
 
 import { html, useEffect, useId, useLayoutEffect, useRef, useSignal } from "vendor/preact.js";
-import { plainHelp } from "../lib/help-text.js";
+import { plainHelp, readHelp, textFiles } from "../lib/help-text.js";
 import { language, t } from "../lib/i18n.js";
 import { Icon, IconButton, SearchBox } from "../lib/ui.js";
+import { theme } from "../model/view.js";
 import {
   closeHelp,
   goBackInHelp,
@@ -15,8 +16,22 @@ import {
   helpIcon,
   helpTitle,
   helpTrail,
+  isOfPanel,
 } from "./help.js";
-import { drawnBlock, helpBlocks } from "./help-drawing.js";
+import { drawnBlock } from "./help-drawing.js";
+
+const ASSETS = new URL("../", import.meta.url).href;
+const known = textFiles(ASSETS, readHelp);
+
+/** @param {string} language @param {string} page @returns {Promise<readonly Block[]>} empty, when it cannot be had now */
+const helpBlocks = (language, page) =>
+  known(isOfPanel(page) ? `panels/${page}/help.${language}.md` : `help/${language}/${page}.md`);
+
+/** @param {string} page @returns {string} address of its picture */
+function helpPicture(page) {
+  const name = isOfPanel(page) ? `panels/${page}/help` : `help/pictures/${page}`;
+  return `${ASSETS}${name}-${theme.value}.webp`;
+}
 
 /** @param {{page: string, side: string, modal: boolean}} props */
 function HelpSheet({ page, side, modal }) {
@@ -155,7 +170,7 @@ function Page({ page, onChoose }) {
   if (blocks.value === null) return null;
   if (blocks.value.length === 0)
     return html`<p class="nothing" role="status">${t("help.lost")}</p>`;
-  return html`<article class="help-article">${blocks.value.map((block) => drawnBlock(block, onChoose))}</article>`;
+  return html`<article class="help-article">${blocks.value.map((block) => drawnBlock(block, onChoose, helpPicture))}</article>`;
 }
 
 /** The sheet, where it is asked for; a window opened since then has it drawn anew over itself. */

@@ -25,8 +25,11 @@ export const helpGroups = () => ({
 /** @returns {string[]} */
 const allPages = () => Object.values(helpGroups()).flat();
 
+/** @param {string} page @returns {boolean} its texts and picture are in the folder of that panel */
+export const isOfPanel = (page) => Object.hasOwn(PANELS, page);
+
 /** @param {string} page @returns {string} */
-export const helpTitle = (page) => (page in PANELS ? panelTitle(page) : t(`help.page.${page}`));
+export const helpTitle = (page) => (isOfPanel(page) ? panelTitle(page) : t(`help.page.${page}`));
 
 /** @param {string} page @returns {string} name of its icon */
 export const helpIcon = (page) => PANELS[page]?.icon ?? ICON_OF[page] ?? "help";

@@ -1,4 +1,7 @@
-/** The panels by name: their words, icons, and the file that draws each, loaded when first shown. */
+/**
+ * The panels by name: their icons, and the file that draws each, loaded when first shown. The words, the
+ * styles and the help of a panel are in its folder.
+ */
 
 /** @import { Panel } from "../lib/dock.js" */
 
@@ -8,7 +11,6 @@ import { until, untilIdle } from "../lib/loading.js";
 import { Icon, ProgressBar } from "../lib/ui.js";
 import { changedCount, problems, robot } from "../model/document.js";
 import { heldBack } from "../model/source.js";
-import { wired } from "./wired.js";
 
 /** What a panel is for, in the order in which menus list them. */
 export const PANEL_GROUPS = /** @type {const} */ (["robot", "files", "watch", "act", "learn"]);
@@ -79,17 +81,17 @@ export const PANELS = {
   plot: {
     group: "watch",
     icon: "plot",
-    load: wired(async () => (await import("../panels/plot/plot.js")).PlotPanel),
+    load: async () => (await import("../panels/plot/plot.js")).PlotPanel,
   },
   image: {
     group: "watch",
     icon: "camera",
-    load: wired(async () => (await import("../panels/image/image.js")).ImagePanel),
+    load: async () => (await import("../panels/image/image.js")).ImagePanel,
   },
   topics: {
     group: "watch",
     icon: "topics",
-    load: wired(async () => (await import("../panels/topics/topics.js")).TopicsPanel),
+    load: async () => (await import("../panels/topics/topics.js")).TopicsPanel,
   },
   frames: {
     group: "robot",
@@ -99,69 +101,67 @@ export const PANELS = {
   graph: {
     group: "watch",
     icon: "graph",
-    load: wired(async () => (await import("../panels/graph/graph.js")).GraphPanel),
+    load: async () => (await import("../panels/graph/graph.js")).GraphPanel,
   },
   interfaces: {
     group: "watch",
     icon: "interfaces",
-    load: wired(async () => (await import("../panels/interfaces/interfaces.js")).InterfacesPanel),
+    load: async () => (await import("../panels/interfaces/interfaces.js")).InterfacesPanel,
   },
   lessons: {
     group: "learn",
     icon: "lessons",
-    load: wired(async () => (await import("../panels/lessons/lessons.js")).LessonsPanel),
+    load: async () => (await import("../panels/lessons/lessons.js")).LessonsPanel,
   },
   lifecycle: {
     group: "act",
     icon: "lifecycle",
-    load: wired(async () => (await import("../panels/lifecycle/lifecycle.js")).LifecyclePanel),
+    load: async () => (await import("../panels/lifecycle/lifecycle.js")).LifecyclePanel,
   },
   diagnostics: {
     group: "watch",
     icon: "diagnostics",
-    load: wired(
-      async () => (await import("../panels/diagnostics/diagnostics.js")).DiagnosticsPanel,
-    ),
+    load: async () => (await import("../panels/diagnostics/diagnostics.js")).DiagnosticsPanel,
   },
   log: {
     group: "watch",
     icon: "log",
-    load: wired(async () => (await import("../panels/log/log.js")).LogPanel),
+    load: async () => (await import("../panels/log/log.js")).LogPanel,
   },
   services: {
     group: "act",
     icon: "services",
-    load: wired(async () => (await import("../panels/services/services.js")).ServicesPanel),
+    load: async () => (await import("../panels/services/services.js")).ServicesPanel,
   },
   actions: {
     group: "act",
     icon: "goal",
-    load: wired(async () => (await import("../panels/actions/actions.js")).ActionsPanel),
+    load: async () => (await import("../panels/actions/actions.js")).ActionsPanel,
   },
   parameters: {
     group: "act",
     icon: "parameters",
-    load: wired(async () => (await import("../panels/parameters/parameters.js")).ParametersPanel),
+    load: async () => (await import("../panels/parameters/parameters.js")).ParametersPanel,
   },
   publish: {
     group: "act",
     icon: "send",
-    load: wired(async () => (await import("../panels/publish/publish.js")).PublishPanel),
+    load: async () => (await import("../panels/publish/publish.js")).PublishPanel,
   },
   teleop: {
     group: "act",
     icon: "compass",
-    load: wired(async () => (await import("../panels/teleop/teleop.js")).TeleopPanel),
+    load: async () => (await import("../panels/teleop/teleop.js")).TeleopPanel,
   },
   turtlesim: {
     group: "learn",
     icon: "route",
-    load: wired(async () => (await import("../panels/turtlesim/turtlesim.js")).TurtlesimPanel),
+    load: async () => (await import("../panels/turtlesim/turtlesim.js")).TurtlesimPanel,
   },
   jerry: {
     group: "learn",
     icon: "grid",
-    load: wired(async () => (await import("../panels/jerry/jerry.js")).JerryPanel),
+    load: async () => (await import("../panels/jerry/jerry.js")).JerryPanel,
   },
   urdf: {
     group: "files",

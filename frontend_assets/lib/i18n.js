@@ -1,4 +1,4 @@
-/** The page's words: JSON files per language, English where a language lacks a key. */
+/** The page's words: one JSON file per language, which the server fills with those of the panels. */
 
 import { signal } from "vendor/preact.js";
 
@@ -6,9 +6,8 @@ export const LANGUAGES = /** @type {const} */ ({ en: "English", de: "Deutsch" })
 
 /** @type {import("vendor/preact.js").Signal<Record<string, string>>} */
 const words = signal({});
-/** By their names: those that came, and those that are spoken beside the words of the page itself. */
-const files = /** @type {Map<string, Promise<Record<string, string>>>} */ (new Map());
-const parts = new Set([""]);
+/** By language: those that came. @type {Map<string, Promise<Record<string, string>>>} */
+const files = new Map();
 export const language = signal("en");
 
 /** Whether the page is used with fingers: nothing can be pointed at, and keys are far away. */
@@ -40,36 +39,11 @@ export function nearestLanguage(wanted) {
 
 /** @param {string} name of a language @returns {Promise<void>} */
 export async function useLanguage(name) {
-  words.value = await spoken(name);
-  language.value = name;
-  document.documentElement.lang = name;
-}
-
-/** @param {string} part of the page that has words of its own @returns {Promise<void>} settles once they are there */
-export async function useWords(part) {
-  parts.add(part);
-  words.value = await spoken(language.value);
-}
-
-/** @param {string} name of a language @returns {Promise<Record<string, string>>} all that is spoken in it now */
-async function spoken(name) {
-  let count = 0;
-  /** @type {Record<string, string>[]} */
-  let all = [];
-  // Another part may be asked for while these come.
-  while (count < parts.size) {
-    count = parts.size;
-    const names = [...new Set(["en", name])].flatMap((one) => [...parts].map((part) => one + part));
-    all = await Promise.all(names.map(file));
-  }
-  return Object.assign({}, ...all);
-}
-
-/** @param {string} name @returns {Promise<Record<string, string>>} */
-function file(name) {
   const coming = files.get(name) ?? load(name);
   files.set(name, coming);
-  return coming;
+  words.value = await coming;
+  language.value = name;
+  document.documentElement.lang = name;
 }
 
 /** @param {string} name @returns {Promise<Record<string, string>>} */

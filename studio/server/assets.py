@@ -1,13 +1,15 @@
 """The files of the page: read once, hashed as a tree, compressed once, served as written.
 
-Two things are added to what is written: a stylesheet holds those that it imports, so that they come
-in one answer, and the page names the modules that its first ones import, so that they come at once.
+Three things are added to what is written: a stylesheet holds those that it imports, so that they
+come in one answer; the words of a language hold those of the panels; and the page names the modules
+that its first ones import, so that they come at once.
 """
 
 from __future__ import annotations
 
 import gzip
 import hashlib
+import json
 import os
 import posixpath
 import re
@@ -55,6 +57,9 @@ _IMPORT: Final = re.compile(
     r'^(?:import|export)\s+(?:[\w*{][^;"]*?\sfrom\s+)?"([^"]+)"', re.MULTILINE
 )
 _CSS_IMPORT: Final = re.compile(r'^@import "([^"]+)";\n?', re.MULTILINE)
+_LANGUAGE: Final = re.compile(r"i18n/(\w+)\.json")
+_WORDS_OF_PANEL: Final = re.compile(r"panels/\w+/words\.json")
+_FALLBACK: Final = "en"
 _GZIP_LEVEL, _ZSTD_LEVEL = 6, 15
 
 Stamp = tuple[tuple[str, int, int], ...]
@@ -190,15 +195,33 @@ def _read(folder: Path, stamp: Stamp, more: Mapping[str, bytes]) -> Tree:
 
 def _asset(path: str, contents: Mapping[str, bytes]) -> Asset:
     suffix = Path(path).suffix
-    content = _with_imports(path, contents).encode() if suffix == ".css" else contents[path]
+    content = contents[path]
+    if suffix == ".css":
+        content = _with_imports(path, contents).encode()
+    elif language := _LANGUAGE.fullmatch(path):
+        content = _all_words(language[1], contents)
     return Asset(content, _TYPES[suffix], compressible=suffix not in _COMPRESSED)
 
 
 def _with_imports(path: str, contents: Mapping[str, bytes]) -> str:
-    """A stylesheet with those that it imports in the place of each import."""
+    """A stylesheet with those that it imports in the place of each import; `**` names several."""
 
     def imported(match: re.Match[str]) -> str:
-        other = posixpath.normpath(posixpath.join(posixpath.dirname(path), match[1]))
-        return _with_imports(other, contents) if other in contents else match[0]
+        wanted = posixpath.normpath(posixpath.join(posixpath.dirname(path), match[1]))
+        folder, several, suffix = wanted.partition("**/*")
+        named = [one for one in contents if one.startswith(folder) and one.endswith(suffix)]
+        others = sorted(named) if several else [one for one in contents if one == wanted]
+        return "".join(_with_imports(one, contents) for one in others) or match[0]
 
     return _CSS_IMPORT.sub(imported, contents[path].decode())
+
+
+def _all_words(language: str, contents: Mapping[str, bytes]) -> bytes:
+    """The words of the page and of each panel; in English what the language lacks."""
+    words: dict[str, str] = {}
+    for spoken in dict.fromkeys((_FALLBACK, language)):
+        words |= json.loads(contents.get(f"i18n/{spoken}.json", b"{}"))
+        for path, content in contents.items():
+            if _WORDS_OF_PANEL.fullmatch(path):
+                words |= json.loads(content).get(spoken, {})
+    return json.dumps(words, ensure_ascii=False, separators=(",", ":")).encode()

@@ -67,8 +67,11 @@ for (const theme of ["dark", "light"]) {
 }
 
 test("no style sheet but that of the tokens names a colour of its own for words", () => {
-  for (const file of readdirSync(STYLES).filter((name) => name.endsWith(".css"))) {
-    if (file === "tokens.css") continue;
+  const files = ["./", "../panels/"].flatMap((folder) =>
+    readdirSync(new URL(folder, STYLES), { recursive: true }).map((name) => `${folder}${name}`),
+  );
+  for (const file of files.filter((name) => name.endsWith(".css"))) {
+    if (file === "./tokens.css") continue;
     const css = readFileSync(new URL(file, STYLES), "utf8");
     const own = [
       ...css.matchAll(/(?:^|[\s;{])color:\s*(#(?!ffffff)[0-9a-f]{3,8}|rgb[^;]*|[a-z]+);/g),

@@ -25,6 +25,25 @@ test("the panels are found", () => {
   assert.ok(PANELS.includes("scene") && PANELS.includes("urdf") && PANELS.length >= 12);
 });
 
+/** @param {string} page @param {string} language @returns {string} its path */
+const pathOf = (page, language) =>
+  PANELS.includes(page) ? `panels/${page}/help.${language}.md` : `help/${language}/${page}.md`;
+
+/** @param {string} page @param {string} theme @returns {string} path of its picture */
+const pictureOf = (page, theme) =>
+  PANELS.includes(page)
+    ? `panels/${page}/help-${theme}.webp`
+    : `help/pictures/${page}-${theme}.webp`;
+
+/** @param {RegExp} name @returns {string[]} paths of all files so named, in the help and in folders of panels */
+const filesNamed = (name) =>
+  ["help/", "panels/"]
+    .flatMap((folder) =>
+      readdirSync(new URL(folder, ASSETS), { recursive: true }).map((one) => `${folder}${one}`),
+    )
+    .filter((path) => name.test(path))
+    .sort();
+
 const MARKS = textOf("styles/help.css");
 
 /** @param {import("../../frontend_assets/lib/help-text.js").Part} part @returns {boolean} it leads somewhere, or is drawn */
@@ -45,11 +64,11 @@ function isKnown(part) {
 }
 
 for (const language of LANGUAGES) {
-  const readPage = (/** @type {string} */ page) => readHelp(textOf(`help/${language}/${page}.md`));
+  const readPage = (/** @type {string} */ page) => readHelp(textOf(pathOf(page, language)));
 
   test(`every panel and every task has a page in ${language}, and no page is left over`, () => {
-    const files = readdirSync(new URL(`help/${language}/`, ASSETS)).sort();
-    assert.deepEqual(files, PAGES.map((page) => `${page}.md`).sort());
+    const files = filesNamed(new RegExp(`^help/${language}/.*\\.md$|\\.${language}\\.md$`));
+    assert.deepEqual(files, PAGES.map((page) => pathOf(page, language)).sort());
   });
 
   test(`links, icons, keys and marks of the pages in ${language} are known`, () => {
@@ -65,7 +84,7 @@ for (const language of LANGUAGES) {
       for (const one of pictures) {
         assert.ok(one.kind === "picture" && one.alt.length > 10, page);
         for (const theme of ["dark", "light"])
-          assert.ok(existsSync(new URL(`help/pictures/${one.name}-${theme}.webp`, ASSETS)), page);
+          assert.ok(existsSync(new URL(pictureOf(one.name, theme), ASSETS)), page);
       }
     }
   });
@@ -99,11 +118,10 @@ test("every window but a question and the search, which finds it, has help, on a
 });
 
 test("the pictures are small enough to travel with the studio", () => {
-  const folder = new URL("help/pictures/", ASSETS);
-  const files = readdirSync(folder);
-  const used = PAGES.flatMap((page) => [`${page}-dark.webp`, `${page}-light.webp`]);
+  const files = filesNamed(/\.webp$/);
+  const used = PAGES.flatMap((page) => [pictureOf(page, "dark"), pictureOf(page, "light")]);
   for (const file of files) assert.ok(used.includes(file), file);
-  const bytes = files.reduce((sum, file) => sum + statSync(new URL(file, folder)).size, 0);
+  const bytes = files.reduce((sum, file) => sum + statSync(new URL(file, ASSETS)).size, 0);
   assert.ok(bytes < PICTURES_LARGEST, String(bytes));
 });
 

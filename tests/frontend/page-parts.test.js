@@ -1,7 +1,6 @@
 /** @import { JointView } from "../../frontend_assets/types/wire.d.ts" */
 
 import assert from "node:assert/strict";
-import { readdirSync } from "node:fs";
 import { test } from "node:test";
 import { matches, shortcutText } from "../../frontend_assets/lib/commands.js";
 import { createGesture } from "../../frontend_assets/lib/gesture.js";
@@ -9,9 +8,7 @@ import { movableJoints, rangeOf, unitsOf } from "../../frontend_assets/lib/joint
 import { documentOf, placeText, shortPath } from "../../frontend_assets/lib/paths.js";
 import { readJointFrame } from "../../frontend_assets/model/wire.js";
 import { sourcesIn } from "./support/sources.js";
-import { fileOfWords, wordsOf } from "./support/words.js";
-
-const ASSETS = new URL("../../frontend_assets/", import.meta.url);
+import { filesOfWords, LANGUAGES, wordsOf } from "./support/words.js";
 
 /** @param {Partial<JointView>} [more] @returns {JointView} */
 const joint = (more = {}) => ({
@@ -161,15 +158,22 @@ test("the document is named by the page's address", () => {
 });
 
 test("every language says the same things, with the same blanks to fill", () => {
-  for (const file of readdirSync(new URL("i18n/", ASSETS))) {
-    const english = fileOfWords(file.replace(/^\w+(.*)\.json$/, "en$1"));
-    const words = fileOfWords(file.replace(".json", ""));
-    assert.deepEqual(Object.keys(words), Object.keys(english), file);
-    for (const [key, text] of Object.entries(english)) {
-      const blanks = (/** @type {string} */ one) => (one.match(/\{\w+\}/g) ?? []).toSorted();
-      assert.deepEqual(blanks(words[key] ?? ""), blanks(text), `${file}: ${key}`);
+  for (const { file, words: all } of filesOfWords()) {
+    assert.deepEqual(Object.keys(all), LANGUAGES, file);
+    const english = all.en ?? {};
+    for (const [language, words] of Object.entries(all)) {
+      assert.deepEqual(Object.keys(words), Object.keys(english), `${file} ${language}`);
+      for (const [key, text] of Object.entries(english)) {
+        const blanks = (/** @type {string} */ one) => (one.match(/\{\w+\}/g) ?? []).toSorted();
+        assert.deepEqual(blanks(words[key] ?? ""), blanks(text), `${file} ${language}: ${key}`);
+      }
     }
   }
+});
+
+test("no word is written twice", () => {
+  const keys = filesOfWords().flatMap(({ words }) => Object.keys(words.en ?? {}));
+  assert.equal(new Set(keys).size, keys.length);
 });
 
 test("every word that the page asks for is there, and none lies about unused", () => {

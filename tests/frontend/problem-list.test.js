@@ -1,3 +1,5 @@
+import { wordsOf } from "./support/words.js";
+
 /** @import { Problem } from "../../frontend_assets/types/wire.d.ts" */
 
 import assert from "node:assert/strict";
@@ -117,12 +119,7 @@ test("one change makes one text of another", () => {
 });
 
 /** Where the checks are that name their findings by codes. */
-const CHECKS = [
-  "robot/checks",
-  "description/checks",
-  "robot/structure.py",
-  "documents/checks/checking.py",
-];
+const CHECKS = ["robot/checks", "description/checks", "robot/structure.py", "documents/checks"];
 const READERS = ["recovery.py", "broken_tags.py"];
 
 /** @param {string} path below studio/ @returns {string[]} the sources there */
@@ -135,9 +132,7 @@ function sourcesAt(path) {
 }
 
 test("every code that a check gives a finding has its why", () => {
-  const words = JSON.parse(
-    readFileSync(new URL("../../frontend_assets/i18n/en.json", import.meta.url), "utf8"),
-  );
+  const words = wordsOf("en");
   const sources = [...CHECKS, ...READERS.map((name) => `description/syntax/${name}`)]
     .flatMap(sourcesAt)
     .join("\n");

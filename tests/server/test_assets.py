@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import gzip
+import json
 import os
 import re
 from http.client import HTTPConnection
@@ -149,6 +150,31 @@ def test_a_stylesheet_holds_what_it_imports_in_its_place(tmp_path: Path):
     page = files["styles/page.css"].content.decode()
     assert page == '/* all */\n.c {}\n.a {}\n.b {}\n@import "no.css";\n'
     assert files["b.css"].content == b".b {}\n"
+
+
+def test_a_stylesheet_imports_all_of_a_folder_by_name(tmp_path: Path):
+    texts = {
+        "styles/page.css": '@import "../panels/**/*.css";\n.z {}\n',
+        "panels/b/b.css": ".b {}\n",
+        "panels/a.css": ".a {}\n",
+        "panels/b/b.js": "",
+    }
+    files = write_all(tmp_path, texts).current().files
+    assert files["styles/page.css"].content == b".a {}\n.b {}\n.z {}\n"
+
+
+def test_the_words_of_a_language_hold_those_of_the_panels_and_english_ones_that_it_lacks(
+    tmp_path: Path,
+):
+    texts = {
+        "i18n/en.json": '{"close": "Close", "open": "Open"}',
+        "i18n/de.json": '{"close": "Schließen"}',
+        "panels/log/words.json": '{"en": {"log": "Log", "a": "A"}, "de": {"log": "Protokoll"}}',
+    }
+    files = write_all(tmp_path, texts).current().files
+    english, german = (json.loads(files[f"i18n/{one}.json"].content) for one in ("en", "de"))
+    assert english == {"close": "Close", "open": "Open", "log": "Log", "a": "A"}
+    assert german == {"close": "Schließen", "open": "Open", "log": "Protokoll", "a": "A"}
 
 
 def test_the_page_names_all_modules_that_its_own_import_but_not_those_that_come_later(

@@ -7,6 +7,7 @@ Names take only those.
 from __future__ import annotations
 
 import io
+import re
 import sys
 import tempfile
 from pathlib import Path
@@ -16,7 +17,7 @@ from PIL import Image
 
 from tests.support.browser import open_browser
 from tests.support.managed_arm import managed_arm
-from tests.support.panel_pictures import PANEL_IDS, SHOW_PANEL, THEMES, Theme, tab_of
+from tests.support.panel_pictures import SHOW_PANEL, THEMES, Theme, tab_of
 from tests.support.readme_pictures import save_variant
 from tests.support.server import running_studio
 from tests.support.wire import running_router
@@ -29,18 +30,28 @@ if TYPE_CHECKING:
 
     from tests.support.studio_page import StudioPage
 
-FOLDER = Path(__file__).resolve().parents[2] / "frontend_assets/help/pictures"
+ASSETS = Path(__file__).resolve().parents[2] / "frontend_assets"
+GROUP_OF: dict[str, str] = dict(
+    re.findall(
+        r'^  (\w+): \{\n    group: "(\w+)"', (ASSETS / "app/panels.js").read_text(), re.MULTILINE
+    )
+)
+"""What each panel is for, by its id."""
 PANELS_WINDOW = (1060, 940)
 """So narrow that a panel, cut to it, is nearly as wide as the help that shows it."""
 DIALOGS_WINDOW = (720, 640)
-ON_THE_WIRE = (
-    "lessons", "graph", "interfaces", "log", "lifecycle", "diagnostics", "topics", "plot", "image",
-    "teleop",
-)  # fmt: skip
-"""Panels that show something only while a ROS 2 system is there. The node that the lesson starts
-runs in the pictures after it, of both themes."""
 OF_DEEDS = ("actions", "services", "parameters", "publish", "turtlesim", "jerry")
 """Panels whose pictures `deed_pictures` and `field_pictures` take."""
+ON_THE_WIRE = sorted(
+    (
+        panel
+        for panel, group in GROUP_OF.items()
+        if group in {"watch", "act", "learn"} and panel not in OF_DEEDS
+    ),
+    key=lambda panel: panel != "lessons",
+)
+"""Panels that show something only while a ROS 2 system is there. The node that the lesson starts
+runs in the pictures after it, of both themes."""
 _HIGHEST_PX = 380
 DRAWN_WHOLE = ("graph", "plot")
 """Panels whose drawing fills them: cut off, it would show nothing."""
@@ -82,6 +93,12 @@ _BROKEN = """<?xml version="1.0"?>
 """What has an error, a warning and notes."""
 
 
+def path_of(page: str, theme: Theme) -> Path:
+    """The picture of a page of the help: in the folder of the panel that it is about, if it is."""
+    name = f"panels/{page}/help" if page in GROUP_OF else f"help/pictures/{page}"
+    return ASSETS / f"{name}-{theme}.webp"
+
+
 class Camera:
     """Writes what a page shows, for one theme."""
 
@@ -94,7 +111,7 @@ class Camera:
         self.page.wait_for_timeout(_STILL_MS)
         clip: FloatRect = {**box, "height": min(box["height"], highest_px)}
         with Image.open(io.BytesIO(self.page.screenshot(clip=clip))) as picture:
-            (FOLDER / f"{name}-{self._theme}.webp").write_bytes(as_webp(picture))
+            path_of(name, self._theme).write_bytes(as_webp(picture))
 
     def take_part(self, name: str, part: Locator) -> None:
         # It grows while what it shows arrives.
@@ -122,7 +139,7 @@ def wanted(name: str) -> bool:
 def take_panels(camera: Camera) -> None:
     """Each panel in front, cut to it."""
     camera.page.get_by_role("treeitem", name="upper_arm", exact=True).click()
-    for panel in camera.page.evaluate(PANEL_IDS):
+    for panel in GROUP_OF:
         if wanted(panel) and panel not in {"problems", "displays", *ON_THE_WIRE, *OF_DEEDS}:
             camera.page.evaluate(SHOW_PANEL, panel)
             camera.take(panel, camera.page.evaluate(_DOCK_OF, panel))
@@ -287,7 +304,6 @@ def take_broken(browser: Browser, data: Path) -> None:
 
 def main() -> None:
     """Take them all anew."""
-    FOLDER.mkdir(parents=True, exist_ok=True)
     for browser in open_browser():
         with tempfile.TemporaryDirectory() as data:
             take_demo(browser, Path(data))

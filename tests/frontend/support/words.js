@@ -1,15 +1,23 @@
 /** The page's words as a test reads them. */
 
-import { readFileSync } from "node:fs";
+import { readdirSync, readFileSync } from "node:fs";
 
-const FOLDER = new URL("../../../frontend_assets/i18n/", import.meta.url);
-/** Behind the name of a language: the words of the page itself, and those that panels about ROS 2 bring. */
-export const PARTS = ["", ".ros"];
+const ASSETS = new URL("../../../frontend_assets/", import.meta.url);
 
-/** @param {string} name of a language, with or without a part @returns {Record<string, string>} */
-export const fileOfWords = (name) =>
-  JSON.parse(readFileSync(new URL(`${name}.json`, FOLDER), "utf8"));
+export const LANGUAGES = ["en", "de"];
 
-/** @param {string} language @returns {Record<string, string>} all parts */
+/** @param {string} path @returns {any} */
+const read = (path) => JSON.parse(readFileSync(new URL(path, ASSETS), "utf8"));
+
+/** @returns {{file: string, words: Record<string, Record<string, string>>}[]} by language: those of the page, and those of each panel */
+export function filesOfWords() {
+  const page = Object.fromEntries(LANGUAGES.map((one) => [one, read(`i18n/${one}.json`)]));
+  const panels = readdirSync(new URL("panels/", ASSETS), { withFileTypes: true })
+    .filter((entry) => entry.isDirectory())
+    .map(({ name }) => `panels/${name}/words.json`);
+  return [{ file: "i18n/", words: page }, ...panels.map((file) => ({ file, words: read(file) }))];
+}
+
+/** @param {string} language @returns {Record<string, string>} all, as the server puts them together */
 export const wordsOf = (language) =>
-  Object.assign({}, ...PARTS.map((part) => fileOfWords(language + part)));
+  Object.assign({}, ...filesOfWords().map(({ words }) => words[language]));
