@@ -37,7 +37,7 @@ def open_demo(
     options: argparse.Namespace, arguments: dict[str, str], *, fresh: bool, moving: bool = False
 ) -> None:
     """Open the working copy of the rover, made or renewed first; `moving` has a node drive it."""
-    from studio.packages.working_copy import working_copy
+    from studio.packages.examples import working_copy
     from studio.settings import repository_or_wheel
 
     settings = server_settings(options)

@@ -7,12 +7,12 @@ from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from studio.files import is_file
 from studio.packages.discovery import discover
 from studio.packages.environment import RosEnvironment
 from studio.packages.folder_memory import FolderMemory
 from studio.packages.index import Indexed, PackageIndex
 from studio.packages.manifest import FILE_NAME
-from studio.packages.presence import is_file
 from studio.packages.recent import last_opened
 from studio.packages.roots import ServedRoots, is_too_wide, package_folder_of, served_roots_for
 from studio.settings import data_folder, repository_or_wheel

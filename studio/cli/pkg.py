@@ -69,7 +69,7 @@ def _manifest(index: PackageIndex, name: str) -> str:
 
 
 def _print_tag(text: str, tag: str) -> int:
-    from studio.packages.manifest_tags import texts_of_tag
+    from studio.packages.manifest import texts_of_tag
 
     found = texts_of_tag(text.encode(), tag)
     print(*found, sep="\n" if found else "")

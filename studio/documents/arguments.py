@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Final
 from studio.description.sites.launch_arguments import LaunchArgument, launch_arguments
 from studio.description.values import SiteKind
 from studio.errors import CommandError, PackageError
-from studio.packages.presence import is_folder, is_there
+from studio.files import is_folder, is_there
 from studio.protocol.documents import Arguments, ArgumentView
 
 if TYPE_CHECKING:

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 from xml.etree import ElementTree
 
 from studio.errors import CommandError, ExportError, PackageError
-from studio.packages.companions import companions
-from studio.packages.packing import PackedFile, check_size, package_files, zip_chunks
+from studio.packages.packing import PackedFile, check_size, companions, package_files, zip_chunks
 from studio.packages.roots import package_folder_of
 from studio.packages.uris import resolve_uri
 from studio.robot.xml_tree import parse_tree

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from studio.debounce import Throttle
 from studio.documents.draft_files import forget_drafts, left_drafts
-from studio.packages.presence import is_file
+from studio.files import is_file
 from studio.protocol.listeners import tell
 from studio.protocol.roles import Role
 from studio.protocol.saving import LeftWork, LeftWorkEntry

@@ -7,21 +7,15 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, Literal, Protocol, TypeAlias
 
-from studio.errors import (
-    CommandError,
-    NotMadeError,
-    UnreadableFileError,
-)
-from studio.packages.examples import examples
-from studio.packages.naming import robot_of
-from studio.packages.presence import is_file, is_folder
+from studio.errors import CommandError, NotMadeError, UnreadableFileError
+from studio.files import is_file, is_folder
+from studio.packages.examples import COPIES_FOLDER as EXAMPLES
+from studio.packages.examples import examples, working_copy
+from studio.packages.received_texts import UNTITLED_FOLDER as UNTITLED
+from studio.packages.received_texts import drop_untitled, new_untitled
 from studio.packages.recent import RecentFile, RecentFiles
 from studio.packages.roots import ServedRoots, is_below
-from studio.packages.skeleton import ROBOTS, make_file, make_package, template_text
-from studio.packages.untitled import FOLDER as UNTITLED
-from studio.packages.untitled import drop_untitled, new_untitled
-from studio.packages.working_copy import FOLDER as EXAMPLES
-from studio.packages.working_copy import working_copy
+from studio.packages.skeleton import ROBOTS, make_file, make_package, robot_of, template_text
 from studio.packages.workspace import UPLOADS
 from studio.protocol.commands import Commands, Scope
 from studio.protocol.documents import (
@@ -48,7 +42,6 @@ if TYPE_CHECKING:
 
     from studio.documents.document import Document
     from studio.settings import Settings
-
 
 _Opening: TypeAlias = OpenRecent | OpenExample | NewRobot | NewUntitled | SaveAs
 

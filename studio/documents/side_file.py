@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Final, Generic, Protocol, TypeVar
 
 from studio.description.syntax.named_list import NAME_LIMIT, SIZE_LIMIT_BYTES
 from studio.errors import CommandError, DescriptionError, NotSavedError, PackageError
-from studio.files import write_whole
-from studio.packages.presence import is_there
+from studio.files import is_there, write_whole
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -8,13 +8,12 @@ from contextlib import ExitStack
 from typing import TYPE_CHECKING, Final
 
 from studio.errors import DataFolderError, StudioError, UploadError
+from studio.files import is_folder
 from studio.packages.archive import folder_to_open
-from studio.packages.arranging import arrange
-from studio.packages.choices import load_choices, save_choices
 from studio.packages.entry_points import entry_points
-from studio.packages.presence import is_folder
+from studio.packages.index import load_choices, save_choices
 from studio.packages.roots import ServedRoots
-from studio.packages.uploads import Upload, is_zip, read_manifest
+from studio.packages.uploads import Upload, arrange, is_zip, read_manifest
 from studio.packages.workspace import unpacked_folder
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ from pathlib import Path, PurePosixPath
 from typing import IO, TYPE_CHECKING, Final
 
 from studio.errors import UnsafeArchiveError
-from studio.packages.presence import is_file, is_folder
+from studio.files import is_file, is_folder
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -30,6 +30,14 @@ _END: Final = struct.Struct("<4s8xII2x")
 """The end record: signature, size of the list of entries, its offset."""
 _END64: Final = struct.Struct("<4s36xQ8x")
 _LOCATOR64_BYTES: Final = 20
+_DAMAGED: Final = (
+    zipfile.BadZipFile,
+    zlib.error,
+    EOFError,
+    ValueError,
+    RuntimeError,  # and with it NotImplementedError: what the zipfile module does not know
+    struct.error,
+)
 
 
 def unpack_zip(
@@ -41,7 +49,7 @@ def unpack_zip(
     """Unpack into a folder that must not exist yet; it appears only when all went well.
 
     Returns the folder to open: the single folder at the top, when there is nothing beside it.
-    `progress` is told (bytes written, bytes to write).
+    `progress` is called with (bytes written, bytes to write).
 
     Raises:
         UnsafeArchiveError: A name leads outside, an entry is no plain file, the whole is too large
@@ -62,16 +70,6 @@ def unpack_zip(
     finally:
         shutil.rmtree(partial, ignore_errors=True)
     return folder_to_open(into)
-
-
-_DAMAGED: Final = (
-    zipfile.BadZipFile,
-    zlib.error,
-    EOFError,
-    ValueError,
-    RuntimeError,  # and with it NotImplementedError: what the zipfile module does not know
-    struct.error,
-)
 
 
 def _check_directory(zip_path: Path) -> None:

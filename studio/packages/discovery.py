@@ -8,7 +8,7 @@ from enum import Enum, auto
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from studio.packages.presence import is_folder
+from studio.files import is_folder
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -21,7 +21,7 @@ _INSTALL: Final = frozenset({"install", "devel"})
 
 
 class Origin(Enum):
-    """Where a package stands; an earlier one serves a name before a later one."""
+    """Where a package is; an earlier one serves a name before a later one."""
 
     SOURCE = auto()
     NESTED = auto()
@@ -45,7 +45,7 @@ class Discovery:
     packages: tuple[Package, ...]
     generated: tuple[Path, ...]
     complete: bool
-    """False: it has over FOLDER_LIMIT folders and the rest was not looked at."""
+    """False: it has over FOLDER_LIMIT folders and the rest was not searched."""
 
 
 class _Space(Enum):
@@ -78,7 +78,7 @@ def discover(
     """Search a folder of sources, a workspace, or (`is_prefix`) an install space.
 
     Packages inside packages are found too. Links to folders are not followed: what they lead to is
-    either found where it is, or lies outside. `progress` is told (folders seen, 0).
+    either found where it is, or lies outside. `progress` is called with (folders seen, 0).
     """
     search = _Search(memory, progress)
     search.run(root, _Space.PREFIX if is_prefix else _Space.SOURCE)
@@ -134,7 +134,7 @@ class _Search:
         if facts is None:
             return
         self._count()
-        actual = self._tell(folder, facts, space) if space in _SOURCES else space
+        actual = self._space_of(folder, facts, space) if space in _SOURCES else space
         if actual is None:
             return
         if facts.has_manifest and actual in _ORIGINS:
@@ -146,11 +146,11 @@ class _Search:
         if self._progress is not None and self._seen % 500 == 0:
             self._progress(self._seen, 0)
 
-    def _tell(self, folder: str, facts: FolderFacts, space: _Space) -> _Space | None:
-        """See what a folder met among sources is; None when it is not entered.
+    def _space_of(self, folder: str, facts: FolderFacts, space: _Space) -> _Space | None:
+        """Return what kind a folder among sources is; None when it is not entered.
 
         The folders that colcon and catkin make are known by their names, unless they are packages,
-        and install spaces by what stands in them; the ignore marker in these is for builds only.
+        and install spaces by their files; the ignore marker in these is for builds only.
         """
         name = _base_name(folder)
         made = folder != self._root and name in _GENERATED and not facts.has_manifest

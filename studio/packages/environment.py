@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
+from studio.files import is_file, is_folder, is_there
 from studio.packages.folder_memory import INSTALL_MARKERS
-from studio.packages.presence import is_file, is_folder, is_there
 from studio.packages.roots import is_too_wide
 
 if TYPE_CHECKING:

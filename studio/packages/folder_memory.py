@@ -1,4 +1,4 @@
-"""What was seen in each folder, kept between runs and trusted while its mtime stays."""
+"""What is in each folder, kept between runs and trusted while its mtime stays."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _CLOCK_GRAIN_NS: Final = 2_000_000_000
 
 
 class FolderFacts(msgspec.Struct, frozen=True, array_like=True):
-    """What one look at a folder told."""
+    """What is in one folder, as it was listed."""
 
     mtime_ns: int
     subfolders: tuple[str, ...]
@@ -60,26 +60,26 @@ class FolderMemory:
         self._written_ns, self._old = _load(file)
         self._folders: dict[str, FolderFacts] = {}
         self._manifests: dict[str, ManifestFacts] = {}
-        self.looks = 0
-        """Folders that had to be listed because nothing trustworthy was known of them."""
+        self.listed = 0
+        """How many folders had to be listed because nothing trustworthy was known of them."""
 
     def facts(self, folder: str) -> FolderFacts | None:
-        """What is in a folder; None when it cannot be listed. Each is looked at once a run."""
+        """Return what is in a folder; None when it cannot be listed. Each is listed once a run."""
         if folder in self._folders:
             return self._folders[folder]
         try:
             mtime_ns = os.lstat(folder).st_mtime_ns
             known = self._old.folders.get(folder)
             if known is None or known.mtime_ns != mtime_ns or not self._is_settled(mtime_ns):
-                known = _look(folder, mtime_ns)
-                self.looks += 1
+                known = _facts_of(folder, mtime_ns)
+                self.listed += 1
         except OSError:
             return None
         self._folders[folder] = known
         return known
 
     def name_in(self, folder: str) -> str | None:
-        """The name in the package.xml of a folder; None when it cannot be told."""
+        """Return the name in the package.xml of a folder; None when there is none."""
         manifest = f"{folder}{os.sep}{FILE_NAME}"
         try:
             now = Path(manifest).stat()
@@ -95,7 +95,7 @@ class FolderMemory:
     def save(self) -> None:
         """Keep what was seen for the next run; a data folder that is full costs speed only."""
         store = _Store(_VERSION, self._folders, self._manifests)
-        if self._file is None or (store == self._old and not self.looks):
+        if self._file is None or (store == self._old and not self.listed):
             return
         with contextlib.suppress(OSError, UnicodeEncodeError):  # the root's own name may be no text
             self._file.parent.mkdir(parents=True, exist_ok=True)
@@ -121,7 +121,7 @@ def _load(file: Path | None) -> tuple[int, _Store]:
     return 0, _Store(_VERSION, {}, {})
 
 
-def _look(folder: str, mtime_ns: int) -> FolderFacts:
+def _facts_of(folder: str, mtime_ns: int) -> FolderFacts:
     subfolders: list[str] = []
     names: set[str] = set()
     with os.scandir(folder) as entries:
@@ -153,7 +153,7 @@ def is_text(name: str) -> bool:
 
 
 def is_robot_name(name: str) -> bool:
-    """Whether a file is to be looked at: its content decides what it is."""
+    """Whether a file may be a robot by its name; its content decides."""
     return name.lower().endswith(ROBOT_SUFFIXES) and name != FILE_NAME
 
 

@@ -1,11 +1,16 @@
-"""The name of a package, from the bytes of its package.xml."""
+"""The package.xml of a package: its name, and the texts of a tag."""
 
 from __future__ import annotations
 
 import contextlib
 import re
-from typing import Final
+from typing import TYPE_CHECKING, Final
 from xml.parsers import expat
+
+from studio.errors import UnreadableFileError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 FILE_NAME: Final = "package.xml"
 SIZE_LIMIT_BYTES: Final = 1 << 20
@@ -63,3 +68,45 @@ class _Reader:
 
 def _refuse_entity(*_declaration: object) -> None:
     raise _DoneError
+
+
+def texts_of_tag(manifest: bytes, tag: str) -> list[str]:
+    """Give the text of each such element of a manifest, without blanks around it.
+
+    Raises:
+        UnreadableFileError: It is no XML, or declares entities.
+    """
+    found: list[str] = []
+    open_tags: list[str] = []
+    parser = expat.ParserCreate()
+    parser.buffer_text = True
+
+    def start(name: str, _attributes: dict[str, str]) -> None:
+        open_tags.append(name)
+        if name == tag:
+            found.append("")
+
+    def text(letters: str) -> None:
+        if tag in open_tags:
+            found[-1] += letters
+
+    parser.StartElementHandler = start
+    parser.EndElementHandler = _popping(open_tags)
+    parser.CharacterDataHandler = text
+    parser.EntityDeclHandler = _refuse_entity_in_tags
+    try:
+        parser.Parse(manifest, True)  # noqa: FBT003 - expat takes it by position only
+    except (expat.ExpatError, LookupError) as error:
+        raise UnreadableFileError(FILE_NAME, f"is no XML ({error}).") from None
+    return [one.strip() for one in found]
+
+
+def _popping(open_tags: list[str]) -> Callable[[str], None]:
+    def end(_name: str) -> None:
+        open_tags.pop()
+
+    return end
+
+
+def _refuse_entity_in_tags(*_declaration: object) -> None:
+    raise UnreadableFileError(FILE_NAME, "declares entities and was not read.")

@@ -1,17 +1,19 @@
-"""Zips made while they are sent: never whole in memory or on disk, and nothing unserved in them."""
+"""Zips made while they are sent, never whole in memory or on disk, and the files in them."""
 
 from __future__ import annotations
 
 import os
+import re
 import zipfile
 from dataclasses import dataclass
 from datetime import UTC, datetime
+from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
+from urllib.parse import unquote
 
 from studio.errors import ExportError, OutsideRootsError, UnreadableFileError
-from studio.files import is_temporary
-from studio.packages.presence import is_file
+from studio.files import is_file, is_temporary
 from studio.settings import MESH_SIZE_LIMIT_BYTES, ZIP_SIZE_LIMIT_BYTES
 
 if TYPE_CHECKING:
@@ -23,6 +25,22 @@ FILE_LIMIT: Final = 20_000
 _LEFT_OUT: Final = frozenset({".git", ".svn", ".hg", "__pycache__", ".cache"})
 _FIRST_YEAR: Final = 1980
 """A zip knows no earlier one."""
+_Date = tuple[int, int, int, int, int, int]
+# One way only to read any text: a mesh may be megabytes of blanks.
+_NAMED: Final = {
+    ".obj": re.compile(rb"^[ \t]*mtllib[ \t]+([^\r\n]+)", re.MULTILINE),
+    ".mtl": re.compile(
+        rb"^[ \t]*(?:map_\w+|bump|disp|decal|refl)[ \t]+([^\r\n]+)", re.MULTILINE | re.IGNORECASE
+    ),
+    ".dae": re.compile(rb"<init_from>\s*+(?:<ref>)?+([^<]++)<"),
+    ".gltf": re.compile(rb'"uri"\s*:\s*"([^"]+)"'),
+}
+_LIMIT: Final = 200
+"""Of what one mesh names."""
+_READ_LIMIT: Final = 2_000
+"""Names that are searched, whether or not something is there."""
+_NAME_LIMIT_BYTES: Final = 4096
+_TEXT_LIMIT_BYTES: Final = 256 << 20
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +82,7 @@ def _served_file(path: Path, served: ServedRoots) -> Path | None:
 
 
 def check_size(files: Iterable[PackedFile], what: str) -> None:
-    """See that a zip does not come to more than is ever packed.
+    """Check that a zip is not larger than allowed.
 
     Raises:
         ExportError: It would.
@@ -105,9 +123,6 @@ def _spelled(name: str) -> str:
     return name.encode("utf-8", "replace").decode()
 
 
-_Date = tuple[int, int, int, int, int, int]
-
-
 def _read(one: PackedFile, served: ServedRoots) -> tuple[bytes, _Date]:
     if isinstance(one.source, bytes):
         return one.source, _date(datetime.now(UTC))
@@ -145,3 +160,43 @@ class _Sink:
         """What was written since the last time."""
         chunks, self._chunks = self._chunks, []
         return chunks
+
+
+def companions(mesh: Path, served: ServedRoots) -> list[Path]:
+    """Every served file that a mesh names, beside or below its folder, directly or by another."""
+    found: dict[Path, None] = {}
+    waiting = [mesh]
+    while waiting and len(found) < _LIMIT:
+        for path in _named_in(waiting.pop(), served):
+            if path not in found and path != mesh and path.is_relative_to(mesh.parent):
+                found[path] = None
+                waiting.append(path)
+    return list(found)
+
+
+def _named_in(file: Path, served: ServedRoots) -> list[Path]:
+    pattern = _NAMED.get(file.suffix.lower())
+    if pattern is None:
+        return []
+    try:
+        data = served.read(file, _TEXT_LIMIT_BYTES)
+    except (OutsideRootsError, UnreadableFileError):
+        return []
+    found = islice(pattern.finditer(data), _READ_LIMIT)
+    written = {one[1][:_NAME_LIMIT_BYTES].decode("utf-8", "replace").strip() for one in found}
+    # Several may be in one line, behind options; and a name may have a blank in it.
+    names = {name for one in written for name in (one, *one.split())}
+    looked_for = sorted(name for name in names if not name.startswith("data:"))[:_READ_LIMIT]
+    paths = (_served(file, name, served) for name in looked_for)
+    return [path for path in paths if path is not None]
+
+
+def _served(file: Path, name: str, served: ServedRoots) -> Path | None:
+    for spelled in (name, unquote(name)):
+        try:
+            path = served.resolve(file.parent / spelled.replace("\\", "/").removeprefix("./"))
+        except (OutsideRootsError, UnreadableFileError):
+            continue
+        if is_file(path):
+            return path
+    return None

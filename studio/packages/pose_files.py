@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, NamedTuple
 
-from studio.packages.presence import is_folder
+from studio.files import is_folder
 from studio.packages.roots import package_folder_of
 
 if TYPE_CHECKING:
@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 
 FILE_LIMIT: Final = 60
 """Of each kind; a workspace of many robots has more, most of them of others."""
-FOLDERS_TOLD: Final = 300
-"""The system watches so many without being asked to."""
+FOLDERS_WATCHED_MAX: Final = 300
+"""The system watches so many by default."""
 _FOLDER_LIMIT: Final = 400
 """Of one package."""
 _DEPTH_LIMIT: Final = 5
@@ -33,11 +33,11 @@ class PoseFiles(NamedTuple):
     srdf: tuple[Path, ...]
     initial: tuple[Path, ...]
     folders: tuple[Path, ...] = ()
-    """Where they were looked for, and where new ones would be."""
+    """Where they were searched, and where new ones would be."""
 
 
 def pose_files(entry: Path, index: PackageIndex, served: ServedRoots) -> PoseFiles:
-    """Look in the robot's package and in the packages that configure MoveIt.
+    """Search the robot's package and the packages that configure MoveIt.
 
     Links to folders are not followed. What lies outside of the served folders is left out.
     """
@@ -50,8 +50,8 @@ def pose_files(entry: Path, index: PackageIndex, served: ServedRoots) -> PoseFil
                 srdf[path] = None
             elif _is_initial(path.name):
                 initial[path] = None
-    told = tuple(one for one in places if served.serves(one))[:FOLDERS_TOLD]
-    return PoseFiles(_served(srdf, served), _served(initial, served), told)
+    watched = tuple(one for one in places if served.serves(one))[:FOLDERS_WATCHED_MAX]
+    return PoseFiles(_served(srdf, served), _served(initial, served), watched)
 
 
 def may_name_poses(path: str) -> bool:

@@ -1,4 +1,4 @@
-"""New packages: a robot out of a template, or of a text that somebody wrote, with all around it."""
+"""New packages: a robot from a template or a text, all files around it, and valid names."""
 
 from __future__ import annotations
 
@@ -9,16 +9,38 @@ from pathlib import Path
 from typing import Final, Literal, TypeAlias
 
 from studio.errors import NotMadeError
-from studio.packages.naming import name_fault, robot_of
-from studio.packages.presence import is_there
+from studio.files import is_there
 
+LENGTH_LIMIT: Final = 60
+_NAME: Final = re.compile(r"[a-z][a-z0-9]*(?:_[a-z0-9]+)*")
 ROBOTS: Final = "robots"
 """Folder of the data folder where new robots go unless another one is named."""
 Template: TypeAlias = Literal["blank", "rover", "arm"]
-
 _TEMPLATES: Final = Path(__file__).parent / "templates"
 _SUFFIX: Final = ".urdf.xacro"
 _FIRST_LINK: Final = re.compile(rb"""<link\s[^<>]*?name\s*=\s*["']([\w-]+)["']""")
+
+
+def name_fault(name: str) -> str:
+    """What is wrong with a name for a new package, as a sentence; empty when nothing is.
+
+    The rule is that of ROS (REP 144): small letters, digits and single underscores, a letter first.
+    """
+    if len(name) < 2:
+        return "A package name has two characters at least."
+    if len(name) > LENGTH_LIMIT:
+        return f"A package name has {LENGTH_LIMIT} characters at most."
+    if not _NAME.fullmatch(name):
+        return (
+            "A package name is of small letters, digits and single underscores, "
+            "with a letter first and no underscore last: my_rover_description, say."
+        )
+    return ""
+
+
+def robot_of(package: str) -> str:
+    """The robot that a package describes: its name without the ending that says so."""
+    return package.removesuffix("_description") or package
 
 
 def template_text(template: Template, robot: str) -> bytes:

@@ -10,16 +10,24 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final, TypeAlias
 
 from studio.errors import DataFolderError, UnreadableFileError, UnsafeArchiveError
+from studio.files import is_file, is_folder, is_there
 from studio.packages.archive import folder_to_open, unpack_zip
-from studio.packages.choices import folder_of_choice, load_choices, save_choices
 from studio.packages.discovery import FOLDER_LIMIT, Discovery, discover
 from studio.packages.entry_points import EntryPoint, entry_points
 from studio.packages.environment import RosEnvironment, is_install_space, is_installed
 from studio.packages.folder_memory import FolderMemory, is_text
-from studio.packages.from_wire import FOLDER as FROM_WIRE
-from studio.packages.index import Indexed, PackageIndex, Standing
+from studio.packages.index import (
+    Indexed,
+    PackageIndex,
+    Standing,
+    folder_of_choice,
+    load_choices,
+    save_choices,
+)
 from studio.packages.manifest import FILE_NAME
-from studio.packages.presence import is_file, is_folder, is_there
+from studio.packages.received_texts import FROM_ROS_FOLDER as FROM_WIRE
+from studio.packages.received_texts import UNTITLED_FOLDER as UNTITLED
+from studio.packages.received_texts import untitled_number
 from studio.packages.roots import (
     ServedRoots,
     is_below,
@@ -27,8 +35,6 @@ from studio.packages.roots import (
     package_folder_of,
     served_roots_for,
 )
-from studio.packages.untitled import FOLDER as UNTITLED
-from studio.packages.untitled import untitled_number
 from studio.problems import Place, Problem, Severity
 from studio.settings import UPLOADS_QUOTA_BYTES, ZIP_SIZE_LIMIT_BYTES
 
@@ -39,7 +45,7 @@ UPLOADS: Final = "uploads"
 _MEMORY: Final = "package_index"
 
 Progress: TypeAlias = "Callable[[str, int, int], None]"
-"""Told (what is done, done, total); total 0 when it is not known."""
+"""Called with (what is done, done, total); total 0 when it is not known."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,7 +64,7 @@ class Location:
 
     @property
     def is_unpacked(self) -> bool:
-        """Whether it was sent, unpacked, pasted or heard: somebody else's, most likely."""
+        """Whether it was uploaded, unpacked, pasted or received from ROS."""
         folders = (UPLOADS, UNTITLED, FROM_WIRE)
         return any(self.root.is_relative_to(self.data_folder / one) for one in folders)
 
@@ -96,7 +102,7 @@ def open_location(
     *,
     within: ServedRoots | None = None,
 ) -> Location:
-    """Find out everything about a path that a document needs.
+    """Return everything about a path that a document needs.
 
     A file opens itself; a folder opens its best robot file; a zip is unpacked into the data folder
     first, once for each content. A folder that is a package, or lies in one, is served as a file of
@@ -108,20 +114,20 @@ def open_location(
         UnreadableFileError: Nothing is there, no file or folder, or it is too wide to serve.
         UnsafeArchiveError: The zip is not to be unpacked.
     """
-    tell = progress or _tell_nobody
+    report = progress or _ignore
     real = Path(os.path.realpath(path))
     if not is_text(str(real)):
         shown = str(real).encode("utf-8", "replace").decode()
         raise UnreadableFileError(shown, "has a name that is no text: rename it to open it.")
     roots = _roots_to_serve(real) if within is None else _roots_within(real, within)
     if is_file(real) and real.suffix.lower() == ".zip":
-        real = _unpacked(real, data_folder, tell)
+        real = _unpacked(real, data_folder, report)
         roots = (real,)
     survey = _Survey(roots, package_paths, environment, data_folder / _MEMORY)
-    survey.search(tell)
+    survey.search(report)
     chosen = load_choices(data_folder, roots[0])
     served = _as_served_before(_serve_chosen(survey.served(), chosen.values()), within)
-    candidates = _candidates(real, served, survey.memory, tell)
+    candidates = _candidates(real, served, survey.memory, report)
     return Location(
         root=roots[0],
         entry=real if is_file(real) else _best(candidates),
@@ -180,12 +186,12 @@ class _Survey:
         self.packages: list[Indexed] = []
         self.problems: list[Problem] = []
 
-    def search(self, tell: Progress) -> None:
+    def search(self, report: Progress) -> None:
         for root in self._roots:
-            self._search_root(root, tell)
+            self._search_root(root, report)
         for prefix in self._beside:
-            self._search_prefix(prefix, tell, order=0)
-        self._search_environment(tell)
+            self._search_prefix(prefix, report, order=0)
+        self._search_environment(report)
         self.memory.save()
         self.packages = list({one.folder: one for one in reversed(self.packages)}.values())
 
@@ -196,8 +202,8 @@ class _Survey:
         outside = [one for one in beside if not _is_in(one, writable)]
         return ServedRoots(writable, (*self._read_only, *outside, *self._environment.prefixes))
 
-    def _search_root(self, root: Path, tell: Progress) -> None:
-        found = discover(root, self.memory, progress=_counting(tell))
+    def _search_root(self, root: Path, report: Progress) -> None:
+        found = discover(root, self.memory, progress=_counting(report))
         self._note(root, found)
         self._read_only += found.generated
         installed = is_installed(root)
@@ -207,18 +213,18 @@ class _Survey:
                 indexed = replace(indexed, standing=Standing.INSTALLED)
             self.packages.append(indexed)
 
-    def _search_environment(self, tell: Progress) -> None:
+    def _search_environment(self, report: Progress) -> None:
         for order, prefix in enumerate(self._environment.prefixes, start=1):
-            self._search_prefix(prefix, tell, order=order)
+            self._search_prefix(prefix, report, order=order)
         for order, source in enumerate(self._environment.sources):
-            found = discover(source, self.memory, progress=_counting(tell))
+            found = discover(source, self.memory, progress=_counting(report))
             self._note(source, found)
             self.packages += [
                 Indexed.found(one, from_environment=True, order=order) for one in found.packages
             ]
 
-    def _search_prefix(self, prefix: Path, tell: Progress, *, order: int) -> None:
-        found = discover(prefix, self.memory, is_prefix=True, progress=_counting(tell))
+    def _search_prefix(self, prefix: Path, report: Progress, *, order: int) -> None:
+        found = discover(prefix, self.memory, is_prefix=True, progress=_counting(report))
         self.packages += [Indexed.found(one, order=order) for one in found.packages]
 
     def _note(self, root: Path, found: Discovery) -> None:
@@ -256,14 +262,14 @@ def _serve_chosen(served: ServedRoots, chosen: Iterable[Path]) -> ServedRoots:
 
 
 def _candidates(
-    opened: Path, served: ServedRoots, memory: FolderMemory, tell: Progress
+    opened: Path, served: ServedRoots, memory: FolderMemory, report: Progress
 ) -> tuple[EntryPoint, ...]:
     folder = opened if is_folder(opened) else package_folder_of(opened)
     if folder is None or not served.serves(folder):
         return ()
 
     def progress(done: int, total: int) -> None:
-        tell("robot files", done, total)
+        report("robot files", done, total)
 
     return tuple(entry_points(folder, served, progress, memory))
 
@@ -286,7 +292,7 @@ def unpacked_folder(zip_path: Path, data_folder: Path) -> Path:
     return data_folder / UPLOADS / digest
 
 
-def _unpacked(zip_path: Path, data_folder: Path, tell: Progress) -> Path:
+def _unpacked(zip_path: Path, data_folder: Path, report: Progress) -> Path:
     """The folder of a zip's content; what was edited there after an earlier opening stays."""
     folder = unpacked_folder(zip_path, data_folder)
     uploads = folder.parent
@@ -298,7 +304,7 @@ def _unpacked(zip_path: Path, data_folder: Path, tell: Progress) -> Path:
         raise UnsafeArchiveError(str(zip_path), reason)
     limit_bytes = min(ZIP_SIZE_LIMIT_BYTES, left)
     label = f"unpacking {zip_path.name}"
-    return unpack_zip(zip_path, folder, limit_bytes, lambda done, total: tell(label, done, total))
+    return unpack_zip(zip_path, folder, limit_bytes, lambda done, total: report(label, done, total))
 
 
 def folder_bytes(folder: Path) -> int:
@@ -315,9 +321,9 @@ def _is_in(folder: Path, folders: Iterable[Path]) -> bool:
     return any(is_below(folder, one) for one in folders)
 
 
-def _counting(tell: Progress) -> Callable[[int, int], None]:
-    return lambda done, total: tell("folders", done, total)
+def _counting(report: Progress) -> Callable[[int, int], None]:
+    return lambda done, total: report("folders", done, total)
 
 
-def _tell_nobody(_label: str, _done: int, _total: int) -> None:
+def _ignore(_label: str, _done: int, _total: int) -> None:
     return

@@ -39,7 +39,7 @@ def test_a_second_search_looks_into_no_folder_again(tmp_path: Path):
     first = search(tmp_path / "ws", tmp_path / "memory")
     memory = FolderMemory(tmp_path / "memory", ServedRoots([tmp_path / "ws"]))
     assert discover(tmp_path / "ws", memory) == first
-    assert memory.looks == 0
+    assert memory.listed == 0
 
 
 def test_a_folder_that_was_changed_just_now_is_looked_at_again(tmp_path: Path):
@@ -48,7 +48,7 @@ def test_a_folder_that_was_changed_just_now_is_looked_at_again(tmp_path: Path):
     search(tmp_path / "ws", tmp_path / "memory")
     memory = FolderMemory(tmp_path / "memory", ServedRoots([tmp_path / "ws"]))
     discover(tmp_path / "ws", memory)
-    assert memory.looks == 2
+    assert memory.listed == 2
 
 
 def test_a_renamed_package_is_seen_though_its_folder_stayed_as_it_was(tmp_path: Path):

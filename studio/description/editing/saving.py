@@ -14,8 +14,7 @@ from pathlib import Path
 from typing import IO, TYPE_CHECKING
 
 from studio.errors import NotSavedError, PackageError, SaveConflictError
-from studio.files import temporary_beside
-from studio.packages.presence import is_writable
+from studio.files import is_writable, temporary_beside
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable

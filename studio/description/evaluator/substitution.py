@@ -11,7 +11,7 @@ from studio.description.expressions.expressions import compile_expression, helpe
 from studio.description.expressions.guards import text_of
 from studio.description.expressions.symbols import MATH, SAFE_BUILTINS, counted_functions
 from studio.description.faults import Fault, Refusal, misnamed, shorten
-from studio.packages.near_files import is_misspelt
+from studio.packages.uris import is_misspelt
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, Sequence

@@ -14,7 +14,7 @@ from xml.parsers import expat
 
 from studio.description.syntax.xml_faults import cause_of, sentence_of
 from studio.errors import EditError
-from studio.packages.lfs import LFS_REASON, is_lfs_pointer
+from studio.files import LFS_REASON, is_lfs_pointer
 from studio.problems import Place
 from studio.settings import SOURCE_SIZE_LIMIT_BYTES
 

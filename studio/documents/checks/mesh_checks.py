@@ -11,8 +11,7 @@ from studio.description.syntax.attribute_spans import attribute_spans
 from studio.description.syntax.source_tree import SourceError, parse_source
 from studio.documents.meshes import mesh_problem
 from studio.errors import EditError, PackageError, RobotError, WorkerError
-from studio.packages.near_files import near_file
-from studio.packages.uris import resolve_uri
+from studio.packages.uris import near_file, resolve_uri
 from studio.problems import Fix, Replacement
 from studio.robot.meshes.reading import MESH_SUFFIXES
 from studio.robot.meshes.textured import split_textured

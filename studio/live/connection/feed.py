@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Final, Literal, Protocol
 
 from studio.errors import CommandError, StudioError
 from studio.live.connection.sending import RobotSending
-from studio.packages.from_wire import keep_description
+from studio.packages.received_texts import keep_description
 from studio.protocol.connection import WireFeed
 from studio.protocol.listeners import LastTold
 

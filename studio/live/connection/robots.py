@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final, Protocol
 
 from studio.errors import CommandError
 from studio.live.connection.plan import chosen_wire
-from studio.packages.from_wire import choose_packages, keep_description
+from studio.packages.received_texts import choose_packages, keep_description
 from studio.protocol.commands import Commands, Scope
 from studio.protocol.connection import (
     ConnectWire,

@@ -14,7 +14,7 @@ import msgspec
 import numpy as np
 
 from studio.errors import MeshError, PackageError
-from studio.packages.lfs import LFS_REASON, is_lfs_pointer
+from studio.files import LFS_REASON, is_lfs_pointer
 from studio.packages.roots import ServedRoots
 from studio.problems import Place, Problem, Severity
 from studio.robot.meshes.surfaces import Texture

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio.packages.companions import companions
+from studio.packages.packing import companions
 from studio.packages.roots import ServedRoots
 
 if TYPE_CHECKING:

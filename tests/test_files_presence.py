@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio.packages.presence import is_file, is_folder, is_there
+from studio.files import is_file, is_folder, is_there
 from tests.support.permissions import open_folder, unprivileged
 
 if TYPE_CHECKING:

@@ -6,8 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from studio.packages.includes import Includes
-from studio.packages.outline import Outline
+from studio.packages.entry_points import Includes, Outline
 
 ROVER = ("rover", Path("/ws/rover"))
 

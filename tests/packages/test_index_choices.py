@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.errors import PackageNotFoundError, UnreadableFileError
-from studio.packages.choices import folder_of_choice, load_choices, save_choices
+from studio.packages.index import folder_of_choice, load_choices, save_choices
 from tests.support.packages import write_package
 
 if TYPE_CHECKING:

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from studio.packages.naming import LENGTH_LIMIT, name_fault, robot_of
+from studio.packages.skeleton import LENGTH_LIMIT, name_fault, robot_of
 
 
 @pytest.mark.parametrize("name", ["ab", "my_rover_description", "r2d2", "a_1", "a" * LENGTH_LIMIT])

@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.errors import NotMadeError
-from studio.packages.choices import load_choices, save_choices
-from studio.packages.from_wire import FOLDER, choose_packages, keep_description
-from studio.packages.index import PackageIndex
+from studio.packages.index import PackageIndex, load_choices, save_choices
+from studio.packages.received_texts import FROM_ROS_FOLDER, choose_packages, keep_description
 from studio.settings import SOURCE_SIZE_LIMIT_BYTES
 from tests.support.packages import write_package
 
@@ -38,7 +37,7 @@ def test_the_same_text_again_touches_nothing(tmp_path: Path):
 @pytest.mark.parametrize("source", ["/../../etc/passwd", "/", "a" * 4000, "/ns/robot\0x", "ü🤖"])
 def test_no_source_leads_out_of_the_folder(tmp_path: Path, source: str):
     file = keep_description(tmp_path, source, ROBOT)
-    assert (tmp_path / FOLDER).resolve() == file.resolve().parent.parent
+    assert (tmp_path / FROM_ROS_FOLDER).resolve() == file.resolve().parent.parent
 
 
 def test_packages_that_an_open_robot_has_are_found_and_what_was_chosen_stays(tmp_path: Path):
@@ -65,4 +64,4 @@ def test_packages_that_an_open_robot_has_are_found_and_what_was_chosen_stays(tmp
 def test_what_is_no_robot_is_refused(tmp_path: Path, text: str, reason: str):
     with pytest.raises(NotMadeError, match=reason):
         keep_description(tmp_path, "/robot_description", text)
-    assert not (tmp_path / FOLDER).exists()
+    assert not (tmp_path / FROM_ROS_FOLDER).exists()

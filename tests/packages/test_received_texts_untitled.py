@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.errors import NotMadeError
-from studio.packages.untitled import drop_untitled, new_untitled, untitled_number
+from studio.packages.received_texts import drop_untitled, new_untitled, untitled_number
 
 if TYPE_CHECKING:
     from pathlib import Path

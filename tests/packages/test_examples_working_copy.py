@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.errors import DataFolderError, PackageNotFoundError
-from studio.packages.working_copy import working_copy
+from studio.packages.examples import working_copy
 from tests.support.packages import write_package
 
 if TYPE_CHECKING:

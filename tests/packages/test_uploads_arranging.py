@@ -2,7 +2,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from studio.packages.arranging import arrange
+from studio.packages.uploads import arrange
 
 MESH = "package://my_robot/meshes/base.stl"
 

@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.packages.index import PackageIndex
-from studio.packages.near_files import near_file
 from studio.packages.roots import ServedRoots
+from studio.packages.uris import near_file
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -9,8 +9,7 @@ from pathlib import Path
 import pytest
 
 from studio.errors import OutsideRootsError, UnreadableFileError
-from studio.packages.opening import NotRegularError, open_regular
-from studio.packages.roots import ServedRoots
+from studio.packages.roots import NotRegularError, ServedRoots, open_regular
 
 needs_links = pytest.mark.skipif(os.name == "nt", reason="symlinks and pipes of Unix")
 
