@@ -11,7 +11,16 @@ from urllib.parse import quote
 import numpy as np
 from viser import _messages
 
-from studio.scene import node as props
+from studio.scene.node import (
+    ArrowProps,
+    BatchedAxesProps,
+    CameraFrustumProps,
+    GlbProps,
+    ImageProps,
+    LabelProps,
+    LineSegmentsProps,
+    PointCloudProps,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Container, Sequence
@@ -29,16 +38,16 @@ _PROPS: dict[type[Any], type[Any]] = {
     _messages.CylinderMessage: _messages.CylinderProps,
     _messages.IcosphereMessage: _messages.IcosphereProps,
     _messages.MeshMessage: _messages.MeshProps,
-    _messages.GlbMessage: props.GlbProps,
-    _messages.LabelMessage: props.LabelProps,
-    _messages.ArrowMessage: props.ArrowProps,
+    _messages.GlbMessage: GlbProps,
+    _messages.LabelMessage: LabelProps,
+    _messages.ArrowMessage: ArrowProps,
     _messages.GridMessage: _messages.GridProps,
-    _messages.PointCloudMessage: props.PointCloudProps,
-    _messages.LineSegmentsMessage: props.LineSegmentsProps,
-    _messages.BatchedAxesMessage: props.BatchedAxesProps,
+    _messages.PointCloudMessage: PointCloudProps,
+    _messages.LineSegmentsMessage: LineSegmentsProps,
+    _messages.BatchedAxesMessage: BatchedAxesProps,
     _messages.BatchedMeshesMessage: _messages.BatchedMeshesProps,
-    _messages.ImageMessage: props.ImageProps,
-    _messages.CameraFrustumMessage: props.CameraFrustumProps,
+    _messages.ImageMessage: ImageProps,
+    _messages.CameraFrustumMessage: CameraFrustumProps,
 }
 ROBOT = "/robot"
 GRID = "/grid"

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, rule
 
 from studio.displays.markers import store as store_module
-from studio.displays.markers import table as filling
+from studio.displays.markers import table
 from studio.displays.markers.kinds import Action, Kind, Problem
 from studio.displays.markers.store import MarkerStore
 from tests.support.markers import columns_of, marker
@@ -134,7 +134,7 @@ def test_more_markers_than_there_is_room_for_are_left_out_and_told(
 def test_more_points_than_there_is_room_for_are_left_out_until_others_go(
     monkeypatch: pytest.MonkeyPatch,
 ):
-    monkeypatch.setattr(filling, "POINTS_MAX", 5)
+    monkeypatch.setattr(table, "POINTS_MAX", 5)
     store = MarkerStore()
     line = [(0.0, 0.0, 0.0)] * 3
     lines = [marker(Kind.LINE_STRIP, number, points=line) for number in range(2)]
@@ -146,7 +146,7 @@ def test_more_points_than_there_is_room_for_are_left_out_until_others_go(
 
 
 def test_a_line_that_is_sent_again_and_again_needs_no_more_room(monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr(filling, "POINTS_MAX", 5)
+    monkeypatch.setattr(table, "POINTS_MAX", 5)
     store = MarkerStore()
     line = columns_of(marker(Kind.LINE_STRIP, points=[(0.0, 0.0, 0.0)] * 3))
     for _ in range(10):
