@@ -112,7 +112,7 @@ def near_file(
     suffixes: Collection[str],
     taken: Collection[str] = (),
 ) -> str:
-    """Return the name in the folder of a missing file that was likely meant; empty if unclear.
+    """Return the name in the folder that a missing file was likely meant to have; empty if unclear.
 
     Other letter case goes first, then another of the `suffixes` (lower case, with their dot), then
     a typing error, which is none where numbers differ, or where the robot names that file, too.

@@ -103,7 +103,8 @@ class Camera:
     """Writes what a page shows, for one theme."""
 
     def __init__(self, tab: StudioPage, theme: Theme) -> None:
-        self.tab, self.page, self._theme = tab, tab.page, theme
+        self.tab, self.page = tab, tab.page
+        self._theme: Theme = theme
 
     def take(self, name: str, box: FloatRect, highest_px: int = _HIGHEST_PX) -> None:
         """Cut the page to the box, no higher than a page of the help bears."""
