@@ -12,7 +12,6 @@ from studio.cli.acting import acting
 from studio.cli.learning import say_aside, say_foreign
 from studio.cli.looking import full_name, say_other_types
 from studio.cli.wire import add_wire_options
-from studio.ros.graph.graph import goal_service
 from studio.ros.names import full_type_name
 
 if TYPE_CHECKING:
@@ -61,6 +60,8 @@ def _run(options: argparse.Namespace) -> int:
         goal = from_yaml(kind.Goal, options.goal, now_ns=time.time_ns())
         client = ActionClient(actor.node, kind, name)
         say_other_types(name, type_name, actor.graph.actions())
+        from studio.ros.graph.graph import goal_service
+
         say_foreign(actor, actor.graph.servers(goal_service(name)))
         print("Waiting for an action server to become available...", flush=True)
         if not client.wait_for_server(options.timeout):
