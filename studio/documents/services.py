@@ -21,9 +21,9 @@ if TYPE_CHECKING:
 USED_LATER: Final = (
     *("studio.live.displays.drawing_room", "studio.live.displays.robot_models"),
     *("studio.live.displays.catalogue_views", "studio.live.displays.topic_views"),
-    *("studio.live.panels.driving_work", "studio.live.panels.goal_work"),
-    *("studio.live.panels.parameter_work", "studio.ros.node.raw_subscription"),
+    *("studio.live.panels.goal_work", "studio.live.panels.parameter_work"),
     *("studio.live.panels.publication_work", "studio.live.panels.requests"),
+    *("studio.ros.node.raw_subscription", "studio.ros.lifecycle.client"),
     *("studio.ros.messages", "studio.ros.graph.graph", "studio.ros.types.convert"),
 )
 """With what they import, all that functions of the loop import when they are first called."""

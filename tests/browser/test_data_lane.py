@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from tests.support.demos import running_demo
-from tests.support.eight_numbers import SERIES, eight_numbers
+from tests.support.eight_numbers import SERIES, TOPIC, eight_numbers
 from tests.support.server import running_studio
 from tests.support.studio_page import StudioPage, studio_page, wait_until
 from tests.support.wire import free_endpoint, router_at
@@ -33,6 +33,11 @@ _COUNTS = """async () => {
     const drawn = values.subarray(begin, end);
     return [count, drawn[0], drawn.every((value, n) => value === drawn[0] + n)];
   });
+}"""
+_SUBSCRIBED = """async (topic) => {
+  const script = document.querySelector('script[type="module"]').src;
+  const { heardTopics } = await import(new URL("../model/plotting.js", script));
+  return heardTopics.value.get(topic)?.state === "hearing";
 }"""
 _COME = """async () => {
   const script = document.querySelector('script[type="module"]').src;
@@ -122,11 +127,12 @@ def test_v2_v3_t1_t3_a_click_echoes_a_topic_and_a_drag_draws_every_number_as_it_
         )
         see_ends(tab, "/topic_helloworld_pub", "reliable")
 
-        topic(tab, "/eight").click()
+        topic(tab, TOPIC).click()
         eight.wait_for_listeners(1)
         eight.publish_once()
         draw_all(tab)
-        eight.wait_for_listeners(2)
+        subscribed = lambda: tab.page.evaluate(_SUBSCRIBED, TOPIC)  # noqa: E731
+        wait_until("the plot to be subscribed", subscribed)
         eight.publish_at_1_khz(MESSAGES)
         count_all(tab)
 

@@ -65,8 +65,10 @@ def eight_numbers(endpoint: str) -> Generator[EightNumbers]:
     words = [sys.executable, "-m", __name__]
     with running(words, endpoint, subprocess.PIPE) as process:
         made = EightNumbers(process)
-        yield made
-        made.end()
+        try:
+            yield made
+        finally:
+            made.end()
 
 
 def main() -> None:

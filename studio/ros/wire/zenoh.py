@@ -60,7 +60,7 @@ BATCH_MAX: Final = 512
 _HEARTBEAT_S: Final = 0.5
 _CLOSE_TIMEOUT_S: Final = 1.0
 _END_TIMEOUT_S: Final = 1.0
-_EXIT_TIMEOUT_S: Final = 3.0
+_EXIT_TIMEOUT_S: Final = 0.5
 _RUNTIME_VARIABLE: Final = "ZENOH_RUNTIME"
 _FEW_THREADS: Final = "(rx: (handover: app), app: (worker_threads: 1))"
 
@@ -140,7 +140,8 @@ def _wait_for_late_threads() -> None:
     """Wait again before the interpreter ends.
 
     Until Python 3.14 a thread that wants the interpreter back while it ends is unwound. Zenoh's
-    frames catch that, and glibc then aborts the process ("exception not rethrown").
+    frames catch that, and glibc then aborts the process ("exception not rethrown"). The wait is
+    short: who is held for longer, by a peer that fell silent, is hardly back just then.
     """
     end_s = time.monotonic() + _EXIT_TIMEOUT_S
     for thread in tuple(_late_threads):
