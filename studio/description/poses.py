@@ -18,9 +18,9 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import PurePath
 from typing import TYPE_CHECKING, Final, cast
-from xml.etree import ElementTree
 
 from studio.description.faults import Fault
 from studio.description.syntax.named_list import (
@@ -95,17 +95,17 @@ def position_of(text: str) -> float | None:
 def group_states(expansion: Expansion) -> Iterator[NamedPose]:
     """The states of a run of an SRDF, in its order; those without a name or joint are left out."""
     for part in expansion.changed_parts:
-        if part.key.startswith("other:") and part.xml.startswith("<group_state"):
+        if part.element.tag == "group_state":
             pose = _pose(part)
             if pose.name and (pose.positions or pose.unread):
                 yield pose
 
 
 def _pose(part: Part) -> NamedPose:
-    element = ElementTree.fromstring(part.xml)
+    element = part.element
     positions: dict[str, float] = {}
     unread: list[str] = []
-    for joint in element.findall("joint")[:JOINT_LIMIT]:
+    for joint in islice(element.elements("joint"), JOINT_LIMIT):
         name = joint.get("name", "")
         value = position_of(joint.get("value", ""))
         if value is None:

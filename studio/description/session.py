@@ -14,8 +14,8 @@ from studio.description.evaluator.output_tree import (
     OutputElement,
     OutputIndex,
     part_of,
-    write_part,
-    write_parts,
+    plain_part,
+    plain_parts,
 )
 from studio.description.evaluator.runs import (
     GoodRun,
@@ -53,6 +53,7 @@ from studio.problems import Place, Problem, Severity
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
 
+    from studio.description.elements import Element
     from studio.description.patching.live_run import Patch
     from studio.description.requests import Query, Reply
     from studio.description.values import ReadPolicy, Site
@@ -114,7 +115,7 @@ class Session:
         self._policy: ReadPolicy = request.policy
         self._store = SourceStore(ServedRoots(map(Path, request.policy.roots)), request.overlay)
         self._site_builder = SiteBuilder(request.known)
-        self._parts: dict[str, str] = {}
+        self._parts: dict[str, Element] = {}
         self._sites: dict[str, Site] = {}
         self._good: GoodRun | None = None
         self._origins: Origins | None = None
@@ -178,10 +179,10 @@ class Session:
     def _patched(self, live: LiveRun, patch: Patch) -> Expansion:
         """Answer what a patch changed."""
         root, record = live.index.root, live.record
-        written = [write_part(root, live.index.keys[one], one) for one in patch.parts]
-        changed = [part for part in written if self._parts[part.key] != part.xml]
+        parts = [plain_part(root, live.index.keys[one], one) for one in patch.parts]
+        changed = [part for part in parts if self._parts[part.key] != part.element]
         sites = self._site_builder.patch(patch.sites, live.texts)
-        self._parts.update((part.key, part.xml) for part in changed)
+        self._parts.update((part.key, part.element) for part in changed)
         self._sites.update((site.id, site) for site in sites)
         self._keep_good(root, record, "studio")
         self._told = Expansion(
@@ -289,14 +290,14 @@ class Session:
 
     def _recovered(self, run: RecoveredRun, root: OutputElement) -> Expansion:
         """Answer the robot that broken texts come to."""
-        parts = write_parts(root)
+        parts = plain_parts(root)
         part_order, files = tuple(part.key for part in parts), tuple(run.store.asked)
         is_same = self._told is not None and part_order == tuple(self._parts)
         expansion = Expansion(
             robot_name=root.attributes.get("name", ""),
             root_attributes=tuple(root.attributes.items()),
             part_order=None if is_same else part_order,
-            changed_parts=tuple(part_of(p) for p in parts if self._parts.get(p.key) != p.xml),
+            changed_parts=tuple(part_of(p) for p in parts if self._parts.get(p.key) != p.element),
             site_order=None if self._told else (),
             changed_sites=(),
             files=tuple(dict.fromkeys((*self._store.asked, *files))),
@@ -305,7 +306,7 @@ class Session:
             evaluator="studio",
             is_recovered=True,
         )
-        self._parts = {part.key: part.xml for part in parts}
+        self._parts = {part.key: part.element for part in parts}
         self._told = expansion
         return expansion
 
@@ -320,7 +321,7 @@ class Session:
         return evaluation, _as_output(tree.root, origin)
 
     def _expansion(self, evaluation: Evaluation, root: OutputElement, reason: str) -> Expansion:
-        parts = write_parts(root)
+        parts = plain_parts(root)
         index = OutputIndex(root)
         record = self._record(evaluation, index)
         sites = self._site_builder.build(record)
@@ -329,7 +330,7 @@ class Session:
             robot_name=root.attributes.get("name", ""),
             root_attributes=tuple(root.attributes.items()),
             part_order=None if self._told and part_order == tuple(self._parts) else part_order,
-            changed_parts=tuple(part_of(p) for p in parts if self._parts.get(p.key) != p.xml),
+            changed_parts=tuple(part_of(p) for p in parts if self._parts.get(p.key) != p.element),
             site_order=None if self._told and site_order == tuple(self._sites) else site_order,
             changed_sites=tuple(s for s in sites if self._is_new(s)),
             files=record.files,
@@ -339,7 +340,7 @@ class Session:
             fallback_reason=reason,
         )
         self._doubted.clear()
-        self._parts = {part.key: part.xml for part in parts}
+        self._parts = {part.key: part.element for part in parts}
         self._sites = {site.id: site for site in sites}
         self._told = expansion
         self._keep_good(root, record, expansion.evaluator)

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Final
 
+from studio.description.elements import Element  # noqa: TC001 - msgspec reads it
 from studio.problems import MacroCall, Place, Problem  # noqa: TC001 - msgspec reads them
 
 PATCH_DIFFERED: Final = "patch-differed"
@@ -108,10 +109,15 @@ class Part:
 
     key: str
     """`link:base_link`, `joint:wheel`, `material:red`, else `other:<n>`; a repeat ends in `#2`."""
-    xml: str
-    """The element as URDF text, no xacro left in it."""
+    element: Element
+    """The element of URDF, no xacro left in it."""
     place: Place
     calls: tuple[MacroCall, ...] = ()
+
+    @property
+    def xml(self) -> str:
+        """The element as URDF text."""
+        return self.element.xml
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from studio.problems import Problem, Severity
-from studio.robot.elements import ParsedElement, parse_element
+from studio.robot.elements import ParsedElement, read_element
 from studio.robot.structure import Structure
 from studio.robot.values import Joint, Link, Material, Robot, Visual
 
@@ -86,7 +86,7 @@ class Assembly:
 
     def _parse(self, part: Part) -> _Element:
         before = self._elements.get(part.key)
-        parsed = parse_element(part.xml)
+        parsed = read_element(part.element)
         keep = bool(parsed.faults) and before is not None and before.value is not None
         return _Element(part, parsed, before.value if keep and before else parsed.value)
 

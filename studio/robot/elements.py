@@ -30,12 +30,11 @@ from studio.robot.values import (
     Sphere,
     Visual,
 )
-from studio.robot.xml_tree import parse_tree
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-    from xml.etree.ElementTree import Element
 
+    from studio.description.elements import Element
     from studio.robot.values import Vector3
 
 Value = TypeVar("Value")
@@ -50,11 +49,10 @@ class ParsedElement:
     faults: list[RobotError] = field(default_factory=list[RobotError])
 
 
-def parse_element(xml: str) -> ParsedElement:
-    """Parse the text of one top-level element; anything but link, joint, material gives None."""
+def read_element(element: Element) -> ParsedElement:
+    """Read one top-level element; anything but link, joint, material gives None."""
     parsed = ParsedElement()
     try:
-        element = parse_tree(xml)
         reader = _READERS.get(element.tag)
         if reader is not None:
             parsed.value = reader(element, parsed)
@@ -78,11 +76,11 @@ def _read_link(element: Element, parsed: ParsedElement) -> Link:
     faults = parsed.faults
     visuals = [
         _attempt(faults, lambda one=one, n=n: _read_visual(one, f"{where}, visual {n}"), None)
-        for n, one in enumerate(element.findall("visual"), start=1)
+        for n, one in enumerate(element.elements("visual"), start=1)
     ]
     collisions = [
         _attempt(faults, lambda one=one, n=n: _read_collision(one, f"{where}, collision {n}"), None)
-        for n, one in enumerate(element.findall("collision"), start=1)
+        for n, one in enumerate(element.elements("collision"), start=1)
     ]
     inertial = element.find("inertial")
     return Link(
@@ -134,11 +132,11 @@ def _read_origin(element: Element, where: str) -> Origin:
 
 def _read_geometry(element: Element, where: str) -> Geometry:
     geometry = _child(element, "geometry", where)
-    for shape in geometry:
+    for shape in geometry.elements():
         reader = _SHAPES.get(shape.tag)
         if reader is not None:
             return reader(shape, where)
-    written = ", ".join(f"<{shape.tag}>" for shape in geometry) or "nothing"
+    written = ", ".join(f"<{shape.tag}>" for shape in geometry.elements()) or "nothing"
     raise RobotError(
         f"{where}: its geometry holds {written}: URDF knows box, cylinder, sphere and mesh."
     )

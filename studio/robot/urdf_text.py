@@ -9,11 +9,12 @@ from studio.description.values import Part
 from studio.errors import RobotError
 from studio.problems import Place, Severity
 from studio.robot.assembly import Assembly
-from studio.robot.xml_tree import parse_tree
+from studio.robot.xml_tree import parse_tree, plain_element
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
+    from studio.description.elements import Element
     from studio.robot.values import Robot
 
 _KINDS = ("link", "joint", "material")
@@ -44,7 +45,7 @@ def _parts(root: ElementTree.Element) -> Iterator[Part]:
             key = f"{element.tag}:{element.get('name', '')}"
             seen[key] = seen.get(key, 0) + 1
             numbered = key if seen[key] == 1 else f"{key}#{seen[key]}"
-            yield Part(numbered, ElementTree.tostring(element, encoding="unicode"), Place(""))
+            yield Part(numbered, plain_element(element), Place(""))
 
 
 def urdf_text(parts: Iterable[Part], root_attributes: Iterable[tuple[str, str]]) -> str:
@@ -63,8 +64,24 @@ def part_element(part: Part, root_attributes: Mapping[str, str]) -> ElementTree.
 
     A part declares its prefixes itself, to stand alone; what the root declares is not repeated.
     """
-    element = parse_tree(part.xml)
+    element = _tree_of(part.element)
     for name in [one for one in element.attrib if one.startswith("xmlns:")]:
         if root_attributes.get(name) == element.get(name):
             del element.attrib[name]
     return element
+
+
+def _tree_of(element: Element) -> ElementTree.Element:
+    builder = ElementTree.TreeBuilder()
+    _build(element, builder)
+    return builder.close()
+
+
+def _build(element: Element, builder: ElementTree.TreeBuilder) -> None:
+    builder.start(element.tag, dict(element.attributes))
+    for child in element.children:
+        if isinstance(child, str):
+            builder.data(child)
+        else:
+            _build(child, builder)
+    builder.end(element.tag)

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, NoReturn
 from xml.etree.ElementTree import TreeBuilder
 from xml.parsers import expat
 
+from studio.description.elements import Element as PlainElement
 from studio.errors import RobotError
 
 if TYPE_CHECKING:
@@ -33,6 +34,16 @@ def parse_tree(xml: str | bytes) -> Element:
     except (expat.ExpatError, LookupError, ValueError) as error:
         raise RobotError(f"It is not well-formed XML ({error}).") from error
     return builder.close()
+
+
+def plain_element(element: Element) -> PlainElement:
+    """Return an element and all below it as a plain value; comments are left out."""
+    children: list[PlainElement | str] = [element.text] if element.text else []
+    for child in element:
+        children.append(plain_element(child))
+        if child.tail:
+            children.append(child.tail)
+    return PlainElement(element.tag, element.attrib, tuple(children))
 
 
 def _refuse_entity(name: str, *_: object) -> NoReturn:

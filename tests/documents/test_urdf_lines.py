@@ -7,12 +7,13 @@ from studio.description.values import Part
 from studio.documents.urdf import LINES_SHOWN, PartLines, difference, part_lines
 from studio.problems import Place
 from studio.robot.urdf_text import urdf_text
+from tests.support.expanded import element_of
 
 ROOT = (("name", "r"),)
 
 
 def part(key: str, xml: str) -> Part:
-    return Part(key, xml, Place("/f"))
+    return Part(key, element_of(xml), Place("/f"))
 
 
 def link(name: str, size: str = "1") -> Part:

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from studio.description.values import Part
 from studio.problems import Severity
 from studio.robot.values import Box, Material
-from tests.support.expanded import Assembled, assembled
+from tests.support.expanded import Assembled, assembled, element_of
 
 if TYPE_CHECKING:
     from studio.robot.assembly import Change
@@ -225,4 +225,4 @@ def test_values_put_in_place_come_to_what_a_look_at_everything_comes_to(
     for key, xml in edits:
         place = next(one.place for one in slow.parts if one.key == key)
         found = quick.change(key, xml)
-        assert found == slow.assembly.apply(everything, [Part(key, xml, place)])
+        assert found == slow.assembly.apply(everything, [Part(key, element_of(xml), place)])

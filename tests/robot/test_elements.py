@@ -4,7 +4,8 @@ import math
 
 import pytest
 
-from studio.robot.elements import parse_element
+from studio.errors import RobotError
+from studio.robot.elements import ParsedElement, read_element
 from studio.robot.values import (
     Box,
     Cylinder,
@@ -18,9 +19,18 @@ from studio.robot.values import (
     Origin,
     Sphere,
 )
+from tests.support.expanded import element_of
 
 LIMIT = '<limit lower="-1" upper="2" effort="3" velocity="4"/>'
 ENDS = '<parent link="a"/><child link="b"/>'
+
+
+def parse_element(xml: str) -> ParsedElement:
+    """Read an element from text; text that is refused is its fault."""
+    try:
+        return read_element(element_of(xml))
+    except RobotError as error:
+        return ParsedElement(faults=[error])
 
 
 def link(inner: str) -> Link:

@@ -10,6 +10,7 @@ from studio.description.values import Part
 from studio.robot.assembly import Assembly
 from studio.robot.checks.finding import CheckedRobot
 from studio.robot.checks.robot_checks import check_robot, robot_findings
+from studio.robot.xml_tree import plain_element
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -44,7 +45,7 @@ def checked(
 def _part(element: ElementTree.Element, place: Place, calls: tuple[MacroCall, ...]) -> Part:
     element.tail = None
     name = f"{element.tag}:{element.get('name')}"
-    return Part(name, ElementTree.tostring(element, encoding="unicode"), place, calls)
+    return Part(name, plain_element(element), place, calls)
 
 
 def robot(*elements: str) -> str:

@@ -6,8 +6,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 from xml.dom import minidom
 
-from studio.description.evaluator.output_tree import write_xml
+from studio.description.evaluator.output_tree import OutputElement
 from studio.description.evaluator.source_store import SourceStore
+from studio.description.syntax.source_tree import SourceComment
 from studio.packages.roots import ServedRoots
 from tests.support.commented_evaluation import CommentedEvaluation
 
@@ -26,7 +27,19 @@ def commented_run(
     """Our expansion with comments; a Fault when there is none."""
     store = SourceStore(ServedRoots([Path(root) for root in policy.roots]), {})
     root = CommentedEvaluation(store, policy, arguments or {}).run(file)
-    return commented_xml(write_xml(root))
+    return _of_output(root)
+
+
+def _of_output(element: OutputElement) -> Commented:
+    children: list[Commented | str] = []
+    for child in element.children:
+        if isinstance(child, OutputElement):
+            children.append(_of_output(child))
+        elif isinstance(child, SourceComment):
+            children.append(f"<!--{child.text}-->")
+        else:
+            _add_text(children, child.text)
+    return element.tag, tuple(sorted(element.attributes.items())), tuple(children)
 
 
 def commented_xml(text: str) -> Commented:

@@ -19,10 +19,13 @@ from xacro import substitution_args
 from studio.description.values import Part
 from studio.problems import Place
 from studio.robot.assembly import Assembly, Change
+from studio.robot.xml_tree import parse_tree, plain_element
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
+
+    from studio.description.elements import Element
 
 _NAME = re.compile(r"<name>\s*([^<\s]+)\s*</name>")
 
@@ -81,9 +84,13 @@ def parts_of(urdf: str, file: str = "robot.urdf") -> list[Part]:
         counts[key] = counts.get(key, 0) + 1
         repeat = f"#{counts[key]}" if counts[key] > 1 else ""
         element.tail = None
-        xml = ElementTree.tostring(element, encoding="unicode")
-        parts.append(Part(key + repeat, xml, Place(file, number)))
+        parts.append(Part(key + repeat, plain_element(element), Place(file, number)))
     return parts
+
+
+def element_of(xml: str) -> Element:
+    """An element by its text."""
+    return plain_element(parse_tree(xml))
 
 
 def assembled(urdf: str) -> Change:
@@ -102,7 +109,7 @@ class Assembled:
     def change(self, key: str, xml: str) -> Change:
         """Write one element anew."""
         before = next(one for one in self.parts if one.key == key)
-        return self.assembly.apply(None, [Part(key, xml, before.place)])
+        return self.assembly.apply(None, [Part(key, element_of(xml), before.place)])
 
     def rewrite(self, urdf: str) -> Change:
         """Write everything anew."""

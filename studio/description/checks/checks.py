@@ -9,7 +9,7 @@ from studio.description.checks.checked_run import CheckedRun
 from studio.description.checks.names import odd_names, repeated_names, unused_names
 from studio.description.checks.spelling import misspelt_names
 from studio.description.checks.ties import Holding, loose_ties
-from studio.description.evaluator.output_tree import part_of, write_parts
+from studio.description.evaluator.output_tree import part_of, plain_parts
 from studio.description.values import Checked, ReadRobot
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ def checked_broken(run: RecoveredRun) -> Checked:
     evaluation, trees = run.evaluation, run.store.trees(run.store.asked)
     bindings = tuple(evaluation.bindings.values())
     found = check_texts(CheckedRun(run.root, trees, bindings, evaluation.chain_to))
-    parts = tuple(part_of(one) for one in write_parts(run.root))
+    parts = tuple(part_of(one) for one in plain_parts(run.root))
     return Checked((*run.problems, *found), ReadRobot(run.root.attributes.get("name", ""), parts))
 
 

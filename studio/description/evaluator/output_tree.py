@@ -1,11 +1,11 @@
-"""The tree that an evaluation makes: its elements, its parts as XML, and what came out where."""
+"""The tree that an evaluation makes: its elements, its parts as values, and what came out where."""
 
 from __future__ import annotations
 
-import re
 from functools import cached_property
 from typing import TYPE_CHECKING, Final, NamedTuple, TypeAlias, cast
 
+from studio.description.elements import Element
 from studio.description.faults import Refusal
 from studio.description.syntax.source_tree import SourceComment, SourceElement, SourceText
 from studio.description.values import Part
@@ -19,17 +19,8 @@ if TYPE_CHECKING:
 _AS_WRITTEN: Final[Mapping[str, Record]] = {}
 OUTPUT_LIMIT: Final = 64_000_000
 """Characters of one robot."""
-_IN_TEXT: Final = re.compile(r"[&<>]")
-_IN_ATTRIBUTE: Final = re.compile(r"[&<>\"\t\n\r]")
-_ESCAPES: Final = {
-    "&": "&amp;",
-    "<": "&lt;",
-    ">": "&gt;",
-    '"': "&quot;",
-    "\t": "&#9;",
-    "\n": "&#10;",
-    "\r": "&#13;",
-}
+_MARKS: Final = 4
+"""Brackets, quotes and blanks of an element or attribute, in characters."""
 _NAMED: Final = frozenset({"link", "joint", "material"})
 
 
@@ -98,41 +89,51 @@ def macro_calls(frame: CallFrame | None) -> tuple[MacroCall, ...]:
     return tuple(reversed(calls))
 
 
-def write_xml(element: OutputElement, extra_attributes: dict[str, str] | None = None) -> str:
-    """One line of XML, attributes in their order; `extra_attributes` go on the element itself.
+def write_xml(element: OutputElement) -> str:
+    """One line of XML, attributes in their order.
 
     Raises:
-        Refusal: It would be longer than OUTPUT_LIMIT: few texts in a file can come out often.
+        Refusal: As `plain_element`.
     """
-    out: list[str] = []
-    attributes = element.attributes
-    _write(element, out, attributes | extra_attributes if extra_attributes else attributes)
-    if sum(map(len, out)) > OUTPUT_LIMIT:
-        raise Refusal("output-too-large", "The robot comes to more text than can be shown.")
-    return "".join(out)
+    return plain_element(element).xml
 
 
-def _write(element: OutputElement, out: list[str], attributes: dict[str, str]) -> None:
-    out.append("<" + element.tag)
-    for name, value in attributes.items():
-        text = _IN_ATTRIBUTE.sub(_escape, value) if _IN_ATTRIBUTE.search(value) else value
-        out.append(f' {name}="{text}"')
-    if not element.children:
-        out.append("/>")
-        return
-    out.append(">")
-    for child in element.children:
-        if isinstance(child, OutputElement):
-            _write(child, out, child.attributes)
-        elif isinstance(child, SourceComment):
-            out.append(f"<!--{child.text}-->")
-        else:
-            out.append(_IN_TEXT.sub(_escape, child.text))
-    out.append(f"</{element.tag}>")
+def plain_element(element: OutputElement) -> Element:
+    """An element and all below it as a value; comments are left out.
+
+    Raises:
+        Refusal: It is longer than OUTPUT_LIMIT: few texts in a file can come out often.
+    """
+    return _Plain().element(element)
 
 
-def _escape(match: re.Match[str]) -> str:
-    return _ESCAPES[match[0]]
+class _Plain:
+    """Makes values of elements, and counts the characters of all of them."""
+
+    def __init__(self) -> None:
+        self._characters = 0
+
+    def element(self, element: OutputElement) -> Element:
+        """One of them."""
+        made = self._element(element)
+        if self._characters > OUTPUT_LIMIT:
+            raise Refusal("output-too-large", "The robot comes to more text than can be shown.")
+        return made
+
+    def _element(self, element: OutputElement) -> Element:
+        attributes = element.attributes
+        self._characters += 2 * len(element.tag) + sum(map(len, attributes.values()))
+        self._characters += sum(map(len, attributes)) + _MARKS * (1 + len(attributes))
+        if not element.children:
+            return Element(element.tag, attributes)
+        children: list[Element | str] = []
+        for child in element.children:
+            if isinstance(child, OutputElement):
+                children.append(self._element(child))
+            elif isinstance(child, SourceText):
+                self._characters += len(child.text)
+                children.append(child.text)
+        return Element(element.tag, attributes, tuple(children))
 
 
 def part_keys(root: OutputElement) -> list[tuple[str, OutputElement]]:
@@ -151,32 +152,35 @@ def part_keys(root: OutputElement) -> list[tuple[str, OutputElement]]:
     return keyed
 
 
-class WrittenPart(NamedTuple):
-    """A part as text; the rest of it is worked out by `part_of` when somebody asks."""
+class PlainPart(NamedTuple):
+    """A part as a value; the rest of it is worked out by `part_of` when somebody asks."""
 
     key: str
-    xml: str
-    element: OutputElement
+    element: Element
+    output: OutputElement
 
 
-def write_parts(root: OutputElement) -> list[WrittenPart]:
-    """Write each top-level element as XML that stands alone, prefixes declared.
+def plain_parts(root: OutputElement) -> list[PlainPart]:
+    """Each top-level element as a value that stands alone, prefixes declared.
 
     Raises:
         Refusal: All of them together are longer than OUTPUT_LIMIT.
     """
-    prefixes = _prefixes(root)
-    parts = [
-        WrittenPart(key, _part_xml(element, prefixes), element) for key, element in part_keys(root)
+    prefixes, plain = _prefixes(root), _Plain()
+    return [
+        PlainPart(key, _declaring(plain.element(output), prefixes), output)
+        for key, output in part_keys(root)
     ]
-    if sum(len(part.xml) for part in parts) > OUTPUT_LIMIT:
-        raise Refusal("output-too-large", "The robot comes to more text than can be shown.")
-    return parts
 
 
-def write_part(root: OutputElement, key: str, element: OutputElement) -> WrittenPart:
-    """Write one of them."""
-    return WrittenPart(key, _part_xml(element, _prefixes(root)), element)
+def plain_part(root: OutputElement, key: str, output: OutputElement) -> PlainPart:
+    """One of them."""
+    return PlainPart(key, _declaring(plain_element(output), _prefixes(root)), output)
+
+
+def part_of(part: PlainPart) -> Part:
+    """A part with where it was written and the macro calls that led to it."""
+    return Part(part.key, part.element, part.output.origin.place, macro_calls(part.output.calls))
 
 
 def _prefixes(root: OutputElement) -> dict[str, tuple[str, str]]:
@@ -187,20 +191,17 @@ def _prefixes(root: OutputElement) -> dict[str, tuple[str, str]]:
     }
 
 
-def part_of(written: WrittenPart) -> Part:
-    """A part with where it was written and the macro calls that led to it."""
-    element = written.element
-    return Part(written.key, written.xml, element.origin.place, macro_calls(element.calls))
-
-
-def _part_xml(element: OutputElement, prefixes: Mapping[str, tuple[str, str]]) -> str:
-    xml = write_xml(element)
+def _declaring(element: Element, prefixes: Mapping[str, tuple[str, str]]) -> Element:
+    """An element that declares the prefixes in it itself, as the root does."""
+    if not prefixes:
+        return element
+    xml = element.xml
     declared = {
         name: value
         for prefix, (name, value) in prefixes.items()
         if f"{prefix}:" in xml and name not in element.attributes
     }
-    return write_xml(element, declared) if declared else xml
+    return element._replace(attributes=element.attributes | declared) if declared else element
 
 
 class OutputIndex:

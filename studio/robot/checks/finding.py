@@ -15,6 +15,7 @@ from studio.robot.checks.extents import extents
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
+    from studio.description.elements import Element
     from studio.description.values import Part
     from studio.problems import Severity
     from studio.robot.checks.extents import Extent
@@ -43,10 +44,10 @@ class CheckedRobot:
         """The boxes around each link, by its name."""
         return extents(self.robot.links.values(), self.mesh_bounds)
 
-    def xml(self, key: str) -> str:
-        """The URDF text of a part by its key; empty when it is not known."""
+    def element(self, key: str) -> Element | None:
+        """The element of a part by its key; None when it is not known."""
         part = self.part(key)
-        return part.xml if part else ""
+        return part.element if part else None
 
 
 @dataclass(frozen=True, slots=True)

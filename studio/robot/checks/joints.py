@@ -5,16 +5,14 @@ from __future__ import annotations
 from difflib import get_close_matches
 from typing import TYPE_CHECKING, Final
 
-from studio.errors import RobotError
 from studio.problems import Severity
 from studio.robot.checks.finding import AddChild, Finding, SetAttributes, SwapAttributes
 from studio.robot.values import JointType
-from studio.robot.xml_tree import parse_tree
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
-    from xml.etree.ElementTree import Element
 
+    from studio.description.elements import Element
     from studio.robot.checks.finding import CheckedRobot
     from studio.robot.values import Joint, Limit, Robot
 
@@ -50,26 +48,28 @@ _OTHER_NAMES: Final = {
 
 def findings(checked: CheckedRobot) -> Iterator[Finding]:
     """Return what is wrong with the types, the limits and the axes of joints."""
-    yield from _of_types(checked.robot, checked.xml)
-    yield from _of_limits(checked.robot, checked.xml)
+    yield from _of_types(checked.robot, checked.element)
+    yield from _of_limits(checked.robot, checked.element)
 
 
-def _of_limits(robot: Robot, xml_of: Callable[[str], str]) -> Iterator[Finding]:
+def _of_limits(robot: Robot, element_of: Callable[[str], Element | None]) -> Iterator[Finding]:
     """Return what is wrong with the limits and axes of the joints.
 
     Args:
         robot: As it is drawn.
-        xml_of: The element of a part as URDF text, by its key; empty when it is not known. Only
-            that tells an effort that is not written from one of 0.
+        element_of: The element of a part by its key; None when it is not known. Only that tells
+            an effort that is not written from one of 0.
     """
     for joint in robot.joints.values():
         if joint.limit is None:
-            if joint.type in _NEEDS_LIMIT and "<limit" not in xml_of(_key(joint)):
+            element = element_of(_key(joint))
+            is_unwritten = element is None or element.find("limit") is None
+            if joint.type in _NEEDS_LIMIT and is_unwritten:
                 yield _missing_limit(joint)
         else:
             yield from _range_findings(joint, joint.limit)
             if not (joint.limit.effort and joint.limit.velocity):
-                yield from _unwritten(joint, xml_of(_key(joint)))
+                yield from _unwritten(joint, element_of(_key(joint)))
         if joint.type in _HAS_AXIS and not any(joint.axis):
             yield _zero_axis(joint)
 
@@ -106,9 +106,8 @@ def _range_findings(joint: Joint, limit: Limit) -> Iterator[Finding]:
         yield Finding(Severity.WARNING, "equal-limits", sentence, _key(joint))
 
 
-def _unwritten(joint: Joint, xml: str) -> Iterator[Finding]:
+def _unwritten(joint: Joint, element: Element | None) -> Iterator[Finding]:
     """Return an effort or velocity that the limit leaves out: urdfdom needs both."""
-    element = joint_element(xml)
     limit = None if element is None else element.find("limit")
     if limit is None:
         return
@@ -120,14 +119,6 @@ def _unwritten(joint: Joint, xml: str) -> Iterator[Finding]:
             )
             mend = SetAttributes(f'Add {name}="{text}"', ("limit",), ((name, text),))
             yield Finding(Severity.ERROR, f"limit-without-{name}", sentence, _key(joint), mend)
-
-
-def joint_element(xml: str) -> Element | None:
-    """A part's text as an element; None when there is none or it cannot be read."""
-    try:
-        return parse_tree(xml) if xml else None
-    except RobotError:
-        return None
 
 
 def _zero_axis(joint: Joint) -> Finding:
@@ -143,15 +134,14 @@ def _key(joint: Joint) -> str:
     return f"joint:{joint.name}"
 
 
-def _of_types(robot: Robot, xml_of: Callable[[str], str]) -> Iterator[Finding]:
-    """Return joints of no or an unknown type; `xml_of` as for the limits."""
+def _of_types(robot: Robot, element_of: Callable[[str], Element | None]) -> Iterator[Finding]:
+    """Return joints of no or an unknown type; `element_of` as for the limits."""
     for joint in robot.joints.values():
         if joint.type is JointType.FIXED:
-            xml = xml_of(f"joint:{joint.name}")
-            if 'type="fixed"' not in xml and (element := joint_element(xml)) is not None:
-                written = element.get("type", "")
-                if written.strip() not in set(JointType):
-                    yield _unknown(joint, written)
+            element = element_of(_key(joint))
+            written = JointType.FIXED if element is None else element.get("type", "")
+            if written.strip() not in set(JointType):
+                yield _unknown(joint, written)
 
 
 def _unknown(joint: Joint, written: str) -> Finding:
