@@ -2,8 +2,9 @@
 
 A worker is `python -m studio.<room>.worker`, never a fork (unsafe beside uvloop, viser and zenoh
 threads) and never multiprocessing's spawn (it imports the command again). Messages are frozen
-dataclasses as msgpack behind a 4-byte length; nothing is unpickled. A worker ends when its pipe
-closes.
+dataclasses as msgpack; nothing is unpickled. A frame is the length of what follows (4 bytes), the
+length of the message's class name (1 byte), that name, and the message. A worker first sends an
+empty frame: it is up. It ends when its pipe closes.
 """
 
 from __future__ import annotations
@@ -26,48 +27,56 @@ if TYPE_CHECKING:
     from collections.abc import AsyncGenerator, Callable, Hashable
 
 _LENGTH = struct.Struct("<I")
+_HEAD = struct.Struct("<IB")
+_UP = _LENGTH.pack(0)
+"""The frame that a new process sends when it can answer."""
+START_TIMEOUT_S = 20.0
+"""Of a process, on a busy machine."""
 _OBJECTS_WITHIN_REQUEST = 500_000
 """New objects of one request that garbage collection waits for: about 50 MB."""
 _OBJECTS_KEPT = 50_000
 """New objects since the last collection that are left to the next request."""
 _PATIENCE = 5
 """So many times its time a process on a busy machine may be kept waiting in addition."""
-_ENVELOPE = msgspec.msgpack.Decoder(tuple[str, msgspec.Raw])
 
 Answer = TypeVar("Answer")
 
 
 class Codec:
-    """Packs the messages of one worker: each behind its class name."""
+    """Packs the messages of one worker as frames."""
 
     def __init__(self, *types: type) -> None:
-        self._decoders: dict[str, msgspec.msgpack.Decoder[Any]] = {
-            one.__name__: msgspec.msgpack.Decoder(one) for one in types
+        self._encoder = msgspec.msgpack.Encoder()
+        self._decoders: dict[bytes, msgspec.msgpack.Decoder[Any]] = {
+            one.__name__.encode(): msgspec.msgpack.Decoder(one) for one in types
         }
 
-    def pack(self, message: object) -> bytes:
-        """Length, then [class name, message]."""
-        name = type(message).__name__
-        body = msgspec.msgpack.encode((name, msgspec.Raw(msgspec.msgpack.encode(message))))
-        return _LENGTH.pack(len(body)) + body
+    def pack(self, message: object) -> bytearray:
+        """A message as a frame."""
+        name = type(message).__name__.encode()
+        frame = bytearray(_HEAD.size + len(name))
+        self._encoder.encode_into(message, frame, len(frame))
+        _HEAD.pack_into(frame, 0, len(frame) - _LENGTH.size, len(name))
+        frame[_HEAD.size : _HEAD.size + len(name)] = name
+        return frame
 
     def unpack(self, body: bytes) -> Any:  # noqa: ANN401 - one of the codec's types
-        """Undo `pack`, without the length.
+        """The message of a frame, which is given without its length.
 
         Raises:
             KeyError: The class is none of this codec's.
             msgspec.ValidationError: The fields do not fit the class.
         """
-        name, raw = _ENVELOPE.decode(body)
-        return self._decoders[name].decode(raw)
+        end = 1 + body[0]
+        return self._decoders[body[1:end]].decode(memoryview(body)[end:])
 
 
 class Worker:
     """The parent's end of one worker process; started at the first `ask` or by `warm`.
 
     Requests queue up; one is under way at a time. A late or dead worker is ended, the asker gets
-    the error, and the next `ask` starts a fresh one: `generation` counts them, so that a caller
-    with state in the worker knows that it is gone.
+    the error, and the next `ask` starts a fresh one: `generation` counts them. Who decides by what
+    the request before came to takes the `turn` and asks by `ask_now`.
     """
 
     def __init__(self, name: str, module: str, codec: Codec, *arguments: str) -> None:
@@ -76,7 +85,10 @@ class Worker:
         self._command = (sys.executable, "-P", "-m", module, *arguments)
         self._codec = codec
         self._process: asyncio.subprocess.Process | None = None
-        self._lock = asyncio.Lock()
+        self._is_up = False
+        """Whether the process has said that it is up."""
+        self.turn = asyncio.Lock()
+        """Held by whoever has the pipe; who waits gets it in the order of asking."""
 
     @property
     def pid(self) -> int | None:
@@ -85,18 +97,19 @@ class Worker:
 
     async def warm(self) -> None:
         """Start the process without asking it anything."""
-        async with self._lock:
+        async with self.turn:
             await self._ensure_process()
 
     async def ask(
         self, request: object, answer: type[Answer], timeout_s: float, *, starts: bool = True
     ) -> Answer:
-        """Send one request and wait for its answer.
+        """Send one request when it is its turn, and wait for its answer.
 
         Args:
             request: One of the codec's types.
             answer: What the answer must be.
-            timeout_s: Time for the answer, without what a busy machine kept the process waiting.
+            timeout_s: Time for the answer, without what a busy machine kept the process waiting,
+                and without the start of the process.
             starts: A process that is not running is started; else that is an error, for a request
                 that means something only to the process that knows those before.
 
@@ -104,23 +117,34 @@ class Worker:
             WorkerTimeoutError: No answer in time; the process was ended.
             WorkerDiedError: The process ended, or answered what is not `answer`.
         """
-        async with self._lock:
-            if not starts and not self._is_running:
-                raise WorkerDiedError(self.name, await self._end())
-            process = await self._ensure_process()
-            try:
-                self._send(process, request)  # first: it works while we get ready to wait
-                async with _time_to_run(process.pid, timeout_s):
-                    body = await self._receive(process)
-                message = self._codec.unpack(body)
-            except TimeoutError as error:
-                await self._end()
-                raise WorkerTimeoutError(self.name, timeout_s) from error
-            except (asyncio.IncompleteReadError, ConnectionError, KeyError, ValueError) as error:
-                raise WorkerDiedError(self.name, await self._end()) from error
-            except asyncio.CancelledError:
-                await self._end()  # its late answer must not be taken for the next one's
-                raise
+        async with self.turn:
+            return await self.ask_now(request, answer, timeout_s, starts=starts)
+
+    async def ask_now(
+        self, request: object, answer: type[Answer], timeout_s: float, *, starts: bool = True
+    ) -> Answer:
+        """As `ask`, for who holds the `turn`."""
+        if not starts and not self._is_running:
+            raise WorkerDiedError(self.name, await self._end())
+        process = await self._ensure_process()
+        limit_s = START_TIMEOUT_S
+        try:
+            self._send(process, request)  # first: it works while we get ready to wait
+            if not self._is_up:
+                async with _time_to_run(process.pid, limit_s):
+                    self._is_up = await self._receive(process) == b""
+            limit_s = timeout_s
+            async with _time_to_run(process.pid, limit_s):
+                body = await self._receive(process)
+            message = self._codec.unpack(body)
+        except TimeoutError as error:
+            await self._end()
+            raise WorkerTimeoutError(self.name, limit_s) from error
+        except (EOFError, ConnectionError, LookupError, ValueError) as error:
+            raise WorkerDiedError(self.name, await self._end()) from error
+        except asyncio.CancelledError:
+            await self._end()  # its late answer must not be taken for the next one's
+            raise
         if not isinstance(message, answer):
             raise WorkerDiedError(self.name, None)
         return message
@@ -131,6 +155,7 @@ class Worker:
 
     async def _ensure_process(self) -> asyncio.subprocess.Process:
         if self._process is None or self._process.returncode is not None:
+            self._is_up = False
             self._process = await self._start()
             self.generation += 1
         return self._process
@@ -355,6 +380,8 @@ def serve(codec: Codec, handle: Callable[[Any], object], memory_limit_bytes: int
     requests, answers = _take_over_pipes()
     limit_memory(memory_limit_bytes)
     gc.set_threshold(_OBJECTS_WITHIN_REQUEST)
+    answers.write(_UP)
+    answers.flush()
     while (body := _read_message(requests)) is not None:
         answers.write(codec.pack(handle(codec.unpack(body))))
         answers.flush()

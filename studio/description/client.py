@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
 from studio.description.expressions.bounds import reading_time_s
 from studio.description.requests import CODEC, REPLIES
@@ -28,10 +28,6 @@ if TYPE_CHECKING:
     from studio.description.session import Answer, Request
 
 
-START_TIMEOUT_S: Final = 20.0
-"""Of a process, on a busy machine."""
-
-
 class DescriptionWorker:
     """One document's worker process, started at the first `open`.
 
@@ -48,10 +44,6 @@ class DescriptionWorker:
         self._reading_s = 0.0
         """What these files add to the time of a run."""
         self.needs_reopen = True
-        self._turn = asyncio.Lock()
-        """Held by whoever has the process: requests are answered in the order they were made."""
-        self._started = 0
-        """The generation of the process that is known to be up."""
         self._questions: set[asyncio.Task[Reply]] = set()
 
     @property
@@ -67,10 +59,9 @@ class DescriptionWorker:
         """Start on a file; everything is in the answer."""
         self._entry = request.entry
         self.needs_reopen = False
-        async with self._turn:
-            failure = await self._start()
+        async with self._worker.turn:
             self._read((request.entry,))
-            return failure or await self._exchange(request, self._run_time_s)
+            return await self._exchange(request, starts=True)
 
     async def edit(self, request: EditRequest) -> Answer:
         """Change texts and run; what changed is in the answer."""
@@ -108,22 +99,12 @@ class DescriptionWorker:
             question.cancel()  # else one that waits its turn would start a process anew
         await self._worker.close()
 
-    async def _start(self) -> Failure | None:
-        """Wait until a new process is up: that is no part of an expansion's time."""
-        await self._worker.warm()
-        if self._started != self._worker.generation:
-            self._started = self._worker.generation
-            answer = await self._exchange(EditRequest(()), START_TIMEOUT_S)
-            if self.needs_reopen and isinstance(answer, Failure):
-                return answer
-        return None
-
     async def _question(self, query: Query) -> Reply:
         try:
-            async with self._turn:
+            async with self._worker.turn:
                 if self.needs_reopen:
                     return NoReply("The robot is not open: open it again.")
-                reply = await self._worker.ask(query, object, self._run_time_s, starts=False)
+                reply = await self._worker.ask_now(query, object, self._run_time_s, starts=False)
         except WorkerTimeoutError as error:
             self.needs_reopen = True
             return NoReply(str(error))
@@ -136,8 +117,9 @@ class DescriptionWorker:
         return reply
 
     async def _ask(self, request: Request) -> Answer:
-        async with self._turn:
-            return await self._exchange(request, self._run_time_s)
+        async with self._worker.turn:
+            # `open` started the process: another one would know nothing of this robot.
+            return await self._exchange(request, starts=False)
 
     @property
     def _run_time_s(self) -> float:
@@ -149,12 +131,11 @@ class DescriptionWorker:
             self._files = files
             self._reading_s = reading_time_s(sum(map(_size_bytes, files)))
 
-    async def _exchange(self, request: Request, timeout_s: float) -> Answer:
+    async def _exchange(self, request: Request, *, starts: bool) -> Answer:
         if self.needs_reopen:
             return self._failure("no-session", "The robot is not open: open it again.")
         try:
-            # The process was started by `open`: another one would know nothing of this robot.
-            answer = await self._worker.ask(request, object, timeout_s, starts=False)
+            answer = await self._worker.ask_now(request, object, self._run_time_s, starts=starts)
         except WorkerTimeoutError as error:
             self.needs_reopen = True
             sentence = f"The expansion took longer than {error.timeout_s:g} s and was ended."
