@@ -60,7 +60,7 @@ class Codec:
         frame[_HEAD.size : _HEAD.size + len(name)] = name
         return frame
 
-    def unpack(self, body: bytes) -> Any:  # noqa: ANN401 - one of the codec's types
+    def unpack(self, body: bytes | bytearray) -> Any:  # noqa: ANN401 - one of the codec's types
         """The message of a frame, which is given without its length.
 
         Raises:
@@ -68,7 +68,7 @@ class Codec:
             msgspec.ValidationError: The fields do not fit the class.
         """
         end = 1 + body[0]
-        return self._decoders[body[1:end]].decode(memoryview(body)[end:])
+        return self._decoders[bytes(body[1:end])].decode(memoryview(body)[end:])
 
 
 class Worker:

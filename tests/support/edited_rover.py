@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from studio.description.editing.sources import Sources
-from studio.description.sites.editable_texts import draft_xml, draft_yaml
+from studio.description.sites.file_sites import xml_sites, yaml_sites
 from studio.description.syntax.source_tree import parse_source
 from studio.description.values import Expansion, Site, Widget, WidgetKind
 from studio.packages.roots import ServedRoots
@@ -13,7 +13,7 @@ from studio.packages.roots import ServedRoots
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from studio.description.sites.editable_texts import Draft
+    from studio.description.sites.file_sites import FileSite
 
 ROVER = """\
 <robot name="rover" xmlns:xacro="http://www.ros.org/wiki/xacro">\r
@@ -27,20 +27,20 @@ LIMITS = "pan: {max: 1.50, name: 'π'}\n"
 
 
 def expansion_of(*files: Path) -> Expansion:
-    sites = tuple(_site(draft) for path in files for draft in _drafts(path))
+    sites = tuple(_site(site) for path in files for site in _drafts(path))
     order = tuple(site.id for site in sites)
     names = tuple(str(path) for path in files)
     return Expansion("rover", (), None, (), order, sites, names, (), (), "studio")
 
 
-def _drafts(path: Path) -> tuple[Draft, ...]:
+def _drafts(path: Path) -> tuple[FileSite, ...]:
     data = path.read_bytes()
     if path.suffix == ".yaml":
-        return draft_yaml(str(path), data).drafts
-    return draft_xml(parse_source(str(path), data)).drafts
+        return yaml_sites(str(path), data).sites
+    return xml_sites(parse_source(str(path), data)).sites
 
 
-def _site(one: Draft) -> Site:
+def _site(one: FileSite) -> Site:
     widget = Widget(WidgetKind.TEXT)
     return Site(one.id, one.kind, one.name, one.place, one.span, one.text, "", None, 0, widget, "")
 

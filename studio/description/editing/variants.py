@@ -24,7 +24,7 @@ from typing import TYPE_CHECKING, Final
 import yaml
 
 from studio.description.editing.edits import apply, edit_at
-from studio.description.sites.editable_texts import FileDrafts, draft_xml, draft_yaml
+from studio.description.sites.file_sites import FileSites, xml_sites, yaml_sites
 from studio.description.syntax.named_list import (
     SIZE_LIMIT_BYTES,
     VERSION,
@@ -41,7 +41,7 @@ from studio.errors import EditError, VariantsFileError
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from studio.description.sites.editable_texts import Draft
+    from studio.description.sites.file_sites import FileSite
 
 _YAML_ENDINGS = (".yaml", ".yml")
 _BOM = b"\xef\xbb\xbf"
@@ -125,9 +125,9 @@ class NamedTexts:
 
     def __init__(self, file: str, path: str, disk: bytes) -> None:
         self.file, self.path, self.disk = file, path, disk
-        self._saved = _drafts(path, disk, None)
+        self._saved = _sites_of(path, disk, None)
         self._now = self._saved
-        self._names: dict[bytes, dict[TextName, Draft]] = {disk: _named(file, self._saved)}
+        self._names: dict[bytes, dict[TextName, FileSite]] = {disk: _named(file, self._saved)}
 
     def has_read(self, now: bytes) -> bool:
         """Whether the texts of these bytes are known, so that asking for them takes no time."""
@@ -151,24 +151,24 @@ class NamedTexts:
         """The texts of an edited file that say something else than the disk does."""
         saved = self._names[self.disk]
         return {
-            name: draft.text
-            for name, draft in self._at(now).items()
-            if name in saved and saved[name].text != draft.text
+            name: site.text
+            for name, site in self._at(now).items()
+            if name in saved and saved[name].text != site.text
         }
 
     def edits_to(self, now: bytes, texts: Mapping[TextName, str]) -> Placed:
         """What makes an edited file say these texts, and everywhere else what the disk says."""
         here, edits, left_out = self._at(now), list[Edit](), list[str]()
-        saved = {name: draft.text for name, draft in self._names[self.disk].items()}
+        saved = {name: site.text for name, site in self._names[self.disk].items()}
         wanted = {**saved, **texts}
         for name, text in wanted.items():
-            draft = here.get(name)
-            if draft is None:
+            site = here.get(name)
+            if site is None:
                 if name in texts:
                     left_out.append(f"{self.file} has no {_words(name)} any more.")
-            elif draft.text != text:
+            elif site.text != text:
                 try:
-                    edits.append(edit_at(self.path, now, draft.span, text))
+                    edits.append(edit_at(self.path, now, site.span, text))
                 except EditError as error:
                     left_out.append(f"{self.file}, {_words(name)}: {error}")
         edits.sort(key=lambda edit: edit.start, reverse=True)
@@ -179,11 +179,11 @@ class NamedTexts:
         placed = self.edits_to(self.disk, texts)
         return apply(self.disk, placed.edits), placed.left_out
 
-    def _at(self, now: bytes) -> dict[TextName, Draft]:
+    def _at(self, now: bytes) -> dict[TextName, FileSite]:
         """The texts of other bytes; those of the disk's and of the last ones are kept."""
         known = self._names.get(now)
         if known is None:
-            known = _named(self.file, _drafts(self.path, now, self._saved))
+            known = _named(self.file, _sites_of(self.path, now, self._saved))
             self._names = {self.disk: self._names[self.disk], now: known}
         return known
 
@@ -193,25 +193,25 @@ def differing_names(one: Mapping[TextName, str], other: Mapping[TextName, str]) 
     return sorted(name for name in {**one, **other} if one.get(name) != other.get(name))
 
 
-def _drafts(path: str, data: bytes, before: FileDrafts | None) -> FileDrafts:
+def _sites_of(path: str, data: bytes, before: FileSites | None) -> FileSites:
     """The texts of a file; none while it cannot be read as what it is."""
     if path.lower().endswith(_YAML_ENDINGS):
-        return draft_yaml(path, data)
+        return yaml_sites(path, data)
     try:
-        return draft_xml(parse_source(path, data), before)
+        return xml_sites(parse_source(path, data), before)
     except SourceError:
         is_markup = data.removeprefix(_BOM).lstrip().startswith(b"<")
-        return FileDrafts(data, ()) if is_markup else draft_yaml(path, data)
+        return FileSites(data, ()) if is_markup else yaml_sites(path, data)
 
 
-def _named(file: str, drafts: FileDrafts) -> dict[TextName, Draft]:
+def _named(file: str, sites: FileSites) -> dict[TextName, FileSite]:
     seen: Counter[tuple[SiteKind, str, str]] = Counter()
-    found: dict[TextName, Draft] = {}
-    for draft in drafts.drafts:
-        around = draft.kind in (SiteKind.LITERAL, SiteKind.PARAM_DEFAULT)
-        key = (draft.kind, draft.name, draft.group if around else "")
+    found: dict[TextName, FileSite] = {}
+    for site in sites.sites:
+        around = site.kind in (SiteKind.LITERAL, SiteKind.PARAM_DEFAULT)
+        key = (site.kind, site.name, site.group if around else "")
         seen[key] += 1
-        found[TextName(file, *key, seen[key])] = draft
+        found[TextName(file, *key, seen[key])] = site
     return found
 
 

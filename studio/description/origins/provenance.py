@@ -165,7 +165,7 @@ class _Collector:
     def _number(self, one: Input) -> int | None:
         if one in self._numbers:
             return self._numbers[one]
-        if isinstance(one, YamlValue) and self._yaml.draft_of(one) is None:
+        if isinstance(one, YamlValue) and self._yaml.site_of(one) is None:
             return None
         if not isinstance(one, TracedBinding | Given | YamlValue):
             return None
@@ -210,16 +210,16 @@ class _Collector:
         )
 
     def _scalar(self, one: YamlValue) -> OriginInput:
-        draft = self._yaml.draft_of(one)
-        assert draft is not None
-        text = _cut(draft.text)
+        site = self._yaml.site_of(one)
+        assert site is not None
+        text = _cut(site.text)
         return OriginInput(
             InputKind.YAML,
-            draft.name,
+            site.name,
             text,
             text,
-            draft.place,
-            self._known(draft.id),
+            site.place,
+            self._known(site.id),
             given=False,
             inputs=(),
         )

@@ -19,7 +19,7 @@ from studio.description.evaluator.output_tree import OutputElement
 from studio.description.evaluator.texts import Texts
 from studio.description.evaluator.yaml_values import Reader, wrap
 from studio.description.expressions.bounds import Limits
-from studio.description.sites.editable_texts import draft_yaml
+from studio.description.sites.file_sites import yaml_sites
 from studio.description.sites.sites import path_as_written
 from studio.description.syntax.source_tree import SourceText
 from studio.description.values import SiteKind
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from studio.description.evaluator.output_tree import CallFrame, Node
     from studio.description.evaluator.source_store import SourceStore
     from studio.description.expressions.bounds import Budget
-    from studio.description.sites.editable_texts import Draft
+    from studio.description.sites.file_sites import FileSite
     from studio.description.syntax.source_tree import SourceElement
     from studio.description.syntax.yaml_spans import KeyPath
     from studio.description.values import ReadPolicy
@@ -362,10 +362,10 @@ class YamlSites:
         self._yaml = yaml
         self._files: dict[str, _YamlFile] = {}
 
-    def draft_of(self, scalar: YamlValue) -> Draft | None:
+    def site_of(self, scalar: YamlValue) -> FileSite | None:
         """Where a value that was read is written; None for a mapping or a list."""
         file = self._file(scalar.document)
-        return file.drafts.get(path_as_written(scalar.path, file.written, file.aliases))
+        return file.sites.get(path_as_written(scalar.path, file.written, file.aliases))
 
     def inputs_by_site(self) -> Iterator[tuple[str, Input]]:
         """Every scalar that was read, itself or with all that stands around it."""
@@ -374,8 +374,8 @@ class YamlSites:
             whole = {path_as_written(one, file.written, file.aliases) for one in reads.whole}
             for scalar in reads.values.values():
                 at = path_as_written(scalar.path, file.written, file.aliases)
-                if at in file.drafts:
-                    yield file.drafts[at].id, scalar
+                if at in file.sites:
+                    yield file.sites[at].id, scalar
                 elif at in whole:
                     yield from ((one.id, scalar) for one in file.below(at))
 
@@ -386,21 +386,21 @@ class YamlSites:
 
 
 class _YamlFile:
-    """The drafts of one file by key path."""
+    """The sites of one file by key path."""
 
     def __init__(self, path: str, data: bytes) -> None:
-        drafted = draft_yaml(path, data)
-        self.drafts = {draft.path: draft for draft in drafted.drafts}
-        self.written = set(self.drafts)
-        self.aliases = dict(drafted.aliases)
+        found = yaml_sites(path, data)
+        self.sites = {site.path: site for site in found.sites}
+        self.written = set(self.sites)
+        self.aliases = dict(found.aliases)
 
-    def below(self, path: KeyPath) -> Iterator[Draft]:
-        return (one for at, one in self.drafts.items() if at[: len(path)] == path)
+    def below(self, path: KeyPath) -> Iterator[FileSite]:
+        return (one for at, one in self.sites.items() if at[: len(path)] == path)
 
 
 @lru_cache(maxsize=64)
 def _yaml_file(path: str, data: bytes) -> _YamlFile:
-    """Drafting takes longer than the run: unchanged bytes are not drafted again."""
+    """Drafting takes longer than the run: unchanged bytes are not found again."""
     return _YamlFile(path, data)
 
 

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from studio.description.evaluator.graph import Binding
     from studio.description.evaluator.output_tree import OutputElement, OutputIndex
     from studio.description.evaluator.runs import RunRecord
-    from studio.description.sites.editable_texts import Draft, FileDrafts
+    from studio.description.sites.file_sites import FileSite, FileSites
     from studio.description.sites.sites import RunReads
     from studio.description.values import Edit
 
@@ -51,7 +51,7 @@ class Patch(NamedTuple):
 
 class _Edited(NamedTuple):
     path: str
-    before: Draft
+    before: FileSite
 
 
 class LiveRun:
@@ -63,7 +63,7 @@ class LiveRun:
         record: RunRecord,
         index: OutputIndex,
         reads: RunReads,
-        files: Mapping[str, FileDrafts],
+        files: Mapping[str, FileSites],
     ) -> None:
         self.record, self.index, self.reads, self.files = record, index, reads, files
         self.evaluation, self.replay = evaluation, Replay(evaluation.texts)
@@ -87,8 +87,8 @@ class LiveRun:
         edited: dict[str, _Edited] = {}
         try:
             for edit in edits:
-                path, draft, moved = self.texts.take(edit, self.record.warnings)
-                edited.setdefault(draft.id, _Edited(path, draft))
+                path, site, moved = self.texts.take(edit, self.record.warnings)
+                edited.setdefault(site.id, _Edited(path, site))
                 work.sites.update(dict.fromkeys(moved, path))
         except Exception as reason:  # noqa: BLE001 - whatever it is, a full run does it
             _tell(reason)
@@ -97,7 +97,7 @@ class LiveRun:
         self.has_edited = True
         try:
             for one in edited.values():
-                work.take(one.path, one.before, self.texts.now(one.path, one.before.id))
+                work.take(one.path, one.before, self.texts.site(one.path, one.before.id))
             return work.finish(self.texts)
         except Exception as reason:  # noqa: BLE001 - as above
             _tell(reason)
@@ -149,8 +149,8 @@ class _Work:
         """Files by the ids of sites that may be other ones."""
         self._texts.budget.restart()
 
-    def take(self, path: str, before: Draft, now: Draft) -> None:
-        """A draft has another text."""
+    def take(self, path: str, before: FileSite, now: FileSite) -> None:
+        """A site has another text."""
         self.sites[now.id] = path
         if now.text == before.text:
             return
@@ -221,7 +221,7 @@ class _Work:
             self._propagation.changed[holder] = None
             self._detaching.detach(record)
 
-    def _set_literal(self, path: str, before: Draft, now: Draft) -> None:
+    def _set_literal(self, path: str, before: FileSite, now: FileSite) -> None:
         if "$" in before.text:
             raise PatchRefused("the attribute was evaluated")
         element = self._run.record.trees[path].elements[now.ordinal]
@@ -233,7 +233,7 @@ class _Work:
                 raise PatchRefused("the attribute came out otherwise")
             self._propagation.write(made, name, now.text)
 
-    def _set_scalar(self, path: str, before: Draft, now: Draft) -> None:
+    def _set_scalar(self, path: str, before: FileSite, now: FileSite) -> None:
         reads = self._run.record.yaml[path]
         container = self._container(path, now)
         key = now.path[-1]
@@ -250,12 +250,12 @@ class _Work:
         if scalar is not None:
             self._propagation.touch(scalar)
 
-    def _container(self, path: str, draft: Draft) -> object:
+    def _container(self, path: str, site: FileSite) -> object:
         """The mapping or list of plain values that a scalar stands in."""
         container = self._run.evaluation.store.held(path)[1]
-        if not draft.path or path not in self._run.record.yaml:
+        if not site.path or path not in self._run.record.yaml:
             raise PatchRefused("the file is one value")
-        for key in draft.path[:-1]:
+        for key in site.path[:-1]:
             container = _item(container, key)
         return container
 
@@ -273,8 +273,8 @@ def _item(container: object, key: str | int) -> object:
         raise PatchRefused("the value was read otherwise") from None
 
 
-def _scalar(draft: Draft) -> object:
+def _scalar(site: FileSite) -> object:
     try:
-        return scalar_of(draft.text, draft.tag, pure_value)
+        return scalar_of(site.text, site.tag, pure_value)
     except (Fault, ArithmeticError, LookupError, TypeError, ValueError):
         raise PatchRefused("it is no value by itself") from None

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
     from studio.description.evaluator.source_store import SourceStore
-    from studio.description.sites.editable_texts import Draft, FileDrafts
+    from studio.description.sites.file_sites import FileSite, FileSites
     from studio.description.syntax.source_tree import SourceElement, SourceTree
     from studio.description.values import Edit, Site
     from studio.problems import Problem
@@ -34,76 +34,87 @@ _PLAIN: Final = re.compile(rb"[\x20\x21\x23\x25\x28-\x3b\x3d-\x7e]*")
 _WORD: Final = re.compile(rb"[\w.+-]*[a-zA-Z0-9][\w.+-]*", re.ASCII)
 
 
-class LiveDrafts:
-    """Follows the edits of one file, each inside one draft and on its line."""
+class LiveSites:
+    """The sites of a file while edits change them, each edit within one site and on its line."""
 
-    def __init__(self, file: FileDrafts) -> None:
-        self._drafts = list(file.drafts)
-        self._starts = [one.span.start for one in file.drafts]
-        self._ends = [one.span.end for one in file.drafts]
-        self.index_of = {draft.id: index for index, draft in enumerate(file.drafts)}
+    def __init__(self, file: FileSites) -> None:
+        self._sites = list(file.sites)
+        self._starts = [one.span.start for one in file.sites]
+        self._sizes = [one.span.end - one.span.start for one in file.sites]
+        """Starts and sizes are those of the run, without what edits made them grow."""
+        self._in_order = sorted(range(len(self._sites)), key=self._starts.__getitem__)
+        self._growth: dict[int, int] = {}
+        """How much each edited site has grown, by its index."""
+        self.index_of = {site.id: index for index, site in enumerate(file.sites)}
         self.has_aliases = bool(file.aliases)
 
     def find(self, edit: Edit) -> int | None:
-        """The draft that an edit lies in."""
-        for index, (start, end) in enumerate(zip(self._starts, self._ends, strict=True)):
-            if start <= edit.start and edit.end <= end:
-                return index
-        return None
+        """The site that an edit lies in."""
+        at = bisect_right(self._in_order, edit.start, key=self._start)
+        if not at:
+            return None
+        index = self._in_order[at - 1]
+        return index if edit.end <= self._end(index) else None
 
-    def draft(self, index: int) -> Draft:
-        """A draft as it stands now."""
-        draft = self._drafts[index]
-        start, end = self._starts[index], self._ends[index]
-        if (draft.span.start, draft.span.end) != (start, end):
-            draft = self._drafts[index] = replace(draft, span=Span(start, end, draft.span.syntax))
-        return draft
+    def site(self, index: int) -> FileSite:
+        """A site as it stands now."""
+        site, start, end = self._sites[index], self._start(index), self._end(index)
+        if (site.span.start, site.span.end) != (start, end):
+            site = self._sites[index] = replace(site, span=Span(start, end, site.span.syntax))
+        return site
 
-    def written(self, site: str) -> Draft:
-        """A draft as it is now by its id, but for its span."""
-        return self._drafts[self.index_of[site]]
+    def by_id(self, site_id: str) -> FileSite:
+        """A site as it stands now, by its id."""
+        return self.site(self.index_of[site_id])
 
-    def by_id(self, site: str) -> Draft:
-        """A draft as it stands now, by its id."""
-        return self.draft(self.index_of[site])
+    def without_span(self, site_id: str) -> FileSite:
+        """A site as it is now by its id; its span may be an earlier one."""
+        return self._sites[self.index_of[site_id]]
 
-    def take(self, index: int, edit: Edit, text: str) -> None:
-        """Write another text at a draft; those behind it move."""
+    def write(self, index: int, edit: Edit, text: str) -> None:
+        """Have another text stand at a site; those behind it move."""
         growth = len(edit.new) - (edit.end - edit.start)
-        start, end = self._starts[index], self._ends[index]
-        self._drafts[index] = self._drafts[index].rewritten(text)
-        if growth:
-            self._starts = [at + growth if at >= end else at for at in self._starts]
-            self._ends = [at + growth if at > end else at for at in self._ends]
-            self._starts[index], self._ends[index] = start, end + growth
+        self._growth[index] = self._growth.get(index, 0) + growth
+        self._sites[index] = self._sites[index].rewritten(text)
 
-    def move_yaml(self, index: int, growth: int) -> list[str]:
-        """Shift the columns of what stands behind a draft on its line; the ids of what moved."""
-        at, line = self._starts[index], self._drafts[index].place.line
-        behind = (n for n, one in enumerate(self._drafts) if one.place.line == line)
-        moved = [n for n in behind if self._starts[n] > at]
+    def move_behind(self, index: int, growth: int) -> list[str]:
+        """Shift the columns of what stands behind a site on its line; the ids of what moved."""
+        at, line = self._starts[index], self._sites[index].place.line
+        moved = [
+            number
+            for number, one in enumerate(self._sites)
+            if one.place.line == line and self._starts[number] > at
+        ]
         for number in moved:
-            place = self._drafts[number].place
-            self._place(number, Place(place.file, line, place.column + growth))
-        return [self._drafts[number].id for number in moved]
+            place = self._sites[number].place
+            self._put(number, Place(place.file, line, place.column + growth))
+        return [self._sites[number].id for number in moved]
 
     def move_elements(self, places: Mapping[int, Place]) -> list[str]:
-        """Put drafts where their elements are now, by ordinal; the ids of what moved."""
-        moved = [number for number, one in enumerate(self._drafts) if one.ordinal in places]
+        """Put sites where their elements are now, by ordinal; the ids of what moved."""
+        moved = [number for number, one in enumerate(self._sites) if one.ordinal in places]
         for number in moved:
-            self._place(number, places[self._drafts[number].ordinal])
-        return [self._drafts[number].id for number in moved]
+            self._put(number, places[self._sites[number].ordinal])
+        return [self._sites[number].id for number in moved]
 
-    def _place(self, index: int, place: Place) -> None:
-        self._drafts[index] = replace(self._drafts[index], place=place)
+    def _put(self, index: int, place: Place) -> None:
+        self._sites[index] = replace(self._sites[index], place=place)
+
+    def _start(self, index: int) -> int:
+        start = self._starts[index]
+        before = (size for other, size in self._growth.items() if self._starts[other] < start)
+        return start + sum(before)
+
+    def _end(self, index: int) -> int:
+        return self._start(index) + self._sizes[index] + self._growth.get(index, 0)
 
 
 class TextEdits:
     """The files of one good run and the edits since."""
 
-    def __init__(self, store: SourceStore, files: Mapping[str, FileDrafts]) -> None:
+    def __init__(self, store: SourceStore, files: Mapping[str, FileSites]) -> None:
         self._store, self._files = store, files
-        self._live: dict[str, LiveDrafts] = {}
+        self._live: dict[str, LiveSites] = {}
         self._before: dict[str, bytes] = {}
         """Files edited since the last good state, as they were then."""
 
@@ -122,29 +133,29 @@ class TextEdits:
             if self._store.held(path)[1] is not None:
                 self._store.restore(path, self._store.read(path)[1])
 
-    def has(self, path: str, site: str) -> bool:
+    def has(self, path: str, site_id: str) -> bool:
         """Whether there is such a site."""
-        return path in self._files and site in self.live(path).index_of
+        return path in self._files and site_id in self.live(path).index_of
 
     @property
     def edited(self) -> frozenset[str]:
         """Files that were edited."""
         return frozenset(self._live)
 
-    def live(self, path: str) -> LiveDrafts:
-        """The drafts of a file as they are now."""
+    def live(self, path: str) -> LiveSites:
+        """The sites of a file as they are now."""
         live = self._live.get(path)
         if live is None:
-            live = self._live[path] = LiveDrafts(self._files[path])
+            live = self._live[path] = LiveSites(self._files[path])
         return live
 
-    def now(self, path: str, site: str) -> Draft:
-        """A draft as it is now."""
-        return self.live(path).by_id(site)
+    def site(self, path: str, site_id: str) -> FileSite:
+        """A site as it is now."""
+        return self.live(path).by_id(site_id)
 
-    def written(self, path: str, site: str) -> Draft:
-        """A draft as it is now, but for its span."""
-        return self.live(path).written(site)
+    def without_span(self, path: str, site_id: str) -> FileSite:
+        """A site as it is now; its span may be an earlier one."""
+        return self.live(path).without_span(site_id)
 
     def moved(self, sites: Mapping[str, Site]) -> Iterator[tuple[str, Site]]:
         """Sites that moved with edits before them, where they are now."""
@@ -154,11 +165,11 @@ class TextEdits:
                 if span != site.span:
                     yield name, replace(site, span=span)
 
-    def take(self, edit: Edit, warnings: Sequence[Problem]) -> tuple[str, Draft, list[str]]:
+    def take(self, edit: Edit, warnings: Sequence[Problem]) -> tuple[str, FileSite, list[str]]:
         """Carry out one edit in the bytes and in what is parsed of them.
 
         Returns:
-            The file, the draft as it was before, and the ids of the drafts that moved on its line.
+            The file, the site as it was before, and the ids of the sites that moved on its line.
 
         Raises:
             PatchRefused: It is no such edit; only a full run may follow now.
@@ -170,59 +181,56 @@ class TextEdits:
         index = live.find(edit)
         if index is None:
             raise PatchRefused("it edits more than a value")
-        draft = live.draft(index)
+        site = live.site(index)
         tree, values = self._store.held(path)
         if (tree is None) == (values is None):
             raise PatchRefused("the file is parsed anew")
         self._before.setdefault(path, self._store.read(path)[1])
         if tree is not None:
-            return path, draft, _XmlEdit(tree, live, index, edit).carry_out(self._store, warnings)
-        return path, draft, self._edit_yaml(path, live, index, edit)
+            return path, site, _XmlEdit(tree, live, index, edit).carry_out(self._store, warnings)
+        return path, site, self._edit_yaml(path, live, index, edit)
 
-    def _edit_yaml(self, path: str, live: LiveDrafts, index: int, edit: Edit) -> list[str]:
+    def _edit_yaml(self, path: str, live: LiveSites, index: int, edit: Edit) -> list[str]:
         if live.has_aliases:
             raise PatchRefused("a value may stand in several places")
-        span, data = live.draft(index).span, self._store.read(path)[1]
+        span, data = live.site(index).span, self._store.read(path)[1]
         old, new = data[span.start : span.end], _spliced(data, span.start, span.end, edit)
         if not _WORD.fullmatch(old) or not _WORD.fullmatch(new):
             raise PatchRefused("it is no single word")
         self._store.keep(path, data[: edit.start] + edit.new + data[edit.end :])
-        live.take(index, edit, new.decode())
-        return live.move_yaml(index, len(new) - len(old)) if len(new) != len(old) else []
+        live.write(index, edit, new.decode())
+        return live.move_behind(index, len(new) - len(old)) if len(new) != len(old) else []
 
 
 class _XmlEdit:
     """One edit of one attribute."""
 
-    def __init__(self, tree: SourceTree, live: LiveDrafts, index: int, edit: Edit) -> None:
+    def __init__(self, tree: SourceTree, live: LiveSites, index: int, edit: Edit) -> None:
         self._tree, self._live, self._index, self._edit = tree, live, index, edit
-        self._draft = live.draft(index)
-        span = self._draft.span
+        self._site = live.site(index)
+        span = self._site.span
         self._old = tree.data[span.start : span.end]
         self._new = _spliced(tree.data, span.start, span.end, edit)
 
     def carry_out(self, store: SourceStore, warnings: Sequence[Problem]) -> list[str]:
-        """Do it; the ids of the drafts that moved on its line."""
+        """Do it; the ids of the sites that moved on its line."""
         if not _ONE_LINE.fullmatch(self._old) or not _PLAIN.fullmatch(self._new):
             raise PatchRefused("it is not plain text on one line")
-        tree, edit, draft = self._tree, self._edit, self._draft
-        element = tree.elements[draft.ordinal]
+        tree, edit, site = self._tree, self._edit, self._site
+        element = tree.elements[site.ordinal]
         line = element.line + len(_LINE_END.findall(tree.data[element.offset : edit.start]))
         data = tree.data[: edit.start] + edit.new + tree.data[edit.end :]
         written = self._new.decode("ascii")
-        if draft.kind is SiteKind.PARAM_DEFAULT:
+        if site.kind is SiteKind.PARAM_DEFAULT:
             written = self._parameters(element, data)
-        element.attributes = {**element.attributes, draft.attribute: written}
+        element.attributes = {**element.attributes, site.attribute: written}
         element.plan = None
         store.keep(tree.path, data)
-        self._live.take(self._index, edit, self._text())
+        self._live.write(self._index, edit, self._new.decode("ascii"))
         places = self._shift(line)
         if places:
             _check_warnings(warnings, tree.path, line)
         return self._live.move_elements(places) if places else []
-
-    def _text(self) -> str:
-        return self._new.decode("ascii")
 
     def _parameters(self, element: SourceElement, data: bytes) -> str:
         """What `params` says then; nothing but the one default may be read otherwise.
@@ -230,7 +238,7 @@ class _XmlEdit:
         Raises:
             PatchRefused: Something may.
         """
-        name, old, new = self._draft.name, self._old.decode("ascii"), self._new.decode("ascii")
+        name, old, new = self._site.name, self._old.decode("ascii"), self._new.decode("ascii")
         if not _WORD.fullmatch(self._new):
             raise PatchRefused("the default is no single word")
         try:
@@ -262,7 +270,7 @@ class _XmlEdit:
             if element.line == line:
                 element.column += growth
                 moved[element.ordinal] = element.place
-        around: SourceElement | None = tree.elements[self._draft.ordinal]
+        around: SourceElement | None = tree.elements[self._site.ordinal]
         while around is not None:
             around.end_tag += growth
             around = around.parent

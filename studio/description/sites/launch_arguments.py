@@ -13,7 +13,7 @@ from itertools import islice
 from pathlib import PurePath
 from typing import TYPE_CHECKING, Final, Protocol
 
-from studio.description.sites.editable_texts import draft_xml
+from studio.description.sites.file_sites import xml_sites
 from studio.description.sites.quantities import parse_number
 from studio.description.sites.widgets import infer_widget
 from studio.description.syntax.annotations import NOTHING, Annotation
@@ -294,11 +294,11 @@ class _Scan:
             tree = parse_source(path, self._world.read(path))
         except (PackageError, SourceError):
             return None
-        drafts = draft_xml(tree).drafts
-        for draft in drafts:
-            if draft.kind is SiteKind.ARG:
-                told = _Declared(draft.place, draft.text, draft.annotation)
-                self.declared.setdefault(draft.name, told)
+        sites = xml_sites(tree).sites
+        for site in sites:
+            if site.kind is SiteKind.ARG:
+                told = _Declared(site.place, site.text, site.annotation)
+                self.declared.setdefault(site.name, told)
         for text in islice(_texts_of(tree), max(0, _TEXTS - len(self._texts))):
             self._note(text)
         return tree

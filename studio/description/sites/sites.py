@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Final, NamedTuple, Protocol, TypeAlias
 
 from studio.description.evaluator.graph import YamlValue
-from studio.description.sites.editable_texts import Draft, FileDrafts, draft_xml, draft_yaml
+from studio.description.sites.file_sites import FileSite, FileSites, xml_sites, yaml_sites
 from studio.description.sites.quantities import parse_number
 from studio.description.sites.widgets import infer_widget, keep_range
 from studio.description.values import Site, SiteKind
@@ -117,7 +117,7 @@ NOT_READ = Seen()
 
 
 class RunReads:
-    """One run record, asked by drafts."""
+    """One run record, asked by sites."""
 
     def __init__(self, record: RunRecord) -> None:
         self._record = record
@@ -132,13 +132,13 @@ class RunReads:
         """Look at an input anew."""
         self._reach.forget(one)
 
-    def bindings(self, path: str, draft: Draft) -> list[Binding]:
-        """What the run bound the text of a draft to."""
-        name = draft.name if draft.kind is SiteKind.PARAM_DEFAULT else ""
-        return self._bindings.get((path, draft.ordinal, draft.attribute, name), [])
+    def bindings(self, path: str, site: FileSite) -> list[Binding]:
+        """What the run bound the text of a site to."""
+        name = site.name if site.kind is SiteKind.PARAM_DEFAULT else ""
+        return self._bindings.get((path, site.ordinal, site.attribute, name), [])
 
     def site_of(
-        self, one: Binding | YamlValue, files: Mapping[str, FileDrafts]
+        self, one: Binding | YamlValue, files: Mapping[str, FileSites]
     ) -> tuple[str, str | None]:
         """The file and site id of what was read; None when it is no site."""
         if isinstance(one, YamlValue):
@@ -147,30 +147,30 @@ class RunReads:
         path, ordinal, attribute, name = _key(one)
         return path, f"{path}#{ordinal}@{attribute}" + (f":{name}" if name else "")
 
-    def of_file(self, path: str, file: FileDrafts) -> Iterator[tuple[Draft, Seen]]:
-        """Each draft of a file with what the run saw of it."""
-        return ((draft, self.seen(path, file, draft)) for draft in file.drafts)
+    def of_file(self, path: str, file: FileSites) -> Iterator[tuple[FileSite, Seen]]:
+        """Each site of a file with what the run saw of it."""
+        return ((site, self.seen(path, file, site)) for site in file.sites)
 
-    def seen(self, path: str, file: FileDrafts, draft: Draft) -> Seen:
-        """What the run saw of a draft of a file."""
-        if draft.kind is SiteKind.YAML:
-            return self._of_yaml(path, file, draft)
-        if draft.kind is SiteKind.LITERAL:
-            element = self._record.trees[path].elements[draft.ordinal]
-            return _of_literal(draft.text, self._record.part_keys.get(element, ()))
-        bindings = self.bindings(path, draft)
+    def seen(self, path: str, file: FileSites, site: FileSite) -> Seen:
+        """What the run saw of a site of a file."""
+        if site.kind is SiteKind.YAML:
+            return self._of_yaml(path, file, site)
+        if site.kind is SiteKind.LITERAL:
+            element = self._record.trees[path].elements[site.ordinal]
+            return _of_literal(site.text, self._record.part_keys.get(element, ()))
+        bindings = self.bindings(path, site)
         if not bindings:
             return NOT_READ
         values = dict.fromkeys(value for one in bindings for value in one.values)
         return Seen(tuple(values), *self._shared(bindings))
 
-    def _of_yaml(self, path: str, file: FileDrafts, draft: Draft) -> Seen:
+    def _of_yaml(self, path: str, file: FileSites, site: FileSite) -> Seen:
         inputs = self._inputs_of(path, file)
-        reads, consumers, compared = self._shared(inputs.of(draft.path))
-        reads += inputs.reads_of_whole(draft.path)
-        return Seen((draft.text,) if reads else (), reads, consumers, compared)
+        reads, consumers, compared = self._shared(inputs.of(site.path))
+        reads += inputs.reads_of_whole(site.path)
+        return Seen((site.text,) if reads else (), reads, consumers, compared)
 
-    def _inputs_of(self, path: str, file: FileDrafts) -> _YamlInputs:
+    def _inputs_of(self, path: str, file: FileSites) -> _YamlInputs:
         inputs = self._yaml.get(path)
         if inputs is None:
             inputs = self._yaml[path] = _YamlInputs(file, self._record.yaml[path])
@@ -215,8 +215,8 @@ def _of_literal(text: str, keys: tuple[str, ...]) -> Seen:
 class _YamlInputs:
     """What was read of one YAML file, by the paths where it is written."""
 
-    def __init__(self, file: FileDrafts, document: YamlReads) -> None:
-        self._ids = {draft.path: draft.id for draft in file.drafts}
+    def __init__(self, file: FileSites, document: YamlReads) -> None:
+        self._ids = {site.path: site.id for site in file.sites}
         written, aliases = set(self._ids), dict(file.aliases)
         self._written = {one: path_as_written(one, written, aliases) for one in document.values}
         self._inputs: dict[KeyPath, list[Input]] = {}
@@ -271,11 +271,11 @@ def _followed(
 class EditedTexts(Protocol):
     """The texts behind sites, as edits have left them."""
 
-    def written(self, path: str, site: str) -> Draft:
-        """A site as it is now, but for its span."""
+    def without_span(self, path: str, site_id: str) -> FileSite:
+        """A site as it is now; its span may be an earlier one."""
         ...
 
-    def now(self, path: str, site: str) -> Draft:
+    def site(self, path: str, site_id: str) -> FileSite:
         """A site as it is now."""
         ...
 
@@ -284,7 +284,7 @@ class EditedTexts(Protocol):
 class _Built:
     """A site and what it was built from, to tell whether it must be built again."""
 
-    draft: Draft
+    in_file: FileSite
     seen: Seen
     site: Site
     first: Widget
@@ -300,14 +300,14 @@ class SiteBuilder:
 
     def __init__(self, known: Iterable[str] = ()) -> None:
         self._known = frozenset(known)
-        self._files: dict[str, FileDrafts] = {}
+        self._files: dict[str, FileSites] = {}
         self._built: dict[str, _Built] = {}
         self.reads: RunReads
         """What the last run says of the texts."""
 
     @property
-    def files(self) -> Mapping[str, FileDrafts]:
-        """The drafts of each file as of the last run."""
+    def files(self) -> Mapping[str, FileSites]:
+        """The sites of each file as of the last run."""
         return self._files
 
     def build(self, record: RunRecord) -> list[Site]:
@@ -317,11 +317,11 @@ class SiteBuilder:
         scalar of the YAML files that were read.
         """
         self.reads = reads = RunReads(record)
-        self._files = dict(self._drafted(record))
+        self._files = dict(self._read(record))
         self._built = {
-            draft.id: self._build(draft, seen)
+            site.id: self._build(site, seen)
             for path, file in self._files.items()
-            for draft, seen in reads.of_file(path, file)
+            for site, seen in reads.of_file(path, file)
         }
         return [one.site for one in self._built.values()]
 
@@ -332,16 +332,17 @@ class SiteBuilder:
         """
         changed: list[Site] = []
         for name, path in sites.items():
-            before, draft = self._built[name], texts.written(path, name)
-            seen = self.reads.seen(path, self._files[path], draft)
-            is_same_text = (draft.text, draft.place) == (before.draft.text, before.draft.place)
+            before, in_file = self._built[name], texts.without_span(path, name)
+            seen = self.reads.seen(path, self._files[path], in_file)
+            known = before.in_file
+            is_same_text = (in_file.text, in_file.place) == (known.text, known.place)
             if not is_same_text or seen != before.seen:
-                self._built[name] = built = self._build(texts.now(path, name), seen)
+                self._built[name] = built = self._build(texts.site(path, name), seen)
                 changed.append(built.site)
         return tuple(changed)
 
-    def _drafted(self, record: RunRecord) -> Iterator[tuple[str, FileDrafts]]:
-        """The drafts of each file that was read, those of unchanged bytes as they were."""
+    def _read(self, record: RunRecord) -> Iterator[tuple[str, FileSites]]:
+        """The sites of each file that was read, those of unchanged bytes as they were."""
         for path in dict.fromkeys(record.files):
             tree, document = record.trees.get(path), record.yaml.get(path)
             data = tree.data if tree else document.data if document else None
@@ -349,55 +350,55 @@ class SiteBuilder:
             if known is not None and known.data == data:
                 yield path, known
             elif tree is not None:
-                yield path, draft_xml(tree, known, self._known)
+                yield path, xml_sites(tree, known, self._known)
             elif document is not None:
-                yield path, draft_yaml(path, document.data)
+                yield path, yaml_sites(path, document.data)
 
-    def _build(self, draft: Draft, seen: Seen) -> _Built:
-        before = self._built.get(draft.id)
-        if before is None or before.draft.name != draft.name:
-            site = _site(draft, seen, ())
-            return _Built(draft, seen, site, site.widget)
-        if before.seen == seen and (before.draft is draft or before.draft == draft):
+    def _build(self, in_file: FileSite, seen: Seen) -> _Built:
+        before = self._built.get(in_file.id)
+        if before is None or before.in_file.name != in_file.name:
+            site = _site(in_file, seen, ())
+            return _Built(in_file, seen, site, site.widget)
+        if before.seen == seen and (before.in_file is in_file or before.in_file == in_file):
             return before
-        if _is_as_before(before, draft, seen):
-            site = replace(before.site, place=draft.place, span=draft.span, reads=seen.reads)
+        if _is_as_before(before, in_file, seen):
+            site = replace(before.site, place=in_file.place, span=in_file.span, reads=seen.reads)
         else:
-            site = _site(draft, seen, (before.first, before.site.widget))
-        return _Built(draft, seen, site, before.first)
+            site = _site(in_file, seen, (before.first, before.site.widget))
+        return _Built(in_file, seen, site, before.first)
 
 
-def _is_as_before(before: _Built, draft: Draft, seen: Seen) -> bool:
+def _is_as_before(before: _Built, in_file: FileSite, seen: Seen) -> bool:
     """Whether a site has only moved, or got or lost readers of the same kind."""
-    known = before.draft
+    known = before.in_file
     return (
         (known.text, known.group, known.annotation, known.element_path)
-        == (draft.text, draft.group, draft.annotation, draft.element_path)
+        == (in_file.text, in_file.group, in_file.annotation, in_file.element_path)
     ) and before.seen._replace(reads=0) == seen._replace(reads=0)
 
 
-def _site(draft: Draft, seen: Seen, before: tuple[Widget, ...]) -> Site:
+def _site(in_file: FileSite, seen: Seen, before: tuple[Widget, ...]) -> Site:
     value = seen.values[0] if seen.values else ""
     return Site(
-        id=draft.id,
-        kind=draft.kind,
-        name=draft.name,
-        place=draft.place,
-        span=draft.span,
-        text=draft.text,
+        id=in_file.id,
+        kind=in_file.kind,
+        name=in_file.name,
+        place=in_file.place,
+        span=in_file.span,
+        text=in_file.text,
         value=value,
         number=parse_number(value),
         reads=seen.reads,
-        widget=_widget(draft, seen, value, before),
-        group=seen.owner.partition(":")[2] or draft.group,
+        widget=_widget(in_file, seen, value, before),
+        group=seen.owner.partition(":")[2] or in_file.group,
         owner=seen.owner,
         values=seen.values if len(seen.values) > 1 else (),
     )
 
 
-def _widget(draft: Draft, seen: Seen, value: str, before: tuple[Widget, ...]) -> Widget:
-    is_literal = draft.kind is SiteKind.LITERAL
-    consumers = ((draft.element_path, draft.attribute),) if is_literal else seen.consumers
-    name = "" if is_literal else draft.name
-    widget = infer_widget(name, draft.text, value, draft.annotation, consumers, seen.compared)
-    return keep_range(widget, before, value or draft.text)
+def _widget(in_file: FileSite, seen: Seen, value: str, before: tuple[Widget, ...]) -> Widget:
+    is_literal = in_file.kind is SiteKind.LITERAL
+    consumers = ((in_file.element_path, in_file.attribute),) if is_literal else seen.consumers
+    name = "" if is_literal else in_file.name
+    widget = infer_widget(name, in_file.text, value, in_file.annotation, consumers, seen.compared)
+    return keep_range(widget, before, value or in_file.text)

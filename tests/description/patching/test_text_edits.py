@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 from studio.description.evaluator.source_store import SourceStore
 from studio.description.patching.text_edits import TextEdits
-from studio.description.sites.editable_texts import draft_xml
+from studio.description.sites.file_sites import xml_sites
 from studio.description.syntax.source_tree import SourceTree, parse_source
 from studio.description.values import Edit
 from studio.packages.roots import ServedRoots
@@ -30,7 +30,7 @@ def test_every_element_stands_where_the_edited_text_has_it(tmp_path: Path):
     file.write_bytes(TEXT)
     store = SourceStore(ServedRoots([tmp_path]), {})
     tree = store.tree(str(file))
-    edits = TextEdits(store, {tree.path: draft_xml(tree)})
+    edits = TextEdits(store, {tree.path: xml_sites(tree)})
     for old, new in ((b'value="1"', b"10.25"), (b'value="3"', b"33"), (b'value="10.25"', b"4")):
         start = tree.data.index(old) + len(b'value="')
         edit = Edit(tree.path, start, start + len(old) - len(b'value=""'), new)

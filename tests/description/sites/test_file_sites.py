@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 
-from studio.description.sites.editable_texts import Draft, draft_xml, draft_yaml
+from studio.description.sites.file_sites import FileSite, xml_sites, yaml_sites
 from studio.description.syntax.annotations import Annotation
 from studio.description.syntax.source_tree import parse_source
 from studio.description.values import SiteKind
@@ -39,13 +39,13 @@ ROBOT = """\
 """
 
 
-def drafts(text: str = ROBOT) -> dict[str, Draft]:
-    found = draft_xml(parse_source("/r.xacro", text.encode())).drafts
+def sites(text: str = ROBOT) -> dict[str, FileSite]:
+    found = xml_sites(parse_source("/r.xacro", text.encode())).sites
     return {f"{one.group}: {one.name}": one for one in found}
 
 
 def test_every_kind_of_text_is_found_with_its_group_and_no_foreign_number():
-    assert {key: (one.kind, one.text) for key, one in drafts().items()} == {
+    assert {key: (one.kind, one.text) for key, one in sites().items()} == {
         ": arm": (SiteKind.ARG, "true"),
         "Wheels: radius": (SiteKind.PROPERTY, "0.1"),
         "Wheels: width": (SiteKind.PROPERTY, "${radius / 2}"),
@@ -63,7 +63,7 @@ def test_every_kind_of_text_is_found_with_its_group_and_no_foreign_number():
 
 
 def test_comments_on_the_line_and_above_are_read():
-    found = drafts()
+    found = sites()
     assert found[": arm"].annotation == Annotation(help="with the arm")
     assert found["Wheels: radius"].annotation == Annotation(0.05, 0.3, unit="m")
     assert found["Wheels: width"].annotation == Annotation(help="across")
@@ -71,33 +71,33 @@ def test_comments_on_the_line_and_above_are_read():
 
 
 def test_the_span_holds_the_text_and_the_place_the_element():
-    one = drafts()["Wheels: radius"]
+    one = sites()["Wheels: radius"]
     assert ROBOT.encode()[one.span.start : one.span.end] == b"0.1"
     assert (one.place.file, one.place.line, one.place.column) == ("/r.xacro", 6, 3)
 
 
 def test_a_joint_that_slides_says_so_in_its_path():
-    assert drafts()["lift: joint/limit @lower"].element_path == "joint:prismatic/limit"
+    assert sites()["lift: joint/limit @lower"].element_path == "joint:prismatic/limit"
 
 
 def test_ids_outlast_an_edit_of_any_text_and_are_all_different():
     longer = ROBOT.replace("0.1", "0.12345").replace("0 -1 0", "0 -1.5 0").replace("left", "l")
-    ids = [one.id for one in drafts().values()]
-    assert ids == [one.id for one in drafts(longer).values()]
+    ids = [one.id for one in sites().values()]
+    assert ids == [one.id for one in sites(longer).values()]
     assert len(set(ids)) == len(ids)
 
 
 def test_a_number_that_became_an_expression_stays_editable():
-    before = draft_xml(parse_source("/r.xacro", ROBOT.encode()))
+    before = xml_sites(parse_source("/r.xacro", ROBOT.encode()))
     edited = ROBOT.replace('"0 -1 0"', '"0 ${-radius} 0"').encode()
-    after = draft_xml(parse_source("/r.xacro", edited), before)
-    assert [one.id for one in after.drafts] == [one.id for one in before.drafts]
-    assert "0 ${-radius} 0" in {one.text for one in after.drafts}
+    after = xml_sites(parse_source("/r.xacro", edited), before)
+    assert [one.id for one in after.sites] == [one.id for one in before.sites]
+    assert "0 ${-radius} 0" in {one.text for one in after.sites}
 
 
 def test_a_default_of_a_property_is_a_text_of_its_own():
     text = ROBOT.replace('name="mass" value="2"', 'name="mass" default="2"')
-    one = drafts(text)["Wheels: mass"]
+    one = sites(text)["Wheels: mass"]
     assert (one.attribute, one.text) == ("default", "2")
 
 
@@ -115,7 +115,7 @@ joints:
 
 
 def test_yaml_values_are_named_by_their_keys_and_grouped_by_their_parent():
-    found = draft_yaml("/l.yaml", YAML.encode()).drafts
+    found = yaml_sites("/l.yaml", YAML.encode()).sites
     assert {one.name: (one.group, one.text, one.annotation) for one in found} == {
         "top": ("", "1", Annotation(0, 5, unit="m")),
         "joints.lift.max": (
@@ -131,7 +131,7 @@ def test_yaml_values_are_named_by_their_keys_and_grouped_by_their_parent():
 
 
 def test_a_heading_above_values_at_the_top_of_a_yaml_file_groups_them():
-    found = draft_yaml("/l.yaml", b"# Wheels\na: 1\nb: 2\n").drafts
+    found = yaml_sites("/l.yaml", b"# Wheels\na: 1\nb: 2\n").sites
     assert [one.group for one in found] == ["Wheels", "Wheels"]
 
 
@@ -139,10 +139,10 @@ def test_large_hostile_files_are_drafted_soon():
     """One line of many values, many comments above one value, many brothers in one link."""
     started = time.thread_time()
     flow = "[" + ", ".join(f"é{n}" for n in range(30_000)) + "]"
-    assert len(draft_yaml("/f.yaml", flow.encode()).drafts) == 30_000
+    assert len(yaml_sites("/f.yaml", flow.encode()).sites) == 30_000
     commented = "".join(f"# {n}\n" for n in range(20_000)) + "a: 1 # x\n" * 10_000
-    assert len(draft_yaml("/f.yaml", commented.encode()).drafts) == 1
+    assert len(yaml_sites("/f.yaml", commented.encode()).sites) == 1
     visuals = '<visual><origin xyz="0 0 0"/></visual>' * 10_000
     robot = f'<robot name="r"><!-- {"<a" * 1_000_000} --><link name="l">{visuals}</link></robot>'
-    assert len(draft_xml(parse_source("/r.xacro", robot.encode())).drafts) == 10_000
+    assert len(xml_sites(parse_source("/r.xacro", robot.encode())).sites) == 10_000
     assert time.thread_time() - started < 20  # about 1 s; what grows with the square takes minutes

@@ -1,4 +1,4 @@
-"""The editable texts of one file, as far as its bytes alone tell: what a run adds is in `sites`.
+"""The sites of one file, as far as its bytes alone tell: what a run adds is in `sites`.
 
 Ids count elements, not bytes, so that they outlast every edit of a text.
 """
@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from studio.description.syntax.source_tree import SourceTree
     from studio.description.syntax.yaml_spans import KeyPath
 
+
 _TEXTS = {
     "xacro:property": (SiteKind.PROPERTY, ("value", "default")),
     "xacro:arg": (SiteKind.ARG, ("default",)),
@@ -54,7 +55,7 @@ _LINE_END = re.compile(rb"\n|\r(?!\n)")
 
 
 @dataclass(frozen=True, slots=True)
-class Draft:
+class FileSite:
     """One editable text of a file; the fields are those of `Site`, where they are the same."""
 
     id: str
@@ -77,8 +78,8 @@ class Draft:
     tag: str = ""
     """Of a YAML scalar, as written: `!degrees`."""
 
-    def rewritten(self, text: str) -> Draft:
-        """The draft when another text stands there, on the same line."""
+    def rewritten(self, text: str) -> FileSite:
+        """The site when another text stands there, on the same line."""
         if self.kind is SiteKind.YAML:
             annotation = _yaml_annotation(self.remarks, text, self.tag)
         else:
@@ -87,21 +88,21 @@ class Draft:
 
 
 @dataclass(frozen=True, slots=True)
-class FileDrafts:
-    """All drafts of one file in file order, and the bytes that they are true for."""
+class FileSites:
+    """All sites of one file in file order, and the bytes that they are true for."""
 
     data: bytes
-    drafts: tuple[Draft, ...]
+    sites: tuple[FileSite, ...]
     aliases: tuple[tuple[KeyPath, KeyPath], ...] = field(default=())
 
 
-def draft_yaml(path: str, data: bytes) -> FileDrafts:
+def yaml_sites(path: str, data: bytes) -> FileSites:
     """Every scalar of a YAML file. Its heading is its section comment, else its parent key."""
     document = read_yaml_document(data)
-    drafts: list[Draft] = []
+    sites: list[FileSite] = []
     for scalar, remark in zip(document.scalars, _yaml_remarks(document), strict=True):
         name = key_path_text(scalar.path)
-        draft = Draft(
+        site = FileSite(
             id=f"{path}#{name}",
             kind=SiteKind.YAML,
             name=name,
@@ -114,8 +115,8 @@ def draft_yaml(path: str, data: bytes) -> FileDrafts:
             remarks=remark.comments,
             tag=scalar.tag,
         )
-        drafts.append(draft)
-    return FileDrafts(data, tuple(drafts), document.aliases)
+        sites.append(site)
+    return FileSites(data, tuple(sites), document.aliases)
 
 
 def _yaml_annotation(comments: tuple[str, ...], text: str, tag: str) -> Annotation:
@@ -138,28 +139,28 @@ def _yaml_remarks(document: YamlDocument) -> list[Remark]:
     return [found[index] for index in range(len(document.scalars))]
 
 
-def draft_xml(
-    tree: SourceTree, before: FileDrafts | None = None, known: Set[str] = frozenset()
-) -> FileDrafts:
+def xml_sites(
+    tree: SourceTree, before: FileSites | None = None, known: Set[str] = frozenset()
+) -> FileSites:
     """Every arg, property, macro default and plain URDF number of an XML file.
 
-    What was one of them in the drafts before, or is known by its id, stays one, whatever is
+    What was one of them in the sites before, or is known by its id, stays one, whatever is
     written there now.
     """
-    known = {one.id for one in before.drafts} if before else known
+    known = {one.id for one in before.sites} if before else known
     remarks, shown = _xml_remarks(tree), _shown_parts(tree)
-    drafts: list[Draft] = []
+    sites: list[FileSite] = []
     for element in tree.elements:
         if element.tag in _TEXTS:
-            drafts += _named_texts(element, remarks.get(element.ordinal, Remark()))
+            sites += _named_texts(element, remarks.get(element.ordinal, Remark()))
         elif element.tag == "xacro:macro":
-            drafts += _macro_defaults(element)
+            sites += _macro_defaults(element)
         elif element.tag in NUMBERED_TAGS:
-            drafts += _literals(element, known, shown)
-    return FileDrafts(tree.data, tuple(drafts))
+            sites += _literals(element, known, shown)
+    return FileSites(tree.data, tuple(sites))
 
 
-def _named_texts(element: SourceElement, remark: Remark) -> Iterator[Draft]:
+def _named_texts(element: SourceElement, remark: Remark) -> Iterator[FileSite]:
     kind, attributes = _TEXTS[element.tag]
     present = [name for name in attributes if name in element.attributes]
     if not present:
@@ -167,7 +168,7 @@ def _named_texts(element: SourceElement, remark: Remark) -> Iterator[Draft]:
     spans = attribute_spans(element.tree.data, element.offset)
     for attribute in present:
         text = element.attributes[attribute]
-        yield Draft(
+        yield FileSite(
             id=f"{element.tree.path}#{element.ordinal}@{attribute}",
             kind=kind,
             name=element.attributes.get("name", ""),
@@ -182,13 +183,13 @@ def _named_texts(element: SourceElement, remark: Remark) -> Iterator[Draft]:
         )
 
 
-def _macro_defaults(element: SourceElement) -> Iterator[Draft]:
+def _macro_defaults(element: SourceElement) -> Iterator[FileSite]:
     if "params" not in element.attributes:
         return
     tree = element.tree
     params = attribute_spans(tree.data, element.offset)["params"]
     for default in param_defaults(tree.data, params, tree.encoding):
-        yield Draft(
+        yield FileSite(
             id=f"{tree.path}#{element.ordinal}@params:{default.name}",
             kind=SiteKind.PARAM_DEFAULT,
             name=default.name,
@@ -203,7 +204,7 @@ def _macro_defaults(element: SourceElement) -> Iterator[Draft]:
 
 def _literals(
     element: SourceElement, known: Set[str], shown: dict[SourceElement, str]
-) -> Iterator[Draft]:
+) -> Iterator[FileSite]:
     """The attributes of a URDF element that are plain numbers, or were."""
     start = f"{element.tree.path}#{element.ordinal}@"
     wanted = [
@@ -218,7 +219,7 @@ def _literals(
     spans = attribute_spans(element.tree.data, element.offset)
     path = "/".join(_path_part(one) for one in line)
     for attribute in wanted:
-        yield Draft(
+        yield FileSite(
             id=start + attribute,
             kind=SiteKind.LITERAL,
             name=f"{'/'.join(shown.get(one, one.tag) for one in line)} @{attribute}",
