@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from studio.live.topics.request import Fit
-    from studio.live.topics.shared_source import Connection
+    from studio.live.topics.source import Connection
     from studio.live.topics.subscription import Stream, Subscription
     from studio.ros.types.library import TypeLibrary
 

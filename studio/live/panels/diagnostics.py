@@ -1,4 +1,4 @@
-"""DiagnosticsDesk: hears `/diagnostics` while somebody looks, and keeps the newest of each part."""
+"""The newest status of each part of a robot, from `/diagnostics`."""
 
 from __future__ import annotations
 
@@ -7,7 +7,8 @@ import time
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
-from studio.live.panels.heard_topic import HeardTopic
+from studio.live.topics.request import Request
+from studio.live.topics.source import decoder
 from studio.protocol.commands import Commands, Scope
 from studio.protocol.diagnostics import (
     DiagnosticsAnswer,
@@ -19,31 +20,43 @@ from studio.protocol.diagnostics import (
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from studio.live.connection.desk import WireDesk
-    from studio.live.connection.link import WireLink
+    from studio.live.topics.source import TopicSource
+    from studio.live.topics.subscription import Subscription
+    from studio.ros.node.samples import RawSample
     from studio.ros.types.classes import MessageValue
 
 PARTS_MAX: Final = 1_000
 VALUES_MAX: Final = 100
 _TEXT_MAX: Final = 1_000
+_TYPE: Final = "diagnostic_msgs/msg/DiagnosticArray"
+_REQUEST: Final = Request("/diagnostics", (_TYPE,), depth=100, as_known_here=True)
 
 
 @dataclass(frozen=True, slots=True)
 class _Said:
-    """What a part said, and when it came."""
+    """The newest status of a part, and when it came."""
 
     view: DiagnosticView
     at_s: float
 
 
 class Parts:
-    """The newest of each part; filled by the thread of the link, read by the loop."""
+    """The newest status of each part; any thread may use it."""
 
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
         self._clock = clock
         self._lock = threading.Lock()
         self._said: dict[str, _Said] = {}
         self._left_out: set[str] = set()
+        self._epoch = 0
+
+    def keep_epoch(self, epoch: int) -> None:
+        """Forget what came in another epoch."""
+        with self._lock:
+            if epoch != self._epoch:
+                self._epoch = epoch
+                self._said.clear()
+                self._left_out.clear()
 
     def take(self, array: MessageValue) -> None:
         """Keep a `diagnostic_msgs/msg/DiagnosticArray`."""
@@ -68,28 +81,30 @@ class Parts:
         return tuple(views), more
 
 
-class DiagnosticsDesk:
-    """Begins anew with each connection: what another robot said is not shown beside this one's."""
+class PartDiagnostics:
+    """Begins anew with each connection: parts of one robot are not shown beside another's."""
 
-    def __init__(self, wire: WireDesk) -> None:
+    def __init__(self, source: TopicSource) -> None:
+        self._source = source
         self._parts = Parts()
-        self._topic = HeardTopic(wire, self._hear)
-        self.let_go = self._topic.let_go
+        self._decode = decoder(source, _TYPE)
+        self._subscription: Subscription | None = None
 
-    async def diagnostics(self, command: GetDiagnostics) -> DiagnosticsAnswer:
-        """Tell how all parts are."""
-        await self._topic.listen()
+    def diagnostics(self, command: GetDiagnostics) -> DiagnosticsAnswer:
+        """Return how all parts are; they are received from the first call on."""
+        connected = self._source.connection != "none"
+        if connected:
+            self._parts.keep_epoch(self._source.epoch)
+        if self._subscription is None:
+            self._subscription = self._source.subscribe(_REQUEST, take=self._take)
         parts, more = self._parts.views()
         return DiagnosticsAnswer(
-            request=command.request, connected=self._topic.is_heard, parts=parts, more=more
+            request=command.request, connected=connected, parts=parts, more=more
         )
 
-    def _hear(self, link: WireLink) -> Callable[[], None]:
-        from studio.ros.qos import QoSProfile  # noqa: PLC0415
-
-        parts = self._parts = Parts()
-        kind = "diagnostic_msgs/msg/DiagnosticArray"
-        return link.subscribe(kind, "/diagnostics", parts.take, QoSProfile(depth=100))
+    def _take(self, sample: RawSample) -> None:
+        self._parts.keep_epoch(self._source.epoch)
+        self._parts.take(self._decode(sample))
 
 
 def _view(status: MessageValue) -> DiagnosticView:
@@ -106,5 +121,5 @@ def _view(status: MessageValue) -> DiagnosticView:
     )
 
 
-COMMANDS: Final = Commands[DiagnosticsDesk](Scope.ROS)
+COMMANDS: Final = Commands[PartDiagnostics](Scope.ROS)
 COMMANDS.viewer(GetDiagnostics, lambda one, c, _: one.diagnostics(c))

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-import asyncio
 import time
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Final
 
+from studio.live.topics.request import Request
+from studio.live.topics.source import decoder
 from studio.protocol.commands import Commands, Scope
 from studio.protocol.goals import GetGoalStatuses, GoalStatuses, GoalStatusView
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from studio.live.connection.desk import WireDesk
-    from studio.live.connection.link import WireLink
+    from studio.live.topics.source import TopicSource
+    from studio.live.topics.subscription import Subscription
     from studio.ros.types.classes import MessageValue
 
 _ASKED_FOR_S: Final = 10.0
@@ -22,70 +23,77 @@ _ASKED_FOR_S: Final = 10.0
 _SHOWN: Final = 50
 
 
+_TYPE: Final = "action_msgs/msg/GoalStatusArray"
+
+
 @dataclass
-class _StatusSubscription:
+class _Statuses:
     """A subscription of an action's status topic, and its newest message."""
 
-    end: Callable[[], None]
+    subscription: Subscription
     asked_s: float
-    newest: Any = None
-    """A GoalStatusArray; written by the thread of the link."""
+    epoch: int
+    newest: MessageValue | None = None
 
 
 class GoalStatusTopics:
     """Subscribes to the status of actions while somebody asks; `own_ids` are our own goals."""
 
-    def __init__(self, wire: WireDesk, own_ids: Callable[[], frozenset[str]]) -> None:
-        self._wire, self._own_ids = wire, own_ids
-        self._subscriptions: dict[str, _StatusSubscription] = {}
-        self._turn = asyncio.Lock()
+    def __init__(self, source: TopicSource, own_ids: Callable[[], frozenset[str]]) -> None:
+        self._source, self._own_ids = source, own_ids
+        self._decode = decoder(source, _TYPE)
+        self._of_actions: dict[str, _Statuses] = {}
 
-    async def statuses(self, command: GetGoalStatuses) -> GoalStatuses:
+    def statuses(self, command: GetGoalStatuses) -> GoalStatuses:
         """Return the goals' states; the first answer may come before the first status message.
 
         Raises:
             RosNameError: No action is named so.
         """
-        link = self._wire.current
         views: tuple[GoalStatusView, ...] = ()
-        if link is not None:
-            async with self._turn:
-                newest = await asyncio.to_thread(self._newest, link, command.name)
-            views = _views(newest, self._own_ids())
+        if self._source.connection != "none":
+            views = _views(self._newest(command.name), self._own_ids())
         return GoalStatuses(request=command.request, name=command.name, goals=views)
 
-    async def let_go(self) -> None:
+    def let_go(self) -> None:
         """End all subscriptions."""
-        async with self._turn:
-            await asyncio.to_thread(self._forget, float("inf"))
+        self._forget(float("inf"))
 
-    def _newest(self, link: WireLink, name: str) -> MessageValue | None:
+    def _newest(self, name: str) -> MessageValue | None:
         from studio.live.panels.requests import wire_name  # noqa: PLC0415 - imports zenoh
-        from studio.ros.qos import qos_profile_action_status_default  # noqa: PLC0415
 
         now_s = time.monotonic()
         self._forget(now_s - _ASKED_FOR_S)
         action = wire_name(name)
-        found = self._subscriptions.get(action)
+        found = self._of_actions.get(action)
         if found is None:
-            found = self._subscriptions[action] = _StatusSubscription(lambda: None, now_s)
-            found.end = link.subscribe(
-                "action_msgs/msg/GoalStatusArray",
-                f"{action}/_action/status",
-                lambda message, found=found: setattr(found, "newest", message),
-                qos_profile_action_status_default,
-            )
+            found = self._of_actions[action] = self._subscribe(action, now_s)
+        if found.epoch != self._source.epoch:
+            found.epoch, found.newest = self._source.epoch, None
         found.asked_s = now_s
+        for sample in found.subscription.take():
+            found.newest = self._decode(sample)
         return found.newest
 
+    def _subscribe(self, action: str, now_s: float) -> _Statuses:
+        request = Request(
+            f"{action}/_action/status",
+            (_TYPE,),
+            newest_only=True,
+            depth=1,
+            usually=(True, True),
+            as_known_here=True,
+        )
+        return _Statuses(self._source.subscribe(request), now_s, self._source.epoch)
+
     def _forget(self, before_s: float) -> None:
-        for name, found in tuple(self._subscriptions.items()):
+        for name, found in tuple(self._of_actions.items()):
             if found.asked_s < before_s:
-                del self._subscriptions[name]
-                found.end()
+                del self._of_actions[name]
+                found.subscription.close()
 
 
-def _views(newest: Any, own: frozenset[str]) -> tuple[GoalStatusView, ...]:  # noqa: ANN401 - see _StatusSubscription
+def _views(newest: MessageValue | None, own: frozenset[str]) -> tuple[GoalStatusView, ...]:
     if newest is None:
         return ()
     from studio.ros.action.protocol import GoalStatus  # noqa: PLC0415 - takes its time

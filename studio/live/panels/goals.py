@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from studio.live.connection.desk import WireDesk
     from studio.live.connection.link import WireLink
     from studio.live.panels.goal_work import ActionClients, GoalRequest
-    from studio.live.panels.logs import LogDesk
+    from studio.live.panels.logs import NodeLogs
     from studio.protocol.logs import LogLine
 
 _KEPT: Final = 40
@@ -91,7 +91,7 @@ def _event_of(is_whole: bool, goals: tuple[Goal, ...]) -> Goals:  # noqa: FBT001
 class ActionGoals:
     """Sends goals and has them cancelled; `operations` has their state."""
 
-    def __init__(self, wire: WireDesk, logs: LogDesk) -> None:
+    def __init__(self, wire: WireDesk, logs: NodeLogs) -> None:
         self._wire, self._logs = wire, logs
         self.operations: Operations[Goal] = Operations(_event_of, kept=_KEPT, running=_RUNNING_MAX)
         self._running = RunningTasks()
@@ -111,7 +111,7 @@ class ActionGoals:
         clients = self._clients_of(link)
         request = await asyncio.to_thread(GoalRequest, link, clients, command)
         goal = Goal(number, request.name, request.type_name, command.text)
-        goal.log_from = await self._logs.listen()
+        goal.log_from = self._logs.listen()
         self._requests[number] = request
         self.operations.add(goal)
         self._running.start(

@@ -1,61 +1,149 @@
-"""LogDesk: hears `/rosout` from the first time that somebody looks, as long as it is connected."""
+"""The log of all nodes: `/rosout`, received from the first time that somebody asks for it."""
 
 from __future__ import annotations
 
+import itertools
+import threading
+from collections import deque
 from typing import TYPE_CHECKING, Final
 
-from studio.live.panels.heard_topic import HeardTopic
-from studio.live.panels.log_ring import LogRing
+from studio.live.topics.request import Request
+from studio.live.topics.source import decoder
 from studio.protocol.commands import Commands, Scope
-from studio.protocol.logs import GetLog, LogAnswer
+from studio.protocol.logs import LINES_MAX, GetLog, LogAnswer, LogLine
+from studio.ros.duration import NANOSECONDS
 from studio.ros.names import logger_name
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Iterable
 
-    from studio.live.connection.desk import WireDesk
-    from studio.live.connection.link import WireLink
-    from studio.protocol.logs import LogLine
+    from studio.live.topics.source import TopicSource
+    from studio.live.topics.subscription import Subscription
+    from studio.ros.types.classes import MessageValue
+
+KEPT_MAX: Final = 10_000
+CHARACTERS_MAX: Final = 8_000_000
+"""Of all lines together; the oldest go."""
+TEXT_MAX: Final = 20_000
+_NAME_MAX: Final = 500
+_WARNING: Final = 30
 
 
-class LogDesk:
-    """Keeps what was said for whoever comes later, also after the connection has ended."""
+class LogRing:
+    """The newest lines, by number; any thread may use it."""
 
-    def __init__(self, wire: WireDesk) -> None:
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._lines: deque[LogLine] = deque()
+        self._characters = 0
+        self._numbers = itertools.count(1)
+
+    def take(self, said: MessageValue) -> None:
+        """Keep a `rcl_interfaces/msg/Log`; of a text that is too long, its beginning."""
+        with self._lock:
+            line = _line(next(self._numbers), said)
+            self._lines.append(line)
+            self._characters += _size(line)
+            while len(self._lines) > KEPT_MAX or self._characters > CHARACTERS_MAX:
+                self._characters -= _size(self._lines.popleft())
+
+    def after(self, number: int) -> tuple[tuple[LogLine, ...], int, int]:
+        """Give the oldest lines after that one, and the numbers of the oldest and newest kept."""
+        with self._lock:
+            if not self._lines:
+                return (), 0, 0
+            first, last = self._lines[0].number, self._lines[-1].number
+            begin = max(0, number + 1 - first)
+            lines = tuple(itertools.islice(self._lines, begin, begin + LINES_MAX))
+            return lines, first, last
+
+    @property
+    def last(self) -> int:
+        """Number of the newest line, 0 without one."""
+        with self._lock:
+            return self._lines[-1].number if self._lines else 0
+
+    def newest_warning(
+        self, loggers: Iterable[str], *, after: int, since_s: float
+    ) -> LogLine | None:
+        """Give the newest warning or error of some loggers, or of those below them.
+
+        It came after the line of that number, and was not said before `since_s`: who joins late
+        is told what was said earlier, too.
+        """
+        wanted = tuple(loggers)
+        with self._lock:
+            for line in reversed(self._lines):
+                if line.number <= after:
+                    return None
+                is_grave = line.level >= _WARNING and line.stamp_s >= since_s
+                if is_grave and any(f"{line.node}.".startswith(f"{one}.") for one in wanted):
+                    return line
+        return None
+
+
+def _line(number: int, said: MessageValue) -> LogLine:
+    return LogLine(
+        number=number,
+        stamp_s=said.stamp.sec + said.stamp.nanosec / NANOSECONDS,
+        level=said.level,
+        node=said.name[:_NAME_MAX],
+        text=_clipped(said.msg),
+        file=said.file[:_NAME_MAX],
+        function=said.function[:_NAME_MAX],
+        line=said.line,
+    )
+
+
+def _clipped(text: str) -> str:
+    return text if len(text) <= TEXT_MAX else f"{text[:TEXT_MAX]} …"
+
+
+def _size(line: LogLine) -> int:
+    return len(line.text) + len(line.node) + len(line.file) + len(line.function)
+
+
+_TYPE: Final = "rcl_interfaces/msg/Log"
+_REQUEST: Final = Request(
+    "/rosout", (_TYPE,), latched=True, depth=1_000, usually=(True, True), as_known_here=True
+)
+"""Nodes keep their last lines for those who come late."""
+
+
+class NodeLogs:
+    """Keeps the newest lines for whoever comes later, also after the connection has ended."""
+
+    def __init__(self, source: TopicSource) -> None:
+        self._source = source
         self._ring = LogRing()
-        self._topic = HeardTopic(wire, self._hear)
-        self.let_go = self._topic.let_go
+        self._subscription: Subscription | None = None
 
-    async def log(self, command: GetLog) -> LogAnswer:
-        """Tell what was said after a line; nothing new comes while there is no connection."""
-        await self._topic.listen()
+    def log(self, command: GetLog) -> LogAnswer:
+        """Return the lines after one; no new ones come while there is no connection."""
+        self.listen()
         lines, first, last = self._ring.after(command.after)
         return LogAnswer(
             request=command.request,
-            connected=self._topic.is_heard,
+            connected=self._source.connection != "none",
             lines=lines,
             first=first,
             last=last,
         )
 
-    async def listen(self) -> int:
-        """Hear it from now on; gives the number of the newest line, 0 without one."""
-        await self._topic.listen()
+    def listen(self) -> int:
+        """Receive lines from now on, and return the number of the newest, 0 without one."""
+        if self._subscription is None:
+            decode = decoder(self._source, _TYPE)
+            self._subscription = self._source.subscribe(
+                _REQUEST, take=lambda sample: self._ring.take(decode(sample))
+            )
         return self._ring.last
 
     def newest_warning(self, nodes: Iterable[str], *, after: int, since_s: float) -> LogLine | None:
-        """Give the newest warning or error of some nodes, by their paths, as `LogRing` does."""
+        """Return the newest warning or error of some nodes, by their paths, as `LogRing` does."""
         loggers = [logger_name(path) for path in nodes]
         return self._ring.newest_warning(loggers, after=after, since_s=since_s)
 
-    def _hear(self, link: WireLink) -> Callable[[], None]:
-        """Hear it as it is sent: nodes keep what they said for those who come late."""
-        from studio.ros.node.logger import ROSOUT  # noqa: PLC0415 - imports zenoh
-        from studio.ros.qos import qos_profile_rosout_default  # noqa: PLC0415
 
-        qos = qos_profile_rosout_default
-        return link.subscribe("rcl_interfaces/msg/Log", ROSOUT, self._ring.take, qos)
-
-
-COMMANDS: Final = Commands[LogDesk](Scope.ROS)
+COMMANDS: Final = Commands[NodeLogs](Scope.ROS)
 COMMANDS.viewer(GetLog, lambda one, c, _: one.log(c))

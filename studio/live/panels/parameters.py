@@ -7,6 +7,8 @@ from collections import OrderedDict
 from typing import TYPE_CHECKING, Final
 
 from studio.debounce import Throttle
+from studio.live.topics.request import Request
+from studio.live.topics.source import decoder
 from studio.protocol.commands import Commands, Scope
 from studio.protocol.listeners import tell
 from studio.protocol.parameters import (
@@ -25,17 +27,19 @@ from studio.protocol.parameters import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from studio.live.connection.desk import WireDesk
     from studio.live.connection.link import WireLink
     from studio.live.panels.parameter_work import RemoteParameters
+    from studio.live.topics.subscription import Subscription
     from studio.protocol.listeners import Listener
+    from studio.ros.node.samples import RawSample
     from studio.ros.types.classes import MessageValue
 
 _LIST: Final = "/list_parameters"
 _LIST_TYPE: Final = "rcl_interfaces/srv/ListParameters"
 _REMOTES_KEPT: Final = 16
+_EVENT_TYPE: Final = "rcl_interfaces/msg/ParameterEvent"
+_EVENTS: Final = Request("/parameter_events", (_EVENT_TYPE,), depth=1_000, as_known_here=True)
 _PAUSE_S: Final = 0.1
 _NEWS_MAX: Final = 2_000
 """Of one node between two words about it."""
@@ -49,7 +53,7 @@ class NodeParameters:
         self._remotes: OrderedDict[tuple[int, str], RemoteParameters] = OrderedDict()
         self._turn = asyncio.Lock()
         self._followed: dict[Listener, str] = {}
-        self._ear: tuple[WireLink, Callable[[], None]] | None = None
+        self._events: Subscription | None = None
         self._news: dict[str, dict[str, ParameterView | None]] = {}
         self._throttle = Throttle(self._tell, pause_s=_PAUSE_S)
 
@@ -96,28 +100,29 @@ class NodeParameters:
             request=command.request, node=remote.node, count=count, refused=refused
         )
 
-    async def follow(self, command: FollowParameters, listener: Listener) -> None:
+    def follow(self, command: FollowParameters, listener: Listener) -> None:
         """Tell a page when parameters of a node change; of one node at a time."""
         if command.node:
             self._followed[listener] = f"/{command.node.removeprefix('/')}"
         else:
             self._followed.pop(listener, None)
-        await self._fit_ear()
+        self._follow_events()
 
     def detach(self, listener: Listener) -> None:
         """A page is gone."""
         self._followed.pop(listener, None)
+        self._follow_events()
 
     async def let_go(self) -> None:
         """Need the connection no more."""
         async with self._turn:
             remotes, self._remotes = tuple(self._remotes.values()), OrderedDict()
-            ear, self._ear = self._ear, None
-            await asyncio.to_thread(_close, remotes, ear[1] if ear else None)
+            await asyncio.to_thread(_close, remotes)
 
     async def close(self) -> None:
         """End all."""
         self._followed.clear()
+        self._follow_events()
         await self.let_go()
         await self._throttle.close()
 
@@ -135,32 +140,20 @@ class NodeParameters:
                 await asyncio.to_thread(oldest.close)
             return remote
 
-    async def _fit_ear(self) -> None:
-        """Hear changes while somebody follows a node."""
-        async with self._turn:
-            link = self._wire.current if self._followed else None
-            if self._ear is not None and self._ear[0] is not link:
-                end, self._ear = self._ear[1], None
-                await asyncio.to_thread(end)
-            if link is not None and self._ear is None:
-                self._ear = (
-                    link,
-                    await asyncio.to_thread(self._listen, link, asyncio.get_running_loop()),
-                )
+    def _follow_events(self) -> None:
+        """Subscribe to changes while somebody follows a node."""
+        if self._followed and self._events is None:
+            loop, decode = asyncio.get_running_loop(), decoder(self._wire.topics, _EVENT_TYPE)
 
-    def _listen(self, link: WireLink, loop: asyncio.AbstractEventLoop) -> Callable[[], None]:
-        from studio.ros.qos import qos_profile_parameter_events  # noqa: PLC0415 - takes its time
+            def take(sample: RawSample) -> None:  # in a thread of the source
+                event = decode(sample)
+                if not loop.is_closed():
+                    loop.call_soon_threadsafe(self._take, event)
 
-        def take(event: MessageValue) -> None:  # in the thread of the link
-            if not loop.is_closed():
-                loop.call_soon_threadsafe(self._take, event)
-
-        return link.subscribe(
-            "rcl_interfaces/msg/ParameterEvent",
-            "/parameter_events",
-            take,
-            qos_profile_parameter_events,
-        )
+            self._events = self._wire.topics.subscribe(_EVENTS, take=take)
+        elif not self._followed and self._events is not None:
+            self._events.close()
+            self._events = None
 
     def _take(self, event: MessageValue) -> None:
         from studio.live.panels.parameter_work import changed_view  # noqa: PLC0415 - zenoh
@@ -197,11 +190,9 @@ def _nodes(link: WireLink) -> tuple[str, ...]:
     )
 
 
-def _close(remotes: tuple[RemoteParameters, ...], end: Callable[[], None] | None) -> None:
+def _close(remotes: tuple[RemoteParameters, ...]) -> None:
     for one in remotes:
         one.close()
-    if end is not None:
-        end()
 
 
 COMMANDS: Final = Commands[NodeParameters](Scope.ROS)

@@ -23,8 +23,6 @@ from studio.live.panels import (
     rates,
     topics,
 )
-from studio.live.panels.diagnostics import DiagnosticsDesk
-from studio.live.panels.logs import LogDesk
 from studio.live.panels.rates import RateDesk
 from studio.live.panels.topics import TopicDesk
 from studio.live.topics.browsers import BrowserTopics
@@ -45,14 +43,14 @@ class RosSystem:
         self.hearing = BrowserTopics(wire.topics)
         self.topics = TopicDesk(wire)
         self.rates = RateDesk(wire)
-        self.logs = LogDesk(wire)
+        self.logs = logs.NodeLogs(wire.topics)
         self.graph = graph.GraphViews(wire)
         self.lifecycle = lifecycle.LifecycleNodes(wire)
-        self.diagnostics = DiagnosticsDesk(wire)
+        self.diagnostics = diagnostics.PartDiagnostics(wire.topics)
         self.offers = offers.Offers(wire, self.interfaces)
         self.calls = calls.ServiceCalls(wire)
         self.goals = goals.ActionGoals(wire, self.logs)
-        self.goal_statuses = goal_statuses.GoalStatusTopics(wire, self.goals.own_ids)
+        self.goal_statuses = goal_statuses.GoalStatusTopics(wire.topics, self.goals.own_ids)
         self.publishing = publishing.Publishing(wire)
         self.parameters = parameters.NodeParameters(wire)
         self.driving = driving.Driving(wire)
@@ -102,17 +100,15 @@ class RosSystem:
             self.let_go_of_operations(),
             self.driving.let_go(),
             self.lessons.let_go(),
-            self.logs.let_go(),
             self.lifecycle.let_go(),
-            self.diagnostics.let_go(),
         )
 
     async def let_go_of_operations(self) -> None:
         """End calls, goals and publications; returns when all have ended."""
+        self.goal_statuses.let_go()
         await asyncio.gather(
             self.calls.let_go(),
             self.goals.let_go(),
-            self.goal_statuses.let_go(),
             self.publishing.let_go(),
             self.parameters.let_go(),
         )

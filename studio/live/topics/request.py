@@ -68,7 +68,7 @@ class Request:
 class Fit(NamedTuple):
     """The type and the QoS with which a request is subscribed.
 
-    `type_hash` is None where the type is to be had as it is known here.
+    `type_hash` is as keys carry it; None where no publisher shows one and the type is not known.
     """
 
     type_name: str
@@ -165,7 +165,7 @@ def fit_request(
     type_hash = fitting[0].type_hash if fitting else own_hash(name)
     return Fit(
         name,
-        None if request.as_known_here else type_hash,
+        own_hash(name) if request.as_known_here else type_hash,
         reliable if request.reliable is None else request.reliable,
         latched if request.latched is None else request.latched,
         _depth(request, fitting),

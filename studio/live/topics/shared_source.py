@@ -6,7 +6,7 @@ import logging
 import threading
 from abc import ABC, abstractmethod
 from dataclasses import replace
-from typing import TYPE_CHECKING, Final, Literal, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 from studio.errors import StudioError
 from studio.live.topics.request import SubscriptionState, fit_request
@@ -16,12 +16,11 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
     from studio.live.topics.request import Endpoint, Fit, Request, StateKind
-    from studio.live.topics.source import Topic
+    from studio.live.topics.source import Connection, Topic
     from studio.live.topics.subscription import WireSubscription
     from studio.ros.node.samples import RawSample
     from studio.ros.types.library import TypeLibrary
 
-Connection: TypeAlias = Literal["none", "lost", "there"]
 _HASHED: Final = "RIHS01_"
 
 _log = logging.getLogger(__name__)
@@ -128,7 +127,7 @@ class SharedSource(ABC):
         return self._kept(topic, begin_ns, end_ns)
 
     def fit_all(self) -> None:
-        """Have every subscription be as fits who publishes now; in a thread, for it may wait."""
+        """Subscribe everything as fits who publishes now; in a thread, for it may wait."""
         with self.fitting:
             self._fit_all()
 

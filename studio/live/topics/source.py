@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Literal, NamedTuple, Protocol, TypeAlias
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
@@ -10,7 +10,11 @@ if TYPE_CHECKING:
     from studio.live.topics.request import Endpoint, Request
     from studio.live.topics.subscription import Subscription
     from studio.ros.node.samples import RawSample
+    from studio.ros.types.classes import MessageValue
     from studio.ros.types.library import TypeLibrary
+
+Connection: TypeAlias = Literal["none", "lost", "there"]
+"""`lost`: there is one, and its router is gone."""
 
 
 class Topic(NamedTuple):
@@ -35,6 +39,11 @@ class TopicSource(Protocol):
         Whoever keeps transforms, trails or plots clears them: another system was connected, or a
         recording jumped.
         """
+        ...
+
+    @property
+    def connection(self) -> Connection:
+        """Whether anything can come."""
         ...
 
     @property
@@ -73,6 +82,10 @@ class TopicSource(Protocol):
         """
         ...
 
+    def fit_all(self) -> None:
+        """Subscribe now what was asked for; in a thread, for it may wait."""
+        ...
+
     def latest(self, topics: Iterable[str], at_ns: int) -> dict[str, RawSample]:
         """Give the newest sample of each topic at or before a time, of those that are kept.
 
@@ -85,3 +98,23 @@ class TopicSource(Protocol):
     def window(self, topic: str, begin_ns: int, end_ns: int) -> list[RawSample]:
         """Give the samples of a topic from a time on and before another, of those that are kept."""
         ...
+
+
+def decoder(source: TopicSource, type_name: str) -> Callable[[RawSample], MessageValue]:
+    """Return what decodes samples of a type, as the source defines it.
+
+    What it returns raises a CdrError for bytes that are no such message, and an UnknownTypeError.
+    """
+    decode: Callable[[bytes], MessageValue] | None = None
+    epoch = source.epoch
+
+    def decode_sample(sample: RawSample) -> MessageValue:
+        nonlocal decode, epoch
+        if decode is None or epoch != source.epoch:  # another system may define it otherwise
+            from studio.ros.cdr import codec_of  # noqa: PLC0415 - takes its time
+
+            epoch = source.epoch
+            decode = codec_of(source.types.message(type_name)).decode
+        return decode(sample.payload)
+
+    return decode_sample

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from studio.live.topics.request import Fit
-    from studio.live.topics.shared_source import Connection
+    from studio.live.topics.source import Connection
     from studio.live.topics.subscription import Stream, Subscription
     from studio.ros.graph.endpoints import GraphEndpoint
     from studio.ros.graph.graph import Graph

@@ -9,10 +9,12 @@ import pytest
 
 from studio.live.connection.desk import WireDesk
 from studio.live.panels import diagnostics
-from studio.live.panels.diagnostics import DiagnosticsDesk, Parts
+from studio.live.panels.diagnostics import PartDiagnostics, Parts
 from studio.protocol.diagnostics import GetDiagnostics
+from studio.ros.cdr import Codec
 from studio.ros.messages import message
 from studio.settings import WireChoice
+from tests.support.memory_source import MemorySource
 from tests.support.wire import PATIENCE_S
 
 if TYPE_CHECKING:
@@ -64,23 +66,41 @@ def test_parts_and_values_without_end_are_bounded(monkeypatch: pytest.MonkeyPatc
     assert len(views[0].values[0].value) == 1_000
 
 
+def test_parts_of_another_connection_are_forgotten_once_there_is_a_new_one():
+    source = MemorySource()
+    motor = source.offer("/diagnostics", "diagnostic_msgs/msg/DiagnosticArray")
+    told = PartDiagnostics(source)
+
+    def names() -> list[str]:
+        return [one.name for one in told.diagnostics(GetDiagnostics()).parts]
+
+    assert names() == []
+    motor.say(bytes(Codec(ARRAY).encode(said(("motor", 2)))))
+    assert names() == ["motor"]
+    source.connect("none")
+    assert names() == ["motor"]
+    source.connect()
+    assert names() == []
+    motor.say(bytes(Codec(ARRAY).encode(said(("arm", 0)))))
+    assert names() == ["arm"]
+
+
 @pytest.mark.network
 def test_they_are_heard_from_the_first_question_on(endpoint: str, tester: Node):
     out = tester.create_publisher(ARRAY, "/diagnostics", 10)
 
     async def run() -> None:
         wire = WireDesk(WireChoice("off", (endpoint,)))
-        desk = DiagnosticsDesk(wire)
+        desk = PartDiagnostics(wire.topics)
         try:
-            assert not (await desk.diagnostics(GetDiagnostics(request=8))).connected
+            assert not (desk.diagnostics(GetDiagnostics(request=8))).connected
             await wire.link()
             async with asyncio.timeout(PATIENCE_S):
-                while not (answer := await desk.diagnostics(GetDiagnostics())).parts:
+                while not (answer := desk.diagnostics(GetDiagnostics())).parts:
                     out.publish(said(("motor", 2)))
                     await asyncio.sleep(0.02)
             assert answer.connected
             assert [one.name for one in answer.parts] == ["motor"]
-            await desk.let_go()
         finally:
             await wire.close()
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.live.connection.desk import WireDesk
-from studio.live.panels.logs import LogDesk
+from studio.live.panels.logs import NodeLogs
 from studio.protocol.logs import GetLog
 from studio.settings import WireChoice
 from tests.support.wire import PATIENCE_S
@@ -20,10 +20,10 @@ if TYPE_CHECKING:
 pytestmark = pytest.mark.network
 
 
-async def until_said(desk: LogDesk, text: str) -> LogAnswer:
+async def until_said(logs: NodeLogs, text: str) -> LogAnswer:
     async with asyncio.timeout(PATIENCE_S):
         while True:
-            answer = await desk.log(GetLog())
+            answer = logs.log(GetLog())
             if any(one.text == text for one in answer.lines):
                 return answer
             await asyncio.sleep(0.02)
@@ -34,26 +34,25 @@ def test_it_is_heard_from_the_first_question_on_with_what_was_said_before(
 ):
     async def run() -> None:
         wire = WireDesk(WireChoice("off", (endpoint,)))
-        desk = LogDesk(wire)
+        logs = NodeLogs(wire.topics)
         try:
-            before = await desk.log(GetLog(request=3))
+            before = logs.log(GetLog(request=3))
             assert (before.request, before.connected, before.lines) == (3, False, ())
             tester.get_logger().warning("said before")
             await wire.link()
-            answer = await until_said(desk, "said before")
+            answer = await until_said(logs, "said before")
             (line,) = (one for one in answer.lines if one.text == "said before")
             assert (line.node, line.level) == (tester.get_name(), 30)
             tester.get_logger().error("said after")
-            newer = await until_said(desk, "said after")
+            newer = await until_said(logs, "said after")
             assert newer.last > answer.last
-            await desk.let_go()
             await wire.disconnect()
-            kept = await desk.log(GetLog(after=line.number))
+            kept = logs.log(GetLog(after=line.number))
             assert not kept.connected
             assert "said after" in [one.text for one in kept.lines]
             await wire.link()
             tester.get_logger().info("heard again")
-            await until_said(desk, "heard again")
+            await until_said(logs, "heard again")
         finally:
             await wire.close()
 

@@ -2,8 +2,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from studio.live.panels import log_ring
-from studio.live.panels.log_ring import LogRing
+from studio.live.panels import logs as log_ring
+from studio.live.panels.logs import LogRing
 from studio.protocol.logs import LINES_MAX
 from studio.ros.messages import message
 
