@@ -7,7 +7,7 @@
 
 import { html, render, useEffect, useRef, useState } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
-import { until, untilIdle } from "../lib/loading.js";
+import { until, untilIdle, untilViewFetched } from "../lib/loading.js";
 import { Icon, ProgressBar } from "../lib/ui.js";
 import { changedCount, problems, robot } from "../model/document.js";
 import { heldBack } from "../model/source.js";
@@ -215,6 +215,7 @@ async function fetched(id) {
   const entry = PANELS[id];
   if (entry?.heavy) {
     await others;
+    await untilViewFetched();
     await until(() => robot.value !== null, PATIENCE_MS);
     await untilIdle();
     return entry.load();

@@ -7,6 +7,8 @@ import { effect, html, useEffect, useState } from "vendor/preact.js";
 
 const PATIENCE_MS = 1000;
 const WITHOUT_IDLE_MS = 200;
+const VIEW_CLIENT = "viser/client.zst";
+const SLOW_LINE_MS = 8000;
 
 /** @returns {Promise<void>} after what is being drawn now, and at the latest after a second */
 export function untilIdle() {
@@ -27,6 +29,29 @@ export function until(holds, patience_ms) {
       resolve();
     });
     setTimeout(stop, patience_ms);
+  });
+}
+
+/**
+ * The client of the 3D view is most of what a page loads: what is not seen at first waits for it.
+ *
+ * @returns {Promise<void>} once it is here, or after a time; at once if the page does not prefetch it
+ */
+export function untilViewFetched() {
+  const links = [...document.querySelectorAll("link")];
+  const link = links.find(({ rel, href }) => rel === "prefetch" && href.endsWith(VIEW_CLIENT));
+  if (!link?.relList.supports("prefetch")) return Promise.resolve();
+  return new Promise((resolve) => {
+    const observer = new PerformanceObserver((list) => {
+      if (list.getEntriesByName(link.href).length > 0) done();
+    });
+    const done = () => {
+      observer.disconnect();
+      clearTimeout(late);
+      resolve();
+    };
+    const late = setTimeout(done, SLOW_LINE_MS);
+    observer.observe({ type: "resource", buffered: true });
   });
 }
 
