@@ -20,7 +20,8 @@ if TYPE_CHECKING:
 
     from studio.description.values import Expansion
     from studio.live.connection.desk import WireDesk
-    from studio.live.connection.hearing import DescriptionIn, JointsIn
+    from studio.live.connection.followed_joints import FollowedJoints
+    from studio.live.connection.received_description import ReceivedDescription
     from studio.live.connection.sending import SentRobot
     from studio.protocol.connection import JointSource
     from studio.protocol.listeners import Audience
@@ -52,7 +53,7 @@ class MovesJoints(Protocol):
 class _Described:
     """Where the description comes from, and what was wrong with the last one."""
 
-    description: DescriptionIn
+    description: ReceivedDescription
     data_folder: Path
     trouble: str = ""
 
@@ -78,7 +79,7 @@ class FeedDesk:
     ) -> None:
         self._model, self._motion, self._wire = model, motion, wire
         self._sending = RobotSending(model, expansion)
-        self._following: JointsIn | None = None
+        self._following: FollowedJoints | None = None
         self._source: Literal["sliders", "joint_states", "tf"] = "sliders"
         self._described: _Described | None = None
         self._told = LastTold[WireFeed](audience)
@@ -122,13 +123,13 @@ class FeedDesk:
             else:
                 await self._sending.stop_joints()
 
-    async def describe(self, description: DescriptionIn, data_folder: Path) -> None:
+    async def describe(self, description: ReceivedDescription, data_folder: Path) -> None:
         """Let the description come from the wire: what comes anew is written into the file."""
         async with self._switching():
             await self._sending.stop_robot()  # it would be its own echo
             before, self._described = self._described, _Described(description, data_folder)
             if before is not None:
-                await asyncio.to_thread(before.description.close)
+                before.description.close()
 
     async def let_go(self) -> None:
         """Switch everything off, before the connection is ended."""
@@ -150,7 +151,7 @@ class FeedDesk:
         await self._stop_following()
         described, self._described = self._described, None
         if described is not None:
-            await asyncio.to_thread(described.description.close)
+            described.description.close()
 
     @asynccontextmanager
     async def _switching(self) -> AsyncGenerator[None]:
@@ -163,12 +164,15 @@ class FeedDesk:
                 self._go_on()
 
     async def _follow(self, source: Literal["joint_states", "tf"]) -> None:
-        link = await self._wire.link()
+        from studio.live.connection.followed_joints import FollowedJoints  # noqa: PLC0415 - takes its time
+
+        await self._wire.link()
         await self._stop_following()
         model = self._model
-        hear = link.hear_tf if source == "tf" else link.hear_joint_states
         await self._sending.pause_joints(paused=source == "joint_states")  # no echo
-        self._following = await asyncio.to_thread(hear, model.robot, model.kinematics)
+        self._following = FollowedJoints(
+            self._wire.topics, model.robot, model.kinematics, from_tf=source == "tf"
+        )
         self._source = source
         self._motion.lead(_TOPICS[source])
 
@@ -178,7 +182,7 @@ class FeedDesk:
         self._sending.measured(0)
         following, self._following = self._following, None
         if following is not None:
-            await asyncio.to_thread(following.close)
+            following.close()
         await self._sending.pause_joints(paused=False)
 
     def _demand_other_description(self) -> None:

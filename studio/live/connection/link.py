@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import logging
 import threading
+from functools import partial
 from typing import TYPE_CHECKING, Final
 
 from studio.errors import CommandError, ExternalShutdownException, NotServedError
-from studio.live.connection.hearing import STRING, DescriptionIn, JointsIn, Place
 from studio.live.connection.plan import planned_wire
 from studio.live.connection.telling import JointsOut, RobotOut
 from studio.live.connection.topic_rates import TopicRates
@@ -26,20 +26,19 @@ if TYPE_CHECKING:
 
     from studio.live.topics.request import Fit
     from studio.live.topics.subscription import Stream
-    from studio.protocol.connection import OpenFromWire
-    from studio.robot.kinematics import Kinematics
-    from studio.robot.values import Robot
     from studio.ros.graph.graph import Graph
     from studio.ros.node.samples import RawCallback
     from studio.ros.node.subscription import MessageCallback
     from studio.ros.qos import QoSProfile
-    from studio.ros.types.classes import MessageValue
     from studio.ros.types.library import TypeLibrary
     from studio.ros.wire.settings import WireSettings
     from studio.settings import WireChoice
 
 _log = logging.getLogger(__name__)
 _ANSWER_S: Final = 3.0
+_DESCRIPTION: Final = "/robot_description"
+_JOINT_STATES: Final = "/joint_states"
+_STRING: Final = "std_msgs/msg/String"
 
 
 class WireLink:
@@ -133,7 +132,7 @@ class WireLink:
         topics = [
             name
             for name, types in self._graph.topics()
-            if STRING in types and name.endswith("robot_description")
+            if _STRING in types and name.endswith("robot_description")
             if self.publishers(name)
         ]
         nodes = [name for name in self.node_names() if "robot_state_publisher" in name]
@@ -146,35 +145,28 @@ class WireLink:
             CommandError: Another document tells one.
         """
         self._take("robot_state_publisher", "its robot")
-        return RobotOut(self, self._new_node("robot_state_publisher"))
+        return RobotOut(
+            self._new_node("robot_state_publisher"),
+            partial(self.publishers, _DESCRIPTION),
+            self.let_go,
+        )
 
     def joints_out(self) -> JointsOut:
         """Begin to tell where joints stand; errors as for `robot_out`."""
         self._take("joint_state_publisher", "its joints")
-        return JointsOut(self, self._new_node("joint_state_publisher"))
+        return JointsOut(
+            self._new_node("joint_state_publisher"),
+            partial(self.publishers, _JOINT_STATES),
+            self.let_go,
+        )
 
-    def hear_joint_states(self, robot: Robot, kinematics: Kinematics) -> JointsIn:
-        """Hear where joints stand from `/joint_states`."""
-        return JointsIn(self, robot, kinematics, from_tf=False)
-
-    def hear_tf(self, robot: Robot, kinematics: Kinematics) -> JointsIn:
-        """Hear where joints stand from `/tf`."""
-        return JointsIn(self, robot, kinematics, from_tf=True)
-
-    def hear_description(self, wanted: OpenFromWire) -> DescriptionIn:
-        """Hear a robot's description; what is latched, or a parameter, comes at once.
+    def parameter(self, node: str, name: str) -> str:
+        """Return the value of a parameter that is a text, empty where it is none; it waits.
 
         Raises:
             NotServedError: There is no such node, or it has no parameters.
             NoAnswerError: It does not answer.
         """
-        if not wanted.node:
-            return DescriptionIn(self, wanted.topic)
-        value = self._parameter(wanted.node, wanted.parameter)
-        return DescriptionIn(self, "/parameter_events", Place(wanted.node, wanted.parameter), value)
-
-    def _parameter(self, node: str, name: str) -> str:
-        """The value of a parameter that is a text; empty where it is none."""
         kind = self._wire.types.service("rcl_interfaces/srv/GetParameters")
         client = self._node.create_client(kind, f"{node}/get_parameters", timeout_s=_ANSWER_S)
         try:
@@ -184,12 +176,6 @@ class WireLink:
         finally:
             self._node.destroy_client(client)
         return answer.values[0].string_value if answer.values else ""
-
-    def subscribe(
-        self, type_name: str, topic: str, take: Callable[[MessageValue], None], qos: QoSProfile
-    ) -> Callable[[], None]:
-        """Hear a topic, in the thread of the link; gives what ends that."""
-        return self._subscribed(type_name, topic, take, qos)
 
     def hear(
         self, type_name: str, topic: str, take: RawCallback, qos: QoSProfile

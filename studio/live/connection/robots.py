@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final, Protocol
 
 from studio.errors import CommandError
 from studio.live.connection.plan import chosen_wire
+from studio.live.connection.received_description import receive_description
 from studio.packages.received_texts import choose_packages, keep_description
 from studio.protocol.commands import Commands, Scope
 from studio.protocol.connection import (
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
 
     from studio.live.connection.desk import WireDesk
     from studio.live.connection.feed import FeedDesk
-    from studio.live.connection.hearing import DescriptionIn
+    from studio.live.connection.received_description import ReceivedDescription
     from studio.packages.index import PackageIndex
     from studio.packages.roots import ServedRoots
     from studio.packages.workspace import Location
@@ -137,18 +138,18 @@ class WireRobotDesk:
             StudioError: It is not described, or cannot be opened.
         """
         link = await self._wire.link()
-        description = await asyncio.to_thread(link.hear_description, command)
+        description = await asyncio.to_thread(receive_description, self._wire.topics, link, command)
         try:
             name = await self._open_first(description)
         except BaseException:
-            await asyncio.to_thread(description.close)
+            description.close()
             raise
         feed = self._opener.documents[name].feed
         await feed.describe(description, self._data_folder)
         await feed.choose("joint_states")
         return Opened(request=command.request, document=name)
 
-    async def _open_first(self, description: DescriptionIn) -> str:
+    async def _open_first(self, description: ReceivedDescription) -> str:
         text = await asyncio.to_thread(description.first, _FIRST_PATIENCE_S)
         if text is None:
             raise CommandError(

@@ -1,4 +1,4 @@
-"""RobotOut and JointsOut: a node each that tells one robot, or where its joints stand."""
+"""The nodes by which the studio publishes a robot, and the positions of its joints."""
 
 from __future__ import annotations
 
@@ -10,9 +10,8 @@ from studio.nodes.robot_state_publisher import RobotStatePublisher
 from studio.ros.parameters.parameter import Parameter
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
-    from studio.live.connection.link import WireLink
     from studio.robot.kinematics import Kinematics
     from studio.robot.values import Robot
     from studio.ros.node.node import Node
@@ -22,10 +21,18 @@ _PREFIX: Final = "frame_prefix"
 
 
 class RobotOut:
-    """Tells one robot; any thread."""
+    """Publishes one robot; any thread may call it.
 
-    def __init__(self, link: WireLink, node: Node) -> None:
-        self._link, self._node = link, node
+    Args:
+        node: That publishes it.
+        rivals: Returns the nodes of others that publish a robot, too.
+        end: Ends the node.
+    """
+
+    def __init__(
+        self, node: Node, rivals: Callable[[], list[str]], end: Callable[[Node], object]
+    ) -> None:
+        self._node, self.rivals, self._end = node, rivals, end
         self._publisher = RobotStatePublisher(node)
         self.place = self._publisher.place
         self._turn = threading.Lock()
@@ -51,26 +58,20 @@ class RobotOut:
             if prefixes and self._told is not None:
                 self._publisher.describe(*self._told)
 
-    def rivals(self) -> list[str]:
-        """Nodes of others that tell a robot, too."""
-        return self._link.publishers("/robot_description")
-
     def close(self) -> None:
-        """Tell it no more."""
-        self._link.let_go(self._node)
+        """Publish it no more."""
+        self._end(self._node)
 
 
 class JointsOut:
-    """Tells where joints stand; any thread."""
+    """Publishes where joints stand; arguments as of `RobotOut`."""
 
-    def __init__(self, link: WireLink, node: Node) -> None:
-        self._link, self._node = link, node
+    def __init__(
+        self, node: Node, rivals: Callable[[], list[str]], end: Callable[[Node], object]
+    ) -> None:
+        self._node, self.rivals, self._end = node, rivals, end
         self.tell = JointStatePublisher(node).tell
 
-    def rivals(self) -> list[str]:
-        """Nodes of others that tell joints, too."""
-        return self._link.publishers("/joint_states")
-
     def close(self) -> None:
-        """Tell it no more."""
-        self._link.let_go(self._node)
+        """Publish them no more."""
+        self._end(self._node)

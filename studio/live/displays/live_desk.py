@@ -114,7 +114,7 @@ class LiveDesk:
             from studio.live.displays.robot_models import RobotModels  # noqa: PLC0415
 
             self._made = DrawingRoom(self._robot, self._meshes)
-            self._robots = RobotModels(self._robot, self._reader)
+            self._robots = RobotModels(self._robot, self._wire.topics, self._reader)
         return self._made
 
     def restore(self) -> None:
@@ -268,7 +268,7 @@ class LiveDesk:
         async with self._listening:
             self._link = None
             if self._robots is not None:
-                await self._robots.let_go()
+                self._robots.let_go()
             if self._made is not None:
                 await asyncio.to_thread(self._made.deafen)
 

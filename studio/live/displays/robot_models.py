@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import asyncio
 import logging
-from contextlib import suppress
-from typing import TYPE_CHECKING, Final, Protocol
+from typing import TYPE_CHECKING, Final
 
 from studio.displays.robot_model import RobotModelDisplay
 from studio.errors import StudioError
+from studio.live.connection.received_description import receive_description
 from studio.protocol.connection import OpenFromWire
 
 if TYPE_CHECKING:
@@ -16,9 +16,10 @@ if TYPE_CHECKING:
 
     from studio.displays.display import Display
     from studio.displays.robot_model import DescriptionSource
-    from studio.live.connection.hearing import DescriptionIn
+    from studio.live.connection.received_description import ReadsParameters, ReceivedDescription
     from studio.live.displays.own_frames import PosedRobot
     from studio.live.displays.robot_reading import DescribedRobot, RobotReader
+    from studio.live.topics.source import TopicSource
     from studio.robot.values import Robot
 
 _PAUSE_S: Final = 0.5
@@ -28,14 +29,6 @@ _ASK_AGAIN_S: Final = 2.0
 _NOT_CONNECTED: Final = "There is no connection with a ROS 2 system, where the parameter would be."
 
 _log = logging.getLogger(__name__)
-
-
-class HearsDescriptions(Protocol):
-    """What is needed of the connection."""
-
-    def hear_description(self, wanted: OpenFromWire) -> DescriptionIn:
-        """Hear a robot's description, in a thread; raises a StudioError."""
-        ...
 
 
 class _Model:
@@ -51,15 +44,16 @@ class _Model:
         self.own: Robot | None = None
         """The document's robot as it was taken last."""
         self.working: asyncio.Task[None] | None = None
-        self.hearing: DescriptionIn | None = None
+        self.received: ReceivedDescription | None = None
         self.asking = False
         self.ask_after_s = 0.0
         self.is_gone = False
 
-    def taken_hearing(self) -> DescriptionIn | None:
-        """What hears its parameter, to be closed: from now on it is not asked."""
-        hearing, self.hearing = self.hearing, None
-        return hearing
+    def close_description(self) -> None:
+        """Receive its parameter no more."""
+        received, self.received = self.received, None
+        if received is not None:
+            received.close()
 
 
 class RobotModels:
@@ -67,16 +61,17 @@ class RobotModels:
 
     Args:
         own: The document's robot, which one may show.
+        source: Where topics come from.
         reader: Reads the others; closed with this.
     """
 
-    def __init__(self, own: PosedRobot, reader: RobotReader) -> None:
-        self._own, self._reader = own, reader
+    def __init__(self, own: PosedRobot, source: TopicSource, reader: RobotReader) -> None:
+        self._own, self._source, self._reader = own, source, reader
         self._models: dict[str, _Model] = {}
-        self._link: HearsDescriptions | None = None
+        self._link: ReadsParameters | None = None
         self._tasks: set[asyncio.Task[None]] = set()
 
-    def step(self, displays: Mapping[str, Display], link: HearsDescriptions | None) -> None:
+    def step(self, displays: Mapping[str, Display], link: ReadsParameters | None) -> None:
         """Look at what is wanted now, and hand out what has come.
 
         Args:
@@ -91,17 +86,17 @@ class RobotModels:
         for name, display in models.items():
             self._step(self._models.setdefault(name, _Model(display)))
 
-    async def let_go(self) -> None:
-        """Hear nothing more: the connection is about to end."""
+    def let_go(self) -> None:
+        """Receive nothing more: the connection is about to end."""
         self._link = None
-        heard = [model.taken_hearing() for model in self._models.values()]
-        await asyncio.gather(*(_close(one) for one in heard if one is not None))
+        for model in self._models.values():
+            model.close_description()
 
     async def close(self) -> None:
         """End the worker, and all that is under way."""
         for model in self._models.values():
             model.is_gone = True
-        await self.let_go()
+        self.let_go()
         for task in tuple(self._tasks):
             task.cancel()
         await asyncio.gather(*self._tasks, return_exceptions=True)
@@ -137,7 +132,7 @@ class RobotModels:
         model.source, model.wanted, model.done, model.ask_after_s = source, "", "", 0.0
         model.own = None
         model.display.fail("")
-        self._deafen(model)
+        model.close_description()
 
     def _want(self, model: _Model, text: str) -> None:
         """Have a text or file read, if it was not; the newest counts."""
@@ -171,8 +166,8 @@ class RobotModels:
 
     def _hear(self, model: _Model) -> None:
         """Take what the parameter told; ask for it where that was not done, or in vain."""
-        if model.hearing is not None:
-            text = model.hearing.newest()
+        if model.received is not None:
+            text = model.received.newest()
             self._want(model, model.wanted if text is None else text)
         elif self._link is None:
             model.display.fail(_NOT_CONNECTED)
@@ -180,10 +175,10 @@ class RobotModels:
             model.asking = True
             self._spawn(self._ask(model, self._link, model.source))
 
-    async def _ask(self, model: _Model, link: HearsDescriptions, source: DescriptionSource) -> None:
+    async def _ask(self, model: _Model, link: ReadsParameters, source: DescriptionSource) -> None:
         wanted = OpenFromWire(node=source.where, parameter=source.parameter)
         try:
-            hearing = await asyncio.to_thread(link.hear_description, wanted)
+            received = await asyncio.to_thread(receive_description, self._source, link, wanted)
         except StudioError as error:
             model.ask_after_s = asyncio.get_running_loop().time() + _ASK_AGAIN_S
             if source == model.source:
@@ -192,18 +187,14 @@ class RobotModels:
         finally:
             model.asking = False
         if source == model.source and link is self._link and not model.is_gone:
-            model.hearing = hearing
+            model.received = received
             model.display.fail("")
         else:
-            await _close(hearing)
+            received.close()
 
     def _forget(self, model: _Model) -> None:
         model.is_gone = True
-        self._deafen(model)
-
-    def _deafen(self, model: _Model) -> None:
-        if (hearing := model.taken_hearing()) is not None:
-            self._spawn(_close(hearing))
+        model.close_description()
 
     def _spawn(self, work: Coroutine[None, None, None]) -> asyncio.Task[None]:
         task = asyncio.create_task(work)
@@ -215,11 +206,6 @@ class RobotModels:
         self._tasks.discard(task)
         if not task.cancelled() and (error := task.exception()):
             _log.error("The robot of a display could not be read.", exc_info=error)
-
-
-async def _close(hearing: DescriptionIn) -> None:
-    with suppress(StudioError):  # the connection has ended meanwhile
-        await asyncio.to_thread(hearing.close)
 
 
 def _shown(model: _Model, described: DescribedRobot) -> str:
