@@ -151,7 +151,7 @@ ACROSS_ROOMS = {
     "browser",
     "contract",
     "corpus",
-    "course",
+    "curriculum",
     "faults",
     "models",
 }

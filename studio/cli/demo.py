@@ -50,7 +50,7 @@ def open_demo(
     if not moving:
         serve(options, settings, package, arguments)
         return
-    from studio.nodes.demos.starting import DemoProcesses, rover_words
+    from studio.course.processes import DemoProcesses, rover_words
     from studio.ros.wire.settings import wire_settings
 
     wire = wire_settings(settings.wire.connect, settings.wire.domain)

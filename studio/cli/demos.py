@@ -13,7 +13,7 @@ from studio.errors import SettingsError
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from studio.nodes.demos.table import Demo
+    from studio.course.demos import Demo
 
 _DETAILS = """\
 Without names: lists them. With names: starts them, all until Ctrl-C, and says what to try.
@@ -50,7 +50,7 @@ def add(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """List the demos, or start some and wait for them."""
-    from studio.nodes.demos.table import DEMOS
+    from studio.course.demos import DEMOS
 
     if not options.names:
         _list(DEMOS)
@@ -63,8 +63,8 @@ def run(options: argparse.Namespace) -> int:
 
 def _start(demos: Sequence[Demo], options: argparse.Namespace) -> int:
     """Hold the router, if it is ours, for as long as one of them runs."""
-    from studio.nodes.demos.chapters import LESSONS
-    from studio.nodes.demos.starting import DemoProcesses, environment_for
+    from studio.course.demos import LESSONS
+    from studio.course.processes import DemoProcesses, environment_for
 
     arguments = ["--ros-args", *options.ros_args] if options.ros_args else []
     own_types = environment_with(options.interfaces)
@@ -78,7 +78,7 @@ def _start(demos: Sequence[Demo], options: argparse.Namespace) -> int:
 
 
 def _demo(name: str) -> Demo:
-    from studio.nodes.demos.table import find_demo
+    from studio.course.demos import find_demo
 
     found = find_demo(name)
     if found is None:

@@ -47,7 +47,7 @@ def demo_packages() -> set[str]:
 
 def demo_executables() -> dict[str, dict[str, str]]:
     """Give the modules of the studio's own nodes by package and executable."""
-    from studio.nodes.demos.table import executables
+    from studio.course.demos import executables
 
     found: dict[str, dict[str, str]] = {}
     for (package, name), module in executables().items():

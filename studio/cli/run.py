@@ -50,7 +50,7 @@ def add(parser: argparse.ArgumentParser) -> None:
 
 
 def _run(options: argparse.Namespace) -> int:
-    from studio.nodes.demos.starting import environment_for
+    from studio.course.processes import environment_for
     from studio.ros.wire.session import open_wire
     from studio.ros.wire.settings import wire_settings
 

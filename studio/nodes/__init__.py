@@ -1,1 +1,1 @@
-"""Nodes of our own on the wire: what RViz's usual companions do, and the demos of the course."""
+"""Nodes that every robot needs beside RViz: publishers of its description, joints and links."""

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
-from studio.nodes.demos.rover.room import clearance_m
+from studio.course.rover.room import clearance_m
 from studio.ros.messages import message
 from tests.support.demos import heard, node_at, running, running_demo
 from tests.support.server import running_studio

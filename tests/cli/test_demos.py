@@ -2,7 +2,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from studio.nodes.demos.table import DEMOS
+from studio.course.demos import DEMOS
 from tests.support.command_line import started, studio
 from tests.support.wire import free_endpoint
 

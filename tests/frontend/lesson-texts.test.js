@@ -11,7 +11,7 @@ const ROOT = new URL("../../", import.meta.url);
 /** @param {string} path */
 const textOf = (path) => readFileSync(new URL(path, ROOT), "utf8");
 
-const CHAPTERS = textOf("studio/nodes/demos/chapters.py");
+const CHAPTERS = textOf("studio/course/demos.py");
 const FOUND = [...CHAPTERS.matchAll(/Lesson\("(\w+)", "(\/\w+)"/g)];
 const DEMOS = FOUND.map(([, demo = ""]) => demo);
 const NODES = FOUND.map(([, , node = ""]) => node);
@@ -32,8 +32,8 @@ const lessonOf = (language, demo) =>
 /** @param {string} demo @returns {string} all that it is written in */
 function codeOf(demo) {
   const [file, folder] = [
-    `studio/nodes/demos/${demo}.py`,
-    `studio/nodes/demos/${demo.split("_")[0]}/`,
+    `studio/course/${demo}.py`,
+    `studio/course/${demo.split("_")[0]}/`,
   ];
   const inFolder = existsSync(new URL(folder, ROOT)) ? readdirSync(new URL(folder, ROOT)) : [];
   const files = inFolder.filter((name) => name.endsWith(".py")).map((name) => folder + name);

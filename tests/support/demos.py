@@ -10,9 +10,9 @@ import threading
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Any
 
+from studio.course.demos import find_demo
+from studio.course.processes import environment_for
 from studio.errors import DestroyedError
-from studio.nodes.demos.starting import environment_for
-from studio.nodes.demos.table import find_demo
 from studio.ros.client import Context, ExternalShutdownException, Node, SingleThreadedExecutor
 from studio.ros.messages import message, service, shared_types
 from studio.ros.wire.settings import WireSettings

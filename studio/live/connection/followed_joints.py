@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Final, Literal
 
 from studio.live.topics.request import Request
 from studio.live.topics.source import decoder
-from studio.nodes.joint_reading import JointReading
-from studio.nodes.link_transforms import LinkTransform
+from studio.nodes.link_transforms import JointReading, LinkTransform
 from studio.ros.duration import NANOSECONDS
 
 if TYPE_CHECKING:

@@ -13,11 +13,9 @@ from contextlib import suppress
 from itertools import islice
 from typing import TYPE_CHECKING, Final
 
+from studio.course.demos import CHAPTERS, LESSONS, Lesson, code_of, find_demo
+from studio.course.processes import LEASHED, WHEN_TOLD_S, environment_for
 from studio.errors import CommandError
-from studio.nodes.demos.chapters import CHAPTERS, LESSONS, Lesson
-from studio.nodes.demos.code import code_of
-from studio.nodes.demos.starting import LEASHED, WHEN_TOLD_S, environment_for
-from studio.nodes.demos.table import find_demo
 from studio.protocol.commands import Commands, Scope
 from studio.protocol.lessons import (
     CodeFile,

@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from studio.course.demos import DEMOS
 from studio.errors import CommandError
 from studio.live.connection.desk import WireDesk
 from studio.live.panels import lessons
 from studio.live.panels.lessons import CourseDemos
-from studio.nodes.demos.table import DEMOS
 from studio.protocol.lessons import (
     DemoView,
     GetDemoOutput,

@@ -1,0 +1,109 @@
+"""DemoProcesses: demos in processes of their own, which end with the one that started them."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import time
+from typing import TYPE_CHECKING, Self
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+    from pathlib import Path
+
+    from studio.ros.wire.settings import WireSettings
+
+BY_ITSELF_S = 0.6
+"""How long a process has to end by the Ctrl-C that the terminal gave it, too."""
+WHEN_TOLD_S = 1.0
+LEASHED = "studio.course.leashed"
+"""Runs the module that is its first word for as long as its input stays open."""
+_OVERRIDE = "ZENOH_CONFIG_OVERRIDE"
+
+
+class DemoProcesses:
+    """Started one by one, ended together; nobody waits longer than two seconds for that."""
+
+    def __init__(self, environment: Mapping[str, str] = os.environ) -> None:
+        self._environment = dict(environment)
+        self._processes: list[subprocess.Popen[bytes]] = []
+
+    @classmethod
+    def at(cls, settings: WireSettings) -> Self:
+        """Have all of them join the same routers and domain."""
+        return cls(environment_for(settings))
+
+    def start(self, module: str, arguments: Iterable[str] = ()) -> None:
+        """Run a module, none of the folder we are in; what it prints comes out where ours does."""
+        words = [sys.executable, "-P", "-m", module, *arguments]
+        self._processes.append(subprocess.Popen(words, env=self._environment))
+
+    def start_leashed(self, module: str, arguments: Iterable[str] = ()) -> None:
+        """Run a module that ends with this process, however that ends; no key reaches it."""
+        words = [sys.executable, "-P", "-m", LEASHED, module, *arguments]
+        self._processes.append(
+            subprocess.Popen(words, env=self._environment, stdin=subprocess.PIPE)
+        )
+
+    def wait(self) -> int:
+        """Wait until all have ended; gives the first exit code that is not 0."""
+        codes = [process.wait() for process in self._processes]
+        return next((code for code in codes if code), 0)
+
+    def end(self) -> None:
+        """End those that still run: first they may by themselves, then they are told, then made."""
+        for process in self._processes:
+            if process.stdin is not None:
+                process.stdin.close()
+        self._all_ended_within(BY_ITSELF_S)
+        self._tell()
+        if not self._all_ended_within(WHEN_TOLD_S):
+            for process in self._running():
+                process.kill()
+                process.wait()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.end()
+
+    def _tell(self) -> None:
+        for process in self._running():
+            process.terminate()
+
+    def _running(self) -> list[subprocess.Popen[bytes]]:
+        return [process for process in self._processes if process.poll() is None]
+
+    def _all_ended_within(self, patience_s: float) -> bool:
+        end_s = time.monotonic() + patience_s
+        for process in self._processes:
+            try:
+                process.wait(max(0.0, end_s - time.monotonic()))
+            except subprocess.TimeoutExpired:
+                return False
+        return True
+
+
+def rover_words(package: Path, arguments: Mapping[str, str], router: str) -> tuple[str, list[str]]:
+    """Give the rover's module and its words, for a copy of its package and arguments of xacro."""
+    file = package / "urdf" / "rover.urdf.xacro"
+    mapping = [f"{name}:={value}" for name, value in arguments.items()]
+    return "studio.course.rover", [str(file), *mapping, "--router", router]
+
+
+def environment_for(
+    settings: WireSettings, environment: Mapping[str, str] = os.environ
+) -> dict[str, str]:
+    """Give an environment in which nodes join the same routers and domain, as the same ROS."""
+    routers = f"connect/endpoints={json.dumps(settings.connect)}"
+    override = environment.get(_OVERRIDE, "")
+    return {
+        **environment,
+        "ROS_DOMAIN_ID": str(settings.domain),
+        "ROS_DISTRO": settings.profile.distro,
+        _OVERRIDE: f"{override};{routers}" if override else routers,
+        "PYTHONUNBUFFERED": "1",  # what is printed is seen at once, also through a pipe
+    }
