@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal, TypeVar
 
 from studio.description.editing.sources import Change, Sources
+from studio.description.urdf import urdf_text
 from studio.description.values import Expansion, Failure, NoReply
 from studio.documents.board import Board
 from studio.documents.checks.findings import Fixes
@@ -41,7 +42,6 @@ from studio.live.displays.robot_reading import RobotReader
 from studio.packages.uris import resolve_uri
 from studio.protocol.edits import Built
 from studio.protocol.saving import Saved
-from studio.robot.urdf_text import urdf_text
 from studio.scene import DocumentScene
 from studio.settings import LOOPBACK_HOSTS
 

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Final
 from xml.etree import ElementTree
 
 from studio.description.editing.line_diff import DiffLine, LineDiff, line_diff
+from studio.description.urdf import part_element
 from studio.description.values import Expansion, OpenRequest
 from studio.errors import CommandError
 from studio.protocol.texts import GetUrdfChanges, Urdf, UrdfChanges, hunk_views
-from studio.robot.urdf_text import part_element
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence

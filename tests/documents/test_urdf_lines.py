@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from studio.description.editing.line_diff import DiffLine
+from studio.description.urdf import urdf_text
 from studio.description.values import Part
 from studio.documents.urdf import LINES_SHOWN, PartLines, difference, part_lines
 from studio.problems import Place
-from studio.robot.urdf_text import urdf_text
 from tests.support.expanded import element_of
 
 ROOT = (("name", "r"),)

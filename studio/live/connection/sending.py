@@ -7,9 +7,9 @@ import time
 from functools import partial
 from typing import TYPE_CHECKING, Final, Protocol
 
+from studio.description.urdf import urdf_text
 from studio.errors import StudioError
 from studio.live.displays.own_frames import PosedRobot
-from studio.robot.urdf_text import urdf_text
 
 if TYPE_CHECKING:
     from collections.abc import Callable
