@@ -24,7 +24,7 @@ from studio.description.origins.tracing import (
     site_of_binding,
     written_at,
 )
-from studio.description.sites.quantities import quantity_of_attribute
+from studio.description.sites.widgets import quantity_of_attribute
 from studio.description.syntax.attribute_spans import attribute_spans
 from studio.description.syntax.params import param_defaults
 from studio.description.syntax.source_tree import SourceText

@@ -9,7 +9,7 @@ import re
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
-from studio.description.sites.quantities import NUMBERED_TAGS, parse_number, quantity_of_attribute
+from studio.description.sites.widgets import NUMBERED_TAGS, parse_number, quantity_of_attribute
 from studio.description.syntax.annotations import (
     NOTHING,
     Annotation,

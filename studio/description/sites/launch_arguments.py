@@ -14,8 +14,7 @@ from pathlib import PurePath
 from typing import TYPE_CHECKING, Final, Protocol
 
 from studio.description.sites.file_sites import xml_sites
-from studio.description.sites.quantities import parse_number
-from studio.description.sites.widgets import infer_widget
+from studio.description.sites.widgets import infer_widget, parse_number
 from studio.description.syntax.annotations import NOTHING, Annotation
 from studio.description.syntax.source_tree import SourceError, SourceText, parse_source
 from studio.description.values import SiteKind, Widget, WidgetKind

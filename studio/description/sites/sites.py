@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple, Protocol, TypeAlias
 
 from studio.description.evaluator.graph import YamlValue
 from studio.description.sites.file_sites import FileSite, FileSites, xml_sites, yaml_sites
-from studio.description.sites.quantities import parse_number
-from studio.description.sites.widgets import infer_widget, keep_range
+from studio.description.sites.widgets import infer_widget, keep_range, parse_number
 from studio.description.values import Site, SiteKind
 
 if TYPE_CHECKING:

@@ -1,25 +1,283 @@
-"""How a value is best turned: from what its comments say, else from name, text, value and use."""
+"""How a value is best turned: what it measures, its unit, its widget and range.
+
+Comments say it first, else name, text, value and use.
+"""
 
 from __future__ import annotations
 
 import math
 import re
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from enum import Enum, auto
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from studio.description.sites.quantities import (
-    Quantity,
-    Sweep,
-    decimals_of,
-    in_unit,
-    parse_number,
-    quantity_of,
-)
 from studio.description.syntax.annotations import NOTHING, Annotation
 from studio.description.values import Widget, WidgetKind
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
+
+
+_BOUNDS = frozenset({"min", "max", "minimum", "maximum", "lower", "upper", "limit", "limits"})
+_AXES = frozenset({"x", "y", "z", "xyz"})
+_CONSTANTS = re.compile(
+    r"(?:m_)?pi|half_pi|two_pi|deg(?:rees?)?_?(?:2|to)_?rad(?:ians?)?"
+    r"|rad(?:ians?)?_?(?:2|to)_?deg(?:rees?)?",
+    re.IGNORECASE,
+)
+_WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
+_DEGREE_WORDS = frozenset({"deg", "degs", "degree", "degrees"})
+_NUMBER = re.compile(r"\s*[+-]?(\d*)(\.?)(\d*)(?:([eE])([+-]?)(\d+))?\s*")
+
+
+class Sweep(Enum):
+    """How a slider's range follows from the value."""
+
+    POSITIVE = auto()
+    """Above 0: from a quarter of the value to four times it."""
+    SYMMETRIC = auto()
+    """About 0, four times the value to both sides."""
+    ANGLE = auto()
+    """Half a turn to both sides."""
+    FRACTION = auto()
+    """From 0 to 1."""
+    DIRECTION = auto()
+    """From -1 to 1."""
+    COUNT = auto()
+    """Whole numbers."""
+    FREE = auto()
+    """A quarter to four times the value, with its sign."""
+    CONSTANT = auto()
+    """Nature's, not the robot's: pi is not turned."""
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """A unit as the file has it, and the sweep of its slider."""
+
+    unit: str
+    sweep: Sweep
+
+
+UNKNOWN = Quantity("", Sweep.FREE)
+ANGLE = Quantity("rad", Sweep.ANGLE)
+DEGREES = Quantity("deg", Sweep.ANGLE)
+LENGTH = Quantity("m", Sweep.POSITIVE)
+POSITION = Quantity("m", Sweep.SYMMETRIC)
+MASS = Quantity("kg", Sweep.POSITIVE)
+INERTIA = Quantity("kg m^2", Sweep.POSITIVE)
+PRODUCT_OF_INERTIA = Quantity("kg m^2", Sweep.SYMMETRIC)
+EFFORT = Quantity("N m", Sweep.POSITIVE)
+FORCE = Quantity("N", Sweep.POSITIVE)
+ANGULAR_SPEED = Quantity("rad/s", Sweep.POSITIVE)
+LINEAR_SPEED = Quantity("m/s", Sweep.POSITIVE)
+ANGULAR_ACCELERATION = Quantity("rad/s^2", Sweep.POSITIVE)
+POSITIVE = Quantity("", Sweep.POSITIVE)
+FRACTION = Quantity("", Sweep.FRACTION)
+DIRECTION = Quantity("", Sweep.DIRECTION)
+RATIO = Quantity("", Sweep.SYMMETRIC)
+COUNT = Quantity("", Sweep.COUNT)
+RATE = Quantity("Hz", Sweep.POSITIVE)
+CONSTANT = Quantity("", Sweep.CONSTANT)
+
+
+_BY_ATTRIBUTE: dict[tuple[str, str], Quantity] = {
+    ("mass", "value"): MASS,
+    ("cylinder", "radius"): LENGTH,
+    ("cylinder", "length"): LENGTH,
+    ("capsule", "radius"): LENGTH,
+    ("capsule", "length"): LENGTH,
+    ("sphere", "radius"): LENGTH,
+    ("box", "size"): LENGTH,
+    ("limit", "lower"): ANGLE,
+    ("limit", "upper"): ANGLE,
+    ("limit", "effort"): EFFORT,
+    ("limit", "velocity"): ANGULAR_SPEED,
+    ("safety_controller", "soft_lower_limit"): ANGLE,
+    ("safety_controller", "soft_upper_limit"): ANGLE,
+    ("safety_controller", "k_position"): POSITIVE,
+    ("safety_controller", "k_velocity"): POSITIVE,
+    ("calibration", "rising"): ANGLE,
+    ("calibration", "falling"): ANGLE,
+    ("dynamics", "damping"): POSITIVE,
+    ("dynamics", "friction"): POSITIVE,
+    ("mimic", "multiplier"): RATIO,
+    ("mimic", "offset"): ANGLE,
+    ("axis", "xyz"): DIRECTION,
+    ("origin", "rpy"): ANGLE,
+    ("origin", "xyz"): POSITION,
+    ("mesh", "scale"): UNKNOWN,
+    ("color", "rgba"): FRACTION,
+    ("inertia", "ixx"): INERTIA,
+    ("inertia", "iyy"): INERTIA,
+    ("inertia", "izz"): INERTIA,
+    ("inertia", "ixy"): PRODUCT_OF_INERTIA,
+    ("inertia", "ixz"): PRODUCT_OF_INERTIA,
+    ("inertia", "iyz"): PRODUCT_OF_INERTIA,
+}
+"""The numbers of URDF, those that say most about their input first (an inertia says least)."""
+
+
+NUMBERED_TAGS = frozenset(tag for tag, _ in _BY_ATTRIBUTE)
+
+
+_PRISMATIC: dict[tuple[str, str], Quantity] = {
+    ("limit", "lower"): POSITION,
+    ("limit", "upper"): POSITION,
+    ("limit", "effort"): FORCE,
+    ("limit", "velocity"): LINEAR_SPEED,
+    ("safety_controller", "soft_lower_limit"): POSITION,
+    ("safety_controller", "soft_upper_limit"): POSITION,
+    ("mimic", "offset"): POSITION,
+}
+
+
+_WORDS: dict[Quantity, str] = {
+    CONSTANT: "pi halfpi twopi rad2deg deg2rad gravity",
+    MASS: "mass weight payload masses",
+    LENGTH: (
+        "radius diameter length width height thickness depth size wheelbase track clearance "
+        "separation spacing distance gap range baseline radii dist len diam reach"
+    ),
+    POSITION: "offset xyz x y z dx dy dz pos position shift origin translation",
+    ANGLE: (
+        "rpy roll pitch yaw angle theta tilt rotation orientation heading pan fov hfov vfov "
+        "lower upper limit azimuth elevation swing"
+    ),
+    EFFORT: "effort torque",
+    FORCE: "force",
+    ANGULAR_SPEED: "velocity vel omega",
+    LINEAR_SPEED: "speed",
+    ANGULAR_ACCELERATION: "acceleration accel",
+    POSITIVE: (
+        "friction mu mu1 mu2 damping stiffness k kp kd ki gain gains scale ratio factor "
+        "multiplier reduction density jerk voltage"
+    ),
+    FRACTION: "rgba red green blue opacity transparency color colour brightness",
+    INERTIA: "ixx iyy izz inertia",
+    PRODUCT_OF_INERTIA: "ixy ixz iyz",
+    COUNT: (
+        "count num number samples resolution pixels index id port baud channels beams rings "
+        "rows columns fps"
+    ),
+    RATE: "rate frequency hz",
+    DIRECTION: "reflect mirror axis sign side direction",
+}
+
+
+_BY_WORD = {word: quantity for quantity, words in _WORDS.items() for word in words.split()}
+
+
+def in_unit(quantity: Quantity, unit: str) -> Quantity:
+    """The same quantity where the file is said to give it in `unit`."""
+    if not unit or unit == quantity.unit:
+        return quantity
+    if unit in {"deg", "rad"}:
+        is_rate = quantity.unit.startswith("rad/")
+        return (
+            Quantity(quantity.unit.replace("rad", unit), Sweep.POSITIVE)
+            if is_rate
+            else Quantity(unit, Sweep.ANGLE)
+        )
+    return Quantity(unit, Sweep.FREE if quantity.sweep is Sweep.ANGLE else quantity.sweep)
+
+
+def quantity_of_attribute(path: str, attribute: str) -> Quantity | None:
+    """What an attribute of URDF measures; `path` ends in its element's tag.
+
+    A joint that slides is written `joint:prismatic` in the path; others turn.
+    """
+    key = (path.rpartition("/")[2], attribute)
+    if "joint:prismatic" in path and key in _PRISMATIC:
+        return _PRISMATIC[key]
+    return _BY_ATTRIBUTE.get(key)
+
+
+def quantity_of_name(name: str) -> Quantity | None:
+    """What a value of that name measures: its last telling word decides.
+
+    Dots separate keys of YAML; the last key decides, those above it only when it says nothing,
+    except that a position among limits is an angle (`joint_limits.elbow.max_position`).
+    """
+    last, *above = reversed(name.split("."))
+    if _CONSTANTS.fullmatch(last):
+        return CONSTANT
+    words = _words_of(last)
+    found = _quantity_of_words(words)
+    if found is POSITION and _BOUNDS.intersection(words):
+        found = ANGLE
+    if found is None:
+        found = next(filter(None, (_quantity_of_words(_words_of(key)) for key in above)), None)
+    is_in_degrees = _DEGREE_WORDS.intersection(words)
+    return DEGREES if is_in_degrees and found in {ANGLE, None} else found
+
+
+def _words_of(key: str) -> list[str]:
+    return [word.lower() for word in _WORD.findall(key)]
+
+
+def _quantity_of_words(words: list[str]) -> Quantity | None:
+    """The last word that names a quantity: `max_velocity` and `velocity_limit` are both speeds.
+
+    Bounds and axes only count when no other word does: `size_y` is a length.
+    """
+    weak: Quantity | None = None
+    for word in reversed(words):
+        quantity = _BY_WORD.get(word)
+        if quantity is not None and word not in _BOUNDS | _AXES:
+            return _specified(quantity, words)
+        weak = weak or quantity
+    return weak
+
+
+def _specified(quantity: Quantity, words: list[str]) -> Quantity:
+    """A velocity is a joint's unless it is said to be linear; `k_position` is a gain."""
+    if "k" in words:
+        return POSITIVE
+    return LINEAR_SPEED if quantity is ANGULAR_SPEED and "linear" in words else quantity
+
+
+@lru_cache(maxsize=1024)
+def quantity_of(name: str, consumers: tuple[tuple[str, str], ...]) -> Quantity:
+    """What a value measures: its name says it, else the most telling attribute that it shapes."""
+    named = quantity_of_name(name)
+    used = {key: found for key in consumers if (found := quantity_of_attribute(*key)) is not None}
+    if named is not None and not (named is UNKNOWN and used):
+        return _refined(named, set(used.values()))
+    order = list(_BY_ATTRIBUTE)
+    ranked = sorted(used, key=lambda key: order.index((key[0].rpartition("/")[2], key[1])))
+    return used[ranked[0]] if ranked else UNKNOWN
+
+
+def _refined(named: Quantity, used: set[Quantity]) -> Quantity:
+    """What a name leaves open, its use decides: an offset that only turns is an angle."""
+    if not used or named in used:
+        return named
+    loose = {POSITION: ANGLE, ANGLE: POSITION, ANGULAR_SPEED: LINEAR_SPEED, EFFORT: FORCE}
+    other = loose.get(named)
+    return other if other is not None and used == {other} else named
+
+
+def parse_number(text: str) -> float | None:
+    """The finite number that a text is; None for anything else (also inf, nan and `1_000`)."""
+    if "_" in text:
+        return None
+    try:
+        number = float(text)
+    except ValueError:
+        return None
+    return number if math.isfinite(number) else None
+
+
+def decimals_of(text: str) -> int:
+    """Digits behind the decimal point of a number as written; an exponent shifts the point."""
+    number = _NUMBER.fullmatch(text)
+    if number is None:
+        return 0
+    exponent = int(f"{number[5]}{number[6]}") if number[4] else 0
+    return max(0, len(number[3]) - exponent)
+
 
 _EXPRESSION = re.compile(r"\$[{(]")
 _INTEGER = re.compile(r"\s*[+-]?\d+\s*")

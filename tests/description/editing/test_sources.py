@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from studio.description.editing.edits import apply, decode
 from studio.description.editing.sources import Sources
 from studio.description.session import Session
-from studio.description.sites.quantities import parse_number
+from studio.description.sites.widgets import parse_number
 from studio.description.values import (
     Edit,
     EditRequest,

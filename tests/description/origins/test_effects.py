@@ -10,7 +10,7 @@ import pytest
 from studio.description.editing.edits import edit_at
 from studio.description.origins.effects import EFFECTS_KEPT, READERS_KEPT, aspect_of
 from studio.description.origins.origin_values import Aspect, SiteEffects
-from studio.description.sites.quantities import parse_number
+from studio.description.sites.widgets import parse_number
 from studio.description.values import NoReply, SiteKind
 from tests.support.corpus import corpus
 from tests.support.descriptions import robot, write

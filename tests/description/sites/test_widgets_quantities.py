@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from studio.description.sites import quantities
-from studio.description.sites.quantities import (
+from studio.description.sites import widgets as quantities
+from studio.description.sites.widgets import (
     Quantity,
     Sweep,
     in_unit,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from studio.description.sites.quantities import decimals_of, parse_number
+from studio.description.sites.widgets import decimals_of, parse_number
 
 
 @pytest.mark.parametrize("text", ["", "x", "inf", "nan", "1_000", "0x10", "1 2", "1e999"])
