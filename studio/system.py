@@ -40,18 +40,6 @@ def _watch_memory(limit_bytes: int) -> None:
     os._exit(137)
 
 
-def kept_waiting_s(pid: int) -> float:
-    """How long a process was ready to run while the machine ran others, s; 0 where nobody counts.
-
-    Source: Linux, Documentation/scheduler/sched-stats (ns, of its first thread).
-    """
-    try:
-        with open(f"/proc/{pid}/schedstat", "rb") as counts:  # noqa: PTH123 - no path is made of it
-            return int(counts.read().split()[1]) / 1e9
-    except (OSError, ValueError, IndexError):
-        return 0.0
-
-
 def is_running(pid: int) -> bool:
     """Whether a process of that number runs; True where that cannot be asked."""
     if sys.platform == "win32":

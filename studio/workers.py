@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
 import msgspec
 
 from studio.errors import WorkerDiedError, WorkerTimeoutError
-from studio.system import ignore_interrupt, kept_waiting_s, limit_memory
+from studio.system import ignore_interrupt, limit_memory
 
 if TYPE_CHECKING:
     from collections.abc import AsyncGenerator, Callable, Hashable
@@ -229,6 +229,18 @@ async def _time_to_run(pid: int, timeout_s: float) -> AsyncGenerator[None]:
             yield
     finally:
         timer.cancel()
+
+
+def kept_waiting_s(pid: int) -> float:
+    """How long a process was ready to run while the machine ran others, s; 0 where nobody counts.
+
+    Source: Linux, Documentation/scheduler/sched-stats (ns, of its first thread).
+    """
+    try:
+        with open(f"/proc/{pid}/schedstat", "rb") as counts:  # noqa: PTH123 - no path is made of it
+            return int(counts.read().split()[1]) / 1e9
+    except (OSError, ValueError, IndexError):
+        return 0.0
 
 
 class WorkerPool:

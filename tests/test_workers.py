@@ -14,8 +14,7 @@ import pytest
 from studio.description.requests import CODEC
 from studio.description.values import Edit, EditRequest, Failure
 from studio.errors import WorkerDiedError, WorkerTimeoutError
-from studio.system import kept_waiting_s
-from studio.workers import Worker, WorkerPool
+from studio.workers import Worker, WorkerPool, kept_waiting_s
 from tests.support import spending_worker
 from tests.support.open_documents import until
 from tests.support.spending_worker import Spend, Spent

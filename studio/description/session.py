@@ -58,7 +58,7 @@ if TYPE_CHECKING:
     from studio.description.requests import Query, Reply
     from studio.description.values import ReadPolicy, Site
 
-NOT_OPEN = "No robot is open in this worker: open it again."
+_NOT_OPEN = "No robot is open in this worker: open it again."
 _log = logging.getLogger(__name__)
 Answer: TypeAlias = Expansion | Failure
 Request: TypeAlias = OpenRequest | EditRequest | ArgumentsRequest | ReloadRequest | VerifyRequest
@@ -119,7 +119,7 @@ class Session:
         self._sites: dict[str, Site] = {}
         self._good: GoodRun | None = None
         self._origins: Origins | None = None
-        """Answers questions about the last good run."""
+        """Answers questions about the last good run, once there was one."""
         self._doubted: set[str] = set()
         """Files edited or read anew since the last full run, whose sites the other side moved."""
         self._told: Expansion | None = None
@@ -181,7 +181,7 @@ class Session:
         root, record = live.index.root, live.record
         parts = [plain_part(root, live.index.keys[one], one) for one in patch.parts]
         changed = [part for part in parts if self._parts[part.key] != part.element]
-        sites = self._site_builder.patch(patch.sites, live.texts)
+        sites = self._site_builder.patch(patch.sites, live.texts.live)
         self._parts.update((part.key, part.element) for part in changed)
         self._sites.update((site.id, site) for site in sites)
         self._keep_good(root, record, "studio")
@@ -221,8 +221,9 @@ class Session:
             if self._live is not None:
                 self._sites.update(self._live.texts.moved(self._sites))
             return self._language.answer(query, self._arguments, self._good, self._sites)
-        if self._origins is None:
+        if self._good is None:
             return NoReply("The description has not been expanded yet: mend its problems first.")
+        self._origins = self._origins or Origins(self._good)
         match query:
             case PartOriginQuery(part=part):
                 return self._origins.part(part)
@@ -361,7 +362,7 @@ class Session:
             self._store.kept(self._good.store if self._good else None),
             self._sites.keys(),
         )
-        self._origins = Origins(self._good)
+        self._origins = None
 
     def _is_new(self, site: Site) -> bool:
         """Whether a site is told: it changed, or who moved it with the edits may have it wrong."""
@@ -419,3 +420,21 @@ def open_session(request: OpenRequest) -> tuple[Session | None, Answer]:
     except Refusal as refusal:
         return None, Failure(problem_of(refusal, request.entry), (request.entry,))
     return session, session.run()
+
+
+class OpenSession:
+    """The one session of a process: what is opened next takes its place."""
+
+    def __init__(self) -> None:
+        self._session: Session | None = None
+
+    def answer(self, request: Request | Query) -> Answer | Reply:
+        """Answer one request; a robot that cannot be expanded is an answer too."""
+        if isinstance(request, OpenRequest):
+            self._session, answer = open_session(request)
+            return answer
+        if isinstance(request, Request):
+            if self._session is None:
+                return Failure(Problem(Severity.ERROR, "no-session", _NOT_OPEN), ())
+            return self._session.answer(request)
+        return self._session.query(request) if self._session else NoReply(_NOT_OPEN)

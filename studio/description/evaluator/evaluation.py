@@ -17,6 +17,7 @@ from studio.description.evaluator.calls import (
 from studio.description.evaluator.graph import Argument, Cell, Role, Scope, ScopeView
 from studio.description.evaluator.macros import MacroTable
 from studio.description.evaluator.output_tree import OutputElement
+from studio.description.evaluator.texts import literal_value, truth_of
 from studio.description.evaluator.walk import (
     Walk,
     attribute_text,
@@ -30,7 +31,6 @@ from studio.description.evaluator.walk import (
 from studio.description.expressions.guards import MUTATING, text_of
 from studio.description.faults import Fault, Refusal, Unsupported
 from studio.description.syntax.source_tree import SourceElement
-from studio.description.syntax.templates import literal_value, truth_of
 from studio.description.values import SiteKind
 
 if TYPE_CHECKING:

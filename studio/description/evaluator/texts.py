@@ -15,7 +15,7 @@ from studio.description.expressions.expressions import Expression, compile_expre
 from studio.description.expressions.guards import SIZE_LIMIT, text_of
 from studio.description.expressions.symbols import make_symbols, pure_names
 from studio.description.faults import Fault, Refusal, misnamed, shorten
-from studio.description.syntax.templates import Cut, literal_value, segments_of
+from studio.description.syntax.templates import Cut, segments_of
 from studio.problems import Problem, Severity
 
 if TYPE_CHECKING:
@@ -71,6 +71,41 @@ def pure_value(text: str) -> Any:  # noqa: ANN401
         raise
     except Exception as error:  # noqa: BLE001 - whatever the expression does
         raise failed(text, error) from None
+
+
+def literal_value(value: Any) -> Any:  # noqa: ANN401
+    """Type a text as xacro does when it binds one: int, float, bool, quoted text, else as it is."""
+    if not isinstance(value, str):
+        return value
+    if len(value) >= 2 and value[0] == value[-1] == "'":
+        return value[1:-1]
+    if "_" in value:  # Python would read 1_000 as a number
+        return value
+    for read in (int, float):
+        try:
+            return read(value)
+        except ValueError:
+            continue
+    return {"true": True, "True": True, "false": False, "False": False}.get(value, value)
+
+
+def truth_of(value: Any, condition: str | None) -> bool:  # noqa: ANN401
+    """What a condition came to, by xacro's rules.
+
+    Raises:
+        Fault: A text that is neither true, false nor a whole number.
+    """
+    if not isinstance(value, str):
+        return bool(value)
+    if value in {"true", "True"}:
+        return True
+    if value in {"false", "False"}:
+        return False
+    try:
+        return bool(int(value))
+    except ValueError:
+        sentence = f'"{condition}" came to "{value}", which is neither true nor false.'
+        raise Fault("not-a-condition", sentence) from None
 
 
 def failed(text: str, error: Exception) -> Fault:

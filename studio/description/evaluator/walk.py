@@ -13,12 +13,11 @@ from typing import TYPE_CHECKING, Any, Final, cast
 
 from studio.description.evaluator.graph import Argument, Binding, Role
 from studio.description.evaluator.output_tree import OutputElement, macro_calls
-from studio.description.evaluator.texts import Texts
+from studio.description.evaluator.texts import Texts, literal_value
 from studio.description.expressions.bounds import Budget, Limits
 from studio.description.expressions.guards import text_of
 from studio.description.faults import Fault, shorten
 from studio.description.syntax.source_tree import SourceComment, SourceElement, SourceText
-from studio.description.syntax.templates import literal_value
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

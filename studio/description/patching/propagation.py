@@ -18,11 +18,11 @@ import re
 from typing import TYPE_CHECKING, Any, Final, cast
 
 from studio.description.evaluator.graph import Cell, Record, Role, Scope, YamlReads, behind
+from studio.description.evaluator.texts import literal_value, truth_of
 from studio.description.expressions.bounds import is_lasting
 from studio.description.expressions.guards import text_of
 from studio.description.faults import Fault, Refusal
 from studio.description.syntax.source_tree import SourceText
-from studio.description.syntax.templates import literal_value, truth_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -1,11 +1,13 @@
-"""The sites of one file, as far as its bytes alone tell: what a run adds is in `sites`.
+"""The sites of one file, as far as its bytes alone tell, and while edits change them.
 
-Ids count elements, not bytes, so that they outlast every edit of a text.
+What a run adds is in `sites`. Ids count elements, not bytes, so that they outlast every edit of a
+text.
 """
 
 from __future__ import annotations
 
 import re
+from bisect import bisect_right
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
@@ -27,10 +29,11 @@ from studio.description.values import SiteKind, Span
 from studio.problems import Place
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Set
+    from collections.abc import Iterator, Mapping, Set
 
     from studio.description.syntax.source_tree import SourceTree
     from studio.description.syntax.yaml_spans import KeyPath
+    from studio.description.values import Edit
 
 
 _TEXTS = {
@@ -80,6 +83,8 @@ class FileSite:
 
     def rewritten(self, text: str) -> FileSite:
         """The site when another text stands there, on the same line."""
+        if not any("," in one for one in self.remarks):  # only choices are read beside the text
+            return replace(self, text=text)
         if self.kind is SiteKind.YAML:
             annotation = _yaml_annotation(self.remarks, text, self.tag)
         else:
@@ -94,6 +99,81 @@ class FileSites:
     data: bytes
     sites: tuple[FileSite, ...]
     aliases: tuple[tuple[KeyPath, KeyPath], ...] = field(default=())
+
+
+class LiveSites:
+    """The sites of a file while edits change them, each edit within one site and on its line."""
+
+    def __init__(self, file: FileSites) -> None:
+        self._sites = list(file.sites)
+        self._starts = [one.span.start for one in file.sites]
+        self._sizes = [one.span.end - one.span.start for one in file.sites]
+        """Starts and sizes are those of the run, without what edits made them grow."""
+        self._in_order = sorted(range(len(self._sites)), key=self._starts.__getitem__)
+        self._growth: dict[int, int] = {}
+        """How much each edited site has grown, by its index."""
+        self.index_of = {site.id: index for index, site in enumerate(file.sites)}
+        self.has_aliases = bool(file.aliases)
+
+    def find(self, edit: Edit) -> int | None:
+        """The site that an edit lies in."""
+        at = bisect_right(self._in_order, edit.start, key=self._start)
+        if not at:
+            return None
+        index = self._in_order[at - 1]
+        return index if edit.end <= self._end(index) else None
+
+    def site(self, index: int) -> FileSite:
+        """A site as it stands now."""
+        site, start, end = self._sites[index], self._start(index), self._end(index)
+        if (site.span.start, site.span.end) != (start, end):
+            site = self._sites[index] = replace(site, span=Span(start, end, site.span.syntax))
+        return site
+
+    def by_id(self, site_id: str) -> FileSite:
+        """A site as it stands now, by its id."""
+        return self.site(self.index_of[site_id])
+
+    def without_span(self, site_id: str) -> FileSite:
+        """A site as it is now by its id; its span may be an earlier one."""
+        return self._sites[self.index_of[site_id]]
+
+    def write(self, index: int, edit: Edit, text: str) -> None:
+        """Have another text stand at a site; those behind it move."""
+        growth = len(edit.new) - (edit.end - edit.start)
+        self._growth[index] = self._growth.get(index, 0) + growth
+        self._sites[index] = self._sites[index].rewritten(text)
+
+    def move_behind(self, index: int, growth: int) -> list[str]:
+        """Shift the columns of what stands behind a site on its line; the ids of what moved."""
+        at, line = self._starts[index], self._sites[index].place.line
+        moved = [
+            number
+            for number, one in enumerate(self._sites)
+            if one.place.line == line and self._starts[number] > at
+        ]
+        for number in moved:
+            place = self._sites[number].place
+            self._put(number, Place(place.file, line, place.column + growth))
+        return [self._sites[number].id for number in moved]
+
+    def move_elements(self, places: Mapping[int, Place]) -> list[str]:
+        """Put sites where their elements are now, by ordinal; the ids of what moved."""
+        moved = [number for number, one in enumerate(self._sites) if one.ordinal in places]
+        for number in moved:
+            self._put(number, places[self._sites[number].ordinal])
+        return [self._sites[number].id for number in moved]
+
+    def _put(self, index: int, place: Place) -> None:
+        self._sites[index] = replace(self._sites[index], place=place)
+
+    def _start(self, index: int) -> int:
+        start = self._starts[index]
+        before = (size for other, size in self._growth.items() if self._starts[other] < start)
+        return start + sum(before)
+
+    def _end(self, index: int) -> int:
+        return self._start(index) + self._sizes[index] + self._growth.get(index, 0)
 
 
 def yaml_sites(path: str, data: bytes) -> FileSites:

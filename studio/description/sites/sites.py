@@ -7,7 +7,7 @@ the same as in the run before is the same object.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Final, NamedTuple, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Final, NamedTuple, TypeAlias
 
 from studio.description.evaluator.graph import YamlValue
 from studio.description.sites.file_sites import FileSite, FileSites, xml_sites, yaml_sites
@@ -15,10 +15,11 @@ from studio.description.sites.widgets import infer_widget, keep_range, parse_num
 from studio.description.values import Site, SiteKind
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
+    from collections.abc import Callable, Iterable, Iterator, Mapping
 
     from studio.description.evaluator.graph import Binding, Consumer, Input, YamlReads
     from studio.description.evaluator.runs import RunRecord
+    from studio.description.sites.file_sites import LiveSites
     from studio.description.syntax.yaml_spans import KeyPath
     from studio.description.values import Widget
 
@@ -267,18 +268,6 @@ def _followed(
     return None
 
 
-class EditedTexts(Protocol):
-    """The texts behind sites, as edits have left them."""
-
-    def without_span(self, path: str, site_id: str) -> FileSite:
-        """A site as it is now; its span may be an earlier one."""
-        ...
-
-    def site(self, path: str, site_id: str) -> FileSite:
-        """A site as it is now."""
-        ...
-
-
 @dataclass(frozen=True, slots=True)
 class _Built:
     """A site and what it was built from, to tell whether it must be built again."""
@@ -324,19 +313,23 @@ class SiteBuilder:
         }
         return [one.site for one in self._built.values()]
 
-    def patch(self, sites: Mapping[str, str], texts: EditedTexts) -> tuple[Site, ...]:
-        """Those of some sites that are other ones now, given by id with their file.
+    def patch(self, sites: Mapping[str, str], live: Callable[[str], LiveSites]) -> tuple[Site, ...]:
+        """Those of some sites that are other ones now.
 
         One that has only moved with an edit before it is none.
+
+        Args:
+            sites: Their files by their ids.
+            live: Gives the sites of a file as edits have left them.
         """
         changed: list[Site] = []
         for name, path in sites.items():
-            before, in_file = self._built[name], texts.without_span(path, name)
+            before, in_file = self._built[name], live(path).without_span(name)
             seen = self.reads.seen(path, self._files[path], in_file)
             known = before.in_file
             is_same_text = (in_file.text, in_file.place) == (known.text, known.place)
             if not is_same_text or seen != before.seen:
-                self._built[name] = built = self._build(texts.site(path, name), seen)
+                self._built[name] = built = self._build(live(path).by_id(name), seen)
                 changed.append(built.site)
         return tuple(changed)
 

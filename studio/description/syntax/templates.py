@@ -1,4 +1,4 @@
-"""A text as xacro reads it: cut into what is evaluated and what stands for itself, and typed.
+"""A text as xacro reads it: cut into what is evaluated and what stands for itself.
 
 The cuts are those of xacro 2.1.1: `${...}` ends at the first `}`, `$(...)` at the first `)`, and
 `$${` or `$$(` stands for `${` or `$(`.
@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from enum import Enum
 from functools import lru_cache
-from typing import Any, Final, TypeAlias
+from typing import Final, TypeAlias
 
 from studio.description.faults import Fault, shorten
 
@@ -66,38 +66,3 @@ def _unclosed(text: str, position: int) -> Fault:
     else:
         what = f'"$" in "{shorten(text)}" begins nothing: write "$${{" for a literal "${{"'
     return Fault("bad-expression", f"{what}.")
-
-
-def literal_value(value: Any) -> Any:  # noqa: ANN401
-    """Type a text as xacro does when it binds one: int, float, bool, quoted text, else as it is."""
-    if not isinstance(value, str):
-        return value
-    if len(value) >= 2 and value[0] == value[-1] == "'":
-        return value[1:-1]
-    if "_" in value:  # Python would read 1_000 as a number
-        return value
-    for read in (int, float):
-        try:
-            return read(value)
-        except ValueError:
-            continue
-    return {"true": True, "True": True, "false": False, "False": False}.get(value, value)
-
-
-def truth_of(value: Any, condition: str | None) -> bool:  # noqa: ANN401
-    """What a condition came to, by xacro's rules.
-
-    Raises:
-        Fault: A text that is neither true, false nor a whole number.
-    """
-    if not isinstance(value, str):
-        return bool(value)
-    if value in {"true", "True"}:
-        return True
-    if value in {"false", "False"}:
-        return False
-    try:
-        return bool(int(value))
-    except ValueError:
-        sentence = f'"{condition}" came to "{value}", which is neither true nor false.'
-        raise Fault("not-a-condition", sentence) from None

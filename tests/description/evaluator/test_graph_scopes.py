@@ -11,8 +11,8 @@ import xacro
 from hypothesis import given
 from hypothesis import strategies as st
 
+from studio.description.evaluator.texts import literal_value, truth_of
 from studio.description.faults import Fault
-from studio.description.syntax.templates import literal_value, truth_of
 
 texts = st.one_of(
     st.text(alphabet="0123456789.+-eE_' \"truefalsTF", max_size=10),

@@ -3,7 +3,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from studio.description.evaluator.source_store import SourceStore
-from studio.description.patching.text_edits import TextEdits
+from studio.description.patching.live_run import TextEdits
 from studio.description.sites.file_sites import xml_sites
 from studio.description.syntax.source_tree import SourceTree, parse_source
 from studio.description.values import Edit
