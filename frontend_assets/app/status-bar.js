@@ -14,7 +14,7 @@ import {
   robot,
   showingLastGood,
 } from "../model/document.js";
-import { followDeeds, repeatedPublications } from "../model/operations.js";
+import { followOperations, repeatedPublications } from "../model/operations.js";
 import { connectRos, ros } from "../model/ros.js";
 import { heldBack } from "../model/source.js";
 import { dialog } from "../model/view.js";
@@ -95,7 +95,7 @@ function Unsaved() {
 /** What this studio publishes at a rate: seen from any panel, and one click from its end. */
 function PublishingStatus() {
   const isJoined = ros.value.state === "connected";
-  useEffect(() => (isJoined ? followDeeds("publications") : undefined), [isJoined]);
+  useEffect(() => (isJoined ? followOperations("publications") : undefined), [isJoined]);
   const all = repeatedPublications.value;
   const [first] = all;
   if (!isJoined || !first) return null;

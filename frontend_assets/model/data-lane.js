@@ -5,16 +5,16 @@
 
 /** @import { FromPage } from "../workers/data.js" */
 /** @import { PictureAsked, Pictured, PictureToPage, SavedPicture } from "../workers/pictures.js" */
-/** @import { Heard, Looked, Points, ToPage } from "../workers/subscriptions.js" */
+/** @import { SubscriptionView, Echoed, Points, ToPage } from "../workers/subscriptions.js" */
 
 import { effect, signal } from "vendor/preact.js";
 import { connection } from "./connection.js";
 import { typeOf, whenTypesChange } from "./interfaces.js";
 
 /** @typedef {{reliable?: boolean | null, latched?: boolean | null, depth?: number | null, typeName?: string, mostHz?: number, pace?: "tick" | "at_once"}} Ways null: as fits its publishers; at once: between two ticks, for what somebody waits for */
-/** @typedef {{onState: (heard: Heard) => void, onMessage: (message: Looked) => void}} Onlooker */
-/** @typedef {{onState: (heard: Heard) => void, onPoints: (points: Points) => void}} Tracer */
-/** @typedef {{onState: (heard: Heard) => void, onPicture: (pictured: Pictured) => void, onSaved: (file: Blob) => void}} Watcher */
+/** @typedef {{onState: (subscription: SubscriptionView) => void, onMessage: (message: Echoed) => void}} EchoListener */
+/** @typedef {{onState: (subscription: SubscriptionView) => void, onPoints: (points: Points) => void}} TraceListener */
+/** @typedef {{onState: (subscription: SubscriptionView) => void, onPicture: (pictured: Pictured) => void, onSaved: (file: Blob) => void}} PictureListener */
 
 /** What is looked at is read by people. */
 const LOOK_HZ = 10;
@@ -23,13 +23,13 @@ const WATCH_HZ = 60;
 
 /** Messages that this page was too slow for, since the lane was opened. */
 export const dropped = signal(0);
-/** Whether what is heard comes. */
+/** Whether the lane is open. */
 export const laneOpen = signal(true);
 
 /** @type {Worker | null} */
 let worker = null;
 let lastNumber = 0;
-/** @type {Map<number, Onlooker | Tracer | Watcher>} */
+/** @type {Map<number, EchoListener | TraceListener | PictureListener>} */
 const listeners = new Map();
 /** @type {Map<number, (text: string) => void>} */
 const texts = new Map();
@@ -59,7 +59,7 @@ function take(message) {
   if (message.kind === "need") tell(message.typeName);
   else if (message.kind === "lane") takeLane(message);
   else if (message.kind === "text") texts.get(message.request)?.(message.text);
-  else takeHeard(message);
+  else takeNews(message);
 }
 
 /** @param {import("../workers/subscriptions.js").LaneState} message */
@@ -68,11 +68,11 @@ function takeLane(message) {
   dropped.value = message.dropped;
 }
 
-/** @param {import("../workers/subscriptions.js").State | Looked | Points | Pictured | SavedPicture} message */
-function takeHeard(message) {
-  const listener = listeners.get(message.wish);
+/** @param {import("../workers/subscriptions.js").State | Echoed | Points | Pictured | SavedPicture} message */
+function takeNews(message) {
+  const listener = listeners.get(message.subscription);
   if (!listener) return;
-  if (message.kind === "state") listener.onState(message.heard);
+  if (message.kind === "state") listener.onState(message.view);
   else if (message.kind === "message" && "onMessage" in listener) listener.onMessage(message);
   else if (message.kind === "points" && "onPoints" in listener) listener.onPoints(message);
   else if (message.kind === "picture" && "onPicture" in listener) listener.onPicture(message);
@@ -85,14 +85,14 @@ async function tell(typeName) {
 }
 
 /** @param {string} topic @param {"every" | "newest"} mode @param {Ways} ways */
-function wishFor(
+function commandFor(
   topic,
   mode,
   { reliable = null, latched = null, depth = null, typeName = "", mostHz = LOOK_HZ, pace = "tick" },
 ) {
   lastNumber += 1;
   return {
-    wish: lastNumber,
+    subscription: lastNumber,
     topic,
     type_name: typeName,
     mode,
@@ -104,35 +104,35 @@ function wishFor(
   };
 }
 
-/** @param {number} wish */
-function leave(wish) {
-  listeners.delete(wish);
-  post({ kind: "leave", wish });
+/** @param {number} subscription */
+function leave(subscription) {
+  listeners.delete(subscription);
+  post({ kind: "unsubscribe", subscription });
 }
 
 /**
- * Look at the newest message of a topic, some times in a second.
+ * Echo at the newest message of a topic, some times in a second.
  *
  * @param {string} topic
  * @param {Ways} ways
- * @param {Onlooker} onlooker
+ * @param {EchoListener} listener
  */
-export function lookAt(topic, ways, onlooker) {
-  const wish = wishFor(topic, "newest", ways);
-  const number = wish.wish;
-  listeners.set(number, onlooker);
-  post({ kind: "look", wish });
+export function echo(topic, ways, listener) {
+  const command = commandFor(topic, "newest", ways);
+  const number = command.subscription;
+  listeners.set(number, listener);
+  post({ kind: "echo", command });
   return {
     /** @param {string} path @param {number} count show so many items of a list */
-    unfold: (path, count) => post({ kind: "unfold", wish: number, path, count }),
+    unfold: (path, count) => post({ kind: "unfold", subscription: number, path, count }),
     /** @param {string} path @returns {Promise<string>} the value there, all of it */
     text: (path) => textOf(number, path),
     leave: () => leave(number),
   };
 }
 
-/** @param {number} wish @param {string} path @returns {Promise<string>} */
-function textOf(wish, path) {
+/** @param {number} subscription @param {string} path @returns {Promise<string>} */
+function textOf(subscription, path) {
   lastNumber += 1;
   const request = lastNumber;
   return new Promise((resolve) => {
@@ -140,7 +140,7 @@ function textOf(wish, path) {
       texts.delete(request);
       resolve(text);
     });
-    post({ kind: "text", wish, path, request });
+    post({ kind: "text", subscription, path, request });
   });
 }
 
@@ -150,34 +150,34 @@ function textOf(wish, path) {
  * @param {string} topic
  * @param {readonly string[]} paths
  * @param {Ways} ways
- * @param {Tracer} tracer
+ * @param {TraceListener} listener
  */
-export function trace(topic, paths, ways, tracer) {
-  const wish = wishFor(topic, "every", { mostHz: 60, ...ways });
-  listeners.set(wish.wish, tracer);
-  post({ kind: "trace", wish, paths });
+export function trace(topic, paths, ways, listener) {
+  const command = commandFor(topic, "every", { mostHz: 60, ...ways });
+  listeners.set(command.subscription, listener);
+  post({ kind: "trace", command, paths });
   return {
     /** @param {readonly string[]} chosen */
-    choose: (chosen) => post({ kind: "trace", wish, paths: chosen }),
-    leave: () => leave(wish.wish),
+    choose: (chosen) => post({ kind: "trace", command, paths: chosen }),
+    leave: () => leave(command.subscription),
   };
 }
 
 /**
- * Look at the newest image of a topic, which the worker paints on a canvas.
+ * Echo at the newest image of a topic, which the worker paints on a canvas.
  *
  * @param {string} topic
  * @param {Ways} ways
  * @param {OffscreenCanvas} canvas given away
- * @param {Watcher} watcher
+ * @param {PictureListener} listener
  */
-export function watch(topic, ways, canvas, watcher) {
-  const wish = wishFor(topic, "newest", { mostHz: WATCH_HZ, ...ways });
-  listeners.set(wish.wish, watcher);
-  post({ kind: "watch", wish, canvas }, [canvas]);
+export function watch(topic, ways, canvas, listener) {
+  const command = commandFor(topic, "newest", { mostHz: WATCH_HZ, ...ways });
+  listeners.set(command.subscription, listener);
+  post({ kind: "watch", command, canvas }, [canvas]);
   return {
     /** @param {PictureAsked} asked */
-    ask: (asked) => post({ kind: "of_picture", wish: wish.wish, asked }),
-    leave: () => leave(wish.wish),
+    ask: (asked) => post({ kind: "of_picture", subscription: command.subscription, asked }),
+    leave: () => leave(command.subscription),
   };
 }

@@ -3,7 +3,7 @@
  * page, its state, and how it is begun and ended.
  */
 
-/** @import { CallView, Command, FollowDeeds, GoalView, OfferView, PublicationView } from "../types/wire.d.ts" */
+/** @import { CallView, Command, FollowOperations, GoalView, OfferView, PublicationView } from "../types/wire.d.ts" */
 /** @import { Signal } from "vendor/preact.js" */
 /** @import { Asked } from "./wire.js" */
 /** @import { MessageForm } from "./message-forms.js" */
@@ -15,7 +15,7 @@ import { callTimeout, goalForm, publishForm, publishing, serviceForm } from "./m
 import { ask } from "./requests.js";
 import { send, subscribe } from "./wire.js";
 
-/** @typedef {{deed: number, feedback?: readonly {number: number}[]}} Deed */
+/** @typedef {{operation: number, feedback?: readonly {number: number}[]}} Operation */
 
 const KEPT = 80;
 const FEEDBACK_KEPT = 50;
@@ -24,20 +24,21 @@ const NOISE =
   /\/_|\/(get_parameters|get_parameter_types|set_parameters|set_parameters_atomically|describe_parameters|list_parameters|get_type_description|get_logger_levels|set_logger_levels)$/;
 
 /**
- * @template {Deed} T
+ * @template {Operation} T
  * @param {readonly T[]} known
- * @param {{whole: boolean, deeds: readonly T[]}} news
+ * @param {{whole: boolean, operations: readonly T[]}} news
  * @returns {readonly T[]} by their numbers, the newest last
  */
-export function withDeeds(known, { whole, deeds }) {
-  if (whole) return deeds;
-  const byNumber = new Map(known.map((one) => [one.deed, one]));
-  for (const one of deeds) byNumber.set(one.deed, merged(byNumber.get(one.deed), one));
-  return [...byNumber.values()].sort((a, b) => a.deed - b.deed).slice(-KEPT);
+export function withOperations(known, { whole, operations }) {
+  if (whole) return operations;
+  const byNumber = new Map(known.map((one) => [one.operation, one]));
+  for (const one of operations)
+    byNumber.set(one.operation, merged(byNumber.get(one.operation), one));
+  return [...byNumber.values()].sort((a, b) => a.operation - b.operation).slice(-KEPT);
 }
 
 /**
- * @template {Deed} T
+ * @template {Operation} T
  * @param {T | undefined} before @param {T} now whose feedback is only what is new
  * @returns {T}
  */
@@ -112,33 +113,33 @@ export const repeatedPublications = computed(() =>
 );
 
 subscribe("calls", (event) => {
-  calls.value = withDeeds(calls.value, event);
+  calls.value = withOperations(calls.value, event);
 });
 
 subscribe("goals", (event) => {
-  goals.value = withDeeds(goals.value, event);
+  goals.value = withOperations(goals.value, event);
 });
 
 subscribe("publications", (event) => {
-  publications.value = withDeeds(publications.value, event);
+  publications.value = withOperations(publications.value, event);
 });
 
-/** @type {Record<FollowDeeds["deeds"], () => () => void>} */
+/** @type {Record<FollowOperations["operations"], () => () => void>} */
 const FOLLOW = {
   calls: follower("calls"),
   goals: follower("goals"),
   publications: follower("publications"),
 };
 
-/** Be told of a kind of deeds; gives the end of it. @param {FollowDeeds["deeds"]} deeds */
-export const followDeeds = (deeds) => FOLLOW[deeds]();
+/** Be told of a kind of operations; gives the end of it. @param {FollowOperations["operations"]} operations */
+export const followOperations = (operations) => FOLLOW[operations]();
 
-/** @param {FollowDeeds["deeds"]} deeds */
-function follower(deeds) {
+/** @param {FollowOperations["operations"]} operations */
+function follower(operations) {
   return sharedLook(() => {
     const tell = (/** @type {boolean} */ following) =>
       // What is in the way is seen by the page itself: a new lane begins anew.
-      void send({ type: "follow_deeds", deeds, following }).catch(() => {});
+      void send({ type: "follow_operations", operations, following }).catch(() => {});
     const end = effect(() => {
       if (connection.value === "connected") tell(true);
     });
@@ -149,10 +150,10 @@ function follower(deeds) {
   });
 }
 
-/** @param {MessageForm} form @param {Asked<Command>} command @returns {Promise<number>} the deed's number; 0: it was refused */
+/** @param {MessageForm} form @param {Asked<Command>} command @returns {Promise<number>} the operation's number; 0: it was refused */
 async function begin(form, command) {
   const told = await askOrKeepWhy(command, form.trouble);
-  return told?.type === "begun" ? told.deed : 0;
+  return told?.type === "begun" ? told.operation : 0;
 }
 
 /** Call the service that is chosen, with what its form says. */
@@ -167,8 +168,8 @@ export function callService() {
   });
 }
 
-/** @param {number} deed */
-export const cancelCall = (deed) => ask({ type: "cancel_call", deed });
+/** @param {number} operation */
+export const cancelCall = (operation) => ask({ type: "cancel_call", operation });
 
 /** Send a goal to the action that is chosen. */
 export function sendGoal() {
@@ -176,8 +177,8 @@ export function sendGoal() {
   return begin(goalForm, { type: "send_goal", name, action_type: type, text: goalForm.yaml() });
 }
 
-/** @param {number} deed */
-export const cancelGoal = (deed) => ask({ type: "cancel_goal", deed });
+/** @param {number} operation */
+export const cancelGoal = (operation) => ask({ type: "cancel_goal", operation });
 
 /** @param {{once: boolean}} how publish on the topic that is chosen */
 export function publish({ once }) {
@@ -189,8 +190,8 @@ export function publish({ once }) {
   });
 }
 
-/** @param {number} [deed] without one: all */
-export const stopPublishing = (deed = 0) => ask({ type: "stop_publishing", deed });
+/** @param {number} [operation] without one: all */
+export const stopPublishing = (operation = 0) => ask({ type: "stop_publishing", operation });
 
 const EVERY_MS = 1500;
 

@@ -3,7 +3,7 @@
  * for each topic; the samples of the last while, and as few of them as a picture can show.
  */
 
-/** @import { Heard, Points } from "../workers/subscriptions.js" */
+/** @import { SubscriptionView, Points } from "../workers/subscriptions.js" */
 /** @import { Listening } from "../panels/listening-menu.js" */
 
 import { signal } from "vendor/preact.js";
@@ -224,8 +224,8 @@ function quoted(text) {
 
 /** By key. @type {Map<string, Samples>} */
 const stores = new Map();
-/** How each topic is heard. @type {import("vendor/preact.js").Signal<ReadonlyMap<string, Heard>>} */
-export const heardTopics = signal(new Map());
+/** The subscription of each topic. @type {import("vendor/preact.js").Signal<ReadonlyMap<string, SubscriptionView>>} */
+export const topicSubscriptions = signal(new Map());
 /** What cannot be read of a topic, in a sentence. @type {import("vendor/preact.js").Signal<ReadonlyMap<string, string>>} */
 export const unreadTopics = signal(new Map());
 
@@ -278,8 +278,8 @@ function follow(topic, paths, way) {
 /** @param {string} topic @param {readonly string[]} paths @param {Listening} way */
 const begin = (topic, paths, way) =>
   trace(topic, paths, way, {
-    onState: (heard) => {
-      heardTopics.value = new Map(heardTopics.value).set(topic, heard);
+    onState: (subscription) => {
+      topicSubscriptions.value = new Map(topicSubscriptions.value).set(topic, subscription);
     },
     onPoints: (points) => take(topic, points),
   });

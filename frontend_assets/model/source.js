@@ -12,12 +12,12 @@ import { allSites, showingLastGood, sitesRevision } from "./document.js";
 import { subscribe } from "./wire.js";
 
 /**
- * A place in a text; line and column from 1. Each wish is an object of its own, so that the same place
+ * A place in a text; line and column from 1. Each request is an object of its own, so that the same place
  * can be wanted twice.
  * @typedef {{file: string, line: number, column: number}} WantedPlace
  */
 
-/** Where the source panel goes next; it takes the wish away when it is there. @type {Signal<WantedPlace | null>} */
+/** Where the source panel goes next; it takes the request away when it is there. @type {Signal<WantedPlace | null>} */
 export const wantedPlace = signal(null);
 
 /** Files that have a tab, in its order. @type {Signal<readonly string[]>} */

@@ -10,7 +10,7 @@ import { t } from "../lib/i18n.js";
 import { EmptyState, Icon, MenuButton, ProgressBar } from "../lib/ui.js";
 import { askOrKeepWhy, useLooking } from "../model/asking.js";
 import { mayEdit } from "../model/connection.js";
-import { calls, followDeeds, followServices, plainOf, services } from "../model/operations.js";
+import { calls, followOperations, followServices, plainOf, services } from "../model/operations.js";
 import { followTopics, topics } from "../model/topics.js";
 import { ConnectFirst, isRouterAway, isUnconnected, RouterAway } from "./parts.js";
 
@@ -119,7 +119,7 @@ const TIMEOUT_S = 5;
  * @returns {Promise<{reply: any, trouble: string}>} `trouble`: why there is no reply, in a sentence; else empty
  */
 export async function called({ name, type }, values) {
-  const end = followDeeds("calls");
+  const end = followOperations("calls");
   try {
     const call = await outcome(name, type, JSON.stringify(values));
     if (typeof call === "string") return { reply: null, trouble: call };
@@ -138,16 +138,16 @@ async function outcome(name, type, text) {
     refused,
   );
   if (told?.type !== "begun") return refused.value || t("calling.lost");
-  return ended(told.deed);
+  return ended(told.operation);
 }
 
-/** @param {number} deed @returns {Promise<CallView>} */
-function ended(deed) {
+/** @param {number} operation @returns {Promise<CallView>} */
+function ended(operation) {
   return new Promise((resolve) => {
     /** @type {() => void} */
     let stop = () => {};
     stop = effect(() => {
-      const call = calls.value.find((one) => one.deed === deed);
+      const call = calls.value.find((one) => one.operation === operation);
       if (!call || call.state === "calling") return;
       resolve(call);
       queueMicrotask(() => stop());

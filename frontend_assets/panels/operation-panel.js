@@ -32,7 +32,7 @@ import { ConnectFirst, isUnconnected, NothingThere, Refusal, RouterAway } from "
 const ICONS = { bad: "error", cancelled: "stop", canceled: "stop", stopped: "stop" };
 
 /**
- * @typedef {object} DeedPanelProps
+ * @typedef {object} OperationPanelProps
  * @property {string} id of the panel
  * @property {string} icon
  * @property {PastedLine["kind"]} kind of command lines that it takes
@@ -47,8 +47,8 @@ export const openLine =
   ({ name, type, text }) =>
     void form.open({ name: name.startsWith("/") ? name : `/${name}`, type }, text);
 
-/** @param {DeedPanelProps} props the panel itself: a command line may be pasted anywhere into it */
-export function DeedPanel({ id, icon, kind, follow, onLine, children }) {
+/** @param {OperationPanelProps} props the panel itself: a command line may be pasted anywhere into it */
+export function OperationPanel({ id, icon, kind, follow, onLine, children }) {
   const panel = useRef(/** @type {HTMLElement | null} */ (null));
   const seen = useSignal(false);
   useSeen(panel, (is) => {
@@ -71,9 +71,9 @@ export function DeedPanel({ id, icon, kind, follow, onLine, children }) {
     if (mayEdit.value && take(event.clipboardData?.getData("text/plain") ?? ""))
       event.preventDefault();
   };
-  return html`<section ref=${panel} class="panel-body deeds" aria-label=${t(`panel.${id}`)} onPaste=${onPaste}>
+  return html`<section ref=${panel} class="panel-body operations" aria-label=${t(`panel.${id}`)} onPaste=${onPaste}>
     <${RouterAway} />
-    ${role.value === "viewer" && html`<p class="note panel-said">${t("deeds.viewer")}</p>`}
+    ${role.value === "viewer" && html`<p class="note panel-said">${t("operations.viewer")}</p>`}
     ${isUnconnected() ? html`<${ConnectFirst} icon=${icon} />` : children(take)}
   </section>`;
 }
@@ -114,7 +114,7 @@ export function Offers({
     all.value = !all.value;
   };
   const shown = matchingOffers(offers ?? [], filter.value, all.value);
-  return html`<div class="deeds-list">
+  return html`<div class="operations-list">
     <div class="panel-bar"><${SearchBox} label=${t(`${id}.filter`)} value=${filter.value} onInput=${onInput} />
       ${noisy && html`<${IconButton} icon=${all.value ? "eye" : "eyeOff"} label=${t(`${id}.all`)} pressed=${all.value} onClick=${toggle} />`}</div>
     ${refused && html`<${Refusal} sentence=${refused} again=${again} />`}
@@ -133,7 +133,7 @@ export function Offers({
 /** @param {string} id of the panel @param {number} count of all offers @param {string} filter @returns {string} why none of them is shown */
 function whyNothing(id, count, filter) {
   if (count === 0) return t(`${id}.none`);
-  return filter === "" ? t("deeds.only_noise", { count }) : t("deeds.filtered");
+  return filter === "" ? t("operations.only_noise", { count }) : t("operations.filtered");
 }
 
 /** @param {{offer: OfferView, form: MessageForm}} props */
@@ -146,7 +146,7 @@ function OfferRow({ offer: { name, types, nodes }, form }) {
 }
 
 /** @param {{form: MessageForm, onSubmit: () => void, actions: ComponentChildren, children?: ComponentChildren}} props what is chosen, its form, and what can be done with it */
-export function DeedForm({ form, onSubmit, actions, children }) {
+export function OperationForm({ form, onSubmit, actions, children }) {
   const { name = "", type = "" } = form.chosen.value ?? {};
   const submit = (/** @type {Event} */ event) => {
     event.preventDefault();
@@ -155,20 +155,20 @@ export function DeedForm({ form, onSubmit, actions, children }) {
   const onKeyDown = (/** @type {KeyboardEvent} */ event) => {
     if (event.key === "Enter" && (event.ctrlKey || event.metaKey)) submit(event);
   };
-  return html`<form class="deed-form" aria-label=${name} onSubmit=${submit} onKeyDown=${onKeyDown} novalidate>
-    <header class="deed-head"><${IconButton} icon="chevronRight" class="deed-back" label=${t("deeds.back")} onClick=${form.close} />
+  return html`<form class="operation-form" aria-label=${name} onSubmit=${submit} onKeyDown=${onKeyDown} novalidate>
+    <header class="operation-head"><${IconButton} icon="chevronRight" class="operation-back" label=${t("operations.back")} onClick=${form.close} />
       <h3 title=${name}>${name}</h3><span class="offer-type" title=${type}>${type}</span></header>
     <${FormOfMessage} form=${form} disabled=${!mayEdit.value} />
-    <div class="deed-actions">${actions}</div>
+    <div class="operation-actions">${actions}</div>
     ${children}
   </form>`;
 }
 
-/** @param {{state: string, busy: boolean, bad: boolean, words: string}} props how a deed stands */
-export function DeedState({ state, busy, bad, words }) {
+/** @param {{state: string, busy: boolean, bad: boolean, words: string}} props how an operation stands */
+export function OperationState({ state, busy, bad, words }) {
   const isGivenUp = ICONS[state] === "stop";
   const icon = ICONS[bad ? "bad" : state] ?? "check";
-  return html`<span class=${`deed-state ${bad ? "bad" : ""} ${isGivenUp ? "given-up" : ""}`} role="status">${busy ? html`<span class="spinner"></span>` : html`<${Icon} name=${icon} size=${13} />`}<span>${words}</span></span>`;
+  return html`<span class=${`operation-state ${bad ? "bad" : ""} ${isGivenUp ? "given-up" : ""}`} role="status">${busy ? html`<span class="spinner"></span>` : html`<${Icon} name=${icon} size=${13} />`}<span>${words}</span></span>`;
 }
 
 /** Lists and messages with more are folded at first. */

@@ -117,11 +117,11 @@ export interface ArrangeDisplay {
 /** What changes about a part. */
 export type Aspect = "size" | "shape" | "color" | "pose" | "collision" | "inertia" | "motion" | "name" | "other" | "presence";
 
-/** Answer to what begins a deed: the number by which it is told and ended. */
+/** Answer to what begins an operation: the number by which it is told and ended. */
 export interface Begun {
   type: "begun";
   request: number;
-  deed: number;
+  operation: number;
 }
 
 /** A run ended: how long it took from the edit to the scene. */
@@ -145,7 +145,7 @@ export interface CallService {
 
 /** A call, and what became of it. */
 export interface CallView {
-  deed: number;
+  operation: number;
   name: string;
   service_type: string;
   text: string;
@@ -161,7 +161,7 @@ export interface CallView {
 export interface Calls {
   type: "calls";
   whole: boolean;
-  deeds: CallView[];
+  operations: CallView[];
 }
 
 /** Wait for the answer of a call no longer. */
@@ -170,7 +170,7 @@ export interface CancelCall {
   document?: string;
   id?: string;
   type: "cancel_call";
-  deed: number;
+  operation: number;
 }
 
 /** Ask that a goal end; refused when its server says no. */
@@ -179,7 +179,7 @@ export interface CancelGoal {
   document?: string;
   id?: string;
   type: "cancel_goal";
-  deed: number;
+  operation: number;
 }
 
 /** Have a managed node take a transition; done when it has, refused with what became of it. */
@@ -729,16 +729,6 @@ export interface FolderEntry {
   reason: string;
 }
 
-/** Be told what runs and ran of a kind, for any page, from now on; or no more. */
-export interface FollowDeeds {
-  request?: number;
-  document?: string;
-  id?: string;
-  type: "follow_deeds";
-  deeds: "calls" | "goals" | "publications";
-  following?: boolean;
-}
-
 /** Have a frame that is no link stand in the scene for some seconds, for a camera to go with. */
 export interface FollowFrame {
   request?: number;
@@ -746,6 +736,16 @@ export interface FollowFrame {
   id?: string;
   type: "follow_frame";
   frame: string;
+}
+
+/** Be told what runs and ran of a kind, for any page, from now on; or no more. */
+export interface FollowOperations {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "follow_operations";
+  operations: "calls" | "goals" | "publications";
+  following?: boolean;
 }
 
 /** Be told when parameters of a node change. */
@@ -1129,7 +1129,7 @@ export interface GoalStatuses {
 
 /** A goal, and how far it is. */
 export interface GoalView {
-  deed: number;
+  operation: number;
   name: string;
   action_type: string;
   text: string;
@@ -1149,7 +1149,7 @@ export interface GoalView {
 export interface Goals {
   type: "goals";
   whole: boolean;
-  deeds: GoalView[];
+  operations: GoalView[];
 }
 
 /** The document was closed. */
@@ -1909,7 +1909,7 @@ export interface PropertyView {
 
 /** What is or was published. */
 export interface PublicationView {
-  deed: number;
+  operation: number;
   name: string;
   message_type: string;
   text: string;
@@ -1928,7 +1928,7 @@ export interface PublicationView {
 export interface Publications {
   type: "publications";
   whole: boolean;
-  deeds: PublicationView[];
+  operations: PublicationView[];
 }
 
 /** Publish a message; how it fares is told to those who follow publications. */
@@ -2420,7 +2420,7 @@ export interface StopPublishing {
   document?: string;
   id?: string;
   type: "stop_publishing";
-  deed?: number;
+  operation?: number;
 }
 
 /** What a word in a text stands for. */
@@ -2795,8 +2795,8 @@ export type Command =
   | ExamineWire
   | FindTexts
   | FindWireRobots
-  | FollowDeeds
   | FollowFrame
+  | FollowOperations
   | FollowParameters
   | ForgetRecent
   | ForgetWork

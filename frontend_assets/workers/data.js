@@ -1,37 +1,37 @@
 /**
- * The data lane of the page, in a worker: hears what the page wishes, reads it, and tells the page
- * what it shows. It loads nothing from `vendor/`: import maps do not count in workers.
+ * The data lane of the page, in a worker: subscribes topics for the page, reads their messages, and
+ * tells it what to show. It loads nothing from `vendor/`: import maps do not count in workers.
  */
 
 /** @import { MessageView } from "../types/wire.d.ts" */
 /** @import { PictureAsked, PictureToPage } from "./pictures.js" */
 /** @import { Came } from "./frames.js" */
-/** @import { Heard, ToPage, Wish } from "./subscriptions.js" */
+/** @import { SubscriptionView, ToPage, SubscribeCommand } from "./subscriptions.js" */
 
 import { Bulk } from "./bulk.js";
 import { readFrame } from "./frames.js";
 import { Easel, Pictures } from "./pictures.js";
-import { Look, Trace, Types } from "./subscriptions.js";
+import { Echo, Trace, Types } from "./subscriptions.js";
 
 /**
- * @typedef {{kind: "look", wish: Wish}} StartLook
- * @typedef {{kind: "trace", wish: Wish, paths: readonly string[]}} StartTrace
- * @typedef {{kind: "watch", wish: Wish, canvas: OffscreenCanvas}} StartWatch
- * @typedef {{kind: "of_picture", wish: number, asked: PictureAsked}} AskOfPicture
- * @typedef {{kind: "leave", wish: number}} Leave
+ * @typedef {{kind: "echo", command: SubscribeCommand}} StartEcho
+ * @typedef {{kind: "trace", command: SubscribeCommand, paths: readonly string[]}} StartTrace
+ * @typedef {{kind: "watch", command: SubscribeCommand, canvas: OffscreenCanvas}} StartWatch
+ * @typedef {{kind: "of_picture", subscription: number, asked: PictureAsked}} AskOfPicture
+ * @typedef {{kind: "unsubscribe", subscription: number}} Leave
  * @typedef {{kind: "learn", typeName: string, messages: readonly MessageView[] | null, reason: string}} Learn
- * @typedef {{kind: "unfold", wish: number, path: string, count: number}} Unfold
- * @typedef {{kind: "text", wish: number, path: string, request: number}} AskText
+ * @typedef {{kind: "unfold", subscription: number, path: string, count: number}} Unfold
+ * @typedef {{kind: "text", subscription: number, path: string, request: number}} AskText
  * @typedef {{kind: "retry"}} Retry
  * @typedef {{kind: "seen", isSeen: boolean}} Seen whether anybody can look at the page
- * @typedef {StartLook | StartTrace | StartWatch | AskOfPicture | Leave | Learn | Unfold | AskText | Retry | Seen} FromPage
+ * @typedef {StartEcho | StartTrace | StartWatch | AskOfPicture | Leave | Learn | Unfold | AskText | Retry | Seen} FromPage
  */
 
 const RETRY_MS = 1500;
 
-/** @type {Map<number, Look | Trace | Pictures>} by wish */
-const wishes = new Map();
-/** @type {Map<number, number[]>} wishes by channel */
+/** @type {Map<number, Echo | Trace | Pictures>} by subscription */
+const subscriptions = new Map();
+/** @type {Map<number, number[]>} subscriptions by channel */
 const channels = new Map();
 /** @type {WebSocket | null} */
 let socket = null;
@@ -44,7 +44,7 @@ let slow = { data: 0, bulk: 0 };
 const bulk = new Bulk({
   askKey: () => say({ type: "ask_bulk" }),
   take: takeBulk,
-  lost: hearAnew,
+  lost: subscribeAgain,
   locks: self.navigator.locks,
   fetch: (address, options) => self.fetch(address, options),
   now_ms: () => performance.now(),
@@ -68,7 +68,7 @@ function say(message) {
 
 function open() {
   clearTimeout(retry);
-  if (socket || wishes.size === 0) return;
+  if (socket || subscriptions.size === 0) return;
   const address = new URL("/data", self.location.href);
   address.protocol = address.protocol.replace("http", "ws");
   const opened = new WebSocket(address);
@@ -76,7 +76,7 @@ function open() {
   opened.binaryType = "arraybuffer";
   opened.onopen = () => {
     slow = { data: 0, bulk: 0 };
-    for (const one of wishes.values()) hear(one);
+    for (const one of subscriptions.values()) subscribe(one);
     post({ kind: "lane", open: true, dropped: 0 });
   };
   opened.onmessage = ({ data }) => take(data);
@@ -103,30 +103,31 @@ function take(data) {
   else takeData(data);
 }
 
-/** @param {Heard | {type: "not_heard", wish: number, reason: string} | {type: "bulk_key", key: string}} told */
+/** @param {SubscriptionView | {type: "not_subscribed", subscription: number, reason: string} | {type: "bulk_key", key: string}} told */
 function takeWords(told) {
   if (told.type === "bulk_key") bulk.open(told.key);
   else takeState(told);
 }
 
-/** @param {Heard | {type: "not_heard", wish: number, reason: string}} told */
+/** @param {SubscriptionView | {type: "not_subscribed", subscription: number, reason: string}} told */
 function takeState(told) {
-  const one = wishes.get(told.wish);
+  const one = subscriptions.get(told.subscription);
   if (!one) return;
-  const heard = told.type === "heard" ? told : refused(told);
-  if (told.type === "heard") {
+  const view = told.type === "subscription" ? told : refused(told);
+  if (told.type === "subscription") {
     const others = channels.get(told.channel) ?? [];
-    if (!others.includes(told.wish)) channels.set(told.channel, [...others, told.wish]);
+    if (!others.includes(told.subscription))
+      channels.set(told.channel, [...others, told.subscription]);
     one.typeName = told.type_name;
     one.show();
   }
-  post({ kind: "state", wish: told.wish, heard });
+  post({ kind: "state", subscription: told.subscription, view });
 }
 
-/** @param {{wish: number, reason: string}} told @returns {Heard} */
-const refused = ({ wish, reason }) => ({
-  type: "heard",
-  wish,
+/** @param {{subscription: number, reason: string}} told @returns {SubscriptionView} */
+const refused = ({ subscription, reason }) => ({
+  type: "subscription",
+  subscription,
   channel: 0,
   state: "refused",
   type_name: "",
@@ -158,8 +159,8 @@ function takeBulk(frame) {
 
 /** Whether nobody else reads it: pictures tell when they are done. @param {Came} came */
 function isForOnePicture({ channel }) {
-  const [wish, ...others] = channels.get(channel) ?? [];
-  return others.length === 0 && wishes.get(wish ?? 0) instanceof Pictures;
+  const [subscription, ...others] = channels.get(channel) ?? [];
+  return others.length === 0 && subscriptions.get(subscription ?? 0) instanceof Pictures;
 }
 
 /** @param {"data" | "bulk"} lane @param {number} dropped */
@@ -184,83 +185,83 @@ function takeMessages(messages) {
 /** @param {number} channel @param {readonly Came[]} came */
 function takeChannel(channel, came) {
   const inOrder = came.filter((one) => !bulk.isOvertaken(one));
-  for (const wish of channels.get(channel) ?? []) {
-    const one = wishes.get(wish);
-    const taken = one?.wish.mode === "every" ? came : inOrder;
+  for (const subscription of channels.get(channel) ?? []) {
+    const one = subscriptions.get(subscription);
+    const taken = one?.command.mode === "every" ? came : inOrder;
     if (taken.length > 0) one?.take(taken);
   }
 }
 
-/** What is only looked at is not heard while nobody can. @param {Look | Trace | Pictures} one */
-function hear({ wish }) {
-  if (isSeen || wish.mode === "every") say({ type: "hear", ...wish });
+/** What is only looked at is not subscribed while nobody can. @param {Echo | Trace | Pictures} one */
+function subscribe({ command }) {
+  if (isSeen || command.mode === "every") say({ type: "subscribe", ...command });
 }
 
 /** @param {Seen} told */
 function see(told) {
   if (isSeen === told.isSeen) return;
   isSeen = told.isSeen;
-  for (const one of wishes.values()) {
-    if (one.wish.mode === "every") continue;
-    if (isSeen) hear(one);
-    else unheard(one.wish.wish);
+  for (const one of subscriptions.values()) {
+    if (one.command.mode === "every") continue;
+    if (isSeen) subscribe(one);
+    else unsubscribe(one.command.subscription);
   }
 }
 
-/** @param {number} wish */
-function unheard(wish) {
+/** @param {number} subscription */
+function unsubscribe(subscription) {
   for (const [channel, all] of channels) {
-    const others = all.filter((one) => one !== wish);
+    const others = all.filter((one) => one !== subscription);
     if (others.length > 0) channels.set(channel, others);
     else {
       channels.delete(channel);
       bulk.leave(channel);
     }
   }
-  say({ type: "leave", wish });
+  say({ type: "unsubscribe", subscription });
 }
 
 /** @param {readonly number[]} lost channels: what they told once and for all may have been on its way */
-function hearAnew(lost) {
-  for (const wish of new Set(lost.flatMap((channel) => channels.get(channel) ?? []))) {
-    const one = wishes.get(wish);
-    if (one?.wish.mode === "newest") hear(one);
+function subscribeAgain(lost) {
+  for (const subscription of new Set(lost.flatMap((channel) => channels.get(channel) ?? []))) {
+    const one = subscriptions.get(subscription);
+    if (one?.command.mode === "newest") subscribe(one);
   }
 }
 
-/** @param {StartLook | StartTrace | StartWatch} asked */
+/** @param {StartEcho | StartTrace | StartWatch} asked */
 function start(asked) {
-  const { wish } = asked;
-  const before = wishes.get(wish.wish);
+  const { command } = asked;
+  const before = subscriptions.get(command.subscription);
   if (before instanceof Trace && asked.kind === "trace") {
     before.choose(asked.paths);
     return;
   }
-  const one = wished(asked);
-  wishes.set(wish.wish, one);
+  const one = subscriptionFor(asked);
+  subscriptions.set(command.subscription, one);
   types.doubt();
-  if (socket) hear(one);
+  if (socket) subscribe(one);
   else open();
 }
 
 /** When the screen is ready for another picture. @param {() => void} paint */
 const nextFrame = (paint) => requestAnimationFrame(paint);
 
-/** @param {StartLook | StartTrace | StartWatch} asked */
-function wished(asked) {
-  if (asked.kind === "look") return new Look(asked.wish, types, post);
+/** @param {StartEcho | StartTrace | StartWatch} asked */
+function subscriptionFor(asked) {
+  if (asked.kind === "echo") return new Echo(asked.command, types, post);
   if (asked.kind === "watch")
-    return new Pictures(asked.wish, types, post, new Easel(asked.canvas), nextFrame);
-  return new Trace(asked.wish, types, post, asked.paths);
+    return new Pictures(asked.command, types, post, new Easel(asked.canvas), nextFrame);
+  return new Trace(asked.command, types, post, asked.paths);
 }
 
-/** @param {number} wish */
-function leave(wish) {
-  const left = wishes.get(wish);
+/** @param {number} subscription */
+function leave(subscription) {
+  const left = subscriptions.get(subscription);
   if (left instanceof Pictures) left.leave();
-  wishes.delete(wish);
-  unheard(wish);
-  if (wishes.size > 0) return;
+  subscriptions.delete(subscription);
+  unsubscribe(subscription);
+  if (subscriptions.size > 0) return;
   // Nobody looks: the lane costs nothing then.
   const closing = socket;
   socket = null;
@@ -271,30 +272,30 @@ function leave(wish) {
 /** @param {Learn} told */
 function learn({ typeName, messages, reason }) {
   types.learn(typeName, messages, reason);
-  for (const one of wishes.values()) if (one.typeName === typeName) one.show();
+  for (const one of subscriptions.values()) if (one.typeName === typeName) one.show();
 }
 
 /** @param {FromPage} asked */
 function carryOut(asked) {
-  if (asked.kind === "look" || asked.kind === "trace" || asked.kind === "watch") start(asked);
-  else if (asked.kind === "leave") leave(asked.wish);
+  if (asked.kind === "echo" || asked.kind === "trace" || asked.kind === "watch") start(asked);
+  else if (asked.kind === "unsubscribe") leave(asked.subscription);
   else if (asked.kind === "learn") learn(asked);
   else if (asked.kind === "retry") open();
   else if (asked.kind === "seen") see(asked);
   else if (asked.kind === "of_picture") carryOutPicture(asked);
-  else carryOutLook(asked);
+  else carryOutEcho(asked);
 }
 
 /** @param {AskOfPicture} told */
-function carryOutPicture({ wish, asked }) {
-  const one = wishes.get(wish);
+function carryOutPicture({ subscription, asked }) {
+  const one = subscriptions.get(subscription);
   if (one instanceof Pictures) one.carryOut(asked);
 }
 
 /** @param {Unfold | AskText} asked */
-function carryOutLook(asked) {
-  const one = wishes.get(asked.wish);
-  const look = one instanceof Look ? one : null;
+function carryOutEcho(asked) {
+  const one = subscriptions.get(asked.subscription);
+  const look = one instanceof Echo ? one : null;
   if (asked.kind === "unfold") look?.unfold(asked.path, asked.count);
   else post({ kind: "text", request: asked.request, text: look?.text(asked.path) ?? "" });
 }

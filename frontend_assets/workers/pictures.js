@@ -6,7 +6,7 @@
 /** @import { Ink, Numbers, Range, RawImage } from "../lib/image-encodings.js" */
 /** @import { Sight, Window } from "../lib/image-view.js" */
 /** @import { Came } from "./frames.js" */
-/** @import { ToPage, Types, Wish } from "./subscriptions.js" */
+/** @import { ToPage, Types, SubscribeCommand } from "./subscriptions.js" */
 /** @import { View } from "../lib/pan-zoom.js" */
 
 import { checkSize, ImageError, inkOf } from "../lib/image-encodings.js";
@@ -19,7 +19,7 @@ import { readWith } from "./subscriptions.js";
 /**
  * @typedef {object} Pictured what is said of the picture that is shown
  * @property {"picture"} kind
- * @property {number} wish
+ * @property {number} subscription
  * @property {number} painted how many were, since it is looked at
  * @property {number | null} rate_hz of those; null: that cannot be told yet
  * @property {number} bytes of the message
@@ -30,7 +30,7 @@ import { readWith } from "./subscriptions.js";
  * @property {PictureTrouble | null} trouble
  */
 
-/** @typedef {{kind: "saved", wish: number, file: Blob}} SavedPicture as PNG */
+/** @typedef {{kind: "saved", subscription: number, file: Blob}} SavedPicture as PNG */
 /** @typedef {Pictured | SavedPicture} PictureToPage */
 
 /**
@@ -53,11 +53,11 @@ const FROM_BYTES = { low: 0, high: 255 };
 
 export class Pictures {
   /**
-   * @param {Wish} wish @param {Types} types @param {(message: PictureToPage | ToPage) => void} post @param {Easel} easel
+   * @param {SubscribeCommand} command @param {Types} types @param {(message: PictureToPage | ToPage) => void} post @param {Easel} easel
    * @param {(paint: () => void) => void} nextFrame calls when the screen is ready for another one
    */
-  constructor(wish, types, post, easel, nextFrame) {
-    this.wish = wish;
+  constructor(command, types, post, easel, nextFrame) {
+    this.command = command;
     this.types = types;
     this.post = post;
     this.easel = easel;
@@ -169,7 +169,7 @@ export class Pictures {
     const motif = this.shown?.motif;
     if (!motif) return;
     const file = await fileOf(motif, this.rangeOf(motif));
-    this.post({ kind: "saved", wish: this.wish.wish, file });
+    this.post({ kind: "saved", subscription: this.command.subscription, file });
   }
 
   sayLater() {
@@ -187,7 +187,7 @@ export class Pictures {
     const { motif, bytes, encoding, trouble } = read;
     this.post({
       kind: "picture",
-      wish: this.wish.wish,
+      subscription: this.command.subscription,
       painted: this.painted,
       rate_hz: rateOf(this.times_s),
       bytes,

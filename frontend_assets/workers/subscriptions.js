@@ -1,4 +1,4 @@
-/** What the page wishes to hear, and what it is told of the messages that come. */
+/** The topics that the page subscribes, and what it is told of their messages. */
 
 /** @import { MessageView } from "../types/wire.d.ts" */
 /** @import { Came } from "./frames.js" */
@@ -8,8 +8,8 @@ import { CdrError, readerOf } from "./cdr.js";
 import { isList, numberAt, stepsOf, valueAt } from "./message-paths.js";
 
 /**
- * @typedef {object} Wish what goes to the studio
- * @property {number} wish
+ * @typedef {object} SubscribeCommand what goes to the studio
+ * @property {number} subscription
  * @property {string} topic
  * @property {string} type_name
  * @property {"every" | "newest"} mode
@@ -21,11 +21,11 @@ import { isList, numberAt, stepsOf, valueAt } from "./message-paths.js";
  */
 
 /**
- * @typedef {object} Heard how a wish stands, as the studio tells it
- * @property {"heard"} type
- * @property {number} wish
+ * @typedef {object} SubscriptionView how a subscription stands, as the studio tells it
+ * @property {"subscription"} type
+ * @property {number} subscription
  * @property {number} channel
- * @property {"not_connected" | "no_publisher" | "other_type" | "refused" | "hearing"} state
+ * @property {"not_connected" | "no_publisher" | "other_type" | "refused" | "receiving"} state
  * @property {string} type_name
  * @property {string[]} types
  * @property {number} publishers
@@ -36,13 +36,13 @@ import { isList, numberAt, stepsOf, valueAt } from "./message-paths.js";
  */
 
 /**
- * @typedef {{kind: "message", wish: number, received_s: number, lost: number, bytes: number, value: any, hex: string, trouble: string}} Looked
- * @typedef {{kind: "points", wish: number, times: Float64Array, values: Float64Array[], paths: readonly string[], lost: number, ahead_s: number, trouble: string}} Points `ahead_s`: so far the times are ahead of the sender's clock; NaN: it told none
- * @typedef {{kind: "state", wish: number, heard: Heard}} State
+ * @typedef {{kind: "message", subscription: number, received_s: number, lost: number, bytes: number, value: any, hex: string, trouble: string}} Echoed
+ * @typedef {{kind: "points", subscription: number, times: Float64Array, values: Float64Array[], paths: readonly string[], lost: number, ahead_s: number, trouble: string}} Points `ahead_s`: so far the times are ahead of the sender's clock; NaN: it told none
+ * @typedef {{kind: "state", subscription: number, view: SubscriptionView}} State
  * @typedef {{kind: "need", typeName: string}} Need
  * @typedef {{kind: "text", request: number, text: string}} TextAnswer
  * @typedef {{kind: "lane", open: boolean, dropped: number}} LaneState
- * @typedef {Looked | Points | State | Need | TextAnswer | LaneState} ToPage
+ * @typedef {Echoed | Points | State | Need | TextAnswer | LaneState} ToPage
  */
 
 /** Of a type that is not known it is asked so often whether somebody told it since. */
@@ -111,10 +111,10 @@ export class SteadyClock {
 }
 
 /** A topic that is looked at: of what comes, the newest is shown. */
-export class Look {
-  /** @param {Wish} wish @param {Types} types @param {(message: ToPage) => void} post */
-  constructor(wish, types, post) {
-    this.wish = wish;
+export class Echo {
+  /** @param {SubscribeCommand} command @param {Types} types @param {(message: ToPage) => void} post */
+  constructor(command, types, post) {
+    this.command = command;
     this.types = types;
     this.post = post;
     this.typeName = "";
@@ -136,11 +136,20 @@ export class Look {
     if (!last || !type) return;
     const { value, trouble } = readWith(type, last.cdr);
     const hex = value === undefined ? hexRows(last.cdr) : "";
-    const { wish } = this.wish;
+    const { subscription } = this.command;
     const { received_s, lost } = last;
     const bytes = last.cdr.length;
     const shown = value === undefined ? null : folded(value, this.unfolded);
-    this.post({ kind: "message", wish, received_s, lost, bytes, value: shown, hex, trouble });
+    this.post({
+      kind: "message",
+      subscription,
+      received_s,
+      lost,
+      bytes,
+      value: shown,
+      hex,
+      trouble,
+    });
   }
 
   /** @param {string} path @param {number} count */
@@ -162,9 +171,9 @@ export class Look {
 
 /** A topic of which numbers are drawn: every message counts. */
 export class Trace {
-  /** @param {Wish} wish @param {Types} types @param {(message: ToPage) => void} post @param {readonly string[]} paths */
-  constructor(wish, types, post, paths) {
-    this.wish = wish;
+  /** @param {SubscribeCommand} command @param {Types} types @param {(message: ToPage) => void} post @param {readonly string[]} paths */
+  constructor(command, types, post, paths) {
+    this.command = command;
     this.types = types;
     this.post = post;
     this.typeName = "";
@@ -206,10 +215,10 @@ export class Trace {
       });
     });
     const lost = messages.at(-1)?.lost ?? 0;
-    const { wish } = this.wish;
+    const { subscription } = this.command;
     this.post({
       kind: "points",
-      wish,
+      subscription,
       times,
       values,
       paths: this.paths ?? [],

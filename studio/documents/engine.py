@@ -79,7 +79,7 @@ class Engine:
         wire = self._services.wire
         self._rejoining = Rejoining(wire, settings.data_folder)
         self.ros = RosSystem(wire)
-        self.hearing = self.ros.hearing
+        self.browser_topics = self.ros.browser_topics
         self.wire_robots = WireRobotDesk(wire, settings.data_folder, self, self.ros)
         self.served = ServedRoots((self.library.robots_folder,))
         """What can be listed and opened out of the page."""

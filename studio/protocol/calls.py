@@ -41,11 +41,11 @@ class ReadValues(Command):
     text: Yaml
 
 
-class FollowDeeds(Command):
+class FollowOperations(Command):
     """Be told what runs and ran of a kind, for any page, from now on; or no more."""
 
-    type: Literal["follow_deeds"] = "follow_deeds"
-    deeds: Literal["calls", "goals", "publications"]
+    type: Literal["follow_operations"] = "follow_operations"
+    operations: Literal["calls", "goals", "publications"]
     following: bool = True
 
 
@@ -63,7 +63,7 @@ class CancelCall(Command):
     """Wait for the answer of a call no longer."""
 
     type: Literal["cancel_call"] = "cancel_call"
-    deed: int
+    operation: int
 
 
 class OfferView(Message):
@@ -100,17 +100,17 @@ class ValuesRead(Event):
 
 
 class Begun(Event):
-    """Answer to what begins a deed: the number by which it is told and ended."""
+    """Answer to what begins an operation: the number by which it is told and ended."""
 
     type: Literal["begun"] = "begun"
     request: int
-    deed: int
+    operation: int
 
 
 class CallView(Message):
     """A call, and what became of it."""
 
-    deed: int
+    operation: int
     name: str
     service_type: str
     text: str
@@ -131,4 +131,4 @@ class Calls(Event):
 
     type: Literal["calls"] = "calls"
     whole: bool
-    deeds: tuple[CallView, ...]
+    operations: tuple[CallView, ...]

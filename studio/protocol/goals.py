@@ -39,7 +39,7 @@ class CancelGoal(Command):
     """Ask that a goal end; refused when its server says no."""
 
     type: Literal["cancel_goal"] = "cancel_goal"
-    deed: int
+    operation: int
 
 
 class GetGoalStatuses(Command):
@@ -62,7 +62,7 @@ class FeedbackView(Message):
 class GoalView(Message):
     """A goal, and how far it is."""
 
-    deed: int
+    operation: int
     name: str
     action_type: str
     text: str
@@ -88,7 +88,7 @@ class Goals(Event):
 
     type: Literal["goals"] = "goals"
     whole: bool
-    deeds: tuple[GoalView, ...]
+    operations: tuple[GoalView, ...]
 
 
 class GoalStatusView(Message):

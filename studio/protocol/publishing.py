@@ -31,14 +31,14 @@ class StopPublishing(Command):
     """Publish it no more; those of that number, or all."""
 
     type: Literal["stop_publishing"] = "stop_publishing"
-    deed: int = 0
+    operation: int = 0
     """0: all."""
 
 
 class PublicationView(Message):
     """What is or was published."""
 
-    deed: int
+    operation: int
     name: str
     message_type: str
     text: str
@@ -60,7 +60,7 @@ class Publications(Event):
 
     type: Literal["publications"] = "publications"
     whole: bool
-    deeds: tuple[PublicationView, ...]
+    operations: tuple[PublicationView, ...]
 
 
 class Drive(Command):

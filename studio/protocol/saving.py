@@ -88,7 +88,7 @@ class UndoTo(Command):
     type: Literal["undo_to"] = "undo_to"
     position: int = Field(ge=0, le=1 << 20)
     of: int = Field(ge=0, le=1 << 20)
-    """How many steps there are in all, done and undone, where the wish was made."""
+    """How many steps there are in all, done and undone, where it was asked for."""
 
 
 class GetChanges(Command):

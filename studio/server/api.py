@@ -91,8 +91,8 @@ class Api:
 
     async def urdf(self, document: str, request: Request) -> Response:
         """The expanded URDF of the last good run, as a file."""
-        wish = GetUrdf(document=document).model_dump_json().encode()
-        events = await Answers(_visitor(request)).collect(self._engine, wish)
+        command = GetUrdf(document=document).model_dump_json().encode()
+        events = await Answers(_visitor(request)).collect(self._engine, command)
         for event in events:
             if isinstance(event, Urdf):
                 return _UrdfFile(event.text, headers=_TO_SAVE)

@@ -118,7 +118,7 @@ async def _left(receive: Receive) -> None:
 
 
 class BulkKeys:
-    """Which data lane a key belongs to: nobody hears by a bulk lane what no data lane wished."""
+    """Which data lane a key belongs to: it sends only what that one subscribed."""
 
     def __init__(self) -> None:
         self._lanes: dict[str, DataLane] = {}

@@ -1,4 +1,4 @@
-"""The data lane: a browser says what it hears, as JSON text; what comes goes to it in ticks."""
+"""The data lane: a browser subscribes topics in JSON; samples go to it in ticks."""
 
 from __future__ import annotations
 
@@ -8,7 +8,13 @@ from pydantic import ValidationError
 
 from studio.hub import Outlet
 from studio.live.topics.frames import Tick
-from studio.protocol.hearing import WISHES, AskBulk, BulkKey, Heard, NotHeard
+from studio.protocol.subscriptions import (
+    LANE_COMMANDS,
+    AskBulk,
+    BulkKey,
+    NotSubscribed,
+    SubscriptionView,
+)
 from studio.server.backlog import Backlog
 from studio.server.commands import malformed
 from studio.server.lane import FrameTransport, binary_frame, text_frame
@@ -18,19 +24,19 @@ if TYPE_CHECKING:
 
     from pydantic import BaseModel
 
-    from studio.protocol.hearing import SaidOnLane
+    from studio.protocol.subscriptions import LaneCommand
     from studio.server.bulk_lane import BulkKeys, BulkLane
     from studio.server.lane import Lane
-    from studio.server.surface import HearsTopics
+    from studio.server.surface import SubscribesTopics
 
 _TOO_SLOW: Final = 1013
-"""Close code `try again later`: the page connects anew and wishes all again."""
-_WISH_LIMIT_BYTES: Final = 4_096
+"""Close code `try again later`: the page connects anew and subscribes all again."""
+_COMMAND_LIMIT_BYTES: Final = 4_096
 _TICK: Final = "tick"
 
 
 class DataLane:
-    """One browser's data lane: the Hearer to which the engine hands what came."""
+    """One browser's data lane: the end to which the engine hands what came."""
 
     def __init__(self, lane: Lane, keys: BulkKeys) -> None:
         self._lane, self._keys = lane, keys
@@ -42,7 +48,7 @@ class DataLane:
 
     def say(self, message: BaseModel, /) -> None:
         """Queue one message in words."""
-        if self._bulk is not None and isinstance(message, Heard):
+        if self._bulk is not None and isinstance(message, SubscriptionView):
             self._bulk.forget(message.channel)
         self._outlet.post(text_frame(message.model_dump_json().encode()))
 
@@ -76,35 +82,35 @@ class DataLane:
             self._backlog.add(tick.chunks)
             self._outlet.post(self._late, _TICK)
 
-    async def serve(self, hearing: HearsTopics) -> None:
-        """Carry out wishes until the browser leaves."""
-        hearing.attach(self)
+    async def serve(self, topics: SubscribesTopics) -> None:
+        """Carry out commands until the browser leaves."""
+        topics.attach(self)
         try:
             while (text := await self._lane.receive()) is not None:
-                self._wish(hearing, text)
+                self._take_text(topics, text)
         finally:
-            hearing.detach(self)
+            topics.detach(self)
             self._keys.forget(self)
             self._outlet.close()
             self._end_bulk()
             await self._lane.finish()
 
-    def _wish(self, hearing: HearsTopics, text: bytes) -> None:
-        if len(text) > _WISH_LIMIT_BYTES:
-            self.say(NotHeard(wish=0, reason="A wish of so many bytes is not read."))
+    def _take_text(self, topics: SubscribesTopics, text: bytes) -> None:
+        if len(text) > _COMMAND_LIMIT_BYTES:
+            self.say(NotSubscribed(subscription=0, reason="So long a command is not read."))
             return
         try:
-            wish = WISHES.validate_json(text)
+            command = LANE_COMMANDS.validate_json(text)
         except ValidationError as error:
-            self.say(NotHeard(wish=0, reason=malformed("wish", error)))
+            self.say(NotSubscribed(subscription=0, reason=malformed("command", error)))
         else:
-            self._carry_out(hearing, wish)
+            self._carry_out(topics, command)
 
-    def _carry_out(self, hearing: HearsTopics, said: SaidOnLane) -> None:
-        if isinstance(said, AskBulk):
+    def _carry_out(self, topics: SubscribesTopics, command: LaneCommand) -> None:
+        if isinstance(command, AskBulk):
             self.say(BulkKey(key=self._keys.key_of(self)))
         else:
-            hearing.wish(self, said)
+            topics.carry_out(self, command)
 
     def _late(self) -> bytes:
         return binary_frame(self._backlog.frame()) if self._backlog else b""

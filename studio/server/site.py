@@ -133,7 +133,7 @@ class Site:
     async def data(self, websocket: WebSocket) -> None:
         """The data lane."""
         await websocket.accept()
-        await DataLane(Lane(websocket), self._bulk_keys).serve(self._engine.hearing)
+        await DataLane(Lane(websocket), self._bulk_keys).serve(self._engine.browser_topics)
 
     async def bulk(self, key: str = "") -> Response:
         """The bulk lane of the data lane that was told this key."""

@@ -10,8 +10,8 @@ if TYPE_CHECKING:
     from studio.documents.exports import Download, MeshNames
     from studio.live.topics.browsers import DataLaneEnd
     from studio.protocol import Command
-    from studio.protocol.hearing import Wish
     from studio.protocol.listeners import Listener
+    from studio.protocol.subscriptions import SubscriptionCommand
     from studio.scene import Connection
 
 
@@ -67,8 +67,8 @@ class TakesUploads(Protocol):
         ...
 
 
-class HearsTopics(Protocol):
-    """What hears topics for browsers."""
+class SubscribesTopics(Protocol):
+    """Subscribes topics for browsers."""
 
     def attach(self, lane: DataLaneEnd, /) -> None:
         """A data lane was opened."""
@@ -78,8 +78,8 @@ class HearsTopics(Protocol):
         """It was closed."""
         ...
 
-    def wish(self, lane: DataLaneEnd, wish: Wish, /) -> None:
-        """Carry out what a browser wishes; how that stands is told to it."""
+    def carry_out(self, lane: DataLaneEnd, command: SubscriptionCommand, /) -> None:
+        """Subscribe or unsubscribe for a browser, which is told how that stands."""
         ...
 
 
@@ -87,7 +87,7 @@ class OpenDocuments(Protocol):
     """The engine."""
 
     @property
-    def hearing(self) -> HearsTopics:
+    def browser_topics(self) -> SubscribesTopics:
         """Hears topics for browsers."""
         ...
 

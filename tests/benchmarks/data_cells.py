@@ -23,7 +23,7 @@ class Cell:
     topics: int = 1
     processes: int = 1
     """Over which the browsers are spread evenly."""
-    wish: dict[str, object] = field(default_factory=lambda: {"mode": "every"})
+    subscription: dict[str, object] = field(default_factory=lambda: {"mode": "every"})
     """How a browser of the studio hears."""
     cpu_at_most: float = 0.0
     """Of the other's; 0: it is not asked for."""
@@ -52,11 +52,29 @@ CELLS: Final = (
     Cell("500 B at 1 kHz x 10", 500, 1_000, 10, cpu_at_most=0.6),
     Cell("500 B at 1 kHz x 30", 500, 1_000, 30, processes=2, cpu_at_most=0.6),
     Cell("4 topics of 5 KB at 50 Hz x 50", 5_000, 50, 50, topics=4, cpu_at_most=0.85),
-    Cell("500 B at 1 kHz x 10, at once", 500, 1_000, 10, wish=_AT_ONCE, p50_at_most=0.3),
-    Cell("5 KB at 50 Hz x 10, at once", 5_000, 50, 10, 4, wish=_AT_ONCE, p50_at_most=0.3),
-    Cell("4.8 MB at 10 Hz x 10", 4_800_000, 10, 10, processes=2, wish=_NEWEST, cpu_at_most=0.42),
-    Cell("6.2 MB at 30 Hz x 10", 6_200_000, 30, 10, processes=5, wish=_NEWEST, cpu_at_most=0.42),
+    Cell("500 B at 1 kHz x 10, at once", 500, 1_000, 10, subscription=_AT_ONCE, p50_at_most=0.3),
+    Cell("5 KB at 50 Hz x 10, at once", 5_000, 50, 10, 4, subscription=_AT_ONCE, p50_at_most=0.3),
+    Cell(
+        "4.8 MB at 10 Hz x 10",
+        4_800_000,
+        10,
+        10,
+        processes=2,
+        subscription=_NEWEST,
+        cpu_at_most=0.42,
+    ),
+    Cell(
+        "6.2 MB at 30 Hz x 10",
+        6_200_000,
+        30,
+        10,
+        processes=5,
+        subscription=_NEWEST,
+        cpu_at_most=0.42,
+    ),
     Cell("500 B at 1 kHz x 200", 500, 1_000, 200, processes=4, cpu_at_most=0.3, for_naive=False),
     Cell("500 B at 5 kHz x 10", 500, 5_000, 10, processes=2, cpu_at_most=0.3, over_empty=True),
 )
-SLOW: Final = Cell("6.2 MB at 30 Hz, 1 of 10 slow", 6_200_000, 30, 10, processes=3, wish=_NEWEST)
+SLOW: Final = Cell(
+    "6.2 MB at 30 Hz, 1 of 10 slow", 6_200_000, 30, 10, processes=3, subscription=_NEWEST
+)

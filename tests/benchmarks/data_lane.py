@@ -187,11 +187,16 @@ def _words(server: Server, cell: Cell) -> tuple[str, ...]:
     """What a browser says first."""
     numbers = range(cell.topics)
     if server.name == "studio":
-        wishes = (
-            {"type": "hear", "wish": number, "topic": data_server.topic(number), **cell.wish}
+        commands = (
+            {
+                "type": "subscribe",
+                "subscription": number,
+                "topic": data_server.topic(number),
+                **cell.subscription,
+            }
             for number in numbers
         )
-        return tuple(json.dumps(wish) for wish in wishes)
+        return tuple(json.dumps(command) for command in commands)
     chosen = [{"id": number + 1, "channelId": number + 1} for number in numbers]
     subscribe = json.dumps({"op": "subscribe", "subscriptions": chosen})
     return (subscribe,) if server.name == "foxglove" else ()

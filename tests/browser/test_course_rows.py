@@ -173,7 +173,7 @@ def test_t11_a_pasted_type_is_published_and_echoed_without_a_build(tab: StudioPa
     types.get_by_role("button", name="Take it").click()
     types.get_by_role("heading", name=TELEMETRY).wait_for()
     assert "RIHS01_" in types.inner_text()
-    publish = tab.page.locator("section.deeds[aria-label='Publish']")
+    publish = tab.page.locator("section.operations[aria-label='Publish']")
     tab.page.evaluate(SHOW_PANEL, "publish")
     publish.get_by_role("textbox", name="Topic").fill("/telemetry")
     publish.get_by_role("textbox", name="Type").fill(TELEMETRY)

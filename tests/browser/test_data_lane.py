@@ -36,8 +36,8 @@ _COUNTS = """async () => {
 }"""
 _SUBSCRIBED = """async (topic) => {
   const script = document.querySelector('script[type="module"]').src;
-  const { heardTopics } = await import(new URL("../model/plotting.js", script));
-  return heardTopics.value.get(topic)?.state === "hearing";
+  const { topicSubscriptions } = await import(new URL("../model/plotting.js", script));
+  return topicSubscriptions.value.get(topic)?.state === "receiving";
 }"""
 _COME = """async () => {
   const script = document.querySelector('script[type="module"]').src;

@@ -72,7 +72,7 @@ class Hand:
     def __init__(self, tab: StudioPage, panel: str, title: str) -> None:
         self.page, self.count = tab.page, 0
         self.page.evaluate(SHOW_PANEL, panel)
-        self.panel = self.page.locator(f"section.deeds[aria-label='{title}']")
+        self.panel = self.page.locator(f"section.operations[aria-label='{title}']")
 
     def click(self, at: Locator) -> None:
         at.click()
@@ -89,7 +89,7 @@ class Hand:
         self.count += 1
 
     def see(self, text: str | re.Pattern[str]) -> None:
-        self.panel.locator(".deeds-chosen").get_by_text(text).first.wait_for()
+        self.panel.locator(".operations-chosen").get_by_text(text).first.wait_for()
 
 
 def call_a_service(tab: StudioPage, line: str, *reply: str) -> None:

@@ -108,7 +108,7 @@ def tab(browser: Browser, studio: RunningStudio, robot: FaultyRobot) -> Iterator
 def panel(tab: StudioPage, name: str) -> Locator:
     """Bring a panel to the front; what it shows."""
     tab.page.evaluate(SHOW_PANEL, name)
-    one_of_many = f".deeds[aria-label={name.title()}]"
+    one_of_many = f".operations[aria-label={name.title()}]"
     found = tab.page.locator(one_of_many if name in DEEDS else f".panel-body.{name}")
     found.wait_for()
     return found
@@ -164,7 +164,7 @@ def sees_everything(viewer: StudioPage) -> None:
     panel(viewer, "graph").get_by_role("button", name="Node /robot").wait_for()
 
 
-def finds_all_deeds_shut(viewer: StudioPage) -> None:
+def finds_all_operations_shut(viewer: StudioPage) -> None:
     for name, (choice, button) in SHUT.items():
         shown = panel(viewer, name)
         if choice:
@@ -175,7 +175,7 @@ def finds_all_deeds_shut(viewer: StudioPage) -> None:
 
 def test_v7_a_viewer_sees_everything_and_does_nothing(viewer: StudioPage):
     sees_everything(viewer)
-    finds_all_deeds_shut(viewer)
+    finds_all_operations_shut(viewer)
     refused = {command: do(viewer, command) for command in DOING}
     words = {one: f"A viewer may not {one.replace('_', ' ')}: ask the presenter." for one in DOING}
     assert refused == words

@@ -142,7 +142,7 @@ def use_a_dropped_type(tab: StudioPage) -> None:
     types.get_by_role("button", name="Take it").click()
     types.get_by_role("heading", name="my_interfaces/msg/Level").wait_for()
     tab.page.evaluate(SHOW_PANEL, "publish")
-    out = tab.page.locator("section.deeds[aria-label='Publish']")
+    out = tab.page.locator("section.operations[aria-label='Publish']")
     out.get_by_label("Topic", exact=True).fill("/tank")
     out.get_by_label("Type of the messages").fill("my_interfaces/msg/Level")
     out.get_by_role("button", name="Take", exact=True).click()

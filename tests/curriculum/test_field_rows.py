@@ -32,7 +32,7 @@ async def called(page: Bridged, called_name: str, kind: str, **values: float | s
     number = await page.begin(
         CallService(name=called_name, service_type=kind, text=text, timeout_s=60)
     )
-    told = await page.deed_in("calls", number, "answered", "failed")
+    told = await page.operation_in("calls", number, "answered", "failed")
     assert told["state"] == "answered", told["trouble"]
     return json.loads(told["reply"])
 

@@ -58,7 +58,7 @@ async def offered(page: Bridged, command: Command, name: str) -> None:
 async def called(page: Bridged, name: str, kind: str, text: str = "") -> Any:  # noqa: ANN401
     await offered(page, GetServices(), name)
     number = await page.begin(CallService(name=name, service_type=kind, text=text, timeout_s=60))
-    told = await page.deed_in("calls", number, "answered", "failed")
+    told = await page.operation_in("calls", number, "answered", "failed")
     assert told["state"] == "answered", told["trouble"]
     return json.loads(told["reply"])
 
@@ -94,8 +94,8 @@ def test_sv3_points_are_added_and_a_call_is_cancelled_while_others_go_on(router:
             reply = await called(page, "/add_points", kind, text)
             assert reply == {"result": {"x": 1.5, "y": 2.0, "z": 0.0}}
             waiting = await page.begin(CallService(name="/nobody", service_type=kind))
-            await page.do(CancelCall(deed=waiting))
-            assert (await page.deed_in("calls", waiting, "cancelled"))["reply"] == ""
+            await page.do(CancelCall(operation=waiting))
+            assert (await page.operation_in("calls", waiting, "cancelled"))["reply"] == ""
             assert await called(page, "/add_points", kind, text) == reply
 
     with running_demo(router, "add_points_server"):
@@ -111,15 +111,20 @@ async def sent(page: Bridged, song: str) -> int:
 def feedback_of(page: Bridged, number: int) -> list[dict[str, Any]]:
     """All feedback of a goal, as a page puts it together."""
     told = (one for one in page.ear.events if one["type"] == "goals")
-    found = (deed for one in told for deed in one["deeds"] if deed["deed"] == number)
-    return [one for deed in found for one in deed["feedback"]]
+    found = (
+        operation
+        for one in told
+        for operation in one["operations"]
+        if operation["operation"] == number
+    )
+    return [one for operation in found for one in operation["feedback"]]
 
 
 def test_a1_a_song_gives_21_feedbacks_and_a_result(router: str):
     async def run() -> None:
         async with bridged(router) as page:
             number = await sent(page, "Clocks")
-            told = await page.deed_in("goals", number, "succeeded", "failed")
+            told = await page.operation_in("goals", number, "succeeded", "failed")
             assert (told["state"], told["feedback_count"]) == ("succeeded", 21)
             heard_ones = feedback_of(page, number)
             assert [one["number"] for one in heard_ones] == list(range(1, 22))
@@ -139,11 +144,11 @@ def test_a2_of_several_goals_one_is_cancelled_and_one_is_refused(router: str):
         async with bridged(router) as page:
             first, second = await sent(page, "Clocks"), await sent(page, "Yellow")
             nameless = await sent(page, '""')
-            await page.deed_in("goals", nameless, "rejected")
+            await page.operation_in("goals", nameless, "rejected")
             for one in (first, second):
                 await until(lambda one=one: bool(feedback_of(page, one)))
-            await page.do(CancelGoal(deed=first))
-            told = await page.deed_in("goals", first, "canceled", "failed")
+            await page.do(CancelGoal(operation=first))
+            told = await page.operation_in("goals", first, "canceled", "failed")
             assert told["state"] == "canceled"
             assert json.loads(told["result"])["final_message"] == "Stopped Clocks"
             states: dict[str, str] = {}
@@ -152,9 +157,9 @@ def test_a2_of_several_goals_one_is_cancelled_and_one_is_refused(router: str):
                 states = {one.goal_id: one.state for one in answer.goals}
                 assert all(one.is_ours for one in answer.goals)
                 await asyncio.sleep(0.02)
-            assert states[page.deed("goals", second)["goal_id"]] == "executing"
-            await page.do(CancelGoal(deed=second))
-            await page.deed_in("goals", second, "canceled")
+            assert states[page.operation("goals", second)["goal_id"]] == "executing"
+            await page.do(CancelGoal(operation=second))
+            await page.operation_in("goals", second, "canceled")
 
     with running_demo(router, "radio_dj", *SLOW):
         asyncio.run(run())
@@ -166,7 +171,7 @@ def test_a_server_that_is_gone_ends_its_goals_with_a_sentence(router: str):
             with running_demo(router, "radio_dj", *SLOW):
                 number = await sent(page, "Clocks")
                 await until(lambda: bool(feedback_of(page, number)))
-            told = await page.deed_in("goals", number, "failed")
+            told = await page.operation_in("goals", number, "failed")
             assert "ended before the goal did" in told["trouble"]
 
     asyncio.run(run())
@@ -233,14 +238,14 @@ def test_t2_the_slides_yaml_is_published_at_a_rate_until_it_is_stopped(router: s
                 once = await page.begin(
                     Publish(name="/turtle1/cmd_vel", message_type=TWIST, text=text)
                 )
-                told = await page.deed_in("publications", once, "done", "failed")
+                told = await page.operation_in("publications", once, "done", "failed")
                 assert (told["state"], told["sent"]) == ("done", 1)
                 await until(lambda: len(twists) == 1)
                 ask = Publish(name="turtle1/cmd_vel", message_type=TWIST, text=text, rate_hz=50)
                 number = await page.begin(ask)
                 await until(lambda: len(twists) > 5)
-                await page.do(StopPublishing(deed=number))
-                told = await page.deed_in("publications", number, "stopped")
+                await page.do(StopPublishing(operation=number))
+                told = await page.operation_in("publications", number, "stopped")
                 assert told["sent"] >= 5
             assert {(one.linear.x, one.angular.z) for one in twists} == {(2.0, 1.8)}
 

@@ -142,8 +142,8 @@ test("of every message each number is told, and none is lost while its type is a
   const posted = [];
   const post = (/** @type {any} */ one) => posted.push(one);
   const types = new Types(post);
-  const wish = {
-    wish: 1,
+  const subscription = {
+    subscription: 1,
     topic: "/x",
     type_name: "",
     mode: /** @type {const} */ ("every"),
@@ -152,7 +152,7 @@ test("of every message each number is told, and none is lost while its type is a
     latched: null,
     depth: null,
   };
-  const trace = new Trace(wish, types, post, [".data", ".none"]);
+  const trace = new Trace(subscription, types, post, [".data", ".none"]);
   trace.typeName = "x/msg/One";
   const cdr = Uint8Array.from([0, 1, 0, 0, 5, 0, 0, 0]);
   const came = { channel: 1, cdr, received_s: 1, sent_s: 1, lost: 0 };

@@ -8,7 +8,7 @@ import { Types } from "../../frontend_assets/workers/subscriptions.js";
 import { PNG, raw } from "./support/images.js";
 
 const WISH = {
-  wish: 5,
+  subscription: 5,
   topic: "/camera",
   type_name: "",
   mode: /** @type {const} */ ("newest"),
@@ -21,7 +21,7 @@ const IMAGE = "sensor_msgs/msg/Image";
 const COMPRESSED = "sensor_msgs/msg/CompressedImage";
 
 /** A topic that is looked at; its screen is ready for another picture when `frame` says so. */
-class Looked {
+class Echoed {
   /** @param {string} typeName @param {(cdr: Uint8Array) => any} read */
   constructor(typeName, read) {
     /** @type {Pictured[]} */
@@ -44,7 +44,7 @@ class Looked {
   }
 
   /** @param {number[]} numbers each stands in a message of its own */
-  hear(...numbers) {
+  subscribe(...numbers) {
     this.pictures.take(numbers.map((number) => cameWith(number)));
   }
 
@@ -64,17 +64,17 @@ const cameWith = (number) => ({
   lost: 0,
 });
 
-const grey = () => new Looked(IMAGE, ([number = 0]) => raw("mono8", 2, 1, [number, 9]));
+const grey = () => new Echoed(IMAGE, ([number = 0]) => raw("mono8", 2, 1, [number, 9]));
 
 test("an image is painted, and it is told what it is", async (context) => {
   const looked = grey();
   context.after(() => looked.pictures.leave());
-  looked.hear(77);
+  looked.subscribe(77);
   await looked.frame();
   assert.deepEqual(looked.painted, [[77]]);
   assert.deepEqual(looked.told[0], {
     kind: "picture",
-    wish: 5,
+    subscription: 5,
     painted: 1,
     rate_hz: null,
     bytes: 1,
@@ -89,13 +89,13 @@ test("an image is painted, and it is told what it is", async (context) => {
 test("of images that come faster than the screen shows them, only the newest is painted", async (context) => {
   const looked = grey();
   context.after(() => looked.pictures.leave());
-  looked.hear(1, 2);
-  for (let number = 3; number < 200; number += 1) looked.hear(number);
+  looked.subscribe(1, 2);
+  for (let number = 3; number < 200; number += 1) looked.subscribe(number);
   assert.equal(looked.asked.length, 1);
   await looked.frame();
   assert.deepEqual(looked.painted, [[199]]);
   assert.equal(looked.asked.length, 0);
-  looked.hear(200);
+  looked.subscribe(200);
   await looked.frame();
   assert.deepEqual(looked.painted, [[199], [200]]);
 });
@@ -105,13 +105,13 @@ test("of every image it is said once that nobody reads it any more: when it was 
   context.after(() => looked.pictures.leave());
   /** @type {number[]} */
   const done = [];
-  const hear = (/** @type {number} */ number) =>
+  const subscribe = (/** @type {number} */ number) =>
     looked.pictures.take([{ ...cameWith(number), done: () => done.push(number) }]);
-  for (const number of [1, 2, 3]) hear(number);
+  for (const number of [1, 2, 3]) subscribe(number);
   assert.deepEqual(done, [1, 2]);
   await looked.frame();
   assert.deepEqual(done, [1, 2]);
-  hear(4);
+  subscribe(4);
   assert.deepEqual(done, [1, 2]);
   await looked.frame();
   assert.deepEqual(done, [1, 2, 3]);
@@ -121,7 +121,7 @@ test("of every image it is said once that nobody reads it any more: when it was 
 test("a picture that is moved is painted anew, and does not count as another one", async (context) => {
   const looked = grey();
   context.after(() => looked.pictures.leave());
-  looked.hear(1);
+  looked.subscribe(1);
   await looked.frame();
   const sight = { width: 4, height: 4, ratio: 1, view: null };
   looked.pictures.carryOut({ kind: "sight", sight });
@@ -136,7 +136,7 @@ test("a picture that is moved is painted anew, and does not count as another one
 test("beside a picture no pixel is pointed at", async (context) => {
   const looked = grey();
   context.after(() => looked.pictures.leave());
-  looked.hear(1);
+  looked.subscribe(1);
   await looked.frame();
   for (const pixel of [{ x: 2, y: 0 }, { x: 0, y: -1 }, null]) {
     looked.pictures.carryOut({ kind: "point", pixel });
@@ -148,7 +148,7 @@ test("what is said of alike pictures is said some times in a second, and the new
   const looked = grey();
   context.mock.timers.enable({ apis: ["setTimeout"] });
   for (let number = 1; number < 30; number += 1) {
-    looked.hear(number);
+    looked.subscribe(number);
     await looked.frame();
   }
   const before = looked.told.length;
@@ -181,8 +181,8 @@ for (const [key, typeName, message] of /** @type {[string, string, any][]} */ ([
     };
     Object.assign(globalThis, { createImageBitmap: unpack });
     context.after(() => Reflect.deleteProperty(globalThis, "createImageBitmap"));
-    const looked = new Looked(typeName, () => message);
-    looked.hear(1);
+    const looked = new Echoed(typeName, () => message);
+    looked.subscribe(1);
     await looked.frame();
     assert.equal(looked.told[0]?.size, null);
     assert.equal(looked.told[0]?.trouble?.key, `image.trouble.${key}`);

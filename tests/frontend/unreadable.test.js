@@ -3,14 +3,14 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
-import { Look, Trace, Types } from "../../frontend_assets/workers/subscriptions.js";
+import { Echo, Trace, Types } from "../../frontend_assets/workers/subscriptions.js";
 
 /** @type {{schemas: Record<string, MessageView[]>, cases: {type: string, little: string}[]}} */
 const GOLDEN = JSON.parse(
   readFileSync(new URL("../golden/cdr/messages.json", import.meta.url), "utf8"),
 );
 const WISH = {
-  wish: 1,
+  subscription: 1,
   topic: "/x",
   type_name: "",
   mode: /** @type {const} */ ("every"),
@@ -47,7 +47,7 @@ function looking(type, messages) {
   const told = [];
   const types = new Types((message) => told.push(message));
   types.learn(type, messages, "");
-  const look = new Look(WISH, types, (message) => told.push(message));
+  const look = new Echo(WISH, types, (message) => told.push(message));
   look.typeName = type;
   return { look, told };
 }
@@ -91,7 +91,7 @@ test("a type that nobody tells is shown as bytes with the reason, asked for now 
   const told = [];
   const post = (/** @type {any} */ message) => told.push(message);
   const types = new Types(post, () => now_ms);
-  const look = new Look(WISH, types, post);
+  const look = new Echo(WISH, types, post);
   look.typeName = NUMBER;
   const cdr = new Uint8Array(12);
   cdr[1] = 1;

@@ -24,7 +24,7 @@ VIEWER_COMMANDS = {
     *("get_frames", "get_masses", "get_display_kinds", "get_topics", "get_tf"),
     "follow_frame",
     "get_topic_rates",
-    *("get_services", "get_actions", "read_values", "follow_deeds", "get_goal_statuses"),
+    *("get_services", "get_actions", "read_values", "follow_operations", "get_goal_statuses"),
     *("get_parameter_nodes", "get_parameters", "dump_parameters", "follow_parameters"),
     *(
         "find_texts",

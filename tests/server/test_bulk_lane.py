@@ -62,7 +62,7 @@ def is_newest(came: Came) -> bool:
 
 def flood(lane: Connection) -> list[Came]:
     """Have the studio send it all; gives what comes on the data lane."""
-    lane.send('{"type": "hear", "wish": 1, "topic": "/flood", "mode": "every"}')
+    lane.send('{"type": "subscribe", "subscription": 1, "topic": "/flood", "mode": "every"}')
     found: list[Came] = []
     while isinstance(message := lane.recv(timeout=60), bytes):
         found += read_frame(message)[1]
@@ -119,8 +119,8 @@ def test_small_messages_wait_for_no_large_ones(web: RunningWeb):
     with web.websocket("/data") as lane, bulk_lane(web, ask_key(lane)):
         flood(lane)
         assert len(flood(lane)) == 0
-        lane.send('{"type": "leave", "wish": 1}')
-        assert json.loads(lane.recv(timeout=60))["type"] == "not_heard"
+        lane.send('{"type": "unsubscribe", "subscription": 1}')
+        assert json.loads(lane.recv(timeout=60))["type"] == "not_subscribed"
 
 
 def test_it_ends_with_its_data_lane(web: RunningWeb):

@@ -29,13 +29,18 @@ def hear(lane: Connection) -> dict[str, Any]:
 
 @pytest.mark.parametrize("role", list(Role))
 def test_whoever_may_look_may_hear(web: RunningWeb, role: Role):
-    before = len(web.engine.hearing.wishes)
+    before = len(web.engine.browser_topics.commands)
     with web.websocket("/data", role) as lane:
-        lane.send(json.dumps({"type": "hear", "wish": 7, "topic": "/x", "mode": "every"}))
-        assert hear(lane)["wish"] == 7
-        lane.send(json.dumps({"type": "leave", "wish": 7}))
-        assert hear(lane)["wish"] == 7
-    assert [one.type for one in web.engine.hearing.wishes[before:]] == ["hear", "leave"]
+        lane.send(
+            json.dumps({"type": "subscribe", "subscription": 7, "topic": "/x", "mode": "every"})
+        )
+        assert hear(lane)["subscription"] == 7
+        lane.send(json.dumps({"type": "unsubscribe", "subscription": 7}))
+        assert hear(lane)["subscription"] == 7
+    assert [one.type for one in web.engine.browser_topics.commands[before:]] == [
+        "subscribe",
+        "unsubscribe",
+    ]
 
 
 def frames_until_words(lane: Connection) -> Iterator[tuple[int, list[Came]]]:
@@ -46,11 +51,13 @@ def frames_until_words(lane: Connection) -> Iterator[tuple[int, list[Came]]]:
 def test_a_slow_browser_gets_the_newest_is_told_what_it_missed_and_the_lane_goes_on(
     web: RunningWeb,
 ):
-    flooded = web.engine.hearing.flooded
+    flooded = web.engine.browser_topics.flooded
     with web.websocket("/data") as lane:
-        lane.send(json.dumps({"type": "hear", "wish": 1, "topic": "/flood", "mode": "every"}))
+        lane.send(
+            json.dumps({"type": "subscribe", "subscription": 1, "topic": "/flood", "mode": "every"})
+        )
         # Nothing is read before: a browser that keeps up misses nothing.
-        wait_until("the flood", lambda: web.engine.hearing.flooded == flooded + FLOOD)
+        wait_until("the flood", lambda: web.engine.browser_topics.flooded == flooded + FLOOD)
         frames = list(frames_until_words(lane))
     came = [one for _, messages in frames for one in messages]
     dropped = max(count for count, _ in frames)
@@ -67,11 +74,11 @@ def test_a_slow_browser_gets_the_newest_is_told_what_it_missed_and_the_lane_goes
     [
         "",
         "[" * 4000,
-        '{"type": "hear"}',
-        '{"type": "hear", "wish": -1, "topic": "/x", "mode": "every"}',
-        '{"type": "hear", "wish": 1, "topic": "/x", "mode": "every", "most_hz": 1e9}',
-        '{"type": "hear", "wish": 1, "topic": "/x", "mode": "every", "more": 1}',
-        '{"type": "leave", "wish": "' + "x" * 5000 + '"}',
+        '{"type": "subscribe"}',
+        '{"type": "subscribe", "subscription": -1, "topic": "/x", "mode": "every"}',
+        '{"type": "subscribe", "subscription": 1, "topic": "/x", "mode": "every", "most_hz": 1e9}',
+        '{"type": "subscribe", "subscription": 1, "topic": "/x", "mode": "every", "more": 1}',
+        '{"type": "unsubscribe", "subscription": "' + "x" * 5000 + '"}',
         b"\xff\xfe",
     ],
 )
@@ -81,13 +88,13 @@ def test_a_malformed_wish_is_refused_in_a_sentence_and_the_lane_goes_on(
     with web.websocket("/data") as lane:
         lane.send(text)
         refused = hear(lane)
-        assert refused["type"] == "not_heard"
+        assert refused["type"] == "not_subscribed"
         assert 10 < len(refused["reason"]) <= 300
-        lane.send('{"type": "leave", "wish": 3}')
+        lane.send('{"type": "unsubscribe", "subscription": 3}')
         assert hear(lane) == {
-            "type": "not_heard",
-            "wish": 3,
-            "reason": "there is nothing to hear",
+            "type": "not_subscribed",
+            "subscription": 3,
+            "reason": "there is no such topic",
         }
 
 

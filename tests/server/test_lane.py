@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 pytestmark = [pytest.mark.network, pytest.mark.timeout(120)]
 
-FLOODED = {"type": "hear", "wish": 1, "topic": "/flood", "mode": "every"}
+FLOODED = {"type": "subscribe", "subscription": 1, "topic": "/flood", "mode": "every"}
 MESSAGE_BYTES = 1 << 20
 """Each of the flood, of which two go out in one frame."""
 LARGEST_FRAME = 3 * MESSAGE_BYTES
@@ -40,13 +40,15 @@ def test_a_browser_that_reads_nothing_costs_little_and_is_given_up_unanswered(
     web = impatient
     with web.websocket("/data") as other, deaf_browser(web, "/data") as deaf:
         deaf.say(**FLOODED)
-        wait_until("both to be there", lambda: len(web.engine.hearing.hearers) == 2)
-        wait_until("all of the flood", lambda: web.engine.hearing.flooded == FLOOD)
+        wait_until("both to be there", lambda: len(web.engine.browser_topics.hearers) == 2)
+        wait_until("all of the flood", lambda: web.engine.browser_topics.flooded == FLOOD)
         assert 0 < max(web.pending_bytes()) <= GATE_BYTES + LARGEST_FRAME
-        wait_until("the deaf one to be given up", lambda: len(web.engine.hearing.hearers) == 1)
+        wait_until(
+            "the deaf one to be given up", lambda: len(web.engine.browser_topics.hearers) == 1
+        )
         wait_until("its bytes to be forgotten", lambda: web.pending_bytes() == [0])
-        other.send(json.dumps({"type": "leave", "wish": 3}))
-        assert json.loads(other.recv(timeout=60))["wish"] == 3
+        other.send(json.dumps({"type": "unsubscribe", "subscription": 3}))
+        assert json.loads(other.recv(timeout=60))["subscription"] == 3
 
 
 def test_a_browser_that_is_owed_too_much_is_let_go_though_it_takes_no_goodbye(web: RunningWeb):

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, cast, get_args
 
 from studio.live.connection.desk import WireDesk
 from studio.live.panels.ros_system import RosSystem
-from studio.protocol.calls import FollowDeeds
+from studio.protocol.calls import FollowOperations
 from studio.settings import WireChoice
 from tests.support.asked import ask_ros
 from tests.support.open_documents import Ear, until
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 class Bridged:
-    """Does what a page asks, and knows how all deeds fare, as a page does."""
+    """Does what a page asks, and knows how all operations fare, as a page does."""
 
     def __init__(self, ros: RosSystem, ear: Ear) -> None:
         self.ros, self.ear = ros, ear
@@ -28,20 +28,25 @@ class Bridged:
         """Ask, and give the answer."""
         return await ask_ros(self.ros, command, self.ear)
 
-    def deed(self, kind: str, number: int) -> dict[str, Any]:
-        """A deed as it was told last; empty before."""
+    def operation(self, kind: str, number: int) -> dict[str, Any]:
+        """An operation as it was told last; empty before."""
         told = (one for one in self.ear.events if one["type"] == kind)
-        found = [deed for one in told for deed in one["deeds"] if deed["deed"] == number]
+        found = [
+            operation
+            for one in told
+            for operation in one["operations"]
+            if operation["operation"] == number
+        ]
         return found[-1] if found else {}
 
-    async def deed_in(self, kind: str, number: int, *states: str) -> dict[str, Any]:
-        """Wait until a deed is told to be in one of some states."""
-        await until(lambda: self.deed(kind, number).get("state") in states)
-        return self.deed(kind, number)
+    async def operation_in(self, kind: str, number: int, *states: str) -> dict[str, Any]:
+        """Wait until an operation is told to be in one of some states."""
+        await until(lambda: self.operation(kind, number).get("state") in states)
+        return self.operation(kind, number)
 
     async def begin(self, command: Command) -> int:
-        """Begin a deed; gives its number."""
-        return cast("int", (await self.do(command)).deed)
+        """Begin an operation; gives its number."""
+        return cast("int", (await self.do(command)).operation)
 
 
 @asynccontextmanager
@@ -51,8 +56,8 @@ async def bridged(endpoint: str) -> AsyncGenerator[Bridged]:
     ros, ear = RosSystem(wire), Ear()
     try:
         await wire.link()
-        for kind in get_args(FollowDeeds.model_fields["deeds"].annotation):
-            await ask_ros(ros, FollowDeeds(deeds=kind), ear)
+        for kind in get_args(FollowOperations.model_fields["operations"].annotation):
+            await ask_ros(ros, FollowOperations(operations=kind), ear)
         yield Bridged(ros, ear)
     finally:
         await ros.close()

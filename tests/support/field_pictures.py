@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tests.support.browser import open_browser
-from tests.support.deed_pictures import take_large
 from tests.support.demos import running_demo
 from tests.support.help_pictures import Camera
+from tests.support.operation_pictures import take_large
 from tests.support.panel_pictures import SHOW_PANEL, THEMES, tab_of
 from tests.support.server import running_studio
 from tests.support.wire import running_router

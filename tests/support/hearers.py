@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from studio.live.topics.frames import FRAME_HEAD, MESSAGE_HEAD
-from studio.protocol.hearing import Heard, NotHeard
+from studio.protocol.subscriptions import NotSubscribed, SubscriptionView
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -48,21 +48,23 @@ class KeepingHearer:
     """Keeps all that it is told and given."""
 
     def __init__(self) -> None:
-        self.told: list[Heard] = []
-        self.refused: list[NotHeard] = []
+        self.told: list[SubscriptionView] = []
+        self.refused: list[NotSubscribed] = []
         self.came: list[Came] = []
         self.ticks: list[Tick] = []
 
     def say(self, message: BaseModel, /) -> None:
-        if isinstance(message, Heard):
+        if isinstance(message, SubscriptionView):
             self.told.append(message)
-        if isinstance(message, NotHeard):
+        if isinstance(message, NotSubscribed):
             self.refused.append(message)
 
     def take(self, tick: Tick, /) -> None:
         self.ticks.append(tick)
         self.came += read_frame(tick.frame)[1]
 
-    def state(self, wish: int) -> str:
-        """How a wish stands, as it was told last."""
-        return next((one.state for one in reversed(self.told) if one.wish == wish), "")
+    def state(self, subscription: int) -> str:
+        """How a subscription stands, as it was told last."""
+        return next(
+            (one.state for one in reversed(self.told) if one.subscription == subscription), ""
+        )

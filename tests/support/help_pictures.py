@@ -41,7 +41,7 @@ PANELS_WINDOW = (1060, 940)
 """So narrow that a panel, cut to it, is nearly as wide as the help that shows it."""
 DIALOGS_WINDOW = (720, 640)
 OF_DEEDS = ("actions", "services", "parameters", "publish", "turtlesim", "jerry")
-"""Panels whose pictures `deed_pictures` and `field_pictures` take."""
+"""Panels whose pictures `operation_pictures` and `field_pictures` take."""
 ON_THE_WIRE = sorted(
     (
         panel

@@ -152,7 +152,9 @@ def message_walk() -> list[str]:
         publisher = node.create_publisher(message(_STRING), "/walk", 10)
         control, data = studio.websocket("/control"), studio.websocket("/data")
         control.send(json.dumps({"type": "connect_wire", "address": endpoint}))
-        data.send(json.dumps({"type": "hear", "wish": 1, "topic": "/walk", "mode": "every"}))
+        data.send(
+            json.dumps({"type": "subscribe", "subscription": 1, "topic": "/walk", "mode": "every"})
+        )
         wait_until("it is subscribed", lambda: publisher.get_subscription_count() > 0)
         for number in range(1, STEPS + 1):
             for _ in _received(data):

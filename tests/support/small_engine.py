@@ -12,10 +12,10 @@ from studio.errors import ExportError, SaveConflictError, UnknownDocumentError, 
 from studio.live.topics.frames import Tick, chunk_of
 from studio.protocol.documents import CloseDocument, DocumentEntry, Documents, Done
 from studio.protocol.edits import Redo, Undo
-from studio.protocol.hearing import Hear, NotHeard
 from studio.protocol.listeners import tell
 from studio.protocol.robot import AnimateJoints, RandomizeJoints, ZeroJoints
 from studio.protocol.saving import Reload, Save
+from studio.protocol.subscriptions import NotSubscribed, Subscribe
 from studio.protocol.texts import GetUrdf, Urdf
 from studio.ros.attachment import Attachment
 from studio.ros.node.samples import RawSample
@@ -27,8 +27,8 @@ if TYPE_CHECKING:
     from studio.documents.exports import MeshNames
     from studio.live.topics.browsers import DataLaneEnd
     from studio.protocol import Command
-    from studio.protocol.hearing import Wish
     from studio.protocol.listeners import Listener
+    from studio.protocol.subscriptions import SubscriptionCommand
     from studio.scene import Connection
 
 FLOOD = 40
@@ -92,12 +92,12 @@ class SmallUploads:
         return "small"
 
 
-class SmallHearing:
-    """Says that nothing is heard, but for `/flood`, and remembers who wished what."""
+class SmallTopics:
+    """Says that nothing is subscribed, but for `/flood`, and keeps the commands."""
 
     def __init__(self) -> None:
         self.hearers: list[DataLaneEnd] = []
-        self.wishes: list[Wish] = []
+        self.commands: list[SubscriptionCommand] = []
         self.flooded = 0
 
     def attach(self, lane: DataLaneEnd, /) -> None:
@@ -106,15 +106,15 @@ class SmallHearing:
     def detach(self, lane: DataLaneEnd, /) -> None:
         self.hearers.remove(lane)
 
-    def wish(self, lane: DataLaneEnd, wish: Wish, /) -> None:
-        self.wishes.append(wish)
-        if isinstance(wish, Hear) and wish.topic == "/flood":
+    def carry_out(self, lane: DataLaneEnd, command: SubscriptionCommand, /) -> None:
+        self.commands.append(command)
+        if isinstance(command, Subscribe) and command.topic == "/flood":
             for number in range(FLOOD):
                 sample = RawSample(b"%d" % number + bytes(1 << 20), Attachment(1, 1, b""), 1)
                 both = (chunk_of(at, [sample], 0, keeps_all=at == 1) for at in (1, 2))
                 lane.take(Tick(tuple(both)))
                 self.flooded += 1
-        lane.say(NotHeard(wish=wish.wish, reason="there is nothing to hear"))
+        lane.say(NotSubscribed(subscription=command.subscription, reason="there is no such topic"))
 
 
 class SmallEngine:
@@ -124,7 +124,7 @@ class SmallEngine:
     def __init__(self) -> None:
         self.documents = {"small": SmallDocument()}
         self.uploads = SmallUploads()
-        self.hearing = SmallHearing()
+        self.browser_topics = SmallTopics()
         self.default_document: str | None = "small"
         self.executed: list[Command] = []
         self.listeners: list[Listener] = []

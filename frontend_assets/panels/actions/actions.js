@@ -16,7 +16,7 @@ import {
   askActions,
   cancelGoal,
   followActions,
-  followDeeds,
+  followOperations,
   goals,
   isGoalOver,
   offersRefused,
@@ -26,16 +26,23 @@ import {
   tookText,
   turnedRad,
 } from "../../model/operations.js";
-import { DeedForm, DeedPanel, DeedState, Offers, openLine, ValueTree } from "../operation-panel.js";
+import {
+  Offers,
+  OperationForm,
+  OperationPanel,
+  OperationState,
+  openLine,
+  ValueTree,
+} from "../operation-panel.js";
 
-const FOLLOW = [followActions, () => followDeeds("goals")];
+const FOLLOW = [followActions, () => followOperations("goals")];
 const LOG_SHOWN = 50;
 
 export function ActionsPanel() {
-  return html`<${DeedPanel} id="actions" icon="goal" kind="action" follow=${FOLLOW} onLine=${openLine(goalForm)}>
+  return html`<${OperationPanel} id="actions" icon="goal" kind="action" follow=${FOLLOW} onLine=${openLine(goalForm)}>
     ${(
       /** @type {(text: string) => boolean} */ paste,
-    ) => html`<div class=${`deeds-parts ${goalForm.chosen.value ? "chosen" : ""}`}>
+    ) => html`<div class=${`operations-parts ${goalForm.chosen.value ? "chosen" : ""}`}>
       <${Offers} id="actions" icon="goal" offers=${actions.value} refused=${offersRefused.value} again=${askActions} form=${goalForm} paste=${paste}
         next=${html`<p>${t("actions.none.hint")}</p><button type="button" class="button" onClick=${showLessons}><${Icon} name="lessons" />${t("actions.none.do")}</button>`}>
         <${UnderWay} /><//>
@@ -51,17 +58,17 @@ function UnderWay() {
   const running = goals.value.filter((one) => !isGoalOver(one));
   if (running.length === 0) return null;
   return html`<section class="goals-running" aria-label=${t("actions.running")}><h4>${t("actions.running")}</h4>
-    ${running.map((goal) => html`<div class="goal-line" key=${goal.deed}><span class="offer-name" title=${goal.name}>${goal.name}</span><${Stand} goal=${goal} /><${Progress} goal=${goal} /></div>`)}</section>`;
+    ${running.map((goal) => html`<div class="goal-line" key=${goal.operation}><span class="offer-name" title=${goal.name}>${goal.name}</span><${Stand} goal=${goal} /><${Progress} goal=${goal} /></div>`)}</section>`;
 }
 
 /** @param {{name: string}} props the action that is chosen, and its goals */
 function Chosen({ name }) {
   useEffect(() => followStatuses(name), [name]);
   const own = goals.value.filter((one) => one.name === name).reverse();
-  return html`<div class="deeds-chosen scroll">
-    <${DeedForm} form=${goalForm} onSubmit=${sendGoal} actions=${html`
+  return html`<div class="operations-chosen scroll">
+    <${OperationForm} form=${goalForm} onSubmit=${sendGoal} actions=${html`
       <button type="submit" class="button primary" disabled=${!mayEdit.value || goalForm.wrong.value}><${Icon} name="send" />${t("actions.send")}</button>`} />
-    ${own.map((goal) => html`<${Goal} key=${goal.deed} goal=${goal} />`)}
+    ${own.map((goal) => html`<${Goal} key=${goal.operation} goal=${goal} />`)}
     <${Others} />
   </div>`;
 }
@@ -71,7 +78,7 @@ function Goal({ goal }) {
   const last = plainOf(goal.feedback.at(-1)?.values ?? "");
   const result = plainOf(goal.result);
   const over = isGoalOver(goal);
-  return html`<section class="deed-reply" aria-label=${t("actions.goal", { number: goal.deed })}>
+  return html`<section class="operation-reply" aria-label=${t("actions.goal", { number: goal.operation })}>
     <header class="goal-head"><${Stand} goal=${goal} />${!over && html`<${Cancel} goal=${goal} />`}</header>
     <p class="goal-asked" title=${goal.text}>${goal.text.trim().replace(/\s+/g, " ") || "{}"}</p>
     <${Progress} goal=${goal} />
@@ -113,13 +120,13 @@ function Turned({ rad }) {
 function Stand({ goal }) {
   const bad = goal.state === "failed" || goal.state === "rejected" || goal.state === "aborted";
   const words = t(`actions.${goal.state}`, { time: tookText(goal.took_s) });
-  return html`<${DeedState} state=${goal.state} busy=${!isGoalOver(goal)} bad=${bad} words=${words} />`;
+  return html`<${OperationState} state=${goal.state} busy=${!isGoalOver(goal)} bad=${bad} words=${words} />`;
 }
 
 /** @param {{goal: GoalView}} props */
 function Cancel({ goal }) {
   const asked = goal.state === "canceling";
-  return html`<button type="button" class="button small" disabled=${asked || !mayEdit.value} onClick=${() => cancelGoal(goal.deed)}>
+  return html`<button type="button" class="button small" disabled=${asked || !mayEdit.value} onClick=${() => cancelGoal(goal.operation)}>
     ${t(asked ? "actions.cancelling" : "cancel")}</button>`;
 }
 
@@ -135,8 +142,8 @@ function Progress({ goal }) {
 /** @param {{goal: GoalView}} props the newest first */
 function Log({ goal }) {
   const shown = goal.feedback.slice(-LOG_SHOWN).reverse();
-  return html`<details class="deed-history"><summary>${t("actions.log", { count: goal.feedback_count })}</summary>
-    <ol class="deed-log">${shown.map((one) => html`<li key=${one.number}><span class="goal-time">${one.after_s.toFixed(1)} s</span><span>${shortOf(plainOf(one.values))}</span></li>`)}</ol></details>`;
+  return html`<details class="operation-history"><summary>${t("actions.log", { count: goal.feedback_count })}</summary>
+    <ol class="operation-log">${shown.map((one) => html`<li key=${one.number}><span class="goal-time">${one.after_s.toFixed(1)} s</span><span>${shortOf(plainOf(one.values))}</span></li>`)}</ol></details>`;
 }
 
 /** Goals of this action that somebody else sent, as its server tells. */

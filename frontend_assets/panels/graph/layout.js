@@ -178,10 +178,10 @@ function order(layers, down) {
     });
   }
   for (const layer of sequence) {
-    const wish = new Map(
+    const wanted = new Map(
       layer.map((cell) => [cell, mean(down ? cell.above : cell.below) ?? cell.x]),
     );
-    layer.sort((a, b) => (wish.get(a) ?? 0) - (wish.get(b) ?? 0));
+    layer.sort((a, b) => (wanted.get(a) ?? 0) - (wanted.get(b) ?? 0));
     layer.forEach((cell, at) => {
       cell.x = at;
     });
@@ -191,19 +191,19 @@ function order(layers, down) {
 /** @param {Cell[][]} layers @param {boolean} down each cell as near below, or above, its neighbours as there is room */
 function align(layers, down) {
   for (const layer of down ? layers : layers.toReversed()) {
-    const wishes = layer.map((cell) => mean(down ? cell.above : cell.below) ?? cell.x);
-    spread(layer, wishes);
+    const wanted = layer.map((cell) => mean(down ? cell.above : cell.below) ?? cell.x);
+    spread(layer, wanted);
   }
 }
 
-/** @param {readonly Cell[]} layer @param {readonly number[]} wishes in their order, none over another, and together as near to the wishes as one shift makes them */
-function spread(layer, wishes) {
+/** @param {readonly Cell[]} layer @param {readonly number[]} wanted in their order, none over another, and together as near to the wanted as one shift makes them */
+function spread(layer, wanted) {
   let free = Number.NEGATIVE_INFINITY;
   layer.forEach((cell, at) => {
-    cell.x = Math.max(wishes[at] ?? 0, free + cell.width / 2);
+    cell.x = Math.max(wanted[at] ?? 0, free + cell.width / 2);
     free = cell.x + cell.width / 2 + GAP_X;
   });
-  const shift = layer.reduce((sum, cell, at) => sum + (wishes[at] ?? 0) - cell.x, 0) / layer.length;
+  const shift = layer.reduce((sum, cell, at) => sum + (wanted[at] ?? 0) - cell.x, 0) / layer.length;
   for (const cell of layer) cell.x += shift;
 }
 

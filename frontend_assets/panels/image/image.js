@@ -2,7 +2,7 @@
 
 /** @import { TopicRow } from "../../types/wire.d.ts" */
 /** @import { Numbers, Range } from "../../lib/image-encodings.js" */
-/** @import { Heard } from "../../workers/subscriptions.js" */
+/** @import { SubscriptionView } from "../../workers/subscriptions.js" */
 /** @import { PictureAsked, Pictured } from "../../workers/pictures.js" */
 /** @import { Signal } from "vendor/preact.js" */
 /** @import { Size, View } from "../../lib/pan-zoom.js" */
@@ -48,7 +48,7 @@ function Content({ chosen }) {
 
 /** @param {Choice & {type: string}} props */
 function Watched({ topic, type, choices, chosen }) {
-  const heard = useSignal(/** @type {Heard | null} */ (null));
+  const subscription = useSignal(/** @type {SubscriptionView | null} */ (null));
   const pictured = useSignal(/** @type {Pictured | null} */ (null));
   const range = useSignal(/** @type {Range | null} */ (null));
   const canvas = useRef(/** @type {HTMLCanvasElement | null} */ (null));
@@ -60,7 +60,7 @@ function Watched({ topic, type, choices, chosen }) {
     const given = canvas.current.transferControlToOffscreen();
     watching.current = watch(topic, { typeName: type }, given, {
       onState: (told) => {
-        heard.value = told;
+        subscription.value = told;
       },
       onPicture: (told) => {
         if (told.painted !== pictured.value?.painted) silence.came();
@@ -71,8 +71,8 @@ function Watched({ topic, type, choices, chosen }) {
     return watching.current.leave;
   }, []);
   const size = pictured.value?.size ?? null;
-  const isSilent = silence.silent_s > 0 && !heard.value?.latched;
-  const isStill = isSilent || heard.value?.state !== "hearing" || !laneOpen.value;
+  const isSilent = silence.silent_s > 0 && !subscription.value?.latched;
+  const isStill = isSilent || subscription.value?.state !== "receiving" || !laneOpen.value;
   const numbers = pictured.value?.numbers;
   return html`<${Bar} topic=${topic} choices=${choices} chosen=${chosen} isThere=${size !== null} ask=${ask} />
     ${numbers && html`<${RangeRow} numbers=${numbers} range=${range} ask=${ask} />`}
@@ -80,7 +80,7 @@ function Watched({ topic, type, choices, chosen }) {
     ${
       size && pictured.value
         ? html`<${Facts} pictured=${pictured.value} size=${size} isStill=${isStill} />`
-        : html`<p class="image-said" role="status">${stateWords(heard.value, pictured.value)}</p>`
+        : html`<p class="image-said" role="status">${stateWords(subscription.value, pictured.value)}</p>`
     }`;
 }
 
@@ -141,13 +141,16 @@ function pointedWords({ pointed, numbers }) {
   return t("image.pixel", { place, value: numbers?.unit ? `${value} ${numbers.unit}` : value });
 }
 
-/** @param {Heard | null} heard @param {Pictured | null} pictured @returns {string} why there is no picture, and what to do */
-function stateWords(heard, pictured) {
+/** @param {SubscriptionView | null} subscription @param {Pictured | null} pictured @returns {string} why there is no picture, and what to do */
+function stateWords(subscription, pictured) {
   if (!laneOpen.value) return t("topics.state.lane");
   if (pictured?.trouble) return t(pictured.trouble.key, pictured.trouble.words);
-  if (!heard) return t("loading");
-  if (heard.state === "hearing") return t("image.waiting");
-  return heard.reason || t(`topics.state.${heard.state}`, { types: heard.types.join(", ") });
+  if (!subscription) return t("loading");
+  if (subscription.state === "receiving") return t("image.waiting");
+  return (
+    subscription.reason ||
+    t(`topics.state.${subscription.state}`, { types: subscription.types.join(", ") })
+  );
 }
 
 const STEP = 1.5;

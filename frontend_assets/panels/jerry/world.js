@@ -8,7 +8,7 @@
 import { signal } from "vendor/preact.js";
 import { t } from "../../lib/i18n.js";
 import { askOrKeepWhy } from "../../model/asking.js";
-import { lookAt, trace } from "../../model/data-lane.js";
+import { echo, trace } from "../../model/data-lane.js";
 import { called, inNamespaces, keptFor } from "../demo-panel.js";
 
 /**
@@ -270,13 +270,13 @@ export function hearCommands(command, known) {
     turn.value += 1;
   };
   const ways = { typeName: command.type, mostHz: 60 };
-  const look = lookAt(command.name, ways, { onState: () => {}, onMessage });
+  const echoed = echo(command.name, ways, { onState: () => {}, onMessage });
   const timer = setInterval(() => {
     if (walk.expire(now_s())) turn.value += 1;
   }, EXPIRE_MS);
   return () => {
     clearInterval(timer);
-    look.leave();
+    echoed.leave();
   };
 }
 

@@ -47,7 +47,7 @@ export function LessonsPanel() {
         all.map(({ demo }) => demo),
       );
   }, [all, language.value]);
-  return html`<section ref=${panel} class="panel-body deeds lessons" aria-label=${t("panel.lessons")}>
+  return html`<section ref=${panel} class="panel-body operations lessons" aria-label=${t("panel.lessons")}>
     ${lessonsRefused.value && html`<${Refusal} sentence=${lessonsRefused.value} again=${askLessons} />`}
     ${!all && !lessonsRefused.value && html`<${ProgressBar} label=${t("loading")} done=${0} total=${0} />`}
     ${all && html`<${Parts} all=${all} />`}
@@ -67,7 +67,7 @@ function Parts({ all }) {
     const next = read ? ".lesson-scroll" : `[data-demo="${last?.demo}"]`;
     /** @type {HTMLElement | null | undefined} */ (parts.current?.querySelector(next))?.focus();
   }, [read]);
-  return html`<div ref=${parts} class=${`deeds-parts ${read ? "chosen" : ""}`}>
+  return html`<div ref=${parts} class=${`operations-parts ${read ? "chosen" : ""}`}>
     <${List} all=${all} />${read && html`<${LessonPage} key=${read.demo} lesson=${read} all=${all} />`}
   </div>`;
 }
@@ -79,7 +79,7 @@ function List({ all }) {
     isSought(words.value, one, lessonTexts.value.get(one.demo)?.text ?? ""),
   );
   const chapters = [...new Set(shown.map(({ chapter }) => chapter))];
-  return html`<div class="deeds-list">
+  return html`<div class="operations-list">
     <div class="panel-bar"><${SearchBox} label=${t("lessons.search")} value=${words.value} onInput=${(
       /** @type {string} */ text,
     ) => {
@@ -130,8 +130,8 @@ function LessonPage({ lesson, all }) {
   const close = () => {
     chosenLesson.value = "";
   };
-  return html`<div class="deeds-chosen lesson">
-    <header class="deed-head lesson-head"><${IconButton} icon="chevronRight" class="deed-back" label=${t("deeds.back")} onClick=${close} />
+  return html`<div class="operations-chosen lesson">
+    <header class="operation-head lesson-head"><${IconButton} icon="chevronRight" class="operation-back" label=${t("operations.back")} onClick=${close} />
       <h3>${text?.title || demo}</h3><span class="offer-type">${`studio demos ${demo}`}</span></header>
     <div class="scroll lesson-scroll" tabindex="0" role="region" aria-label=${text?.title || demo}>
       <${LessonRuns} parts=${parts} />

@@ -25,15 +25,15 @@ import {
 } from "../../model/parameters.js";
 import { ask } from "../../model/requests.js";
 import { notify } from "../../model/view.js";
-import { DeedPanel } from "../operation-panel.js";
+import { OperationPanel } from "../operation-panel.js";
 import { NothingThere, Refusal } from "../parts.js";
 
 const FOLLOW = [followNodes, followParameters];
 
 export function ParametersPanel() {
   const take = (/** @type {{name: string}} */ { name }) => chooseNode(name);
-  return html`<${DeedPanel} id="parameters" icon="parameters" kind="param" follow=${FOLLOW} onLine=${take}>
-    ${() => html`<div class=${`deeds-parts ${chosenNode.value ? "chosen" : ""}`}><${Nodes} />${chosenNode.value && html`<${Node} node=${chosenNode.value} />`}</div>`}
+  return html`<${OperationPanel} id="parameters" icon="parameters" kind="param" follow=${FOLLOW} onLine=${take}>
+    ${() => html`<div class=${`operations-parts ${chosenNode.value ? "chosen" : ""}`}><${Nodes} />${chosenNode.value && html`<${Node} node=${chosenNode.value} />`}</div>`}
   <//>`;
 }
 
@@ -43,14 +43,14 @@ function Nodes() {
   const shown = (nodes ?? []).filter((name) =>
     name.toLowerCase().includes(filter.value.toLowerCase()),
   );
-  return html`<div class="deeds-list">
+  return html`<div class="operations-list">
     <div class="panel-bar"><${SearchBox} label=${t("parameters.nodes.filter")} value=${filter.value} onInput=${(
       /** @type {string} */ text,
     ) => {
       filter.value = text;
     }} /></div>
     ${nodesRefused.value && html`<${Refusal} sentence=${nodesRefused.value} again=${askNodes} />`}
-    ${nodes && shown.length === 0 && html`<${NothingThere} icon="parameters" title=${t(nodes.length > 0 ? "deeds.filtered" : "parameters.none")} />`}
+    ${nodes && shown.length === 0 && html`<${NothingThere} icon="parameters" title=${t(nodes.length > 0 ? "operations.filtered" : "parameters.none")} />`}
     ${
       shown.length > 0 &&
       html`<ul class="scroll offers" aria-label=${t("parameters.nodes")}>${shown.map(
@@ -68,8 +68,8 @@ function Node({ node }) {
   const shown = (known ?? []).filter(({ name }) =>
     name.toLowerCase().includes(filter.value.toLowerCase()),
   );
-  return html`<div class="deeds-chosen scroll">
-    <header class="deed-head node-head"><${IconButton} icon="chevronRight" class="deed-back" label=${t("deeds.back")} onClick=${() => chooseNode("")} />
+  return html`<div class="operations-chosen scroll">
+    <header class="operation-head node-head"><${IconButton} icon="chevronRight" class="operation-back" label=${t("operations.back")} onClick=${() => chooseNode("")} />
       <h3 title=${node}>${node}</h3><${IconButton} icon="reload" label=${t("parameters.again")} onClick=${askParameters} /></header>
     <div class="panel-bar"><${SearchBox} label=${t("parameters.filter")} value=${filter.value} onInput=${(
       /** @type {string} */ text,
@@ -78,7 +78,7 @@ function Node({ node }) {
     }} /></div>
     ${parametersRefused.value && html`<${Refusal} sentence=${parametersRefused.value} again=${askParameters} />`}
     ${!known && !parametersRefused.value && html`<p class="note padded">${t("loading")}</p>`}
-    ${known && shown.length === 0 && html`<p class="note padded">${t(known.length > 0 ? "deeds.filtered" : "parameters.empty")}</p>`}
+    ${known && shown.length === 0 && html`<p class="note padded">${t(known.length > 0 ? "operations.filtered" : "parameters.empty")}</p>`}
     ${shown.map((one) => html`<${Row} key=${one.name} parameter=${one} />`)}
     <${AsFile} key=${node} node=${node} />
   </div>`;
@@ -139,8 +139,8 @@ function AsFile({ node }) {
   };
   const save = () =>
     saveAsFile(`${node.slice(1).replaceAll("/", "__")}.yaml`, text.value, "text/yaml");
-  return html`<details class="deed-history"><summary>${t("parameters.file")}</summary>
-    <div class="deed-actions"><button type="button" class="button small" onClick=${dump}>${t("parameters.dump")}</button>
+  return html`<details class="operation-history"><summary>${t("parameters.file")}</summary>
+    <div class="operation-actions"><button type="button" class="button small" onClick=${dump}>${t("parameters.dump")}</button>
       <button type="button" class="button small" disabled=${text.value === ""} onClick=${save}><${Icon} name="download" size=${13} />${t("parameters.save")}</button>
       <button type="button" class="button small" disabled=${text.value.trim() === "" || !mayEdit.value} onClick=${load}>${t("parameters.load")}</button></div>
     <textarea class="box yaml" rows=${8} spellcheck=${false} aria-label=${t("parameters.file.of", { node })} placeholder=${`${node}:\n  ros__parameters:\n    …`} value=${text.value}

@@ -19,7 +19,6 @@ import {
   csvOf,
   followSeries,
   forgetOthers,
-  heardTopics,
   keyOf,
   nowOfSamples,
   plotListening,
@@ -27,6 +26,7 @@ import {
   samplesOf,
   series,
   span_s,
+  topicSubscriptions,
   unreadTopics,
 } from "../../model/plotting.js";
 import { followTopics, topics } from "../../model/topics.js";
@@ -187,13 +187,14 @@ function valueText(one, at_s) {
 
 /** @param {Series} one @returns {string} why there is no line, or it goes on no more; empty: all is well */
 function troubleOf(one) {
-  const heard = heardTopics.value.get(one.topic);
+  const subscription = topicSubscriptions.value.get(one.topic);
   const unread = unreadTopics.value.get(one.topic);
   if (!laneOpen.value) return t("plot.state.lane");
-  if (heard?.state === "refused") return heard.reason;
-  if (heard && heard.state !== "hearing") return t(`plot.state.${heard.state}`);
+  if (subscription?.state === "refused") return subscription.reason;
+  if (subscription && subscription.state !== "receiving")
+    return t(`plot.state.${subscription.state}`);
   if (unread) return t("plot.unread", { reason: unread });
-  return heard ? troubleOfSamples(samplesOf(one), heard.latched) : "";
+  return subscription ? troubleOfSamples(samplesOf(one), subscription.latched) : "";
 }
 
 /** @param {ReturnType<typeof samplesOf>} samples @param {boolean} latched what is latched is said once and holds */

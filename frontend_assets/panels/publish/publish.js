@@ -13,13 +13,19 @@ import { askOrKeepWhy, polled } from "../../model/asking.js";
 import { mayEdit } from "../../model/connection.js";
 import { publishForm, publishing } from "../../model/message-forms.js";
 import {
-  followDeeds,
+  followOperations,
   publications,
   publish,
   repeatedPublications,
   stopPublishing,
 } from "../../model/operations.js";
-import { DeedForm, DeedPanel, DeedState, Offers, openLine } from "../operation-panel.js";
+import {
+  Offers,
+  OperationForm,
+  OperationPanel,
+  OperationState,
+  openLine,
+} from "../operation-panel.js";
 
 const EVERY_MS = 1500;
 
@@ -35,7 +41,7 @@ async function askPublishable() {
 }
 const followPublishable = polled(askPublishable, EVERY_MS);
 
-const FOLLOW = [followPublishable, () => followDeeds("publications")];
+const FOLLOW = [followPublishable, () => followOperations("publications")];
 const RATE_MAX_HZ = 1000;
 const SHOWN = 8;
 const EXAMPLE = "geometry_msgs/msg/Twist";
@@ -54,10 +60,10 @@ function onLine(line) {
 }
 
 export function PublishPanel() {
-  return html`<${DeedPanel} id="publish" icon="send" kind="topic" follow=${FOLLOW} onLine=${onLine}>
+  return html`<${OperationPanel} id="publish" icon="send" kind="topic" follow=${FOLLOW} onLine=${onLine}>
     ${(
       /** @type {(text: string) => boolean} */ paste,
-    ) => html`<div class=${`deeds-parts ${publishForm.chosen.value ? "chosen" : ""}`}>
+    ) => html`<div class=${`operations-parts ${publishForm.chosen.value ? "chosen" : ""}`}>
       <${Offers} id="publish" icon="send" offers=${publishable.value} refused=${publishableRefused.value} again=${askPublishable} form=${publishForm} paste=${paste}>
         <${AnotherTopic} /><${Publications} all /><//>
       ${publishForm.chosen.value && html`<${Chosen} />`}
@@ -95,8 +101,8 @@ function Chosen() {
   const blocked = !mayEdit.value || publishForm.wrong.value;
   const name = publishForm.chosen.value?.name;
   const repeated = repeatedPublications.value.filter((one) => one.name === name);
-  return html`<div class="deeds-chosen scroll">
-    <${DeedForm} form=${publishForm} onSubmit=${() => publish({ once: true })} actions=${html`
+  return html`<div class="operations-chosen scroll">
+    <${OperationForm} form=${publishForm} onSubmit=${() => publish({ once: true })} actions=${html`
       <button type="submit" class="button primary" disabled=${blocked}><${Icon} name="send" />${t("publish.once")}</button>
       ${
         repeated.length > 0
@@ -110,7 +116,7 @@ function Chosen() {
 
 /** @param {readonly PublicationView[]} running */
 function stopAll(running) {
-  for (const { deed } of running) void stopPublishing(deed);
+  for (const { operation } of running) void stopPublishing(operation);
 }
 
 /** @param {{rate: number}} props */
@@ -120,7 +126,7 @@ function Rate({ rate }) {
     if (hz && hz > 0)
       publishing.value = { ...publishing.value, rate_hz: Math.min(hz, RATE_MAX_HZ) };
   };
-  return html`<label class="deed-timeout">${t("publish.rate")}<${TextBox} label=${t("publish.rate.hz")} class="number narrow" text=${String(rate)} disabled=${!mayEdit.value}
+  return html`<label class="operation-timeout">${t("publish.rate")}<${TextBox} label=${t("publish.rate.hz")} class="number narrow" text=${String(rate)} disabled=${!mayEdit.value}
     number=${rate} step=${1} onWrite=${write} />${UNIT}</label>`;
 }
 
@@ -130,7 +136,7 @@ function Quality() {
   const change = (/** @type {object} */ news) => {
     publishing.value = { ...publishing.value, ...news };
   };
-  return html`<details class="deed-history"><summary>${t("publish.quality")}</summary><div class="quality">
+  return html`<details class="operation-history"><summary>${t("publish.quality")}</summary><div class="quality">
     <label><input type="checkbox" checked=${reliable} disabled=${!mayEdit.value} onChange=${() => change({ reliable: !reliable })} />${t("publish.reliable")}</label>
     <label><input type="checkbox" checked=${latched} disabled=${!mayEdit.value} onChange=${() => change({ latched: !latched })} />${t("publish.latched")}</label></div></details>`;
 }
@@ -145,7 +151,7 @@ function Publications({ all }) {
   return html`<section class="goals-running" aria-label=${t(all ? "publish.now" : "publish.last")}>
     <h4>${t(all ? "publish.now" : "publish.last")}
       ${all && running.length > 1 && html`<button type="button" class="button small" disabled=${!mayEdit.value} onClick=${() => stopPublishing()}>${t("publish.stop_all")}</button>`}</h4>
-    ${shown.map((one) => html`<${Publication} key=${one.deed} publication=${one} />`)}</section>`;
+    ${shown.map((one) => html`<${Publication} key=${one.operation} publication=${one} />`)}</section>`;
 }
 
 /** @param {{publication: PublicationView}} props */
@@ -157,7 +163,7 @@ function Publication({ publication: one }) {
     rate: one.rate_hz,
   });
   return html`<div class="goal-line"><span class="offer-name" title=${one.text}>${one.name}</span>
-    <${DeedState} state=${one.state} busy=${runs} bad=${one.state === "failed"} words=${words} />
-    ${runs && html`<button type="button" class="button small" disabled=${!mayEdit.value} onClick=${() => stopPublishing(one.deed)}>${t("publish.stop")}</button>`}
+    <${OperationState} state=${one.state} busy=${runs} bad=${one.state === "failed"} words=${words} />
+    ${runs && html`<button type="button" class="button small" disabled=${!mayEdit.value} onClick=${() => stopPublishing(one.operation)}>${t("publish.stop")}</button>`}
     ${one.trouble && html`<p class="note bad">${one.trouble}</p>`}</div>`;
 }

@@ -41,13 +41,13 @@ export function findInFiles() {
 
 /** @returns {import("vendor/preact.js").VNode | null} */
 export function SourceSearch() {
-  const wish = filesSearch.value;
-  return wish ? html`<${Search} wish=${wish} />` : null;
+  const wanted = filesSearch.value;
+  return wanted ? html`<${Search} wanted=${wanted} />` : null;
 }
 
-/** @param {{wish: {text: string, turn: number}}} props */
-function Search({ wish }) {
-  const words = useSignal(wish.text);
+/** @param {{wanted: {text: string, turn: number}}} props */
+function Search({ wanted }) {
+  const words = useSignal(wanted.text);
   const replacement = useSignal("");
   const matchCase = useSignal(false);
   const wholeWord = useSignal(false);
@@ -55,10 +55,10 @@ function Search({ wish }) {
   const field = useRef(/** @type {HTMLInputElement | null} */ (null));
   // At once: what is typed next stands in the field.
   useLayoutEffect(() => {
-    words.value = wish.text;
+    words.value = wanted.text;
     field.current?.focus();
     field.current?.select();
-  }, [wish]);
+  }, [wanted]);
   const query = { text: words.value, match_case: matchCase.value, whole_word: wholeWord.value };
   useFound(query, found);
   const close = () => {

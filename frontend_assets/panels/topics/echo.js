@@ -4,7 +4,7 @@
  */
 
 /** @import { Misfit, TopicEnd, TopicEnds as Ends, TopicRow } from "../../types/wire.d.ts" */
-/** @import { Heard, Looked } from "../../workers/subscriptions.js" */
+/** @import { SubscriptionView, Echoed } from "../../workers/subscriptions.js" */
 
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { copyText } from "../../lib/clipboard.js";
@@ -15,7 +15,7 @@ import { shortTime, useSilence } from "../../lib/times.js";
 import { Icon, IconButton } from "../../lib/ui.js";
 import { useTold } from "../../model/asking.js";
 import { mayEdit } from "../../model/connection.js";
-import { laneOpen, lookAt } from "../../model/data-lane.js";
+import { echo, laneOpen } from "../../model/data-lane.js";
 import { addDisplay } from "../../model/live-displays.js";
 import { plot } from "../../model/plotting.js";
 import { chosenTopic, listening, topicEnds } from "../../model/topics.js";
@@ -23,25 +23,25 @@ import { notify } from "../../model/view.js";
 import { ListeningMenu } from "../listening-menu.js";
 import { beginDrag, endDrag } from "../topic-drag.js";
 
-/** @typedef {ReturnType<typeof lookAt>} Look */
+/** @typedef {ReturnType<typeof echo>} Echo */
 
 /** @param {{topic: string, row: TopicRow | undefined}} props */
 export function TopicEcho({ topic, row }) {
-  const heard = useSignal(/** @type {Heard | null} */ (null));
-  const message = useSignal(/** @type {Looked | null} */ (null));
+  const subscription = useSignal(/** @type {SubscriptionView | null} */ (null));
+  const message = useSignal(/** @type {Echoed | null} */ (null));
   const paused = useSignal(false);
   const showsEnds = useSignal(false);
-  const look = useRef(/** @type {Look | null} */ (null));
+  const look = useRef(/** @type {Echo | null} */ (null));
   const silence = useSilence();
   const newest_s = useRef(0);
   const { reliable, latched } = listening.value;
   useEffect(() => {
-    const made = lookAt(
+    const made = echo(
       topic,
       { reliable, latched, pace: "at_once" },
       {
         onState: (told) => {
-          heard.value = told;
+          subscription.value = told;
         },
         onMessage: (came) => {
           if (came.received_s !== newest_s.current) silence.came();
@@ -60,7 +60,7 @@ export function TopicEcho({ topic, row }) {
       <${IconButton} icon="info" label=${t("topics.connections")} pressed=${showsEnds.value} onClick=${() => {
         showsEnds.value = !showsEnds.value;
       }} />
-      <${ListeningMenu} label=${t("topics.qos")} listening=${listening} hint=${heard.value ? qosWords(heard.value) : undefined} />
+      <${ListeningMenu} label=${t("topics.qos")} listening=${listening} hint=${subscription.value ? qosWords(subscription.value) : undefined} />
       ${row?.kind && mayEdit.value && html`<${IconButton} icon="scene" label=${t("topics.show", { kind: row.kind })} onClick=${() => addDisplay(row.kind, topic)} />`}
       <${IconButton} icon="copy" label=${t("topics.copy_message")} disabled=${!message.value} onClick=${() => copyAt(look.current, "")} />
       <${IconButton} icon=${paused.value ? "animate" : "pause"} label=${t(paused.value ? "topics.go_on" : "topics.pause")} pressed=${paused.value} onClick=${() => {
@@ -71,10 +71,10 @@ export function TopicEcho({ topic, row }) {
       }} />
     </div>
     <${TopicEnds} topic=${topic} listed=${showsEnds.value} />
-    <${Said} heard=${heard.value} message=${message.value} silent_s=${silence.silent_s} />
+    <${Said} subscription=${subscription.value} message=${message.value} silent_s=${silence.silent_s} />
     ${
       message.value?.value &&
-      html`<${EchoTree} topic=${topic} type=${heard.value?.type_name ?? ""} value=${message.value.value}
+      html`<${EchoTree} topic=${topic} type=${subscription.value?.type_name ?? ""} value=${message.value.value}
       onMore=${(/** @type {string} */ path, /** @type {number} */ count) => look.current?.unfold(path, count)}
       onCopy=${(/** @type {string} */ path) => copyAt(look.current, path)} />`
     }
@@ -82,14 +82,14 @@ export function TopicEcho({ topic, row }) {
   </section>`;
 }
 
-/** @param {Look | null} look @param {string} path */
+/** @param {Echo | null} look @param {string} path */
 async function copyAt(look, path) {
   const text = (await look?.text(path)) ?? "";
   const done = await copyText(text);
   notify(done ? t("topics.copied") : t("copy.failed"), { bad: !done });
 }
 
-/** @param {Heard} heard @returns {string} */
+/** @param {SubscriptionView} subscription @returns {string} */
 const qosWords = ({ reliable, latched }) =>
   [
     t(reliable ? "topics.qos.reliable" : "topics.qos.best_effort"),
@@ -98,12 +98,13 @@ const qosWords = ({ reliable, latched }) =>
     .filter(Boolean)
     .join(", ");
 
-/** @param {{heard: Heard | null, message: Looked | null, silent_s: number}} props what is heard, or what is in the way and what to do */
-function Said({ heard, message, silent_s }) {
-  if (heard === null) return html`<p class="topics-said muted" role="status">${t("loading")}</p>`;
-  const trouble = troubleOf(heard, message, silent_s);
+/** @param {{subscription: SubscriptionView | null, message: Echoed | null, silent_s: number}} props the message, or what is in the way and what to do */
+function Said({ subscription, message, silent_s }) {
+  if (subscription === null)
+    return html`<p class="topics-said muted" role="status">${t("loading")}</p>`;
+  const trouble = troubleOf(subscription, message, silent_s);
   const words = [
-    heard.type_name,
+    subscription.type_name,
     message ? t("topics.bytes", { count: message.bytes }) : "",
     message && message.lost > 0 ? t("topics.lost", { count: message.lost }) : "",
   ];
@@ -111,16 +112,16 @@ function Said({ heard, message, silent_s }) {
     ${trouble && html`<span class="topics-trouble"><${Icon} name="alert" size=${13} /><span>${trouble}</span></span>`}</p>`;
 }
 
-/** @param {Heard} heard @param {Looked | null} message @param {number} silent_s @returns {string} empty: all is well */
-function troubleOf(heard, message, silent_s) {
+/** @param {SubscriptionView} subscription @param {Echoed | null} message @param {number} silent_s @returns {string} empty: all is well */
+function troubleOf(subscription, message, silent_s) {
   if (!laneOpen.value) return t("topics.state.lane");
-  if (heard.state === "refused") return heard.reason;
-  if (heard.state !== "hearing")
-    return t(`topics.state.${heard.state}`, { types: heard.types.join(", ") });
+  if (subscription.state === "refused") return subscription.reason;
+  if (subscription.state !== "receiving")
+    return t(`topics.state.${subscription.state}`, { types: subscription.types.join(", ") });
   if (message?.trouble) return t("topics.unread", { reason: message.trouble.replace(/\.$/, "") });
   if (!message) return t("topics.state.waiting");
   // What is latched is said once and holds.
-  return silent_s > 0 && !heard.latched
+  return silent_s > 0 && !subscription.latched
     ? t("topics.state.silent", { time: shortTime(silent_s) })
     : "";
 }

@@ -11,8 +11,8 @@ import { effect, signal } from "vendor/preact.js";
 import { t } from "../../lib/i18n.js";
 import { latestSender } from "../../lib/latest.js";
 import { askOrKeepWhy } from "../../model/asking.js";
-import { lookAt, trace } from "../../model/data-lane.js";
-import { calls, followDeeds, plainOf, services } from "../../model/operations.js";
+import { echo, trace } from "../../model/data-lane.js";
+import { calls, followOperations, plainOf, services } from "../../model/operations.js";
 import { called, followNamespaces, inNamespaces, keptFor } from "../demo-panel.js";
 import { Paper } from "./drawing.js";
 import { bytesOf, colorOf, groundsOf, penOf, serviceNamed, World } from "./world.js";
@@ -25,7 +25,7 @@ export const grounds = inNamespaces(groundsOf);
 
 /** Know which there are, and what is asked of them, while somebody looks; gives the end of it. */
 export function followGrounds() {
-  const ends = [followNamespaces(), followDeeds("calls")];
+  const ends = [followNamespaces(), followOperations("calls")];
   return () => {
     for (const end of ends) end();
   };
@@ -90,7 +90,7 @@ const traced = (topic, paths, take) =>
     },
   );
 
-/** What was called of a ground so far counts once. @type {Map<string, number>} by namespace, the last deed */
+/** What was called of a ground so far counts once. @type {Map<string, number>} by namespace, the last operation */
 const counted = new Map();
 
 /** Have pens, wiping and resetting count that any page of this studio asks for. @param {string} prefix @param {World} world @returns {() => void} the end of it */
@@ -98,9 +98,9 @@ export function followTurtleCalls(prefix, world) {
   return effect(() => {
     const last = counted.get(prefix) ?? 0;
     for (const call of calls.value) {
-      if (call.state !== "answered" || call.deed <= last) continue;
+      if (call.state !== "answered" || call.operation <= last) continue;
       countCall(prefix, world, call);
-      counted.set(prefix, Math.max(counted.get(prefix) ?? 0, call.deed));
+      counted.set(prefix, Math.max(counted.get(prefix) ?? 0, call.operation));
     }
   });
 }
@@ -146,7 +146,7 @@ export function followBackground(node, tell) {
     if (value?.node === node || performance.now() - asked_ms > OTHERS_REST_MS) ask();
   };
   const events = { onState: () => {}, onMessage };
-  return lookAt("/parameter_events", { mostHz: 60 }, events).leave;
+  return echo("/parameter_events", { mostHz: 60 }, events).leave;
 }
 
 /** @param {string} node @returns {Promise<number | null>} null: it does not tell */

@@ -24,7 +24,7 @@ _State: TypeAlias = Literal["calling", "answered", "failed", "cancelled"]
 class Call:
     """A call, from the request to its reply."""
 
-    deed: int
+    operation: int
     name: str
     service_type: str
     text: str
@@ -46,7 +46,7 @@ class Call:
 
 
 def _event_of(is_whole: bool, calls: tuple[Call, ...]) -> Calls:  # noqa: FBT001 - `Operations.event_of`
-    return Calls(whole=is_whole, deeds=tuple(one.view() for one in calls))
+    return Calls(whole=is_whole, operations=tuple(one.view() for one in calls))
 
 
 class ServiceCalls:
@@ -75,7 +75,7 @@ class ServiceCalls:
             request.answer(call.timeout_s),
             lambda outcome: self._finish(call, request, outcome),
         )
-        return Begun(request=command.request, deed=number)
+        return Begun(request=command.request, operation=number)
 
     def cancel(self, command: CancelCall) -> None:
         """Wait for a reply no longer; what is over stays as it is.
@@ -83,8 +83,8 @@ class ServiceCalls:
         Raises:
             CommandError: There is no such call.
         """
-        self.operations.get(command.deed)
-        self._running.cancel(command.deed)
+        self.operations.get(command.operation)
+        self._running.cancel(command.operation)
 
     async def let_go(self) -> None:
         """End all: the connection is about to."""

@@ -36,7 +36,7 @@ _OVER: Final = frozenset({"succeeded", "canceled", "aborted", "rejected", "faile
 class Goal:
     """A goal, from the request to its result."""
 
-    deed: int
+    operation: int
     name: str
     action_type: str
     text: str
@@ -85,7 +85,7 @@ class Goal:
 
 
 def _event_of(is_whole: bool, goals: tuple[Goal, ...]) -> Goals:  # noqa: FBT001 - `Operations.event_of`
-    return Goals(whole=is_whole, deeds=tuple(one.view(is_whole=is_whole) for one in goals))
+    return Goals(whole=is_whole, operations=tuple(one.view(is_whole=is_whole) for one in goals))
 
 
 class ActionGoals:
@@ -119,7 +119,7 @@ class ActionGoals:
             self._follow(goal, request, command.timeout_s),
             lambda outcome: self._finish(goal, request, outcome),
         )
-        return Begun(request=command.request, deed=number)
+        return Begun(request=command.request, operation=number)
 
     async def cancel(self, command: CancelGoal) -> None:
         """Ask that a goal end; done when its server agrees.
@@ -127,12 +127,12 @@ class ActionGoals:
         Raises:
             StudioError: There is no such goal, or its server says no.
         """
-        goal = self.operations.get(command.deed)
-        request = self._requests.get(command.deed)
+        goal = self.operations.get(command.operation)
+        request = self._requests.get(command.operation)
         if request is None or goal.is_over:
             return
         if goal.state == "sending":
-            self._running.cancel(goal.deed)
+            self._running.cancel(goal.operation)
             return
         before, goal.state = goal.state, "canceling"
         self.operations.changed(goal)
@@ -209,7 +209,7 @@ class ActionGoals:
             goal.state, goal.result = outcome.value
         else:
             goal.state = "canceled" if outcome.kind == "cancelled" else "failed"
-        self._requests.pop(goal.deed, None)
+        self._requests.pop(goal.operation, None)
         goal.servers = request.servers
         self.operations.changed(goal)
         await asyncio.to_thread(request.close)

@@ -26,7 +26,7 @@ _PAUSE_S: Final = 0.1
 class Operation(Protocol):
     """Something that was begun and that has an end."""
 
-    deed: int
+    operation: int
     """Its number among all of its kind."""
 
     @property
@@ -74,7 +74,7 @@ class Operations(Generic[OperationT]):
 
     def add(self, operation: OperationT) -> None:
         """Keep one that begins."""
-        self._operations[operation.deed] = operation
+        self._operations[operation.operation] = operation
         over = [number for number, one in self._operations.items() if one.is_over]
         for number in over[: max(0, len(over) - self._kept)]:
             del self._operations[number]
@@ -102,7 +102,7 @@ class Operations(Generic[OperationT]):
     def changed(self, operation: OperationT) -> None:
         """Send an event of it soon."""
         if not self._closed:
-            self._changed.add(operation.deed)
+            self._changed.add(operation.operation)
             self._throttle.trigger()
 
     def follow(self, listener: Listener) -> None:

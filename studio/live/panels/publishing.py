@@ -40,7 +40,7 @@ _OWN: Final = tuple(name for name in PublicationView.model_fields if name not in
 class Publication:
     """What is published, and how often it was; counted in the connection's thread."""
 
-    deed: int
+    operation: int
     name: str
     message_type: str
     asked: Publish
@@ -66,7 +66,7 @@ class Publication:
 
 
 def _event_of(is_whole: bool, found: tuple[Publication, ...]) -> Publications:  # noqa: FBT001
-    return Publications(whole=is_whole, deeds=tuple(one.view() for one in found))
+    return Publications(whole=is_whole, operations=tuple(one.view() for one in found))
 
 
 class Publishing:
@@ -99,7 +99,7 @@ class Publishing:
             self._say(publication, saying),
             lambda outcome: self._finish(publication, saying, outcome),
         )
-        return Begun(request=command.request, deed=number)
+        return Begun(request=command.request, operation=number)
 
     def stop(self, command: StopPublishing) -> None:
         """Publish it no more.
@@ -107,9 +107,9 @@ class Publishing:
         Raises:
             CommandError: There is no such publication.
         """
-        if command.deed:
-            self.operations.get(command.deed)
-            self._running.cancel(command.deed)
+        if command.operation:
+            self.operations.get(command.operation)
+            self._running.cancel(command.operation)
         else:
             self._stop_all("")
 
@@ -145,7 +145,7 @@ class Publishing:
 
     def _stop_all(self, reason: str) -> None:
         for one in self.operations.under_way():
-            self._running.cancel(one.deed, reason)
+            self._running.cancel(one.operation, reason)
 
     async def _say(self, publication: Publication, saying: Saying) -> None:
         from studio.live.panels.requests import came_true  # noqa: PLC0415 - imports zenoh

@@ -26,7 +26,7 @@ from studio.live.panels import (
 from studio.live.panels.rates import RateDesk
 from studio.live.panels.topics import TopicDesk
 from studio.live.topics.browsers import BrowserTopics
-from studio.protocol.calls import FollowDeeds
+from studio.protocol.calls import FollowOperations
 from studio.protocol.commands import Commands, Scope
 
 if TYPE_CHECKING:
@@ -40,7 +40,7 @@ class RosSystem:
     def __init__(self, wire: WireDesk) -> None:
         self._wire = wire
         self.interfaces = interfaces.InterfaceTypes(wire)
-        self.hearing = BrowserTopics(wire.topics)
+        self.browser_topics = BrowserTopics(wire.topics)
         self.topics = TopicDesk(wire)
         self.rates = RateDesk(wire)
         self.logs = logs.NodeLogs(wire.topics)
@@ -71,9 +71,9 @@ class RosSystem:
         if link is not None and not link.is_connected:
             raise RouterGoneError(link.endpoint)
 
-    def follow(self, command: FollowDeeds, listener: Listener) -> None:
+    def follow(self, command: FollowOperations, listener: Listener) -> None:
         """Send a page the operations of one kind from now on, or no longer."""
-        operations = self._operations[command.deeds]
+        operations = self._operations[command.operations]
         if command.following:
             operations.follow(listener)
         else:
@@ -116,7 +116,7 @@ class RosSystem:
     async def close(self) -> None:
         """End all that runs."""
         await asyncio.gather(
-            self.hearing.close(),
+            self.browser_topics.close(),
             self.let_go_of_operations(),
             self.driving.let_go(),
             self.lessons.close(),
@@ -127,7 +127,7 @@ class RosSystem:
 
 
 COMMANDS: Final = Commands[RosSystem](Scope.ROS)
-COMMANDS.viewer(FollowDeeds, lambda ros, c, who: ros.follow(c, who))
+COMMANDS.viewer(FollowOperations, lambda ros, c, who: ros.follow(c, who))
 COMMANDS.include(calls.COMMANDS, lambda ros, _: ros.calls)
 COMMANDS.include(diagnostics.COMMANDS, lambda ros, _: ros.diagnostics)
 COMMANDS.include(driving.COMMANDS, lambda ros, _: ros.driving)

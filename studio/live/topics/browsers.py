@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Final, Protocol, TypeAlias
 
 from studio.live.topics.frames import Tick, chunk_of
 from studio.live.topics.request import Request
-from studio.protocol.hearing import Hear, Heard, Leave, NotHeard
+from studio.protocol.subscriptions import NotSubscribed, Subscribe, SubscriptionView, Unsubscribe
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
@@ -23,23 +23,23 @@ if TYPE_CHECKING:
     from studio.live.topics.frames import Chunk
     from studio.live.topics.request import StateKind
     from studio.live.topics.source import TopicSource
-    from studio.protocol.hearing import HeardState, Wish
+    from studio.protocol.subscriptions import SubscriptionCommand, SubscriptionStatus
     from studio.ros.node.samples import RawSample
 
 _log = logging.getLogger(__name__)
 _TICK_S: Final = 1 / 60
 _TICK_SLACK_S: Final = 0.004
 """A tick that comes a little early is the one that was meant."""
-WISHES_MAX: Final = 200
+SUBSCRIPTIONS_MAX: Final = 200
 """Of one browser."""
-_STATES: Final[dict[StateKind, HeardState]] = {
+_STATES: Final[dict[StateKind, SubscriptionStatus]] = {
     "not_connected": "not_connected",
     "connection_lost": "not_connected",
     "no_publisher": "no_publisher",
     "other_type": "other_type",
     "other_form": "other_type",
     "refused": "refused",
-    "receiving": "hearing",
+    "receiving": "receiving",
 }
 
 _Key: TypeAlias = tuple[object, ...]
@@ -63,23 +63,23 @@ class _Channel:
     def __init__(
         self,
         number: int,
-        wish: Hear,
+        command: Subscribe,
         source: TopicSource,
         arrived: Callable[[], object],
         changed: Callable[[], object],
     ) -> None:
-        self.number, self._wish, self._arrived = number, wish, arrived
-        self._keeps_all = wish.mode == "every"
-        self.is_at_once = wish.pace == "at_once"
+        self.number, self._command, self._arrived = number, command, arrived
+        self._keeps_all = command.mode == "every"
+        self.is_at_once = command.pace == "at_once"
         self._due_s = 0.0
         self._subscription = source.subscribe(
             Request(
-                wish.topic,
-                (wish.type_name,) if wish.type_name else (),
+                command.topic,
+                (command.type_name,) if command.type_name else (),
                 newest_only=not self._keeps_all,
-                reliable=wish.reliable,
-                latched=wish.latched,
-                depth=wish.depth,
+                reliable=command.reliable,
+                latched=command.latched,
+                depth=command.depth,
                 at_once=self.is_at_once,
             ),
             arrived=self._tell_if_due if self.is_at_once else None,
@@ -87,13 +87,13 @@ class _Channel:
         )
         self.close = self._subscription.close
 
-    def state(self, wish: int) -> Heard:
+    def state(self, subscription: int) -> SubscriptionView:
         """How it stands, as a browser is told that has given it this number."""
         state = self._subscription.state
         told = _STATES[state.kind]
         fit = None if told == "not_connected" else state.fit
-        return Heard(
-            wish=wish,
+        return SubscriptionView(
+            subscription=subscription,
             channel=self.number,
             state=told,
             type_name=fit.type_name if fit else "",
@@ -110,7 +110,7 @@ class _Channel:
         if now_s < self._due_s or not (samples := self._subscription.take()):
             return None
         if not self._keeps_all:
-            self._due_s = now_s + 1 / self._wish.most_hz - _TICK_SLACK_S
+            self._due_s = now_s + 1 / self._command.most_hz - _TICK_SLACK_S
         return self._chunk(samples)
 
     def kept(self) -> Chunk | None:
@@ -137,23 +137,23 @@ class _Browser:
         self.channels: dict[int, _Channel] = {}
         self.numbers: tuple[int, ...] = ()
         """Of its channels, each once and in their order: looked at in every tick."""
-        self._told: dict[int, Heard] = {}
+        self._sent: dict[int, SubscriptionView] = {}
 
     def tell(self) -> None:
-        """Tell how each wish stands, where that is news."""
-        for wish, channel in self.channels.items():
-            news = channel.state(wish)
-            if self._told.get(wish) != news:
-                self._told[wish] = news
+        """Tell how each subscription stands, where that is news."""
+        for subscription, channel in self.channels.items():
+            news = channel.state(subscription)
+            if self._sent.get(subscription) != news:
+                self._sent[subscription] = news
                 self._lane.say(news)
 
-    def put(self, wish: int, channel: _Channel) -> None:
-        self.channels[wish] = channel
+    def put(self, subscription: int, channel: _Channel) -> None:
+        self.channels[subscription] = channel
         self._number()
 
-    def remove(self, wish: int) -> None:
-        self.channels.pop(wish, None)
-        self._told.pop(wish, None)
+    def remove(self, subscription: int) -> None:
+        self.channels.pop(subscription, None)
+        self._sent.pop(subscription, None)
         self._number()
 
     def _number(self) -> None:
@@ -183,19 +183,19 @@ class BrowserTopics:
         self._browsers.pop(lane, None)
         self._close_unwanted()
 
-    def wish(self, lane: DataLaneEnd, wish: Wish) -> None:
-        """Carry out what a browser wants; how that stands is told to it."""
+    def carry_out(self, lane: DataLaneEnd, command: SubscriptionCommand) -> None:
+        """Subscribe or unsubscribe for a browser, which is told how that stands."""
         browser = self._browsers.get(lane)
         if browser is None or self._closed:
             return
-        match wish:
-            case Leave():
-                browser.remove(wish.wish)
-            case Hear() if len(browser.channels) >= WISHES_MAX:
-                reason = f"{WISHES_MAX} topics are heard by this page: close a panel first."
-                lane.say(NotHeard(wish=wish.wish, reason=reason))
-            case Hear():
-                self._put(lane, browser, wish)
+        match command:
+            case Unsubscribe():
+                browser.remove(command.subscription)
+            case Subscribe() if len(browser.channels) >= SUBSCRIPTIONS_MAX:
+                reason = f"{SUBSCRIPTIONS_MAX} topics are shown by this page: close a panel first."
+                lane.say(NotSubscribed(subscription=command.subscription, reason=reason))
+            case Subscribe():
+                self._put(lane, browser, command)
         self._close_unwanted()
 
     async def close(self) -> None:
@@ -207,22 +207,22 @@ class BrowserTopics:
         self._browsers.clear()
         self._close_unwanted()
 
-    def _put(self, lane: DataLaneEnd, browser: _Browser, wish: Hear) -> None:
-        browser.remove(wish.wish)
-        key = tuple(wish.model_dump(exclude={"wish"}).values())
+    def _put(self, lane: DataLaneEnd, browser: _Browser, command: Subscribe) -> None:
+        browser.remove(command.subscription)
+        key = tuple(command.model_dump(exclude={"subscription"}).values())
         if channel := self._channels.get(key):
             # To those who wait for it first: what is kept would come to this one twice.
             self._hand_on((channel,), asyncio.get_running_loop().time())
         else:
-            channel = self._open(key, wish)
-        browser.put(wish.wish, channel)
+            channel = self._open(key, command)
+        browser.put(command.subscription, channel)
         browser.tell()
         if kept := channel.kept():
             lane.take(Tick((kept,)))
         if self._ticking is None or self._ticking.done():
             self._ticking = asyncio.create_task(self._tick())
 
-    def _open(self, key: _Key, wish: Hear) -> _Channel:
+    def _open(self, key: _Key, command: Subscribe) -> _Channel:
         loop = asyncio.get_running_loop()
 
         def arrived() -> None:
@@ -236,7 +236,7 @@ class BrowserTopics:
                 loop.call_soon_threadsafe(self._tell)
 
         number = next(self._numbers)
-        channel = self._channels[key] = _Channel(number, wish, self._source, arrived, changed)
+        channel = self._channels[key] = _Channel(number, command, self._source, arrived, changed)
         return channel
 
     def _close_unwanted(self) -> None:

@@ -60,7 +60,7 @@ def test_a_call_is_answered_and_its_reply_and_time_are_told(endpoint: str, adder
         async with bridged(endpoint) as page:
             await served(page, adder.srv_name)
             number = await page.begin(call("add"))
-            told = await page.deed_in("calls", number, "answered", "failed")
+            told = await page.operation_in("calls", number, "answered", "failed")
             assert (told["state"], json.loads(told["reply"])) == ("answered", {"sum": 42})
             assert (told["name"], told["service_type"]) == ("/add", ADD)
             assert told["text"] == "{a: 41, b: 1}"
@@ -73,11 +73,14 @@ def test_who_follows_later_is_told_of_the_calls_of_before(endpoint: str, adder: 
     async def run() -> None:
         async with bridged(endpoint) as page:
             number = await page.begin(call(adder.srv_name))
-            await page.deed_in("calls", number, "answered")
+            await page.operation_in("calls", number, "answered")
             newcomer = Ear()
             page.ros.calls.operations.follow(newcomer)
             (event,) = newcomer.events
-            assert (event["whole"], [one["deed"] for one in event["deeds"]]) == (True, [number])
+            assert (event["whole"], [one["operation"] for one in event["operations"]]) == (
+                True,
+                [number],
+            )
 
     asyncio.run(run())
 
@@ -117,7 +120,7 @@ def test_nobody_and_who_is_silent_are_given_up_in_time(
     async def run() -> None:
         async with bridged(endpoint) as page:
             number = await page.begin(call(name, timeout_s=timeout_s))
-            assert words in (await page.deed_in("calls", number, "failed"))["trouble"]
+            assert words in (await page.operation_in("calls", number, "failed"))["trouble"]
 
     asyncio.run(run())
 
@@ -130,7 +133,7 @@ def test_who_serves_it_with_another_type_is_said_to(endpoint: str):
         async with bridged(endpoint) as page:
             await served(page, "/slow")
             number = await page.begin(other)
-            return (await page.deed_in("calls", number, "failed"))["trouble"]
+            return (await page.operation_in("calls", number, "failed"))["trouble"]
 
     trouble = asyncio.run(run())
     assert trouble.startswith(f"The service /slow is served as {ADD}, ")
@@ -142,12 +145,12 @@ def test_a_call_is_cancelled_at_once(endpoint: str):
     async def run() -> None:
         async with bridged(endpoint) as page:
             waiting = await page.begin(call("/slow", timeout_s=600))
-            await page.do(CancelCall(deed=waiting))
-            told = await page.deed_in("calls", waiting, "cancelled", "failed")
+            await page.do(CancelCall(operation=waiting))
+            told = await page.operation_in("calls", waiting, "cancelled", "failed")
             assert (told["state"], told["trouble"]) == ("cancelled", "")
             with pytest.raises(StudioError, match="number 99"):
-                await page.do(CancelCall(deed=99))
-            await page.do(CancelCall(deed=waiting))  # again is harmless
+                await page.do(CancelCall(operation=99))
+            await page.do(CancelCall(operation=waiting))  # again is harmless
 
     asyncio.run(run())
 
@@ -158,7 +161,7 @@ def test_what_runs_ends_with_the_connection_and_says_so(endpoint: str):
         async with bridged(endpoint) as page:
             number = await page.begin(call("/slow", timeout_s=600))
             await page.ros.let_go()
-            await until(lambda: page.deed("calls", number).get("state") == "failed")
-            assert "connection with ROS 2 was ended" in page.deed("calls", number)["trouble"]
+            await until(lambda: page.operation("calls", number).get("state") == "failed")
+            assert "connection with ROS 2 was ended" in page.operation("calls", number)["trouble"]
 
     asyncio.run(run())

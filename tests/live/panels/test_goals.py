@@ -50,13 +50,13 @@ def test_a_server_that_lets_no_goal_end_is_told_of_and_the_goal_goes_on(endpoint
     async def run() -> None:
         async with bridged(endpoint) as page:
             number = await begun(page)
-            await page.deed_in("goals", number, "executing")
+            await page.operation_in("goals", number, "executing")
             with pytest.raises(StudioError, match="goes on: its server does not let it end"):
-                await page.do(CancelGoal(deed=number))
+                await page.do(CancelGoal(operation=number))
             assert page.ros.goals.operations.get(number).state == "executing"
             await asyncio.to_thread(held.end, "succeed")
-            await page.deed_in("goals", number, "succeeded")
-            await page.do(CancelGoal(deed=number))  # what is over stays as it is
+            await page.operation_in("goals", number, "succeeded")
+            await page.do(CancelGoal(operation=number))  # what is over stays as it is
             assert page.ros.goals.operations.get(number).state == "succeeded"
 
     asyncio.run(run())
@@ -66,10 +66,10 @@ def test_a_goal_is_refused_and_another_is_aborted(endpoint: str, held: Held):
     async def run() -> None:
         async with bridged(endpoint) as page:
             refused, aborted = await begun(page, UNWANTED), await begun(page)
-            assert (await page.deed_in("goals", refused, "rejected"))["result"] == ""
-            await page.deed_in("goals", aborted, "executing")
+            assert (await page.operation_in("goals", refused, "rejected"))["result"] == ""
+            await page.operation_in("goals", aborted, "executing")
             await asyncio.to_thread(held.end, "abort")
-            told = await page.deed_in("goals", aborted, "aborted")
+            told = await page.operation_in("goals", aborted, "aborted")
             assert told["result"] == '{"sequence":[]}'
 
     asyncio.run(run())
@@ -83,21 +83,21 @@ def test_beside_an_aborted_goal_stands_what_its_server_logged_last_as_a_warning(
             log = tester.get_logger()
             log.warning("said of an earlier goal")
             first = await begun(page)
-            await page.deed_in("goals", first, "executing")
+            await page.operation_in("goals", first, "executing")
             log.warning("the way is blocked")
             log.get_child("arm").error("the arm is stuck")
             log.info("giving up")
             await asyncio.to_thread(held.end, "abort")
-            await until(lambda: page.deed("goals", first).get("server_said") is not None)
-            told = page.deed("goals", first)
+            await until(lambda: page.operation("goals", first).get("server_said") is not None)
+            told = page.operation("goals", first)
             assert told["servers"] == [tester.get_fully_qualified_name()]
             assert told["server_said"]["text"] == "the arm is stuck"
             second = await begun(page)
-            await page.deed_in("goals", second, "executing")
+            await page.operation_in("goals", second, "executing")
             await asyncio.to_thread(held.end, "abort", 1)
-            await page.deed_in("goals", second, "aborted")
+            await page.operation_in("goals", second, "aborted")
             await page.ros.let_go_of_operations()  # waits until all that ends has ended
-            assert page.deed("goals", second)["server_said"] is None
+            assert page.operation("goals", second)["server_said"] is None
 
     asyncio.run(run())
 
@@ -106,7 +106,7 @@ def test_goals_of_others_are_told_apart_from_ours(endpoint: str, tester: Node, h
     async def run() -> None:
         async with bridged(endpoint) as page:
             number = await begun(page)
-            told = await page.deed_in("goals", number, "executing")
+            told = await page.operation_in("goals", number, "executing")
             client = ActionClient(tester, tester.wire.types.action(FIBONACCI), "fibonacci")
             client.send_goal_async(client.action_type.Goal(order=5))
             await asyncio.to_thread(wait_until, "two goals", lambda: len(held.goals) == 2)
@@ -127,10 +127,10 @@ def test_with_the_connection_goals_are_lost_and_it_is_said_that_they_may_go_on(e
     async def run() -> None:
         async with bridged(endpoint) as page:
             number = await begun(page)
-            await page.deed_in("goals", number, "executing")
+            await page.operation_in("goals", number, "executing")
             await page.ros.let_go()
-            await until(lambda: page.deed("goals", number)["state"] == "failed")
-            assert "may go on" in page.deed("goals", number)["trouble"]
+            await until(lambda: page.operation("goals", number)["state"] == "failed")
+            assert "may go on" in page.operation("goals", number)["trouble"]
 
     asyncio.run(run())
 
@@ -139,7 +139,7 @@ def test_an_action_that_nobody_serves_is_said_to_be_so(endpoint: str):
     async def run() -> None:
         async with bridged(endpoint) as page:
             ask = SendGoal(name="/nobody", action_type=FIBONACCI, timeout_s=0.2)
-            told = await page.deed_in("goals", await page.begin(ask), "failed")
+            told = await page.operation_in("goals", await page.begin(ask), "failed")
             assert told["trouble"].startswith("No node serves the action /nobody")
 
     asyncio.run(run())

@@ -12,15 +12,15 @@ from tests.support.open_documents import Ear, until
 
 
 @dataclass
-class Deed:
-    deed: int
+class Operation:
+    operation: int
     is_over: bool = False
 
 
-def ledger(told: list[tuple[bool, list[int]]]) -> Operations[Deed]:
-    def say(is_whole: bool, deeds: tuple[Deed, ...]) -> Calls:
-        told.append((is_whole, [one.deed for one in deeds]))
-        return Calls(whole=is_whole, deeds=())
+def ledger(told: list[tuple[bool, list[int]]]) -> Operations[Operation]:
+    def say(is_whole: bool, operations: tuple[Operation, ...]) -> Calls:
+        told.append((is_whole, [one.operation for one in operations]))
+        return Calls(whole=is_whole, operations=())
 
     return Operations(say, kept=2, running=3)
 
@@ -29,14 +29,14 @@ def test_only_the_last_that_are_over_are_kept_and_so_many_may_run():
     async def run() -> None:
         made = ledger([])
         for _ in range(3):
-            made.add(Deed(made.next_number()))
+            made.add(Operation(made.next_number()))
         with pytest.raises(CommandError, match="3 of these run already"):
             made.next_number()
         for one in made.all():
             one.is_over = True
-        made.add(Deed(made.next_number()))
-        assert [one.deed for one in made.all()] == [2, 3, 4]
-        assert [one.deed for one in made.under_way()] == [4]
+        made.add(Operation(made.next_number()))
+        assert [one.operation for one in made.all()] == [2, 3, 4]
+        assert [one.operation for one in made.under_way()] == [4]
         with pytest.raises(CommandError, match="number 1"):
             made.get(1)
         await made.close()
@@ -49,7 +49,7 @@ def test_who_follows_is_told_all_once_and_then_what_changes_many_changes_at_once
 
     async def run() -> None:
         made, ear, other = ledger(told), Ear(), Ear()
-        first, second = Deed(made.next_number()), Deed(made.next_number())
+        first, second = Operation(made.next_number()), Operation(made.next_number())
         made.add(first)
         made.add(second)
         made.follow(ear)

@@ -36,10 +36,10 @@ def test_what_goes_on_and_on_ends_with_the_last_page_that_could_stop_it(
                 page.ros.attach(one)
             number = await page.begin(say(rate_hz=20))
             page.ros.detach(first)
-            await until(lambda: page.deed("publications", number).get("sent", 0) > 4)
-            assert page.deed("publications", number)["state"] == "running"
+            await until(lambda: page.operation("publications", number).get("sent", 0) > 4)
+            assert page.operation("publications", number)["state"] == "running"
             page.ros.detach(second)
-            told = await page.deed_in("publications", number, "failed", "stopped")
+            told = await page.operation_in("publications", number, "failed", "stopped")
             assert told["trouble"] == "The last page that could stop it was closed."
 
     asyncio.run(run())
@@ -56,10 +56,10 @@ def test_a_page_that_is_loaded_anew_stops_nothing(endpoint: str, monkeypatch: py
             page.ros.detach(before)
             page.ros.attach(after)
             sent = page.ros.publishing.operations.get(number).sent
-            await until(lambda: page.deed("publications", number).get("sent", 0) > sent + 20)
-            assert page.deed("publications", number)["state"] == "running"
+            await until(lambda: page.operation("publications", number).get("sent", 0) > sent + 20)
+            assert page.operation("publications", number)["state"] == "running"
             await page.do(StopPublishing())
-            await page.deed_in("publications", number, "stopped")
+            await page.operation_in("publications", number, "stopped")
 
     asyncio.run(run())
 
@@ -72,8 +72,8 @@ def test_now_is_the_time_of_each_message(endpoint: str, tester: Node):
             ask = say("{header: auto, point: {x: 1.0}}", kind=STAMPED, rate_hz=50)
             number = await page.begin(ask)
             await until(lambda: len(points) > 3)
-            await page.do(StopPublishing(deed=number))
-            await page.deed_in("publications", number, "stopped")
+            await page.do(StopPublishing(operation=number))
+            await page.operation_in("publications", number, "stopped")
 
     asyncio.run(run())
     stamps = [one.header.stamp.sec * 10**9 + one.header.stamp.nanosec for one in points]
@@ -96,7 +96,7 @@ def test_what_cannot_be_published_is_refused(endpoint: str, ask: Publish, words:
             with pytest.raises(StudioError, match=words):
                 await page.do(ask)
             with pytest.raises(StudioError, match="number 7"):
-                await page.do(StopPublishing(deed=7))
+                await page.do(StopPublishing(operation=7))
 
     asyncio.run(run())
 

@@ -57,12 +57,12 @@ SAY = Publish(name="/said", message_type=STRING, text="{data: again}", rate_hz=5
 
 
 async def fails(page: Bridged, kind: str, number: int) -> str:
-    return (await page.deed_in(kind, number, "failed"))["trouble"]
+    return (await page.operation_in(kind, number, "failed"))["trouble"]
 
 
 async def refused_without_router(page: Bridged, goal: int, endpoint: str) -> None:
     """Nothing is begun that nobody can hear of, and nothing waits for its time-out."""
-    for command in (ASK, GOAL, SAY, CancelGoal(deed=goal)):
+    for command in (ASK, GOAL, SAY, CancelGoal(operation=goal)):
         with pytest.raises(RouterGoneError, match=GONE.format(endpoint)):
             await page.do(command)
 
@@ -75,7 +75,7 @@ def test_with_the_router_a_call_ends_and_a_goal_and_a_publication_go_on_when_it_
         said = heard(node, STRING, "/said")
         async with bridged(endpoint) as page:
             call, goal, saying = [await page.begin(one) for one in (ASK, GOAL, SAY)]
-            await page.deed_in("goals", goal, "executing")
+            await page.operation_in("goals", goal, "executing")
             await until(lambda: is_asked() and bool(said))
             await asyncio.to_thread(router.close)
             assert GONE.format(endpoint) in await fails(page, "calls", call)
@@ -84,8 +84,8 @@ def test_with_the_router_a_call_ends_and_a_goal_and_a_publication_go_on_when_it_
             with router_at(endpoint):
                 await until(lambda: len(said) > before)
                 await asyncio.to_thread(work.end, "succeed")
-                await page.deed_in("goals", goal, "succeeded")
-                await page.do(StopPublishing(deed=saying))
+                await page.operation_in("goals", goal, "succeeded")
+                await page.do(StopPublishing(operation=saying))
 
     with router_at(endpoint) as router, node_at(endpoint) as node:
         asyncio.run(run(node))
@@ -136,7 +136,7 @@ def test_a_server_that_ends_amid_a_goal_is_said_to_have_ended(endpoint: str):
             with node_at(endpoint, "doomed") as doomed:
                 serve_goals(doomed)
                 goal = await page.begin(GOAL)
-                await page.deed_in("goals", goal, "executing")
+                await page.operation_in("goals", goal, "executing")
             assert "ended before the goal did" in await fails(page, "goals", goal)
 
     asyncio.run(run())

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any, Literal
 import pytest
 
 from studio.live.connection.desk import WireDesk
-from studio.live.topics.browsers import WISHES_MAX, BrowserTopics
+from studio.live.topics.browsers import SUBSCRIPTIONS_MAX, BrowserTopics
 from studio.nodes.robot_state_publisher import LATCHED
-from studio.protocol.hearing import Hear, Leave
+from studio.protocol.subscriptions import Subscribe, Unsubscribe
 from studio.ros.cdr import Codec
 from studio.ros.messages import message, shared_types
 from studio.settings import WireChoice
@@ -43,26 +43,26 @@ def said(text: str) -> Any:  # noqa: ANN401
 
 
 @asynccontextmanager
-async def hearing(endpoint: str) -> AsyncGenerator[BrowserTopics]:
-    """A desk with a connection."""
+async def browser_topics(endpoint: str) -> AsyncGenerator[BrowserTopics]:
+    """The topics of a studio that is connected."""
     wire = WireDesk(WireChoice("off", (endpoint,)))
-    desk = BrowserTopics(wire.topics)
+    topics = BrowserTopics(wire.topics)
     try:
         await wire.link()
-        yield desk
+        yield topics
     finally:
-        await desk.close()
+        await topics.close()
         await wire.close()
 
 
-def browser(desk: BrowserTopics) -> KeepingHearer:
+def browser(topics: BrowserTopics) -> KeepingHearer:
     hearer = KeepingHearer()
-    desk.attach(hearer)
+    topics.attach(hearer)
     return hearer
 
 
-async def heard(*hearers: KeepingHearer, wish: int = 1) -> None:
-    await until(lambda: all(one.state(wish) == "hearing" for one in hearers))
+async def subscribed(*hearers: KeepingHearer, subscription: int = 1) -> None:
+    await until(lambda: all(one.state(subscription) == "receiving" for one in hearers))
 
 
 def test_every_message_comes_to_all_who_wish_it_in_frames_that_are_written_once(
@@ -71,11 +71,11 @@ def test_every_message_comes_to_all_who_wish_it_in_frames_that_are_written_once(
     out = tester.create_publisher(message(STRING), "/every", 10)
 
     async def run() -> None:
-        async with hearing(endpoint) as desk:
-            one, other = browser(desk), browser(desk)
+        async with browser_topics(endpoint) as topics:
+            one, other = browser(topics), browser(topics)
             for hearer in (one, other):
-                desk.wish(hearer, Hear(wish=1, topic="/every", mode="every"))
-            await heard(one, other)
+                topics.carry_out(hearer, Subscribe(subscription=1, topic="/every", mode="every"))
+            await subscribed(one, other)
             await until(lambda: out.get_subscription_count() == 1)
             for number in range(300):
                 out.publish(said(str(number)))
@@ -97,15 +97,17 @@ def test_who_waits_for_a_type_hears_the_first_that_tells_it_without_listening_an
         return tester.get_subscriptions_info_by_topic("/first")
 
     async def run() -> None:
-        async with hearing(endpoint) as desk:
-            hearer = browser(desk)
-            desk.wish(hearer, Hear(wish=1, topic="/first", mode="every", type_name=STRING))
+        async with browser_topics(endpoint) as topics:
+            hearer = browser(topics)
+            topics.carry_out(
+                hearer, Subscribe(subscription=1, topic="/first", mode="every", type_name=STRING)
+            )
             await until(lambda: len(ears()) == 1)
             before = ears()
             out = tester.create_publisher(message(STRING), "/first", 10)
             await until(lambda: out.get_subscription_count() == 1)
             out.publish(said("once"))
-            await heard(hearer)
+            await subscribed(hearer)
             await until(lambda: texts(hearer) == ["once"])
             assert [one.endpoint_gid for one in ears()] == [one.endpoint_gid for one in before]
 
@@ -116,16 +118,18 @@ def test_the_newest_comes_as_often_as_was_wished_and_what_is_left_ends(endpoint:
     out = tester.create_publisher(message(STRING), "/newest", 10)
 
     async def run() -> None:
-        async with hearing(endpoint) as desk:
-            hearer = browser(desk)
-            desk.wish(hearer, Hear(wish=1, topic="/newest", mode="newest", most_hz=1))
-            await heard(hearer)
+        async with browser_topics(endpoint) as topics:
+            hearer = browser(topics)
+            topics.carry_out(
+                hearer, Subscribe(subscription=1, topic="/newest", mode="newest", most_hz=1)
+            )
+            await subscribed(hearer)
             await until(lambda: out.get_subscription_count() == 1)
             for number in range(200):
                 out.publish(said(str(number)))
             await until(lambda: "199" in texts(hearer))
             assert len(hearer.came) <= 3
-            desk.wish(hearer, Leave(wish=1))
+            topics.carry_out(hearer, Unsubscribe(subscription=1))
             await until(lambda: out.get_subscription_count() == 0)
 
     asyncio.run(run())
@@ -139,11 +143,13 @@ def test_what_is_waited_for_comes_between_two_ticks(
     out = tester.create_publisher(message(STRING), "/prompt", 10)
 
     async def run() -> None:
-        async with hearing(endpoint) as desk:
-            waiting, patient = browser(desk), browser(desk)
-            desk.wish(waiting, Hear(wish=1, topic="/prompt", mode=mode, pace="at_once"))
-            desk.wish(patient, Hear(wish=1, topic="/prompt", mode=mode))
-            await heard(waiting, patient)
+        async with browser_topics(endpoint) as topics:
+            waiting, patient = browser(topics), browser(topics)
+            topics.carry_out(
+                waiting, Subscribe(subscription=1, topic="/prompt", mode=mode, pace="at_once")
+            )
+            topics.carry_out(patient, Subscribe(subscription=1, topic="/prompt", mode=mode))
+            await subscribed(waiting, patient)
             await until(lambda: out.get_subscription_count() == 1)
             out.publish(said("now"))
             await until(lambda: texts(waiting) == ["now"])
@@ -156,12 +162,12 @@ def test_whoever_comes_later_is_told_what_is_latched(endpoint: str, tester: Node
     tester.create_publisher(message(STRING), "/latched", LATCHED).publish(said("told before"))
 
     async def run() -> None:
-        async with hearing(endpoint) as desk:
-            first, later = browser(desk), browser(desk)
-            wish = Hear(wish=1, topic="/latched", mode="newest")
-            desk.wish(first, wish)
+        async with browser_topics(endpoint) as topics:
+            first, later = browser(topics), browser(topics)
+            command = Subscribe(subscription=1, topic="/latched", mode="newest")
+            topics.carry_out(first, command)
             await until(lambda: texts(first) == ["told before"])
-            desk.wish(later, wish)
+            topics.carry_out(later, command)
             assert texts(later) == ["told before"]
             assert first.told[-1].latched
 
@@ -173,12 +179,12 @@ def test_a_type_that_is_not_known_here_is_heard_as_bytes(endpoint: str):
     types.add_texts({STRANGE: "string data"})
 
     async def run() -> None:
-        async with hearing(endpoint) as desk:
-            hearer = browser(desk)
-            desk.wish(hearer, Hear(wish=1, topic="/strange", mode="every"))
+        async with browser_topics(endpoint) as topics:
+            hearer = browser(topics)
+            topics.carry_out(hearer, Subscribe(subscription=1, topic="/strange", mode="every"))
             with node_at(endpoint, "stranger", types) as stranger:
                 out = stranger.create_publisher(types.message(STRANGE), "/strange", 10)
-                await heard(hearer)
+                await subscribed(hearer)
                 await until(lambda: out.get_subscription_count() == 1)
                 out.publish(types.message(STRANGE)(data="odd"))
                 await until(lambda: bool(hearer.came))
@@ -191,16 +197,16 @@ def test_a_type_that_is_not_known_here_is_heard_as_bytes(endpoint: str):
 def test_what_is_in_the_way_is_told_and_heals(endpoint: str):
     async def run() -> None:
         wire = WireDesk(WireChoice("off", (endpoint,)))
-        desk = BrowserTopics(wire.topics)
-        hearer = browser(desk)
+        topics = BrowserTopics(wire.topics)
+        hearer = browser(topics)
         try:
-            desk.wish(hearer, Hear(wish=1, topic="/later", mode="every"))
+            topics.carry_out(hearer, Subscribe(subscription=1, topic="/later", mode="every"))
             await until(lambda: hearer.state(1) == "not_connected")
             await wire.link()
             await until(lambda: hearer.state(1) == "no_publisher")
             with node_at(endpoint, "late") as late:
                 out = late.create_publisher(message(STRING), "/later", 10)
-                await heard(hearer)
+                await subscribed(hearer)
                 await until(lambda: out.get_subscription_count() == 1)
                 out.publish(said("here"))
                 await until(lambda: texts(hearer) == ["here"])
@@ -208,7 +214,7 @@ def test_what_is_in_the_way_is_told_and_heals(endpoint: str):
             await wire.disconnect()
             await until(lambda: hearer.state(1) == "not_connected")
         finally:
-            await desk.close()
+            await topics.close()
             await wire.close()
 
     asyncio.run(run())
@@ -216,14 +222,18 @@ def test_what_is_in_the_way_is_told_and_heals(endpoint: str):
 
 def test_a_browser_has_a_bound_of_wishes_and_what_is_no_topic_is_refused(endpoint: str):
     async def run() -> None:
-        async with hearing(endpoint) as desk:
-            hearer = browser(desk)
-            desk.wish(hearer, Hear(wish=0, topic="no topic", type_name=STRING, mode="every"))
+        async with browser_topics(endpoint) as topics:
+            hearer = browser(topics)
+            topics.carry_out(
+                hearer, Subscribe(subscription=0, topic="no topic", type_name=STRING, mode="every")
+            )
             await until(lambda: hearer.state(0) == "refused")
             assert hearer.told[-1].reason
-            for number in range(1, WISHES_MAX + 1):
-                desk.wish(hearer, Hear(wish=number, topic="/many", mode="every"))
-            assert [one.wish for one in hearer.refused] == [WISHES_MAX]
+            for number in range(1, SUBSCRIPTIONS_MAX + 1):
+                topics.carry_out(
+                    hearer, Subscribe(subscription=number, topic="/many", mode="every")
+                )
+            assert [one.subscription for one in hearer.refused] == [SUBSCRIPTIONS_MAX]
 
     asyncio.run(run())
 
@@ -233,12 +243,12 @@ def test_another_connection_is_heard_where_the_one_before_was(endpoint: str, tes
 
     async def run() -> None:
         wire = WireDesk(WireChoice("off", (endpoint,)))
-        desk = BrowserTopics(wire.topics)
-        hearer = browser(desk)
+        topics = BrowserTopics(wire.topics)
+        hearer = browser(topics)
 
         async def hears(text: str) -> None:
             await wire.link()
-            await heard(hearer)
+            await subscribed(hearer)
             await until(lambda: out.get_subscription_count() == 1)
             out.publish(said(text))
             await until(lambda: text in texts(hearer))
@@ -246,11 +256,11 @@ def test_another_connection_is_heard_where_the_one_before_was(endpoint: str, tes
             await until(lambda: hearer.state(1) == "not_connected")
 
         try:
-            desk.wish(hearer, Hear(wish=1, topic="/again", mode="every"))
+            topics.carry_out(hearer, Subscribe(subscription=1, topic="/again", mode="every"))
             await hears("before")
             await hears("after")
         finally:
-            await desk.close()
+            await topics.close()
             await wire.close()
 
     asyncio.run(run())
@@ -260,10 +270,10 @@ def test_a_topic_is_subscribed_once_and_not_at_every_look(endpoint: str, tester:
     out = tester.create_publisher(message(STRING), "/steady", 10)
 
     async def run() -> None:
-        async with hearing(endpoint) as desk:
-            hearer = browser(desk)
-            desk.wish(hearer, Hear(wish=1, topic="/steady", mode="every"))
-            await heard(hearer)
+        async with browser_topics(endpoint) as topics:
+            hearer = browser(topics)
+            topics.carry_out(hearer, Subscribe(subscription=1, topic="/steady", mode="every"))
+            await subscribed(hearer)
             await until(lambda: out.get_subscription_count() == 1)
             (first,) = tester.graph.subscriptions("/steady")
             other = tester.create_publisher(message(STRING), "/steady", 10)

@@ -1,4 +1,4 @@
-"""Takes the help's pictures of what is done in ROS 2: `python -m tests.support.deed_pictures`.
+"""Takes the help's pictures of what is done in ROS 2: `python -m tests.support.operation_pictures`.
 
 Services, actions, parameters and publishing, each with a demo node that does what is asked.
 """
@@ -42,7 +42,7 @@ def paste(panel: Locator, line: str) -> None:
 
 def seen(panel: Locator, text: str) -> Locator:
     """A text of what is chosen; that of the list beside it may be hidden."""
-    return panel.locator(".deeds-chosen").get_by_text(text).first
+    return panel.locator(".operations-chosen").get_by_text(text).first
 
 
 def press(panel: Locator, name: str) -> None:
@@ -103,7 +103,7 @@ def take(page: Page, camera: Camera) -> None:
     page.evaluate(_CONNECT)
     for name, (title, do) in PANELS.items():
         page.evaluate(SHOW_PANEL, name)
-        panel = page.locator(f"section.deeds[aria-label='{title}']")
+        panel = page.locator(f"section.operations[aria-label='{title}']")
         do(panel)
         take_large(page, camera, name, panel, _HIGHEST_PX)
 

@@ -5,43 +5,46 @@ import {
   shortOf,
   tookText,
   turnedRad,
-  withDeeds,
+  withOperations,
 } from "../../frontend_assets/model/operations.js";
 
 test("what changed takes the place of what was known, and new ones come last", () => {
   const known = [
-    { deed: 1, state: "calling" },
-    { deed: 2, state: "answered" },
+    { operation: 1, state: "calling" },
+    { operation: 2, state: "answered" },
   ];
   const news = [
-    { deed: 3, state: "calling" },
-    { deed: 1, state: "failed" },
+    { operation: 3, state: "calling" },
+    { operation: 1, state: "failed" },
   ];
   assert.deepEqual(
-    withDeeds(known, { whole: false, deeds: news }).map(({ deed, state }) => [deed, state]),
+    withOperations(known, { whole: false, operations: news }).map(({ operation, state }) => [
+      operation,
+      state,
+    ]),
     [
       [1, "failed"],
       [2, "answered"],
       [3, "calling"],
     ],
   );
-  assert.equal(withDeeds(known, { whole: true, deeds: [] }).length, 0);
+  assert.equal(withOperations(known, { whole: true, operations: [] }).length, 0);
 });
 
 test("feedback is put together in its order, each once, the last ones kept", () => {
   const goal = (/** @type {number[]} */ ...numbers) => ({
-    deed: 1,
+    operation: 1,
     feedback: numbers.map((number) => ({ number })),
   });
-  const told = withDeeds([goal(1, 2, 3)], { whole: false, deeds: [goal(3, 4)] });
+  const told = withOperations([goal(1, 2, 3)], { whole: false, operations: [goal(3, 4)] });
   assert.deepEqual(
     told[0]?.feedback?.map(({ number }) => number),
     [1, 2, 3, 4],
   );
-  const quiet = withDeeds(told, { whole: false, deeds: [goal()] });
+  const quiet = withOperations(told, { whole: false, operations: [goal()] });
   assert.equal(quiet[0]?.feedback?.length, 4);
   const many = goal(...Array.from({ length: 60 }, (_, n) => n + 5));
-  const last = withDeeds(quiet, { whole: false, deeds: [many] })[0]?.feedback ?? [];
+  const last = withOperations(quiet, { whole: false, operations: [many] })[0]?.feedback ?? [];
   assert.deepEqual([last.length, last.at(-1)?.number], [50, 64]);
 });
 
